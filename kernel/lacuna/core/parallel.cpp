@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/core/parallel.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace lacuna {
+
+void parallel_for(const RunContext& context, std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& body)
+{
+    if (count == 0) return;
+    grain = std::max<std::size_t>(grain, 1);
+    const auto wanted = static_cast<std::size_t>(thread_count(context));
+    const std::size_t threads = std::clamp<std::size_t>(count / grain, 1, wanted);
+
+    std::atomic<std::size_t> next{0};
+    std::atomic<bool> stop{false};
+    std::exception_ptr failure;
+    std::mutex failure_lock;
+    const auto work = [&] {
+        try {
+            while (!stop) {
+                const std::size_t begin = next.fetch_add(grain);
+                if (begin >= count) return;
+                check_cancelled(context);
+                body(begin, std::min(begin + grain, count));
+            }
+        } catch (...) {
+            const std::lock_guard<std::mutex> hold(failure_lock);
+            if (!failure) failure = std::current_exception();
+            stop = true;
+        }
+    };
+
+    std::vector<std::thread> helpers;
+    helpers.reserve(threads - 1);
+    for (std::size_t i = 1; i < threads; ++i) helpers.emplace_back(work);
+    work();
+    for (std::thread& helper : helpers) helper.join();
+    if (failure) std::rethrow_exception(failure);
+}
+
+} // namespace lacuna

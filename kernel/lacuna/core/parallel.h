@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+
+#include <cstddef>
+#include <functional>
+
+namespace lacuna {
+
+/// Run `body(begin, end)` over [0, count) cut into ranges of at least `grain`, on the context's threads.
+///
+/// The ranges depend on `count`, `grain` and the number of threads alone; a body that writes only what
+/// belongs to its own indices gives the same result for any number of threads.
+/// @throw the first exception of a body, after every thread has stopped; Cancelled between ranges.
+void parallel_for(const RunContext& context, std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& body);
+
+} // namespace lacuna

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace lacuna::mesh {
+
+///        7-------6
+///       /|      /|      Nodes of a hexahedron (Gmsh's order). 0..3 lie on the source side,
+///      4-------5 |      4..7 above them on the next layer; the normal of 0-1-2-3 points to 4-5-6-7.
+///      | 3-----|-2      w
+///      |/      |/       | v
+///      0-------1        |/__u
+///
+/// Corners of each of the six sides, outward.
+inline constexpr std::array<Quad, 6> kHexSides{{
+    {0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7},
+}};
+
+/// A part of the skin with names: what Gmsh calls a surface entity.
+struct SkinPatch {
+    int tag = 0;                      ///< entity tag written to files, unique in the mesh, > 0
+    std::vector<std::string> groups;  ///< physical groups it belongs to: "source", "wall:12", a name of the input…
+};
+
+/// Swept hexahedra, kept as source quads times layers: cells and skin are computed, never stored.
+///
+/// Node (layer l, source node n) has the number l · nodes_per_layer + n, counted from 0. Cell (layer l,
+/// quad q) has the number l · quads.size() + q.
+struct HexMesh {
+    Index nodes_per_layer = 0;
+    int layers = 0;
+    std::vector<Vec3> nodes;              ///< (layers + 1) × nodes_per_layer, layer-major from the source [model length]
+    std::vector<Quad> quads;              ///< source quads; their normals point into the volume
+    std::vector<Segment> rim;             ///< directed boundary sides of `quads`, as they run in their quad
+
+    std::vector<SkinPatch> patches;
+    std::vector<Index> source_patch;      ///< patch of each quad on the source
+    std::vector<Index> target_patch;      ///< patch of each quad on the target
+    std::vector<Index> wall_patch;        ///< patch of (rim side r, layer l) at l · rim.size() + r
+    std::vector<std::string> volume_groups{"volume"};
+
+    [[nodiscard]] std::size_t hex_count() const { return quads.size() * static_cast<std::size_t>(layers); }
+    [[nodiscard]] std::size_t skin_count() const
+    {
+        return 2 * quads.size() + rim.size() * static_cast<std::size_t>(layers);
+    }
+    /// Node numbers of cell `cell`. @pre cell < hex_count()
+    [[nodiscard]] Hex hex(std::size_t cell) const
+    {
+        const auto layer = static_cast<Index>(cell / quads.size());
+        const Quad& q = quads[cell % quads.size()];
+        const Index low = layer * nodes_per_layer;
+        const Index high = low + nodes_per_layer;
+        return {low + q[0], low + q[1], low + q[2], low + q[3], high + q[0], high + q[1], high + q[2], high + q[3]};
+    }
+};
+
+/// A quad of the skin, outward, with the patch it belongs to.
+struct SkinQuad {
+    Quad nodes;
+    Index patch;
+};
+
+/// Skin quad `i`: the source quads first, then the target's, then the walls layer by layer. @pre i < skin_count()
+SkinQuad skin_quad(const HexMesh& mesh, std::size_t i);
+
+} // namespace lacuna::mesh

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+
+#include <vector>
+
+namespace lacuna::mesh {
+
+///   3-----2
+///   |     |    Nodes of a quad, counter-clockwise seen from where its normal points to.
+///   |     |    Side i runs from node i to node (i + 1) % 4.
+///   0-----1
+struct QuadMesh {
+    std::vector<Vec3> nodes;                ///< [model length]
+    std::vector<Quad> quads;                ///< node numbers, counter-clockwise
+    std::vector<Index> face;                ///< a caller's label for each quad (which face it lies on)
+    std::vector<std::vector<Index>> loops;  ///< node cycles of the boundary, region on the left, first not repeated
+};
+
+/// Directed sides used by one quad alone, each with its quad.
+struct BoundarySide {
+    Index from, to, quad;
+};
+
+/// The sides of `quads` that no other quad shares, as directed in their quad, in order of quad. O(quads log quads).
+std::vector<BoundarySide> boundary_sides(const std::vector<Quad>& quads);
+
+} // namespace lacuna::mesh

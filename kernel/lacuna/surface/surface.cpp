@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/quad_mesher.h>

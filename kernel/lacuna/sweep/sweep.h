@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/closure/close.h>
+#include <lacuna/core/run_context.h>
+#include <lacuna/matching/match.h>
+#include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/surface/quad_mesher.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// How layer heights are spread.
+enum class Spacing { geometric, bell, both_ends };
+
+struct LayerSpec {
+    int count = 0;                 ///< hexes along the sweep, >= 1; 0 with `heights`
+    double bias = 1;               ///< last / first layer height (geometric), middle / end (bell), end / middle (both_ends), > 0 [-]
+    Spacing spacing = Spacing::geometric;
+    std::vector<double> heights;   ///< rising, in (0, 1], the last 1; instead of a count
+};
+
+/// Heights in [0, 1] of every layer's nodes: layers + 1 numbers from 0 to 1.
+/// @throw InvalidInput  a count below 1, a bias that is not positive, heights that do not rise to 1.
+std::vector<double> layer_heights(const LayerSpec& spec);
+
+/// How source faces are meshed.
+enum class Quads { automatic, paved, mapped, gmsh, keep };
+
+struct SweepOptions {
+    LayerSpec layers;
+    surface::SizeField size;               ///< null: from the rim's own spacing
+    Quads quads = Quads::automatic;
+    surface::PlanarQuadMesher quad_mesher; ///< used where a source face is not mapped
+    double min_scaled_jacobian = 0;        ///< below it the mesh is refused [-1, 1]
+    bool improve = true;
+};
+
+/// Hexahedra and how they came about.
+struct Swept {
+    mesh::HexMesh mesh;
+    std::vector<std::string> report;  ///< a line a stage: seeds, quads, walls, target, layers
+};
+
+/// Fill a sealed volume with hexahedra.
+/// @throw InvalidInput   options out of range.
+/// @throw NotSweepable   names the face, wall or cells, what was expected and found, and what to try.
+/// @post  the mesh is proved: conformal, skin closed, every Jacobian certified positive.
+Swept sweep(const topology::OpenVolume& volume, const matching::Match& match, const SweepOptions& options,
+            const RunContext& context = {});
+
+} // namespace lacuna::sweep

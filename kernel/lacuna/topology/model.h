@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/ids.h>
+#include <lacuna/core/types.h>
+#include <lacuna/geometry/exact.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lacuna::topology {
+
+/// Where an entity comes from: the input, or the closing of the volume (the paper's v-Topology).
+enum class Origin { given, made_void };
+
+/// How the facets of a face came to be (the paper's v-Geometry).
+enum class Geometry { given, newell, transfinite, annular, minimal };
+
+struct Vertex {
+    Index point = -1;            ///< in Model::points
+    int tag = 0;                 ///< as the person knows it
+    Origin origin = Origin::given;
+};
+
+/// A chain of model points between two vertices; a closed edge has one vertex, both `from` and `to`.
+struct Edge {
+    int tag = 0;
+    Origin origin = Origin::given;
+    VertexId from, to;
+    std::vector<Index> points;                          ///< from..to inclusive, at least 2; closed: first == last
+    std::vector<double> params;                         ///< the curve's parameter at each point; empty without `curve`
+    std::shared_ptr<const geometry::ExactCurve> curve;  ///< null where the facets are all there is
+};
+
+/// One use of an edge by a loop: as the edge runs, or against it.
+struct EdgeUse {
+    EdgeId edge;
+    bool reversed = false;
+    friend constexpr auto operator<=>(const EdgeUse&, const EdgeUse&) = default;
+};
+
+/// A closed walk along edges, the face on its left. A seam is used twice, once each way.
+struct Loop {
+    std::vector<EdgeUse> uses;
+};
+
+/// Facets with a boundary. The facets of two faces that share an edge share its points.
+struct Face {
+    int tag = 0;                    ///< the one Gmsh shows for the same file
+    std::string name;               ///< a physical group, part, element set; may be empty
+    std::string kind = "discrete";  ///< "plane", "cylinder", "cone", "sphere", "torus", "bspline", "surface", "discrete"
+    Origin origin = Origin::given;
+    Geometry geometry = Geometry::given;
+
+    std::vector<Triangle> triangles;                       ///< model points, counter-clockwise, oriented as the face
+    std::vector<std::array<Vec2, 3>> uv;                   ///< surface parameters at the corners; empty without `surface`
+    std::shared_ptr<const geometry::ExactSurface> surface; ///< null where the facets are all there is
+    std::vector<Quad> given_quads;                         ///< the mesh the face came with, model points; may be empty
+
+    std::vector<Loop> loops;  ///< derived from the triangles by build_loops(); the longest first
+};
+
+/// Faces, edges and vertices over one array of points. A value: copies are independent, exact geometry is shared.
+struct Model {
+    std::vector<Vec3> points;
+    std::vector<Vertex> vertices;
+    std::vector<Edge> edges;
+    std::vector<Face> faces;
+    double diagonal = 0;   ///< of the bounding box [model length]
+    double tolerance = 0;  ///< points closer than this are one [model length]
+    std::string source;    ///< the file(s) it was read from, for messages
+
+    [[nodiscard]] const Vertex& operator[](VertexId id) const { return vertices[id.index()]; }
+    [[nodiscard]] const Edge& operator[](EdgeId id) const { return edges[id.index()]; }
+    [[nodiscard]] const Face& operator[](FaceId id) const { return faces[id.index()]; }
+    [[nodiscard]] Vertex& operator[](VertexId id) { return vertices[id.index()]; }
+    [[nodiscard]] Edge& operator[](EdgeId id) { return edges[id.index()]; }
+    [[nodiscard]] Face& operator[](FaceId id) { return faces[id.index()]; }
+    [[nodiscard]] const Vec3& at(Index point) const { return points[static_cast<std::size_t>(point)]; }
+};
+
+// --- derived facts --------------------------------------------------------------------------------
+
+/// First and last vertex of an edge as a loop uses it.
+VertexId use_from(const Model& model, EdgeUse use);
+VertexId use_to(const Model& model, EdgeUse use);
+/// Points along a use, both ends included.
+std::vector<Index> use_points(const Model& model, EdgeUse use);
+/// Length of the edge's polyline [model length].
+double edge_length(const Model& model, EdgeId edge);
+/// Sum of the facet areas [model length²] and of the facets' area vectors.
+double face_area(const Model& model, FaceId face);
+Vec3 face_area_vector(const Model& model, FaceId face);
+/// Area-weighted centre of the facets.
+Vec3 face_centroid(const Model& model, FaceId face);
+
+// --- building -------------------------------------------------------------------------------------
+
+/// Set every face's loops from its triangles and the model's edges.
+/// @pre  every boundary side of a face's triangles, and every seam, lies on an edge.
+/// @throw InvalidInput  a boundary side lies on no edge, or the facets are not a manifold; names the face.
+void build_loops(Model& model);
+
+/// Flip faces until neighbours agree along shared edges; one flood per connected part, started at its
+/// first face. A connected part that encloses a volume is turned outward.
+/// @throw InvalidInput  a part that cannot be oriented (a Möbius band), or an edge of three faces; names them.
+void orient_consistently(Model& model);
+
+/// Options of `split_facets()`.
+struct SplitOptions {
+    double feature_angle = 40;  ///< facets that meet at a sharper turn belong to two faces [degrees]
+    double tolerance = 0;       ///< points closer than this are one [model length]; 0: 1e-6 × the diagonal
+};
+
+/// Facets as a file holds them.
+struct FacetSoup {
+    std::vector<Vec3> points;
+    std::vector<Triangle> triangles;
+    std::vector<Quad> quads;             ///< given quads, kept; each also counts as two facets
+    std::vector<int> triangle_label;     ///< part each belongs to (element set, STL solid); empty: all 0
+    std::vector<int> quad_label;
+    std::vector<std::string> label_name; ///< name of each label; may be shorter than the labels used
+};
+
+/// Cut facets into faces: by label first, then wherever they turn by more than the feature angle. Edges are
+/// the chains between two faces or along a border; vertices are where three faces meet, where a border turns
+/// by more than the feature angle, or, on a closed chain that has none, its first point.
+/// Tags count from 1 in the order faces are met, each kind of entity by itself.
+/// @throw InvalidInput  no facets; an edge of three or more facets inside one label.
+Model split_facets(const FacetSoup& soup, const SplitOptions& options = {});
+
+} // namespace lacuna::topology

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/topology/model.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lacuna::topology {
+
+/// The five classes of the paper's Table 1, and a volume that misses nothing.
+enum class VolumeClass { closed, I, II, III, IV, V };
+
+std::string_view to_string(VolumeClass value);
+/// @throw InvalidInput for a word that is no class.
+VolumeClass volume_class(std::string_view word);
+
+/// What a face is to the sweep.
+enum class Role { source, target, wall };
+
+/// Faces by the part they play; every list may be empty.
+struct Roles {
+    std::vector<FaceId> source, target, walls;
+};
+
+/// The faces of one void, with their roles. Its model is its own: only the faces named, one orientation,
+/// outward where that can be known, and whatever closing adds.
+struct OpenVolume {
+    Model model;
+    std::vector<Role> role;  ///< of each face of `model`
+    std::optional<VolumeClass> override_class;
+
+    [[nodiscard]] std::vector<FaceId> faces(Role wanted) const;
+};
+
+/// Take the faces named out of `model` and make them a volume.
+/// @throw InvalidInput  a face in two roles or named twice, no face at all, faces that cannot be oriented.
+OpenVolume open_volume(const Model& model, const Roles& roles);
+
+/// Every face that can be reached from the rim of `source` over shared edges, and is neither source nor target.
+std::vector<FaceId> faces_reachable_from(const Model& model, const std::vector<FaceId>& source,
+                                         const std::vector<FaceId>& target);
+
+/// A closed walk along the border of a set of faces, the faces on its left.
+struct Rim {
+    std::vector<EdgeUse> uses;
+};
+
+/// The border of a set of faces: edges that the set uses once, as closed walks. At a vertex where several
+/// walks meet they are told apart by the fan of facets between them. Longest first.
+std::vector<Rim> rims(const Model& model, const std::vector<FaceId>& faces);
+
+/// Edges used once by all faces of the volume, and the walks they make.
+std::vector<EdgeId> free_edges(const OpenVolume& volume);
+std::vector<Rim> free_loops(const OpenVolume& volume);
+
+/// Table 1, with the reasons in words.
+struct Classification {
+    VolumeClass value = VolumeClass::closed;
+    std::vector<Rim> free_loops;
+    std::vector<VertexId> wall_free_source;  ///< source rim vertices on no wall
+    std::vector<VertexId> wall_free_target;
+    std::vector<std::string> reasons;
+};
+
+/// Which class the volume is of, the override obeyed.
+/// @throw InvalidInput  an override that contradicts the faces; says which.
+Classification classify(const OpenVolume& volume);
+
+/// One line a face: tag, name, kind, loops, edges, area, normal.
+std::string describe(const Model& model);
+
+/// A face as messages name it: `face 12`, or `face 12 "lid"`.
+std::string name_of(const Model& model, FaceId face);
+std::string name_of(const Model& model, EdgeId edge);
+std::string name_of(const Model& model, VertexId vertex);
+
+} // namespace lacuna::topology
