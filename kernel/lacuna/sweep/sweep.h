@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/closure/close.h>
 #include <lacuna/core/run_context.h>
-#include <lacuna/matching/match.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/surface/quad_mesher.h>
 #include <lacuna/topology/open_volume.h>
@@ -46,11 +44,10 @@ struct Swept {
     std::vector<std::string> report;  ///< a line a stage: seeds, quads, walls, target, layers
 };
 
-/// Fill a sealed volume with hexahedra.
+/// Fill a sealed volume with hexahedra. What goes with what is read off the sealed walls.
 /// @throw InvalidInput   options out of range.
 /// @throw NotSweepable   names the face, wall or cells, what was expected and found, and what to try.
 /// @post  the mesh is proved: conformal, skin closed, every Jacobian certified positive.
-Swept sweep(const topology::OpenVolume& volume, const matching::Match& match, const SweepOptions& options,
-            const RunContext& context = {});
+Swept sweep(const topology::OpenVolume& volume, const SweepOptions& options, const RunContext& context = {});
 
 } // namespace lacuna::sweep

@@ -1,2 +1,335 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/model.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <algorithm>
+#include <string>
+#include <unordered_map>
+
+namespace lacuna::topology {
+
+namespace {
+
+std::uint64_t directed(Index a, Index b)
+{
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32) | static_cast<std::uint32_t>(b);
+}
+
+/// Where a directed mesh segment lies on an edge.
+struct Place {
+    EdgeId edge;
+    std::size_t segment = 0;
+    bool reversed = false;
+};
+
+using SegmentMap = std::unordered_map<std::uint64_t, Place>;
+
+SegmentMap segments_of_edges(const Model& model)
+{
+    SegmentMap map;
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const std::vector<Index>& points = model.edges[e].points;
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            map.try_emplace(directed(points[i], points[i + 1]), Place{EdgeId(e), i, false});
+            map.try_emplace(directed(points[i + 1], points[i]), Place{EdgeId(e), i, true});
+        }
+    }
+    return map;
+}
+
+/// The triangles of one face as half-edges 3·t + i, from corner i to corner i + 1.
+class FaceHalves {
+public:
+    FaceHalves(const Model& model, const Face& face, const SegmentMap& segments)
+        : model_(model), face_(face), segments_(segments)
+    {
+        for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto [found, fresh] =
+                    half_.try_emplace(directed(from(3 * t + i), to(3 * t + i)), 3 * t + i);
+                if (!fresh) {
+                    throw InvalidInput("topology.not_manifold",
+                                       "the facets of " + name() + " overlap or are not consistently oriented at the point " +
+                                           place(from(3 * t + i)) + "; mend the face or mesh it anew");
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] std::size_t size() const { return 3 * face_.triangles.size(); }
+    [[nodiscard]] Index from(std::size_t half) const { return face_.triangles[half / 3][half % 3]; }
+    [[nodiscard]] Index to(std::size_t half) const { return face_.triangles[half / 3][(half + 1) % 3]; }
+
+    /// A half that belongs to the face's border: nothing beyond it, or a seam to cut along.
+    [[nodiscard]] bool on_border(std::size_t half) const
+    {
+        return segments_.contains(directed(from(half), to(half))) || !half_.contains(directed(to(half), from(half)));
+    }
+
+    /// The border half that follows, found by turning through the fan of facets round the half's end.
+    [[nodiscard]] std::size_t next_on_border(std::size_t half) const
+    {
+        std::size_t next = half - half % 3 + (half + 1) % 3;
+        for (std::size_t turns = 0; !on_border(next); ++turns) {
+            const std::size_t across = half_.at(directed(to(next), from(next)));
+            next = across - across % 3 + (across + 1) % 3;
+            if (turns > size()) {
+                throw InvalidInput("topology.not_manifold", "the facets of " + name() + " do not form a surface at the point " +
+                                                                place(to(half)) + "; mend the face or mesh it anew");
+            }
+        }
+        return next;
+    }
+
+    [[nodiscard]] const Place& on_edge(std::size_t half) const
+    {
+        const auto found = segments_.find(directed(from(half), to(half)));
+        if (found == segments_.end()) {
+            throw InvalidInput("topology.loose_border", "the border of " + name() + " leaves its edges at the point " +
+                                                            place(from(half)) + "; each boundary side must lie on an edge");
+        }
+        return found->second;
+    }
+
+    /// True when the half starts at an end of its edge.
+    [[nodiscard]] bool starts_use(std::size_t half) const
+    {
+        const Place& on = on_edge(half);
+        const std::size_t last = model_[on.edge].points.size() - 2;
+        return on.segment == (on.reversed ? last : 0);
+    }
+
+private:
+    [[nodiscard]] std::string name() const
+    {
+        return "face " + std::to_string(face_.tag) + (face_.name.empty() ? "" : " \"" + face_.name + "\"");
+    }
+    [[nodiscard]] std::string place(Index point) const
+    {
+        const Vec3& p = model_.at(point);
+        return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ")";
+    }
+
+    const Model& model_;
+    const Face& face_;
+    const SegmentMap& segments_;
+    std::unordered_map<std::uint64_t, std::size_t> half_;
+};
+
+double loop_length(const Model& model, const Loop& loop)
+{
+    double sum = 0;
+    for (const EdgeUse& use : loop.uses) sum += edge_length(model, use.edge);
+    return sum;
+}
+
+std::vector<Loop> loops_of(const Model& model, const Face& face, const SegmentMap& segments)
+{
+    const FaceHalves halves(model, face, segments);
+    std::vector<bool> seen(halves.size(), false);
+    std::vector<Loop> loops;
+    for (std::size_t start = 0; start < halves.size(); ++start) {
+        if (seen[start] || !halves.on_border(start) || !halves.starts_use(start)) continue;
+        Loop loop;
+        for (std::size_t half = start; !seen[half]; half = halves.next_on_border(half)) {
+            seen[half] = true;
+            const Place& on = halves.on_edge(half);
+            if (halves.starts_use(half)) loop.uses.push_back({on.edge, on.reversed});
+        }
+        loops.push_back(std::move(loop));
+    }
+    std::stable_sort(loops.begin(), loops.end(), [&](const Loop& a, const Loop& b) {
+        return loop_length(model, a) > loop_length(model, b);
+    });
+    return loops;
+}
+
+void flip(Face& face)
+{
+    for (Triangle& t : face.triangles) std::swap(t[1], t[2]);
+    for (std::array<Vec2, 3>& uv : face.uv) std::swap(uv[1], uv[2]);
+    for (Quad& q : face.given_quads) std::swap(q[1], q[3]);
+    for (Loop& loop : face.loops) {
+        std::reverse(loop.uses.begin(), loop.uses.end());
+        for (EdgeUse& use : loop.uses) use.reversed = !use.reversed;
+    }
+}
+
+} // namespace
+
+VertexId use_from(const Model& model, EdgeUse use)
+{
+    const Edge& edge = model[use.edge];
+    return use.reversed ? edge.to : edge.from;
+}
+
+VertexId use_to(const Model& model, EdgeUse use)
+{
+    const Edge& edge = model[use.edge];
+    return use.reversed ? edge.from : edge.to;
+}
+
+std::vector<Index> use_points(const Model& model, EdgeUse use)
+{
+    std::vector<Index> points = model[use.edge].points;
+    if (use.reversed) std::reverse(points.begin(), points.end());
+    return points;
+}
+
+double edge_length(const Model& model, EdgeId edge)
+{
+    const std::vector<Index>& points = model[edge].points;
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) sum += (model.at(points[i + 1]) - model.at(points[i])).norm();
+    return sum;
+}
+
+double face_area(const Model& model, FaceId face)
+{
+    double sum = 0;
+    for (const Triangle& t : model[face].triangles) {
+        sum += (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])).norm();
+    }
+    return sum / 2;
+}
+
+Vec3 face_area_vector(const Model& model, FaceId face)
+{
+    Vec3 sum = Vec3::Zero();
+    for (const Triangle& t : model[face].triangles) {
+        sum += (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+    }
+    return sum / 2;
+}
+
+Vec3 face_centroid(const Model& model, FaceId face)
+{
+    Vec3 sum = Vec3::Zero();
+    double area = 0;
+    for (const Triangle& t : model[face].triangles) {
+        const double a = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])).norm();
+        sum += a * (model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3;
+        area += a;
+    }
+    return area > 0 ? Vec3(sum / area) : model.at(model[face].triangles.front()[0]);
+}
+
+void build_loops(Model& model)
+{
+    const SegmentMap segments = segments_of_edges(model);
+    for (Face& face : model.faces) face.loops = loops_of(model, face, segments);
+}
+
+std::vector<std::vector<FaceUse>> edge_uses(const Model& model)
+{
+    std::vector<std::vector<FaceUse>> uses(model.edges.size());
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        for (const Loop& loop : model.faces[f].loops) {
+            for (const EdgeUse& use : loop.uses) uses[use.edge.index()].push_back({FaceId(f), use.reversed});
+        }
+    }
+    return uses;
+}
+
+std::vector<std::vector<FaceId>> connected_parts(const Model& model, const std::vector<FaceId>& faces)
+{
+    const auto uses = edge_uses(model);
+    std::vector<bool> wanted(model.faces.size(), false);
+    for (const FaceId face : faces) wanted[face.index()] = true;
+    std::vector<std::vector<FaceId>> parts;
+    for (const FaceId start : faces) {
+        if (!wanted[start.index()]) continue;
+        wanted[start.index()] = false;
+        std::vector<FaceId> part{start};
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            for (const Loop& loop : model[part[i]].loops) {
+                for (const EdgeUse& use : loop.uses) {
+                    for (const FaceUse& other : uses[use.edge.index()]) {
+                        if (!wanted[other.face.index()]) continue;
+                        wanted[other.face.index()] = false;
+                        part.push_back(other.face);
+                    }
+                }
+            }
+        }
+        parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
+double volume_integral(const Model& model, const std::vector<FaceId>& faces)
+{
+    if (faces.empty()) return 0;
+    const Vec3 origin = model.at(model[faces.front()].triangles.front()[0]);
+    double sum = 0;
+    for (const FaceId face : faces) {
+        for (const Triangle& t : model[face].triangles) {
+            sum += (model.at(t[0]) - origin).dot((model.at(t[1]) - origin).cross(model.at(t[2]) - origin));
+        }
+    }
+    return sum / 6;
+}
+
+void flip_faces(Model& model, const std::vector<FaceId>& faces)
+{
+    for (const FaceId face : faces) flip(model[face]);
+}
+
+void orient_consistently(Model& model)
+{
+    const auto uses = edge_uses(model);
+    for (std::size_t e = 0; e < uses.size(); ++e) {
+        if (uses[e].size() <= 2) continue;
+        std::string names;
+        for (const FaceUse& use : uses[e]) names += (names.empty() ? "" : ", ") + name_of(model, use.face);
+        throw InvalidInput("topology.not_manifold",
+                           name_of(model, EdgeId(e)) + " is shared by " + std::to_string(uses[e].size()) + " faces (" + names +
+                               "); the skin of a volume has two at each edge: leave the others out of the volume");
+    }
+
+    std::vector<FaceId> all;
+    for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
+    std::vector<bool> settled(model.faces.size(), false);
+    for (const std::vector<FaceId>& part : connected_parts(model, all)) {
+        bool open = false;
+        settled[part.front().index()] = true;
+        std::vector<FaceId> front{part.front()};
+        for (std::size_t i = 0; i < front.size(); ++i) {
+            const FaceId face = front[i];
+            for (const Loop& loop : std::vector<Loop>(model[face].loops)) {
+                for (const EdgeUse& use : loop.uses) {
+                    const auto& both = uses[use.edge.index()];
+                    if (both.size() < 2) {
+                        open = true;
+                        continue;
+                    }
+                    const FaceId other = both[0].face == face ? both[1].face : both[0].face;
+                    if (other == face) continue;
+                    // The uses were listed before any flip: read the neighbour's from its loops as they are now.
+                    bool agrees = true;
+                    for (const Loop& theirs : model[other].loops) {
+                        for (const EdgeUse& their : theirs.uses) {
+                            if (their.edge == use.edge) agrees = their.reversed != use.reversed;
+                        }
+                    }
+                    if (settled[other.index()]) {
+                        if (!agrees) {
+                            throw InvalidInput("topology.not_orientable",
+                                               name_of(model, face) + " and " + name_of(model, other) + " cannot be oriented alike across " +
+                                                   name_of(model, use.edge) + ": the faces form a one-sided band; leave one of them out");
+                        }
+                        continue;
+                    }
+                    if (!agrees) flip(model[other]);
+                    settled[other.index()] = true;
+                    front.push_back(other);
+                }
+            }
+        }
+        if (!open && volume_integral(model, part) < 0) flip_faces(model, part);
+    }
+}
+
+} // namespace lacuna::topology

@@ -31,6 +31,7 @@ struct OpenVolume {
     Model model;
     std::vector<Role> role;  ///< of each face of `model`
     std::optional<VolumeClass> override_class;
+    bool turned_round = false;  ///< a target was given and no source: the two have changed places
 
     [[nodiscard]] std::vector<FaceId> faces(Role wanted) const;
 };
@@ -42,6 +43,24 @@ OpenVolume open_volume(const Model& model, const Roles& roles);
 /// Every face that can be reached from the rim of `source` over shared edges, and is neither source nor target.
 std::vector<FaceId> faces_reachable_from(const Model& model, const std::vector<FaceId>& source,
                                          const std::vector<FaceId>& target);
+
+/// Which faces use an edge, and which way.
+struct FaceUse {
+    FaceId face;
+    bool reversed = false;
+};
+
+/// Uses of every edge by the faces' loops; a seam is used twice by its face.
+std::vector<std::vector<FaceUse>> edge_uses(const Model& model);
+
+/// The faces named, as parts that hang together by shared edges; in order of their first face.
+std::vector<std::vector<FaceId>> connected_parts(const Model& model, const std::vector<FaceId>& faces);
+
+/// Turn faces over.
+void flip_faces(Model& model, const std::vector<FaceId>& faces);
+
+/// What the facets contribute to the volume enclosed, positive outward; a volume only for a closed skin [model length³].
+double volume_integral(const Model& model, const std::vector<FaceId>& faces);
 
 /// A closed walk along the border of a set of faces, the faces on its left.
 struct Rim {

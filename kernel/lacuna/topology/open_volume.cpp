@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/topology/open_volume.h>
+
+#include <lacuna/core/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <set>
+
+namespace lacuna::topology {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> kClassNames{"closed", "I", "II", "III", "IV", "V"};
+
+std::string_view word(Role role)
+{
+    return role == Role::source ? "source" : role == Role::target ? "target" : "wall";
+}
+
+/// Keep only the faces named, and of edges, vertices and points only what they use.
+Model extract(const Model& model, const std::vector<FaceId>& faces)
+{
+    Model part;
+    part.diagonal = model.diagonal;
+    part.tolerance = model.tolerance;
+    part.source = model.source;
+    std::vector<Index> point(model.points.size(), -1);
+    std::vector<VertexId> vertex(model.vertices.size());
+    std::vector<EdgeId> edge(model.edges.size());
+    const auto keep_point = [&](Index& p) {
+        Index& kept = point[static_cast<std::size_t>(p)];
+        if (kept < 0) {
+            kept = static_cast<Index>(part.points.size());
+            part.points.push_back(model.at(p));
+        }
+        p = kept;
+    };
+    const auto keep_vertex = [&](VertexId& v) {
+        VertexId& kept = vertex[v.index()];
+        if (!kept.valid()) {
+            kept = VertexId(part.vertices.size());
+            part.vertices.push_back(model[v]);
+            keep_point(part.vertices.back().point);
+        }
+        v = kept;
+    };
+    const auto keep_edge = [&](EdgeId& e) {
+        EdgeId& kept = edge[e.index()];
+        if (!kept.valid()) {
+            kept = EdgeId(part.edges.size());
+            part.edges.push_back(model[e]);
+            Edge& copy = part.edges.back();
+            keep_vertex(copy.from);
+            keep_vertex(copy.to);
+            for (Index& p : copy.points) keep_point(p);
+        }
+        e = kept;
+    };
+    for (const FaceId f : faces) {
+        part.faces.push_back(model[f]);
+        Face& copy = part.faces.back();
+        for (Loop& loop : copy.loops) {
+            for (EdgeUse& use : loop.uses) keep_edge(use.edge);
+        }
+        for (Triangle& t : copy.triangles) {
+            for (Index& p : t) keep_point(p);
+        }
+        for (Quad& q : copy.given_quads) {
+            for (Index& p : q) keep_point(p);
+        }
+    }
+    return part;
+}
+
+std::vector<VertexId> wall_free(const OpenVolume& volume, Role end)
+{
+    const Model& model = volume.model;
+    std::vector<bool> on_wall(model.vertices.size(), false);
+    for (const FaceId wall : volume.faces(Role::wall)) {
+        for (const Loop& loop : model[wall].loops) {
+            for (const EdgeUse& use : loop.uses) {
+                on_wall[model[use.edge].from.index()] = true;
+                on_wall[model[use.edge].to.index()] = true;
+            }
+        }
+    }
+    std::vector<VertexId> result;
+    std::set<VertexId> seen;
+    for (const Rim& rim : rims(model, volume.faces(end))) {
+        for (const EdgeUse& use : rim.uses) {
+            const VertexId v = use_from(model, use);
+            if (!on_wall[v.index()] && seen.insert(v).second) result.push_back(v);
+        }
+    }
+    return result;
+}
+
+std::string tags_of(const Model& model, const std::vector<VertexId>& vertices)
+{
+    std::string text;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (i == 8) return text + ", … (" + std::to_string(vertices.size()) + " in all)";
+        text += (i == 0 ? "" : ", ") + std::to_string(model[vertices[i]].tag);
+    }
+    return text;
+}
+
+std::string count(std::size_t n, std::string_view one)
+{
+    return std::to_string(n) + " " + std::string(one) + (n == 1 ? "" : "s");
+}
+
+/// A wall nobody can reach from the ends is a slip of the recipe: say so before anything is built on it.
+void check_walls_touch(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    std::vector<FaceId> all;
+    for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
+    bool ends = false;
+    for (const Role role : volume.role) ends = ends || role != Role::wall;
+    if (!ends) return;
+    for (const std::vector<FaceId>& part : connected_parts(model, all)) {
+        const bool touches = std::any_of(part.begin(), part.end(),
+                                         [&](FaceId face) { return volume.role[face.index()] != Role::wall; });
+        if (touches) continue;
+        throw InvalidInput("topology.wall_apart",
+                           name_of(model, part.front()) + " is named as a wall and touches neither the source's rim nor the target's; leave it "
+                           "out, or raise the tolerance (now " + std::to_string(model.tolerance) + ") if it should be joined to them");
+    }
+}
+
+void check_override(const OpenVolume& volume, const Classification& found)
+{
+    if (!volume.override_class || *volume.override_class == found.value) return;
+    const VolumeClass asked = *volume.override_class;
+    const bool source = !volume.faces(Role::source).empty();
+    const bool target = !volume.faces(Role::target).empty();
+    const bool walls = !volume.faces(Role::wall).empty();
+    const auto refuse = [&](const std::string& why) {
+        throw InvalidInput("topology.class_contradicted",
+                           "the volume cannot be of class " + std::string(to_string(asked)) + ": " + why + " (found: class " +
+                               std::string(to_string(found.value)) + ")");
+    };
+    switch (asked) {
+    case VolumeClass::closed:
+        refuse(count(found.free_loops.size(), "free loop") + " remain");
+        break;
+    case VolumeClass::I:
+        if (!source || !target) refuse(std::string("it needs a source and a target, and has no ") + (source ? "target" : "source"));
+        if (walls) refuse("it has no walls, and " + count(volume.faces(Role::wall).size(), "wall") + " are given; leave them out");
+        break;
+    case VolumeClass::II:
+    case VolumeClass::III:
+        if (!source || !target) refuse(std::string("it needs a source and a target, and has no ") + (source ? "target" : "source"));
+        if (!walls) refuse("it needs at least one wall, and none is given");
+        if (asked == VolumeClass::II && found.wall_free_source.empty()) refuse("every vertex of the source is on a wall");
+        if (asked == VolumeClass::II && found.wall_free_target.empty()) refuse("every vertex of the target is on a wall");
+        if (asked == VolumeClass::III && (!found.wall_free_source.empty() || !found.wall_free_target.empty())) {
+            refuse("vertices of source and target are on no wall (source: " + tags_of(volume.model, found.wall_free_source) +
+                   "; target: " + tags_of(volume.model, found.wall_free_target) + ")");
+        }
+        break;
+    case VolumeClass::IV:
+        if (!source) refuse("it needs a source, and none is given");
+        if (target) refuse("its target is missing, and one is given; leave it out");
+        if (!walls) refuse("it needs all walls, and none is given");
+        break;
+    case VolumeClass::V:
+        if (source || target) refuse(std::string("it has walls alone, and a ") + (source ? "source" : "target") + " is given; leave it out");
+        break;
+    }
+}
+
+} // namespace
+
+std::string_view to_string(VolumeClass value)
+{
+    return kClassNames[static_cast<std::size_t>(value)];
+}
+
+VolumeClass volume_class(std::string_view name)
+{
+    for (std::size_t i = 0; i < kClassNames.size(); ++i) {
+        if (kClassNames[i] == name) return static_cast<VolumeClass>(i);
+    }
+    throw InvalidInput("topology.unknown_class",
+                       "\"" + std::string(name) + "\" is no class of open volume; the classes are I, II, III, IV, V and closed");
+}
+
+std::vector<FaceId> OpenVolume::faces(Role wanted) const
+{
+    std::vector<FaceId> result;
+    for (std::size_t f = 0; f < role.size(); ++f) {
+        if (role[f] == wanted) result.emplace_back(f);
+    }
+    return result;
+}
+
+OpenVolume open_volume(const Model& model, const Roles& roles)
+{
+    std::vector<FaceId> faces;
+    OpenVolume volume;
+    std::vector<std::optional<Role>> given(model.faces.size());
+    const auto take = [&](const std::vector<FaceId>& list, Role role) {
+        for (const FaceId face : list) {
+            std::optional<Role>& now = given[face.index()];
+            if (now && *now == role) {
+                throw InvalidInput("topology.face_twice",
+                                   name_of(model, face) + " is named twice as " + std::string(word(role)) + "; name it once");
+            }
+            if (now) {
+                throw InvalidInput("topology.face_in_two_roles", name_of(model, face) + " is named as " + std::string(word(*now)) +
+                                                                     " and as " + std::string(word(role)) + "; a face has one role");
+            }
+            now = role;
+            faces.push_back(face);
+            volume.role.push_back(role);
+        }
+    };
+    take(roles.source, Role::source);
+    take(roles.target, Role::target);
+    take(roles.walls, Role::wall);
+    if (faces.empty()) {
+        throw InvalidInput("topology.no_faces", "the volume has no faces; name a source, a target or walls");
+    }
+    volume.model = extract(model, faces);
+    orient_consistently(volume.model);
+    check_walls_touch(volume);
+    if (roles.source.empty() && !roles.target.empty()) {
+        // Class IV turned round: the end that is there is swept from, and the names change back when the mesh is made.
+        for (Role& role : volume.role) role = role == Role::target ? Role::source : role;
+        volume.turned_round = true;
+    }
+    return volume;
+}
+
+std::vector<FaceId> faces_reachable_from(const Model& model, const std::vector<FaceId>& source,
+                                         const std::vector<FaceId>& target)
+{
+    const auto uses = edge_uses(model);
+    std::vector<bool> taken(model.faces.size(), false);
+    for (const FaceId face : source) taken[face.index()] = true;
+    for (const FaceId face : target) taken[face.index()] = true;
+    std::vector<FaceId> front = source, result;
+    for (std::size_t i = 0; i < front.size(); ++i) {
+        for (const Loop& loop : model[front[i]].loops) {
+            for (const EdgeUse& use : loop.uses) {
+                for (const FaceUse& other : uses[use.edge.index()]) {
+                    if (taken[other.face.index()]) continue;
+                    taken[other.face.index()] = true;
+                    front.push_back(other.face);
+                    result.push_back(other.face);
+                }
+            }
+        }
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+Classification classify(const OpenVolume& volume)
+{
+    Classification found;
+    const std::size_t sources = volume.faces(Role::source).size();
+    const std::size_t targets = volume.faces(Role::target).size();
+    const std::size_t walls = volume.faces(Role::wall).size();
+    found.free_loops = free_loops(volume);
+    found.wall_free_source = wall_free(volume, Role::source);
+    found.wall_free_target = wall_free(volume, Role::target);
+    auto& why = found.reasons;
+    why.push_back(count(sources, "source face") + ", " + count(targets, "target face") + ", " + count(walls, "wall") + " given");
+    if (volume.turned_round) why.push_back("the target is given and the source is missing: class IV turned round, swept from the target");
+    if (found.free_loops.empty()) {
+        found.value = VolumeClass::closed;
+        why.push_back("every edge is used twice: nothing is missing");
+    } else {
+        why.push_back(count(free_edges(volume).size(), "free edge") + " in " + count(found.free_loops.size(), "free loop"));
+        if (sources > 0 && targets > 0 && walls == 0) {
+            found.value = VolumeClass::I;
+            why.push_back("source and target and no wall between them");
+        } else if (sources > 0 && targets > 0) {
+            const bool both = !found.wall_free_source.empty() && !found.wall_free_target.empty();
+            found.value = both ? VolumeClass::II : VolumeClass::III;
+            const auto on_no_wall = [&](std::string_view end, const std::vector<VertexId>& list) {
+                why.push_back("vertices of the " + std::string(end) + " on no wall: " +
+                              (list.empty() ? std::string("none") : tags_of(volume.model, list)));
+            };
+            on_no_wall("source", found.wall_free_source);
+            on_no_wall("target", found.wall_free_target);
+        } else if (sources > 0) {
+            found.value = VolumeClass::IV;
+            why.push_back("a source and walls, and no target");
+        } else {
+            found.value = VolumeClass::V;
+            why.push_back("walls alone: source and target are missing");
+        }
+    }
+    check_override(volume, found);
+    if (volume.override_class && *volume.override_class != found.value) {
+        why.push_back("class " + std::string(to_string(*volume.override_class)) + " by override, instead of " +
+                      std::string(to_string(found.value)));
+        found.value = *volume.override_class;
+    }
+    return found;
+}
+
+std::string name_of(const Model& model, FaceId face)
+{
+    const Face& f = model[face];
+    const std::string tag = (f.origin == Origin::made_void ? "void face " : "face ") + std::to_string(f.tag);
+    return f.name.empty() ? tag : tag + " \"" + f.name + "\"";
+}
+
+std::string name_of(const Model& model, EdgeId edge)
+{
+    const Edge& e = model[edge];
+    return (e.origin == Origin::made_void ? "void edge " : "edge ") + std::to_string(e.tag) + " (vertices " +
+           std::to_string(model[e.from].tag) + "-" + std::to_string(model[e.to].tag) + ")";
+}
+
+std::string name_of(const Model& model, VertexId vertex)
+{
+    return "vertex " + std::to_string(model[vertex].tag);
+}
+
+std::string describe(const Model& model)
+{
+    std::string text;
+    std::array<char, 256> line{};
+    std::snprintf(line.data(), line.size(), "%6s  %-10s %5s %5s %12s  %-24s %s\n", "face", "kind", "loops", "edges", "area", "mean normal", "name");
+    text += line.data();
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        const Face& face = model.faces[f];
+        std::size_t edges = 0;
+        for (const Loop& loop : face.loops) edges += loop.uses.size();
+        const Vec3 n = face_area_vector(model, FaceId(f)).stableNormalized();
+        std::snprintf(line.data(), line.size(), "%6d  %-10s %5zu %5zu %12.6g  (%6.3f, %6.3f, %6.3f) ", face.tag, face.kind.c_str(), face.loops.size(),
+                      edges, face_area(model, FaceId(f)), n.x(), n.y(), n.z());
+        text += line.data();
+        text += face.name + "\n";
+    }
+    return text;
+}
+
+} // namespace lacuna::topology

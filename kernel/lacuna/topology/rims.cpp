@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/topology/open_volume.h>
+
+#include <lacuna/core/error.h>
+
+#include <algorithm>
+#include <map>
+
+namespace lacuna::topology {
+
+namespace {
+
+/// Where a use stands in its face's loops.
+struct UsePlace {
+    FaceId face;
+    std::size_t loop = 0, position = 0;
+};
+
+double length_of(const Model& model, const Rim& rim)
+{
+    double sum = 0;
+    for (const EdgeUse& use : rim.uses) sum += edge_length(model, use.edge);
+    return sum;
+}
+
+EdgeUse opposite(EdgeUse use)
+{
+    return {use.edge, !use.reversed};
+}
+
+} // namespace
+
+std::vector<Rim> rims(const Model& model, const std::vector<FaceId>& faces)
+{
+    std::map<EdgeUse, UsePlace> places;
+    for (const FaceId face : faces) {
+        const std::vector<Loop>& loops = model[face].loops;
+        for (std::size_t l = 0; l < loops.size(); ++l) {
+            for (std::size_t i = 0; i < loops[l].uses.size(); ++i) places[loops[l].uses[i]] = {face, l, i};
+        }
+    }
+    const auto next_in_face = [&](EdgeUse use) {
+        const UsePlace& at = places.at(use);
+        const std::vector<EdgeUse>& uses = model[at.face].loops[at.loop].uses;
+        return uses[(at.position + 1) % uses.size()];
+    };
+
+    std::map<EdgeUse, bool> seen;
+    std::vector<Rim> result;
+    for (const auto& [start, place] : places) {
+        if (places.contains(opposite(start)) || seen[start]) continue;
+        Rim rim;
+        EdgeUse use = start;
+        while (!seen[use]) {
+            seen[use] = true;
+            rim.uses.push_back(use);
+            // Turn through the faces round the end of the use until one has nothing beyond.
+            use = next_in_face(use);
+            for (std::size_t turns = 0; places.contains(opposite(use)) && turns <= places.size(); ++turns) {
+                use = next_in_face(opposite(use));
+            }
+        }
+        result.push_back(std::move(rim));
+    }
+    std::stable_sort(result.begin(), result.end(),
+                     [&](const Rim& a, const Rim& b) { return length_of(model, a) > length_of(model, b); });
+    return result;
+}
+
+std::vector<EdgeId> free_edges(const OpenVolume& volume)
+{
+    const auto uses = edge_uses(volume.model);
+    std::vector<EdgeId> result;
+    for (std::size_t e = 0; e < uses.size(); ++e) {
+        if (uses[e].size() == 1) result.emplace_back(e);
+    }
+    return result;
+}
+
+std::vector<Rim> free_loops(const OpenVolume& volume)
+{
+    std::vector<FaceId> all;
+    for (std::size_t f = 0; f < volume.model.faces.size(); ++f) all.emplace_back(f);
+    return rims(volume.model, all);
+}
+
+} // namespace lacuna::topology
