@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/geometry/facet_tree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+namespace lacuna::geometry {
+
+namespace {
+
+using Box = Eigen::AlignedBox3d;
+using Corners = std::array<Vec3, 3>;
+
+/// Triangles a leaf holds at most.
+constexpr std::uint32_t kLeaf = 4;
+/// The tree halves its triangles at each level, so 2^31 of them need at most 31 levels, and a walk down
+/// leaves one sibling a level behind.
+constexpr std::size_t kMaxDepth = 64;
+
+/// Squared distance to a box. No corner in the box comes out nearer than this, rounding included.
+double distance2(const Box& box, const Vec3& p)
+{
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double d = std::max({box.min()[axis] - p[axis], 0.0, p[axis] - box.max()[axis]});
+        sum += d * d;
+    }
+    return sum;
+}
+
+bool near(const Box& a, const Box& b, double margin)
+{
+    return ((a.min().array() - margin) <= b.max().array()).all() &&
+           ((b.min().array() - margin) <= a.max().array()).all();
+}
+
+/// Componentwise inverse with +∞ for both zeros, so that the sides of a box keep their order.
+Vec3 inverse_of(const Vec3& direction)
+{
+    return (direction.array() + 0.0).inverse();
+}
+
+/// Does the ray, up to t_max, meet the box? `inverse` may hold infinities.
+bool meets(const Box& box, const Vec3& origin, const Vec3& inverse, double t_max)
+{
+    double enter = 0, leave = t_max;
+    for (int axis = 0; axis < 3; ++axis) {
+        double t0 = (box.min()[axis] - origin[axis]) * inverse[axis];
+        double t1 = (box.max()[axis] - origin[axis]) * inverse[axis];
+        if (t0 > t1) std::swap(t0, t1);
+        // 0 · ∞, for a ray in the plane of a side, is no bound: comparisons with it are false.
+        if (t0 > enter) enter = t0;
+        if (t1 < leave) leave = t1;
+    }
+    // The crossing with a facet on the box's side may round to just beyond it.
+    const double slack = 4 * std::numeric_limits<double>::epsilon();
+    return enter <= leave * (1 + slack) + std::numeric_limits<double>::min();
+}
+
+/// Möller and Trumbore 1997.
+FacetTree::RayHit ray_triangle(const Corners& c, const Vec3& origin, const Vec3& direction)
+{
+    const Vec3 e1 = c[1] - c[0], e2 = c[2] - c[0];
+    const Vec3 p = direction.cross(e2);
+    const double determinant = e1.dot(p);
+    if (determinant == 0) return {};
+    const Vec3 from = origin - c[0];
+    const Vec3 q = from.cross(e1);
+    const double u = from.dot(p) / determinant, v = direction.dot(q) / determinant;
+    const double t = e2.dot(q) / determinant;
+    if (!(u >= 0 && v >= 0 && u + v <= 1 && t >= 0)) return {};
+    FacetTree::RayHit hit;
+    hit.t = t;
+    hit.barycentric = {1 - u - v, u, v};
+    return hit;
+}
+
+FacetTree::Hit closest_on_sides(const Vec3& p, const Corners& c)
+{
+    FacetTree::Hit best;
+    for (int side = 0; side < 3; ++side) {
+        const int next = (side + 1) % 3;
+        const Vec3 d = c[next] - c[side];
+        const double length2 = d.squaredNorm();
+        const double t = length2 > 0 ? std::clamp((p - c[side]).dot(d) / length2, 0.0, 1.0) : 0.0;
+        const Vec3 point = t < 1 ? Vec3(c[side] + t * d) : c[next];
+        const double found = (p - point).squaredNorm();
+        if (!(found < best.distance2)) continue;
+        best.distance2 = found;
+        best.point = point;
+        best.barycentric.setZero();
+        best.barycentric[side] = 1 - t;
+        best.barycentric[next] = t;
+    }
+    return best;
+}
+
+} // namespace
+
+FacetTree::Hit closest_on_triangle(const Vec3& p, const Corners& c)
+{
+    // Over the inside when the foot on the plane has three positive weights (areas of the parts it cuts the
+    // triangle into, signed along the normal); otherwise on a side. A triangle so thin that rounding decides
+    // the signs is its sides.
+    const Vec3 ab = c[1] - c[0], ac = c[2] - c[0];
+    const Vec3 normal = ab.cross(ac);
+    const double area2 = normal.squaredNorm();
+    const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c[2] - c[1]).squaredNorm()});
+    const double thin = std::numeric_limits<double>::epsilon() * longest2;
+    if (area2 > thin * thin) {
+        const Vec3 pa = c[0] - p, pb = c[1] - p, pc = c[2] - p;
+        const double wa = pb.cross(pc).dot(normal), wb = pc.cross(pa).dot(normal);
+        const double wc = pa.cross(pb).dot(normal);
+        if (wa > 0 && wb > 0 && wc > 0) {
+            FacetTree::Hit hit;
+            hit.barycentric = Vec3(wa, wb, wc) / (wa + wb + wc);
+            hit.point = c[0] + hit.barycentric[1] * ab + hit.barycentric[2] * ac;
+            hit.distance2 = (p - hit.point).squaredNorm();
+            return hit;
+        }
+    }
+    return closest_on_sides(p, c);
+}
+
+FacetTree::FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles)
+{
+    const auto count = static_cast<std::uint32_t>(triangles.size());
+    if (count == 0) return;
+    const auto at = [&](Index i) -> const Vec3& { return points[static_cast<std::size_t>(i)]; };
+    std::vector<Box> box(count);
+    std::vector<Vec3> centre(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        for (const Index corner : triangles[i]) box[i].extend(at(corner));
+        centre[i] = box[i].center();
+    }
+    id_.resize(count);
+    std::iota(id_.begin(), id_.end(), Index{0});
+    node_.reserve(count);
+    build(0, count, centre, box);
+    corner_.resize(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Triangle& t = triangles[static_cast<std::size_t>(id_[i])];
+        corner_[i] = {at(t[0]), at(t[1]), at(t[2])};
+    }
+    bounds_ = node_.front().box;
+}
+
+std::uint32_t FacetTree::build(std::uint32_t begin, std::uint32_t end, std::span<const Vec3> centre,
+                               std::span<const Box> box)
+{
+    const auto self = static_cast<std::uint32_t>(node_.size());
+    Node node;
+    node.begin = begin;
+    node.end = end;
+    Box centres;
+    for (std::uint32_t i = begin; i < end; ++i) {
+        const auto triangle = static_cast<std::size_t>(id_[i]);
+        node.box.extend(box[triangle]);
+        centres.extend(centre[triangle]);
+    }
+    node_.push_back(node);
+    if (end - begin <= kLeaf) return self;
+
+    int axis = 0;
+    centres.sizes().maxCoeff(&axis);
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    // Equal centres are told apart by index: the tree depends on nothing but the triangles.
+    const auto before = [&](Index a, Index b) {
+        const double ca = centre[static_cast<std::size_t>(a)][axis];
+        const double cb = centre[static_cast<std::size_t>(b)][axis];
+        return ca != cb ? ca < cb : a < b;
+    };
+    std::nth_element(id_.begin() + begin, id_.begin() + middle, id_.begin() + end, before);
+    build(begin, middle, centre, box);
+    const std::uint32_t right = build(middle, end, centre, box);
+    node_[self].right = right;
+    return self;
+}
+
+FacetTree::Hit FacetTree::closest(const Vec3& p) const
+{
+    return closest(p, std::numeric_limits<double>::infinity());
+}
+
+FacetTree::Hit FacetTree::closest(const Vec3& p, double max_distance2) const
+{
+    Hit best;
+    if (node_.empty()) return best;
+    double reach = max_distance2;
+    std::array<std::pair<std::uint32_t, double>, kMaxDepth> stack;
+    std::size_t depth = 0;
+    stack[depth++] = {0, distance2(node_.front().box, p)};
+    while (depth > 0) {
+        const auto [index, away] = stack[--depth];
+        if (away > reach) continue;
+        const Node& node = node_[index];
+        if (node.right != 0) {
+            std::pair<std::uint32_t, double> near_child{index + 1, distance2(node_[index + 1].box, p)};
+            std::pair<std::uint32_t, double> far_child{node.right, distance2(node_[node.right].box, p)};
+            if (far_child.second < near_child.second) std::swap(near_child, far_child);
+            if (far_child.second <= reach) stack[depth++] = far_child;
+            if (near_child.second <= reach) stack[depth++] = near_child;
+            continue;
+        }
+        for (std::uint32_t i = node.begin; i < node.end; ++i) {
+            Hit hit = closest_on_triangle(p, corner_[i]);
+            if (hit.distance2 > reach) continue;
+            if (best.triangle >= 0 && hit.distance2 == best.distance2 && id_[i] > best.triangle) continue;
+            best = hit;
+            best.triangle = id_[i];
+            reach = hit.distance2;
+        }
+    }
+    return best;
+}
+
+bool FacetTree::overlaps(const FacetTree& other, const std::function<bool(Index, Index)>& visit,
+                         double margin) const
+{
+    if (node_.empty() || other.node_.empty()) return true;
+    const bool itself = &other == this;
+    const auto box_of = [](const Corners& c) {
+        Box box(c[0]);
+        box.extend(c[1]);
+        box.extend(c[2]);
+        return box;
+    };
+    const auto leaves = [&](const Node& a, const Node& b) {
+        for (std::uint32_t i = a.begin; i < a.end; ++i) {
+            const Box own = box_of(corner_[i]);
+            for (std::uint32_t j = b.begin; j < b.end; ++j) {
+                // Within one tree both (i, j) and (j, i) come by.
+                if (itself && id_[i] >= other.id_[j]) continue;
+                if (!near(own, box_of(other.corner_[j]), margin)) continue;
+                if (!visit(id_[i], other.id_[j])) return false;
+            }
+        }
+        return true;
+    };
+    // A pair splits the larger of its nodes, so each step adds one to a path of at most two tree heights.
+    std::array<std::pair<std::uint32_t, std::uint32_t>, 2 * kMaxDepth> stack;
+    std::size_t depth = 0;
+    stack[depth++] = {0, 0};
+    while (depth > 0) {
+        const auto [ia, ib] = stack[--depth];
+        const Node& a = node_[ia];
+        const Node& b = other.node_[ib];
+        if (!near(a.box, b.box, margin)) continue;
+        if (a.right == 0 && b.right == 0) {
+            if (!leaves(a, b)) return false;
+        } else if (b.right == 0 || (a.right != 0 && a.end - a.begin >= b.end - b.begin)) {
+            stack[depth++] = {a.right, ib};
+            stack[depth++] = {ia + 1, ib};
+        } else {
+            stack[depth++] = {ia, b.right};
+            stack[depth++] = {ia, ib + 1};
+        }
+    }
+    return true;
+}
+
+FacetTree::RayHit FacetTree::first_along(const Vec3& origin, const Vec3& direction) const
+{
+    RayHit best;
+    if (node_.empty()) return best;
+    const Vec3 inverse = inverse_of(direction);
+    std::array<std::uint32_t, kMaxDepth> stack;
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const std::uint32_t index = stack[--depth];
+        const Node& node = node_[index];
+        if (!meets(node.box, origin, inverse, best.t)) continue;
+        if (node.right != 0) {
+            stack[depth++] = node.right;
+            stack[depth++] = index + 1;
+            continue;
+        }
+        for (std::uint32_t i = node.begin; i < node.end; ++i) {
+            const RayHit hit = ray_triangle(corner_[i], origin, direction);
+            if (!std::isfinite(hit.t) || hit.t > best.t) continue;
+            if (hit.t == best.t && id_[i] > best.triangle) continue;
+            best = hit;
+            best.triangle = id_[i];
+        }
+    }
+    return best;
+}
+
+bool FacetTree::all_along(const Vec3& origin, const Vec3& direction,
+                          const std::function<bool(const RayHit&)>& visit) const
+{
+    if (node_.empty()) return true;
+    const Vec3 inverse = inverse_of(direction);
+    std::array<std::uint32_t, kMaxDepth> stack;
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const std::uint32_t index = stack[--depth];
+        const Node& node = node_[index];
+        if (!meets(node.box, origin, inverse, std::numeric_limits<double>::infinity())) continue;
+        if (node.right != 0) {
+            stack[depth++] = node.right;
+            stack[depth++] = index + 1;
+            continue;
+        }
+        for (std::uint32_t i = node.begin; i < node.end; ++i) {
+            RayHit hit = ray_triangle(corner_[i], origin, direction);
+            if (!std::isfinite(hit.t)) continue;
+            hit.triangle = id_[i];
+            if (!visit(hit)) return false;
+        }
+    }
+    return true;
+}
+
+double FacetTree::winding_number(const Vec3& p) const
+{
+    // Solid angle of a triangle seen from the origin (van Oosterom and Strackee 1983).
+    double sum = 0;
+    for (const Corners& c : corner_) {
+        const Vec3 a = c[0] - p, b = c[1] - p, d = c[2] - p;
+        const double la = a.norm(), lb = b.norm(), ld = d.norm();
+        const double above = a.dot(b.cross(d));
+        const double below = la * lb * ld + a.dot(b) * ld + b.dot(d) * la + d.dot(a) * lb;
+        if (above != 0 || below > 0) sum += 2 * std::atan2(above, below);
+    }
+    return sum / (4 * std::numbers::pi);
+}
+
+namespace {
+
+/// Heights of a triangle's corners over another's plane; those within tolerance count as on it.
+Vec3 heights_over(const Corners& of, const Corners& plane, const Vec3& normal, double tolerance)
+{
+    Vec3 result;
+    for (int i = 0; i < 3; ++i) {
+        // A shared corner is on the plane whatever rounding says.
+        const bool shared = of[i] == plane[0] || of[i] == plane[1] || of[i] == plane[2];
+        const double h = (of[i] - plane[0]).dot(normal);
+        result[i] = shared || std::abs(h) <= tolerance ? 0 : h;
+    }
+    return result;
+}
+
+/// The stretch of a line that a triangle covers where it passes through another's plane: the line's
+/// parameter at the corners on the plane and at the sides that pass through.
+std::pair<double, double> stretch(const Corners& c, const Vec3& heights, const Vec3& origin, const Vec3& line)
+{
+    std::pair<double, double> range{std::numeric_limits<double>::infinity(),
+                                    -std::numeric_limits<double>::infinity()};
+    const auto add = [&](double s) { range = {std::min(range.first, s), std::max(range.second, s)}; };
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        const double si = (c[i] - origin).dot(line), sj = (c[j] - origin).dot(line);
+        if (heights[i] == 0) add(si);
+        if ((heights[i] < 0 && heights[j] > 0) || (heights[i] > 0 && heights[j] < 0))
+            add(si + heights[i] / (heights[i] - heights[j]) * (sj - si));
+    }
+    return range;
+}
+
+/// Do triangles of one plane overlap by more than `tolerance` whichever way they are pushed apart?
+bool overlap_in_plane(const Corners& a, const Corners& b, const Vec3& normal, double tolerance)
+{
+    for (const Corners* triangle : {&a, &b}) {
+        for (int side = 0; side < 3; ++side) {
+            const Vec3 axis = normal.cross((*triangle)[(side + 1) % 3] - (*triangle)[side]).normalized();
+            Vec3 sa, sb;
+            for (int i = 0; i < 3; ++i) {
+                sa[i] = (a[i] - a[0]).dot(axis);
+                sb[i] = (b[i] - a[0]).dot(axis);
+            }
+            const double shared = std::min(sa.maxCoeff(), sb.maxCoeff()) -
+                                  std::max(sa.minCoeff(), sb.minCoeff());
+            if (!(shared > tolerance)) return false;
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+bool triangles_cross(const Corners& a, const Corners& b, double tolerance)
+{
+    const Vec3 area_a = (a[1] - a[0]).cross(a[2] - a[0]), area_b = (b[1] - b[0]).cross(b[2] - b[0]);
+    // A triangle of no area has no sides to be on; what it is part of is crossed by its neighbours.
+    if (area_a.isZero(0) || area_b.isZero(0)) return false;
+    const Vec3 normal_a = area_a.normalized(), normal_b = area_b.normalized();
+    // Heights and lengths come out wrong by a few bits of the triangles' extent, whatever the tolerance.
+    Box extent;
+    for (const Vec3& corner : a) extent.extend(corner);
+    for (const Vec3& corner : b) extent.extend(corner);
+    const double reach = std::max(tolerance, 16 * std::numeric_limits<double>::epsilon() *
+                                                 extent.diagonal().norm());
+    const Vec3 ha = heights_over(a, b, normal_b, reach), hb = heights_over(b, a, normal_a, reach);
+    if (ha.isZero(0)) return overlap_in_plane(a, b, normal_b, reach);
+    if (hb.isZero(0)) return overlap_in_plane(a, b, normal_a, reach);
+    if (!(ha.minCoeff() < 0 && ha.maxCoeff() > 0 && hb.minCoeff() < 0 && hb.maxCoeff() > 0)) return false;
+    const Vec3 line = normal_a.cross(normal_b).normalized();
+    const auto [a0, a1] = stretch(a, ha, a[0], line);
+    const auto [b0, b1] = stretch(b, hb, a[0], line);
+    return std::min(a1, b1) - std::max(a0, b0) > reach;
+}
+
+} // namespace lacuna::geometry

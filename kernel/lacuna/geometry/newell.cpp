@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/geometry/newell.h>
+
+#include <lacuna/core/error.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <limits>
+
+namespace lacuna::geometry {
+
+namespace {
+
+/// Unit normal of the plane with the least sum of squared distances.
+Vec3 least_squares_normal(std::span<const std::vector<Vec3>> loops)
+{
+    Vec3 mean = Vec3::Zero();
+    std::size_t count = 0;
+    for (const std::vector<Vec3>& loop : loops) {
+        for (const Vec3& point : loop) mean += point;
+        count += loop.size();
+    }
+    mean /= static_cast<double>(count);
+    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+    for (const std::vector<Vec3>& loop : loops)
+        for (const Vec3& point : loop) scatter += (point - mean) * (point - mean).transpose();
+    // Eigenvalues come in rising order.
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors().col(0);
+}
+
+/// Largest distance of a point from the first one.
+double extent(std::span<const std::vector<Vec3>> loops, const Vec3& origin)
+{
+    double largest = 0;
+    for (const std::vector<Vec3>& loop : loops)
+        for (const Vec3& point : loop) largest = std::max(largest, (point - origin).norm());
+    return largest;
+}
+
+} // namespace
+
+Vec3 newell_vector(std::span<const Vec3> closed_loop)
+{
+    Vec3 sum = Vec3::Zero();
+    if (closed_loop.size() < 3) return sum;
+    // Seen from one of its own points, a small loop far from the origin loses no digits.
+    const Vec3 origin = closed_loop.front();
+    for (std::size_t i = 1; i + 1 < closed_loop.size(); ++i)
+        sum += (closed_loop[i] - origin).cross(closed_loop[i + 1] - origin);
+    return 0.5 * sum;
+}
+
+Plane plane_across(const Vec3& origin, const Vec3& normal)
+{
+    Plane plane;
+    plane.origin = origin;
+    plane.normal = normal.normalized();
+    int thinnest = 0;
+    plane.normal.cwiseAbs().minCoeff(&thinnest);
+    // The coordinate axis furthest from the normal makes the best conditioned product.
+    plane.v = plane.normal.cross(Vec3::Unit(thinnest)).normalized();
+    plane.u = plane.v.cross(plane.normal);
+    return plane;
+}
+
+Plane newell_plane(std::span<const std::vector<Vec3>> loops)
+{
+    Vec3 normal = Vec3::Zero();
+    const std::vector<Vec3>* first = nullptr;
+    for (const std::vector<Vec3>& loop : loops) {
+        normal += newell_vector(loop);
+        if (!first && !loop.empty()) first = &loop;
+    }
+    if (!first)
+        throw InvalidInput("geometry.no_points", "a plane was asked for of loops without any point; "
+                                                 "expected at least one loop of three points or more");
+    Vec3 origin = Vec3::Zero();
+    for (const Vec3& point : *first) origin += point - first->front();
+    origin = first->front() + origin / static_cast<double>(first->size());
+
+    // Below the rounding of the products that it sums, the vector's direction means nothing.
+    const double size = extent(loops, origin);
+    const double noise = std::sqrt(std::numeric_limits<double>::epsilon()) * size * size;
+    if (normal.norm() <= noise) normal = least_squares_normal(loops);
+    return plane_across(origin, normal);
+}
+
+Vec2 to_plane(const Plane& plane, const Vec3& point)
+{
+    const Vec3 d = point - plane.origin;
+    return {d.dot(plane.u), d.dot(plane.v)};
+}
+
+Vec3 from_plane(const Plane& plane, const Vec2& uv, double height)
+{
+    return plane.origin + uv.x() * plane.u + uv.y() * plane.v + height * plane.normal;
+}
+
+double height(const Plane& plane, const Vec3& point)
+{
+    return (point - plane.origin).dot(plane.normal);
+}
+
+} // namespace lacuna::geometry

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/geometry/polyline.h>
+
+#include <algorithm>
+
+namespace lacuna::geometry {
+
+std::vector<double> arc_lengths(std::span<const Vec3> points)
+{
+    std::vector<double> lengths(points.size(), 0.0);
+    for (std::size_t i = 1; i < points.size(); ++i)
+        lengths[i] = lengths[i - 1] + (points[i] - points[i - 1]).norm();
+    return lengths;
+}
+
+double length(std::span<const Vec3> points)
+{
+    double sum = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i] - points[i - 1]).norm();
+    return sum;
+}
+
+PolylinePlace place_at(std::span<const double> arc_lengths, double s)
+{
+    const std::size_t count = arc_lengths.size();
+    if (count < 2 || !(s > arc_lengths.front())) return {};
+    if (s >= arc_lengths.back()) return {count - 2, 1.0};
+    // The last point at or before s starts the segment, so the next one lies strictly beyond it.
+    const auto after = std::upper_bound(arc_lengths.begin(), arc_lengths.end(), s);
+    const auto segment = static_cast<std::size_t>(after - arc_lengths.begin()) - 1;
+    const double begin = arc_lengths[segment];
+    return {segment, (s - begin) / (*after - begin)};
+}
+
+Vec3 point_at(std::span<const Vec3> points, std::span<const double> arc_lengths, double s)
+{
+    if (points.size() == 1) return points.front();
+    const PolylinePlace place = place_at(arc_lengths, s);
+    const Vec3& a = points[place.segment];
+    const Vec3& b = points[place.segment + 1];
+    if (place.fraction == 0) return a;
+    if (place.fraction == 1) return b;
+    return a + place.fraction * (b - a);
+}
+
+} // namespace lacuna::geometry

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+
+#include <span>
+#include <vector>
+
+namespace lacuna::geometry {
+
+/// Options of `transfinite()`.
+struct TransfiniteOptions {
+    /// Where a grid line stands between its two ends: by the running length of the sides (true), so that
+    /// graded sides give a graded grid, or by counting points (false).
+    bool by_arc_length = true;
+};
+
+/// Grid of points spanned by four sides in space: bilinear Coons interpolation.
+///
+///         top ─▶
+///      3 ─────── 2      All sides run as the arrows: bottom and top from left to right (n + 1 points
+///  left│         │right each), left and right from bottom to top (m + 1 points each). Neighbouring sides
+///   ▲  │         │  ▲   share their corner points.
+///      0 ─────── 1
+///        bottom ─▶
+///
+/// With S the running length along a side scaled to [0, 1], the node (i, j) stands where the straight lines
+/// that join S_bottom(i) to S_top(i) and S_left(j) to S_right(j) cross in the unit square, at (s, t); then
+///   x = (1−t) bottom_i + t top_i + (1−s) left_j + s right_j
+///       − (1−s)(1−t) c0 − s(1−t) c1 − s t c2 − (1−s) t c3.
+/// So the two sides of each pair weigh in as the node is near to them, and sides that agree give their own
+/// spacing. A side of no length (a triangle's tip) counts its points instead.
+///
+/// @return (m + 1) × (n + 1) points, row by row from the bottom: node (i, j) at j * (n + 1) + i.
+/// @post   the points of the sides come back bit for bit; straight sides spaced alike give the bilinear
+///         (for a parallelogram the affine) grid to rounding.
+/// @throw  InvalidInput "geometry.transfinite_sides"  opposite sides differ in number of points, a side has
+///         fewer than two, or neighbouring sides do not meet in the same point.
+std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3> right,
+                              std::span<const Vec3> top, std::span<const Vec3> left,
+                              const TransfiniteOptions& options = {});
+
+} // namespace lacuna::geometry
