@@ -1,0 +1,163 @@
+-- SPDX-License-Identifier: MIT
+-- Proves the plan of the house: which folder of the kernel may include which, who may name Gmsh and Lua, and what the
+-- kernel never does (print, end the process).
+--
+--   lua5.4 house.lua SOURCE_DIR
+--
+-- First the rules are tried on wrong samples, each of which must be found out; then on the kernel.
+
+-- A folder may include what it names here and all that those may include.
+local plan = {
+  core = {},
+  geometry = { "core" },
+  mesh = { "core" },
+  topology = { "geometry" },
+  matching = { "topology" },
+  closure = { "matching" },
+  surface = { "closure", "mesh" },
+  quality = { "mesh" },
+  sweep = { "surface", "quality" },
+  io = { "mesh", "topology" },
+  cad = { "topology", "io", "surface" },
+}
+
+local function reachable(folder, set)
+  set = set or {}
+  set[folder] = true
+  for _, below in ipairs(plan[folder]) do reachable(below, set) end
+  return set
+end
+
+-- Comments and string literals blanked out, lines kept, so that prose may say "printf".
+local function code_of(text)
+  local out, at = {}, 1
+  local function keep_lines(part) return (part:gsub("[^\n]", " ")) end
+  while at <= #text do
+    local from = text:find("[/\"']", at)
+    if not from then out[#out + 1] = text:sub(at); break end
+    out[#out + 1] = text:sub(at, from - 1)
+    local to
+    local two = text:sub(from, from + 1)
+    if two == "//" then to = (text:find("\n", from, true) or #text + 1) - 1
+    elseif two == "/*" then to = select(2, text:find("*/", from + 2, true)) or #text
+    elseif text:sub(from - 1, from) == 'R"' then
+      local mark = text:match("^([^%(]*)%(", from + 1)
+      to = select(2, text:find(")" .. mark .. '"', from, true)) or #text
+    elseif text:sub(from, from) == '"' then
+      to = from + 1
+      while to <= #text and text:sub(to, to) ~= '"' do to = to + (text:sub(to, to) == "\\" and 2 or 1) end
+    elseif text:sub(from, from) == "'" and not text:sub(from - 1, from - 1):match("%x") then  -- not 1'000'000
+      to = from + 1
+      while to <= #text and text:sub(to, to) ~= "'" do to = to + (text:sub(to, to) == "\\" and 2 or 1) end
+    else
+      out[#out + 1] = text:sub(from, from)
+      at = from + 1
+      goto continue
+    end
+    out[#out + 1] = keep_lines(text:sub(from, to))
+    at = to + 1
+    ::continue::
+  end
+  return table.concat(out)
+end
+
+local forbidden = { "cout", "cerr", "clog", "printf", "fprintf", "vprintf", "puts", "fputs", "putchar", "perror",
+                    "abort", "exit", "_Exit", "quick_exit", "terminate" }
+
+-- What is wrong with one file of the kernel, as sentences.
+local function faults(folder, path, text)
+  local found = {}
+  local function fault(line, what) found[#found + 1] = ("%s:%d: %s"):format(path, line, what) end
+
+  local licence = folder == "cad" and "GPL-2.0-or-later" or "MIT"
+  if not text:match("^// SPDX%-License%-Identifier: " .. licence:gsub("[%.%-]", "%%%0") .. "\n") then
+    fault(1, "the first line does not name the licence " .. licence)
+  end
+  if path:match("%.h$") and not text:match("\n#pragma once\n") then fault(1, "a header without #pragma once") end
+
+  local allowed = reachable(folder)
+  local number = 0
+  for line in (text .. "\n"):gmatch("(.-)\n") do
+    number = number + 1
+    local include = line:match('^%s*#%s*include%s*[<"]([^>"]+)[>"]')
+    if include then
+      local other = include:match("^lacuna/([^/]+)/")
+      if other and not plan[other] then
+        fault(number, ("includes <%s>, and the plan has no folder %s"):format(include, other))
+      elseif other and not allowed[other] then
+        fault(number, ("%s includes <%s>, which is not below it"):format(folder, include))
+      elseif include:match("^%.%.") then
+        fault(number, ("includes \"%s\": say <lacuna/folder/file.h>"):format(include))
+      end
+      local base = include:match("[^/]+$")
+      if base:match("^gmsh[%w_]*%.h") and folder ~= "cad" then fault(number, "only cad/ may include " .. include) end
+      if base:match("^lua.*%.hp*$") or base:match("^lauxlib%.h") or base == "lualib.h" then
+        fault(number, "only lua/ may include " .. include)
+      end
+      if base == "iostream" then fault(number, "the kernel does not print: no <iostream>") end
+    end
+  end
+
+  number = 0
+  for line in (code_of(text) .. "\n"):gmatch("(.-)\n") do
+    number = number + 1
+    for before, word in line:gmatch("(.?)%f[%w_]([%a_][%w_]*)") do
+      for _, bad in ipairs(forbidden) do
+        if word == bad and before ~= "." then fault(number, "the kernel does not print or end the process: " .. word) end
+      end
+    end
+  end
+  return found
+end
+
+-- The rules, tried: every wrong sample must be found out and the right ones let through.
+local mit, gpl = "// SPDX-License-Identifier: MIT\n", "// SPDX-License-Identifier: GPL-2.0-or-later\n"
+local samples = {
+  { "core", mit .. "#include <lacuna/geometry/newell.h>\n", "not below it" },
+  { "mesh", mit .. "#include <lacuna/topology/model.h>\n", "not below it" },
+  { "io", mit .. "#include <lacuna/cad/load.h>\n", "not below it" },
+  { "io", mit .. "#include <lacuna/nowhere/x.h>\n", "no folder nowhere" },
+  { "io", mit .. "#include <gmsh.h>\n", "only cad/" },
+  { "cad", gpl .. "#include <lua5.4/lauxlib.h>\n", "only lua/" },
+  { "cad", mit .. "#include <gmsh.h>\n", "licence GPL" },
+  { "core", gpl, "licence MIT" },
+  { "core", mit .. "void f() { std::cout << 1; }\n", "cout" },
+  { "core", mit .. 'void f() { printf("x"); }\n', "printf" },
+  { "core", mit .. "void f() { std::abort(); }\n", "abort" },
+  { "core", mit .. "int big = 1'000'000; void f() { exit(1); }\n", "exit" },
+  { "sweep", mit .. "#include <lacuna/core/types.h>\n#include <lacuna/closure/close.h>\n" },
+  { "cad", gpl .. "#include <gmsh.h>\n#include <lacuna/topology/model.h>\n" },
+  { "core", mit .. '// exit, printf and abort in prose\nauto s = "printf \\" exit";\nstd::snprintf(b, 1, "abort");\n' },
+}
+local wrong = 0
+for number, sample in ipairs(samples) do
+  local found = table.concat(faults(sample[1], "sample.cpp", sample[2]), "\n")
+  local good = sample[3] and found:find(sample[3], 1, true) or not sample[3] and found == ""
+  if not good then
+    wrong = wrong + 1
+    print(("sample %d: expected %s, found: %s"):format(number, sample[3] or "no fault", found))
+  end
+end
+
+-- The kernel.
+local root = assert(arg[1], "usage: house.lua SOURCE_DIR")
+local files = 0
+local list = assert(io.popen(("find '%s/kernel/lacuna' -name '*.h' -o -name '*.cpp' | LC_ALL=C sort"):format(root)))
+for path in list:lines() do
+  local folder = path:match("/kernel/lacuna/([^/]+)/[^/]+$")
+  if not folder or not plan[folder] then
+    wrong = wrong + 1
+    print(path .. ": the plan has no folder for it")
+  else
+    local file <close> = assert(io.open(path))
+    for _, fault in ipairs(faults(folder, path, file:read("a"))) do
+      wrong = wrong + 1
+      print(fault)
+    end
+    files = files + 1
+  end
+end
+list:close()
+if files == 0 then wrong = wrong + 1; print("no file found under " .. root .. "/kernel/lacuna") end
+print(("%d files, %d faults"):format(files, wrong))
+os.exit(wrong == 0)
