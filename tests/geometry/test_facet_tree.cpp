@@ -38,8 +38,10 @@ Soup random_soup(unsigned seed, int count)
             soup.points.push_back(at + 0.2 * Vec3(any(random), any(random), any(random)));
         const auto last = soup.points.end() - 1;
         if (i % 11 == 3) *last = 0.5 * (last[-1] + last[-2]);
-        if (i % 11 == 5) soup.triangles.push_back({first, first, first});
-        else soup.triangles.push_back({first, first + 1, first + 2});
+        if (i % 11 == 5)
+            soup.triangles.push_back({first, first, first});
+        else
+            soup.triangles.push_back({first, first + 1, first + 2});
         if (i % 11 == 7) soup.triangles.push_back(soup.triangles.back());
     }
     return soup;

@@ -21,8 +21,7 @@ struct Sides {
     Grid bottom, right, top, left;
 };
 
-Sides sides_of(const std::function<Vec3(double, double)>& map, const std::vector<double>& s,
-               const std::vector<double>& t)
+Sides sides_of(const std::function<Vec3(double, double)>& map, const std::vector<double>& s, const std::vector<double>& t)
 {
     Sides sides;
     for (const double x : s) {
@@ -146,8 +145,7 @@ TEST_CASE("affine maps go through, and turning the patch over turns the grid ove
 
     const Grid transposed = transfinite(sides.left, sides.top, sides.right, sides.bottom);
     for (std::size_t j = 0; j < 8; ++j)
-        for (std::size_t i = 0; i < 6; ++i)
-            CHECK((transposed[i * 8 + j] - grid[j * 6 + i]).norm() < 1e-14);
+        for (std::size_t i = 0; i < 6; ++i) CHECK((transposed[i * 8 + j] - grid[j * 6 + i]).norm() < 1e-14);
 }
 
 TEST_CASE("a side of no length makes a fan")

@@ -26,10 +26,10 @@ public:
 
     /// The place of the facets closest to a point.
     struct Hit {
-        Index triangle = -1;              ///< in the constructor's order; -1: none in reach
+        Index triangle = -1; ///< in the constructor's order; -1: none in reach
         Vec3 point = Vec3::Zero();
-        Vec3 barycentric = Vec3::Zero();  ///< weights of the corners, in [0, 1], sum 1
-        double distance2 = std::numeric_limits<double>::infinity();   ///< squared distance
+        Vec3 barycentric = Vec3::Zero(); ///< weights of the corners, in [0, 1], sum 1
+        double distance2 = std::numeric_limits<double>::infinity(); ///< squared distance
     };
     [[nodiscard]] Hit closest(const Vec3& p) const;
     /// Only facets within the squared distance count (that distance included).
@@ -38,21 +38,19 @@ public:
     /// Hand every pair (own triangle, other's triangle) whose boxes come within `margin` to `visit`, until it
     /// returns false. A tree against itself gives each pair of different triangles once, the lower one first.
     /// @return false if `visit` stopped it.
-    bool overlaps(const FacetTree& other, const std::function<bool(Index, Index)>& visit,
-                  double margin = 0) const;
+    bool overlaps(const FacetTree& other, const std::function<bool(Index, Index)>& visit, double margin = 0) const;
 
     /// Where a ray meets a facet.
     struct RayHit {
         Index triangle = -1;
-        double t = std::numeric_limits<double>::infinity();  ///< the place is origin + t direction, t >= 0
+        double t = std::numeric_limits<double>::infinity(); ///< the place is origin + t direction, t >= 0
         Vec3 barycentric = Vec3::Zero();
     };
     /// The first facet met, `triangle` -1 if none. A ray along a facet's own plane does not meet it.
     [[nodiscard]] RayHit first_along(const Vec3& origin, const Vec3& direction) const;
     /// Every facet met, in no special order, until `visit` returns false. A ray through a shared edge meets
     /// both its facets. @return false if `visit` stopped it.
-    bool all_along(const Vec3& origin, const Vec3& direction,
-                   const std::function<bool(const RayHit&)>& visit) const;
+    bool all_along(const Vec3& origin, const Vec3& direction, const std::function<bool(const RayHit&)>& visit) const;
 
     /// How often the facets wind round a point: 1 inside closed facets that face outward, 0 outside them,
     /// between the two where there are gaps (Jacobson et al. 2013). A sum over all facets: O(triangles),
@@ -65,15 +63,15 @@ public:
 private:
     struct Node {
         Eigen::AlignedBox3d box;
-        std::uint32_t begin = 0, end = 0;  ///< its triangles, in tree order
-        std::uint32_t right = 0;           ///< its second child; the first is the next node; 0: a leaf
+        std::uint32_t begin = 0, end = 0; ///< its triangles, in tree order
+        std::uint32_t right = 0;          ///< its second child; the first is the next node; 0: a leaf
     };
     std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::span<const Vec3> centre,
                         std::span<const Eigen::AlignedBox3d> box);
 
     std::vector<Node> node_;
-    std::vector<Index> id_;                     ///< given index of each triangle, in tree order
-    std::vector<std::array<Vec3, 3>> corner_;   ///< in tree order
+    std::vector<Index> id_;                   ///< given index of each triangle, in tree order
+    std::vector<std::array<Vec3, 3>> corner_; ///< in tree order
     Eigen::AlignedBox3d bounds_;
 };
 

@@ -21,7 +21,7 @@ double length(std::span<const Vec3> points);
 /// A place on a chain: `fraction` of the way from point `segment` to point `segment + 1`.
 struct PolylinePlace {
     std::size_t segment = 0;
-    double fraction = 0;   ///< in [0, 1]
+    double fraction = 0; ///< in [0, 1]
 };
 
 /// Where the running length is `s`; the ends stand for all that lies beyond them.

@@ -18,9 +18,9 @@ struct TransfiniteOptions {
 /// Grid of points spanned by four sides in space: bilinear Coons interpolation.
 ///
 ///         top ─▶
-///      3 ─────── 2      All sides run as the arrows: bottom and top from left to right (n + 1 points
-///  left│         │right each), left and right from bottom to top (m + 1 points each). Neighbouring sides
-///   ▲  │         │  ▲   share their corner points.
+///      3 ─────── 2        Bottom and top run from left to right, n + 1 points each; left and right
+///   ▲  │         │  ▲     from bottom to top, m + 1 points each. Neighbouring sides share their
+/// left │         │ right  corner points.
 ///      0 ─────── 1
 ///        bottom ─▶
 ///
@@ -36,8 +36,7 @@ struct TransfiniteOptions {
 ///         (for a parallelogram the affine) grid to rounding.
 /// @throw  InvalidInput "geometry.transfinite_sides"  opposite sides differ in number of points, a side has
 ///         fewer than two, or neighbouring sides do not meet in the same point.
-std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3> right,
-                              std::span<const Vec3> top, std::span<const Vec3> left,
-                              const TransfiniteOptions& options = {});
+std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3> right, std::span<const Vec3> top,
+                              std::span<const Vec3> left, const TransfiniteOptions& options = {});
 
 } // namespace lacuna::geometry
