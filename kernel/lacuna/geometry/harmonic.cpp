@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/geometry/harmonic.h>
+
+#include <lacuna/core/error.h>
+
+#include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+namespace lacuna::geometry {
+
+namespace {
+
+/// Half the digits of a double. A weight smaller than this beside its fellows could not be told from rounding
+/// once the system is solved, so none is let below it: the system stays solvable, and all weights positive.
+const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
+
+constexpr Index kFree = -1, kUnused = -2;
+
+std::size_t at(Index i)
+{
+    return static_cast<std::size_t>(i);
+}
+
+/// tan(angle / 2) between two sides, kept away from 0 and from infinity.
+double half_tangent(const Vec3& a, const Vec3& b)
+{
+    const double product = a.norm() * b.norm(), cosine = a.dot(b), sine = a.cross(b).norm();
+    // Two forms of one function, each free of cancellation on its own side.
+    const double numerator = cosine > 0 ? sine : product - cosine;
+    const double denominator = cosine > 0 ? product + cosine : sine;
+    if (!(product > 0)) return 1;
+    if (numerator >= denominator / kHalfDigits) return 1 / kHalfDigits;
+    return std::max(numerator / denominator, kHalfDigits);
+}
+
+/// One neighbour's part in a point's mean.
+struct Weight {
+    Index from, to;
+    int turns; ///< of the neighbour as seen from the point
+    double value;
+};
+
+/// The weights of every corner of every triangle, as they come.
+std::vector<Weight> corner_weights(const HarmonicProblem& problem)
+{
+    std::vector<Weight> weights;
+    weights.reserve(6 * problem.triangles.size());
+    for (std::size_t t = 0; t < problem.triangles.size(); ++t) {
+        const Triangle& triangle = problem.triangles[t];
+        const std::array<int, 3> turns = problem.corner_turns.empty() ? std::array<int, 3>{} : problem.corner_turns[t];
+        std::array<double, 3> side{}; // side i faces corner i
+        std::array<Vec3, 3> p;
+        for (std::size_t i = 0; i < 3; ++i) p[i] = problem.points[at(triangle[i])];
+        for (std::size_t i = 0; i < 3; ++i) side[i] = (p[(i + 1) % 3] - p[(i + 2) % 3]).norm();
+        const double longest = std::max({side[0], side[1], side[2]});
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+            const double tangent = half_tangent(p[j] - p[i], p[k] - p[i]);
+            // Three points in one place are as near to each other as to anything.
+            const auto add = [&](std::size_t to, double distance) {
+                const double length = longest > 0 ? std::max(distance, kHalfDigits * longest) : 1;
+                weights.push_back({triangle[i], triangle[to], turns[to] - turns[i], tangent / length});
+            };
+            add(j, side[k]);
+            add(k, side[j]);
+        }
+    }
+    return weights;
+}
+
+void check(const HarmonicProblem& problem)
+{
+    const auto fail = [](const std::string& what) {
+        throw InvalidInput("geometry.harmonic_input", "harmonic values cannot be solved for: " + what);
+    };
+    const auto count = static_cast<Index>(problem.points.size());
+    for (const Triangle& triangle : problem.triangles)
+        for (const Index corner : triangle)
+            if (corner < 0 || corner >= count)
+                fail("a triangle names point " + std::to_string(corner) + " of " + std::to_string(count));
+    for (const Index point : problem.fixed)
+        if (point < 0 || point >= count)
+            fail("point " + std::to_string(point) + " is fixed, but there are " + std::to_string(count));
+    if (problem.fixed_values.rows() != static_cast<Eigen::Index>(problem.fixed.size()))
+        fail(std::to_string(problem.fixed.size()) + " points are fixed, but there are values for " +
+             std::to_string(problem.fixed_values.rows()));
+    if (problem.corner_turns.empty()) return;
+    if (problem.corner_turns.size() != problem.triangles.size())
+        fail("expected turns for each of " + std::to_string(problem.triangles.size()) + " triangles, found " +
+             std::to_string(problem.corner_turns.size()));
+    if (problem.period.size() != problem.fixed_values.cols())
+        fail("the period has " + std::to_string(problem.period.size()) + " numbers, the values have " +
+             std::to_string(problem.fixed_values.cols()));
+}
+
+/// Every point's role: kUnused, kFree, or, for a fixed one, its row of fixed_values.
+std::vector<Index> roles(const HarmonicProblem& problem)
+{
+    std::vector<Index> role(problem.points.size(), kUnused);
+    for (const Triangle& triangle : problem.triangles)
+        for (const Index corner : triangle) role[at(corner)] = kFree;
+    for (std::size_t i = 0; i < problem.fixed.size(); ++i) role[at(problem.fixed[i])] = static_cast<Index>(i);
+    return role;
+}
+
+/// @throw BackendError where triangles hang together with no fixed point among them.
+void check_anchored(const HarmonicProblem& problem, std::span<const Index> role)
+{
+    std::vector<Index> parent(problem.points.size());
+    std::iota(parent.begin(), parent.end(), Index{0});
+    const auto root = [&](Index i) {
+        while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
+        return i;
+    };
+    for (const Triangle& triangle : problem.triangles) {
+        parent[at(root(triangle[1]))] = root(triangle[0]);
+        parent[at(root(triangle[2]))] = root(triangle[0]);
+    }
+    std::vector<bool> anchored(problem.points.size(), false);
+    for (const Index point : problem.fixed) anchored[at(root(point))] = true;
+    for (std::size_t i = 0; i < role.size(); ++i)
+        if (role[i] == kFree && !anchored[at(root(static_cast<Index>(i)))])
+            throw BackendError("geometry.singular",
+                               "harmonic values are not determined: the facets about point " + std::to_string(i) +
+                                   " hang together with no point whose value is known; "
+                                   "fix at least one point of each connected part");
+}
+
+/// Sort by point and scale each point's weights to the sum 1, none below what rounding can bear.
+void normalise(std::vector<Weight>& weights)
+{
+    std::stable_sort(weights.begin(), weights.end(),
+                     [](const Weight& a, const Weight& b) { return a.from < b.from; });
+    for (auto begin = weights.begin(); begin != weights.end();) {
+        const auto end = std::find_if(begin, weights.end(),
+                                      [&](const Weight& w) { return w.from != begin->from; });
+        double largest = 0, sum = 0;
+        for (auto w = begin; w != end; ++w) largest = std::max(largest, w->value);
+        for (auto w = begin; w != end; ++w) sum += w->value = std::max(w->value, kHalfDigits * largest);
+        for (auto w = begin; w != end; ++w) w->value /= sum;
+        begin = end;
+    }
+}
+
+} // namespace
+
+Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem)
+{
+    check(problem);
+    const std::vector<Index> role = roles(problem);
+    check_anchored(problem, role);
+    const Eigen::Index columns = problem.fixed_values.cols();
+    Eigen::MatrixXd values = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(problem.points.size()), columns);
+
+    std::vector<Index> unknown(role.size(), -1), point_of;
+    for (std::size_t i = 0; i < role.size(); ++i) {
+        if (role[i] >= 0) values.row(static_cast<Eigen::Index>(i)) = problem.fixed_values.row(role[i]);
+        if (role[i] != kFree) continue;
+        unknown[i] = static_cast<Index>(point_of.size());
+        point_of.push_back(static_cast<Index>(i));
+    }
+    const auto size = static_cast<Eigen::Index>(point_of.size());
+    if (size == 0 || columns == 0) return values;
+
+    std::vector<Weight> weights = corner_weights(problem);
+    normalise(weights);
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(weights.size() + point_of.size());
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(size, columns);
+    for (Index row = 0; row < size; ++row) entries.emplace_back(row, row, 1.0);
+    for (const Weight& w : weights) {
+        const Index row = unknown[at(w.from)], column = unknown[at(w.to)];
+        if (row < 0) continue;
+        if (w.turns != 0) right.row(row) += w.value * w.turns * problem.period;
+        if (column >= 0)
+            entries.emplace_back(row, column, -w.value);
+        else
+            right.row(row) += w.value * values.row(w.to);
+    }
+    Eigen::SparseMatrix<double> matrix(size, size);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+
+    Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> solver;
+    solver.compute(matrix);
+    if (solver.info() != Eigen::Success)
+        throw BackendError("geometry.singular", "harmonic values cannot be solved for: " + solver.lastErrorMessage() +
+                                                    "; look for coordinates that are not numbers");
+    const Eigen::MatrixXd solution = solver.solve(right);
+    for (Index row = 0; row < size; ++row) values.row(point_of[at(row)]) = solution.row(row);
+    return values;
+}
+
+} // namespace lacuna::geometry
