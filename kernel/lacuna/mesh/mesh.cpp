@@ -45,6 +45,53 @@ std::vector<BoundarySide> boundary_sides(const std::vector<Quad>& quads)
     return result;
 }
 
+std::vector<Index> opposite_sides(const std::vector<Quad>& quads, Index node_count)
+{
+    // Sides are put in the bin of their lower node; bins are as small as a node has neighbours.
+    struct Side {
+        Index high, number;
+        bool rising;
+    };
+    const auto low_of = [&](std::size_t q, int i) { return std::min(quads[q][i], quads[q][(i + 1) % 4]); };
+    std::vector<Index> start(static_cast<std::size_t>(node_count) + 1, 0);
+    for (std::size_t q = 0; q < quads.size(); ++q)
+        for (int i = 0; i < 4; ++i) ++start[static_cast<std::size_t>(low_of(q, i)) + 1];
+    for (std::size_t n = 1; n < start.size(); ++n) start[n] += start[n - 1];
+
+    std::vector<Side> sides(4 * quads.size());
+    std::vector<Index> next(start.begin(), start.end() - 1);
+    for (std::size_t q = 0; q < quads.size(); ++q) {
+        for (int i = 0; i < 4; ++i) {
+            const Index a = quads[q][i];
+            const Index b = quads[q][(i + 1) % 4];
+            const auto at = static_cast<std::size_t>(next[static_cast<std::size_t>(std::min(a, b))]++);
+            sides[at] = {std::max(a, b), static_cast<Index>(4 * q) + i, a < b};
+        }
+    }
+
+    std::vector<Index> opposite(4 * quads.size(), kRimSide);
+    const auto at = [&](const Side& side) -> Index& { return opposite[static_cast<std::size_t>(side.number)]; };
+    for (std::size_t n = 0; n + 1 < start.size(); ++n) {
+        const auto first = sides.begin() + start[n];
+        const auto last = sides.begin() + start[n + 1];
+        std::sort(first, last,
+                  [](const Side& a, const Side& b) { return std::tie(a.high, a.number) < std::tie(b.high, b.number); });
+        for (auto i = first; i != last;) {
+            auto j = i + 1;
+            while (j != last && j->high == i->high) ++j;
+            const bool pair = j - i == 2 && i->rising != (i + 1)->rising;
+            if (pair) {
+                at(*i) = (i + 1)->number;
+                at(*(i + 1)) = i->number;
+            } else if (j - i > 1) {
+                for (auto k = i; k != j; ++k) at(*k) = kBadSide;
+            }
+            i = j;
+        }
+    }
+    return opposite;
+}
+
 SkinQuad skin_quad(const HexMesh& mesh, std::size_t i)
 {
     const std::size_t quads = mesh.quads.size();

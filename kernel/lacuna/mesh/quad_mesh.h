@@ -26,4 +26,12 @@ struct BoundarySide {
 /// The sides of `quads` that no other quad shares, as directed in their quad, in order of quad. O(quads log quads).
 std::vector<BoundarySide> boundary_sides(const std::vector<Quad>& quads);
 
+/// What `opposite_sides()` says of a side without a partner.
+inline constexpr Index kRimSide = -1;  ///< no other quad has it: it lies on the boundary
+inline constexpr Index kBadSide = -2;  ///< three quads or more have it, or two run it in the same direction
+
+/// Partner of every side, side i of quad q having the number 4q + i: the same side run the other way in the
+/// neighbouring quad, or `kRimSide`, or `kBadSide`. O(quads). @pre every corner lies in [0, node_count)
+std::vector<Index> opposite_sides(const std::vector<Quad>& quads, Index node_count);
+
 } // namespace lacuna::mesh

@@ -24,7 +24,7 @@ bool certified_positive(std::span<const Vec3, 8> corners, int max_depth = 6);
 /// A cell with what is wrong with it.
 struct WorstCell {
     std::size_t cell = 0;  ///< from 0
-    int layer = 0;         ///< from 0
+    int layer = -1;        ///< from 0; -1 where cells are a plain list
     Vec3 centre{0, 0, 0};
     double scaled_jacobian = 0;
 };
@@ -41,7 +41,11 @@ struct Quality {
 };
 
 /// Measure every cell. Parallel; the same for any thread count. O(cells).
+/// @pre  every corner is the number of a node (`prove()` checks it).
 Quality measure(const mesh::HexMesh& mesh, const RunContext& context = {});
+
+/// The same for hexahedra of any origin.
+Quality measure_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, const RunContext& context = {});
 
 /// As a table with a histogram.
 std::string to_table(const Quality& quality);
@@ -50,5 +54,10 @@ std::string to_table(const Quality& quality);
 /// exactly the patches, no node twice in one place or unused, every Jacobian certified positive.
 /// @throw NotSweepable  names what is wrong, the worst cells, their layer and place.
 Quality prove(const mesh::HexMesh& mesh, double min_scaled_jacobian = 0, const RunContext& context = {});
+
+/// The same for hexahedra of any origin.
+/// @param skin  where not empty, quads that must be exactly the skin, in any order and direction.
+Quality prove_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin = {},
+                    double min_scaled_jacobian = 0, const RunContext& context = {});
 
 } // namespace lacuna::quality

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quality/coincident.h>
+
+#include <lacuna/core/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace lacuna::quality {
+namespace {
+
+constexpr std::size_t kChunk = 16384;  // points a task takes at once
+constexpr int kBinBits = 10;           // points are sorted into bins small enough for the first-level cache
+constexpr std::size_t kBins = std::size_t(1) << kBinBits;
+
+std::size_t chunk_count(std::size_t points) { return (points + kChunk - 1) / kChunk; }
+
+struct Entry {
+    std::uint32_t hash;
+    Index point;
+};
+
+/// Cubes of 1024 tolerances, so that a point within a tolerance of a cube's side, which is entered in the cube
+/// beyond as well, is rare. Their corner is set a fraction of a cube off the bounds, because meshes like to put
+/// whole planes of nodes exactly there.
+struct Grid {
+    Vec3 corner;
+    double tolerance;
+    double per_length;
+
+    Grid(const Eigen::AlignedBox3d& bounds)
+    {
+        const double diagonal = bounds.diagonal().norm();
+        tolerance = 1e-9 * diagonal;
+        const double size = 1024 * tolerance;
+        per_length = 1 / size;
+        corner = bounds.min() - size * Vec3(0.381966, 0.618034, 0.271828);
+    }
+
+    static std::uint32_t hash(std::int64_t x, std::int64_t y, std::int64_t z)
+    {
+        auto h = static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u + static_cast<std::uint64_t>(y);
+        h = (h ^ (h >> 29)) * 0xBF58476D1CE4E5B9u + static_cast<std::uint64_t>(z);
+        h = (h ^ (h >> 32)) * 0x94D049BB133111EBu;
+        return static_cast<std::uint32_t>(h >> 32);
+    }
+
+    /// Call `enter` with the hash of every cube the point is in or near.
+    template <class Enter>
+    void visit(const Vec3& point, const Enter& enter) const
+    {
+        const Vec3 at = (point - corner) * per_length;
+        constexpr double kNear = 1.0 / 1024;
+        std::int64_t low[3], high[3];
+        for (int d = 0; d < 3; ++d) {
+            low[d] = static_cast<std::int64_t>(at[d] - kNear);
+            high[d] = static_cast<std::int64_t>(at[d] + kNear);
+        }
+        enter(hash(low[0], low[1], low[2]));
+        if (low[0] == high[0] && low[1] == high[1] && low[2] == high[2]) return;
+        for (int corner_of = 1; corner_of < 8; ++corner_of) {
+            std::int64_t c[3];
+            bool other = true;
+            for (int d = 0; d < 3; ++d) {
+                const bool up = (corner_of >> d & 1) != 0;
+                c[d] = up ? high[d] : low[d];
+                if (up && low[d] == high[d]) other = false;
+            }
+            if (other) enter(hash(c[0], c[1], c[2]));
+        }
+    }
+};
+
+/// Entries of all points, bin after bin, in order of points within a bin.
+struct Bins {
+    std::vector<Entry> entries;
+    std::vector<std::size_t> start;
+};
+
+Bins sort_into_bins(std::span<const Vec3> points, const Grid& grid, const RunContext& context)
+{
+    const std::size_t chunks = chunk_count(points.size());
+    std::vector<std::array<std::uint32_t, kBins>> counts(chunks);
+    const auto bin_of = [](std::uint32_t hash) { return hash >> (32 - kBinBits); };
+    const auto over_chunks = [&](const auto& body) {
+        parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t c = begin; c < end; ++c)
+                for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points.size()); ++p) body(c, p);
+        });
+    };
+    over_chunks([&](std::size_t c, std::size_t p) {
+        grid.visit(points[p], [&](std::uint32_t hash) { ++counts[c][bin_of(hash)]; });
+    });
+
+    Bins bins;
+    bins.start.resize(kBins + 1);
+    std::size_t total = 0;
+    std::vector<std::array<std::size_t, kBins>> next(chunks);
+    for (std::size_t b = 0; b < kBins; ++b) {
+        bins.start[b] = total;
+        for (std::size_t c = 0; c < chunks; ++c) {
+            next[c][b] = total;
+            total += counts[c][b];
+        }
+    }
+    bins.start[kBins] = total;
+    bins.entries.resize(total);
+    over_chunks([&](std::size_t c, std::size_t p) {
+        grid.visit(points[p], [&](std::uint32_t hash) {
+            bins.entries[next[c][bin_of(hash)]++] = {hash, static_cast<Index>(p)};
+        });
+    });
+    return bins;
+}
+
+using Pair = std::array<Index, 2>;
+
+/// The lowest pair within a bin.
+std::optional<Pair> search_bin(std::span<const Entry> entries, std::span<const Vec3> points, double tolerance,
+                               std::vector<std::int32_t>& table)
+{
+    std::size_t size = 16;
+    while (size < 2 * entries.size()) size *= 2;
+    table.assign(size, -1);
+    std::optional<Pair> found;
+    for (std::size_t e = 0; e < entries.size(); ++e) {
+        bool twin = false;  // a twin is not entered itself, so that many in one place cost no more than few
+        std::size_t slot = entries[e].hash & (size - 1);
+        for (; table[slot] >= 0; slot = (slot + 1) & (size - 1)) {
+            const Entry& other = entries[static_cast<std::size_t>(table[slot])];
+            if (other.hash != entries[e].hash || other.point == entries[e].point) continue;
+            const Vec3& a = points[static_cast<std::size_t>(other.point)];
+            const Vec3& b = points[static_cast<std::size_t>(entries[e].point)];
+            if ((a - b).squaredNorm() > tolerance * tolerance) continue;
+            const Pair pair{other.point, entries[e].point};
+            if (!found || pair < *found) found = pair;
+            twin = true;
+            break;
+        }
+        if (!twin) table[slot] = static_cast<std::int32_t>(e);
+    }
+    return found;
+}
+
+} // namespace
+
+Eigen::AlignedBox3d finite_bounds(std::span<const Vec3> points, const RunContext& context)
+{
+    const std::size_t chunks = chunk_count(points.size());
+    std::vector<Eigen::AlignedBox3d> boxes(chunks);
+    std::vector<char> finite(chunks, 1);
+    parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            Vec3 zero(0, 0, 0);
+            for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points.size()); ++p) {
+                boxes[c].extend(points[p]);
+                zero += 0 * points[p];  // not a number as soon as one of them is not finite
+            }
+            finite[c] = zero == Vec3(0, 0, 0) ? 1 : 0;
+        }
+    });
+    Eigen::AlignedBox3d bounds;
+    for (std::size_t c = 0; c < chunks; ++c) {
+        if (finite[c] == 0) return {};
+        bounds.extend(boxes[c]);
+    }
+    return bounds;
+}
+
+std::optional<Pair> find_coincident(std::span<const Vec3> points, const Eigen::AlignedBox3d& bounds,
+                                    const RunContext& context)
+{
+    if (points.size() < 2) return std::nullopt;
+    if (!(bounds.diagonal().norm() > 0)) return Pair{0, 1};
+    const Grid grid(bounds);
+    const Bins bins = sort_into_bins(points, grid, context);
+
+    std::vector<std::optional<Pair>> found(kBins);
+    parallel_for(context, kBins, 16, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::int32_t> table;
+        for (std::size_t b = begin; b < end; ++b) {
+            const std::span<const Entry> all(bins.entries);
+            found[b] = search_bin(all.subspan(bins.start[b], bins.start[b + 1] - bins.start[b]), points,
+                                  grid.tolerance, table);
+        }
+    });
+    std::optional<Pair> least;
+    for (const auto& pair : found)
+        if (pair && (!least || *pair < *least)) least = pair;
+    return least;
+}
+
+} // namespace lacuna::quality

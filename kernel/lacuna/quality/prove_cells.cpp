@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quality/findings.h>
+#include <lacuna/quality/quality.h>
+
+#include <lacuna/core/error.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace lacuna::quality {
+namespace {
+
+constexpr Index kGivenSkin = -1;  // owner of a side that comes from the list of skin quads
+
+/// A side of a cell, told by its nodes: the lowest, the one across and the others in order.
+struct Side {
+    std::array<Index, 4> key;
+    Quad nodes;
+    Index owner;
+};
+
+bool operator<(const Side& a, const Side& b)
+{
+    return std::tie(a.key, a.owner) < std::tie(b.key, b.owner);
+}
+
+/// A quad turned so that it begins with its lowest node; same side, same direction.
+Quad turned(const Quad& quad)
+{
+    const auto lowest = static_cast<std::size_t>(std::min_element(quad.begin(), quad.end()) - quad.begin());
+    return {quad[lowest], quad[(lowest + 1) % 4], quad[(lowest + 2) % 4], quad[(lowest + 3) % 4]};
+}
+
+Side make_side(const Quad& quad, Index owner)
+{
+    Side side{{quad[0], quad[1], quad[2], quad[3]}, turned(quad), owner};
+    std::sort(side.key.begin(), side.key.end());
+    return side;
+}
+
+std::string side_name(std::span<const Vec3> nodes, const Side& side)
+{
+    return "the side of cell " + std::to_string(side.owner + 1) + " between " + node_name(nodes, side.nodes[0], 0) +
+           " and " + node_name(nodes, side.nodes[2], 0);
+}
+
+void check_corners(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin)
+{
+    if (hexes.empty()) throw NotSweepable("quality.empty", "the mesh has no cells");
+    std::vector<char> used(nodes.size(), 0);
+    const auto known = [&](Index node) { return node >= 0 && static_cast<std::size_t>(node) < nodes.size(); };
+    for (std::size_t h = 0; h < hexes.size(); ++h) {
+        for (const Index node : hexes[h]) {
+            if (!known(node))
+                throw NotSweepable("quality.unknown_node", "cell " + std::to_string(h + 1) + " names node " +
+                                                               std::to_string(std::int64_t(node) + 1) + " of " +
+                                                               std::to_string(nodes.size()));
+            used[static_cast<std::size_t>(node)] = 1;
+        }
+    }
+    for (const Quad& quad : skin)
+        if (!std::all_of(quad.begin(), quad.end(), known))
+            throw NotSweepable("quality.unknown_node", "a quad of the skin names a node that is not there");
+    const auto unused = std::find(used.begin(), used.end(), 0);
+    if (unused != used.end())
+        throw NotSweepable("quality.unused_node",
+                           node_name(nodes, static_cast<Index>(unused - used.begin()), 0) + " belongs to no cell");
+}
+
+/// Sides of all cells and of the given skin, brought together by their lowest node.
+std::vector<Side> sorted_sides(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin)
+{
+    std::vector<std::size_t> start(nodes.size() + 1, 0);
+    const auto for_each_quad = [&](const auto& body) {
+        for (std::size_t h = 0; h < hexes.size(); ++h) {
+            for (const Quad& s : mesh::kHexSides) {
+                const auto corner = [&](std::size_t i) { return hexes[h][static_cast<std::size_t>(s[i])]; };
+                body(Quad{corner(0), corner(1), corner(2), corner(3)}, static_cast<Index>(h));
+            }
+        }
+        for (const Quad& quad : skin) body(quad, kGivenSkin);
+    };
+    for_each_quad([&](const Quad& quad, Index) {
+        ++start[static_cast<std::size_t>(*std::min_element(quad.begin(), quad.end())) + 1];
+    });
+    for (std::size_t n = 1; n < start.size(); ++n) start[n] += start[n - 1];
+    std::vector<Side> sides(start.back());
+    std::vector<std::size_t> next(start.begin(), start.end() - 1);
+    for_each_quad([&](const Quad& quad, Index owner) {
+        const Side side = make_side(quad, owner);
+        sides[next[static_cast<std::size_t>(side.key[0])]++] = side;
+    });
+    for (std::size_t n = 0; n + 1 < start.size(); ++n)
+        std::sort(sides.begin() + static_cast<std::ptrdiff_t>(start[n]),
+                  sides.begin() + static_cast<std::ptrdiff_t>(start[n + 1]));
+    return sides;
+}
+
+/// One side with all who use it: the given skin first, then the cells.
+void check_side(std::span<const Vec3> nodes, std::span<const Side> users, bool skin_given, std::vector<Quad>& skin)
+{
+    const auto given = static_cast<std::size_t>(
+        std::count_if(users.begin(), users.end(), [](const Side& s) { return s.owner == kGivenSkin; }));
+    const std::span<const Side> cells = users.subspan(given);
+    const Side& any = users.back();
+    const auto& key = any.key;
+    if (std::adjacent_find(key.begin(), key.end()) != key.end())
+        throw NotSweepable("quality.collapsed_side", side_name(nodes, any) + " uses a node twice");
+    if (cells.size() > 2)
+        throw NotSweepable("quality.not_conformal",
+                           side_name(nodes, any) + " is shared by " + std::to_string(cells.size()) + " cells");
+    if (cells.size() == 2) {
+        const Quad& a = cells[0].nodes;
+        const Quad& b = cells[1].nodes;
+        if (a[1] != b[3] || a[2] != b[2] || a[3] != b[1])
+            throw NotSweepable("quality.not_conformal", side_name(nodes, any) +
+                                                            " is not the same, run the other way, in cell " +
+                                                            std::to_string(cells[0].owner + 1));
+    }
+    const std::size_t expected = cells.size() == 1 ? 1 : 0;
+    if (skin_given && given != expected)
+        throw NotSweepable("quality.skin_differs",
+                           "the quad between " + node_name(nodes, any.nodes[0], 0) + " and " +
+                               node_name(nodes, any.nodes[2], 0) + " is listed " + std::to_string(given) +
+                               " times as a quad of the skin; expected " + std::to_string(expected));
+    if (cells.size() == 1) skin.push_back(cells[0].nodes);
+}
+
+/// Every edge of the skin joins two of its quads, which run it in opposite directions.
+void check_skin_edges(std::span<const Vec3> nodes, const std::vector<Quad>& skin)
+{
+    struct Use {
+        Index low, high;
+        bool rising;
+    };
+    std::vector<Use> uses;
+    uses.reserve(4 * skin.size());
+    for (const Quad& quad : skin) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Index a = quad[i];
+            const Index b = quad[(i + 1) % 4];
+            uses.push_back({std::min(a, b), std::max(a, b), a < b});
+        }
+    }
+    std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
+        return std::tie(a.low, a.high, a.rising) < std::tie(b.low, b.high, b.rising);
+    });
+    for (std::size_t i = 0; i < uses.size();) {
+        std::size_t j = i;
+        while (j < uses.size() && uses[j].low == uses[i].low && uses[j].high == uses[i].high) ++j;
+        if (j - i != 2 || uses[i].rising == uses[i + 1].rising)
+            throw NotSweepable("quality.open_skin", "the edge of the skin from " + node_name(nodes, uses[i].low, 0) +
+                                                        " to " + node_name(nodes, uses[i].high, 0) + " is used by " +
+                                                        std::to_string(j - i) + " quads; expected two");
+        i = j;
+    }
+}
+
+} // namespace
+
+Quality prove_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin,
+                    double min_scaled_jacobian, const RunContext& context)
+{
+    check_corners(nodes, hexes, skin);
+    Quality quality = measure_cells(nodes, hexes, context);
+    check_quality(quality, min_scaled_jacobian, 0);
+
+    const std::vector<Side> sides = sorted_sides(nodes, hexes, skin);
+    std::vector<Quad> found_skin;
+    for (std::size_t i = 0; i < sides.size();) {
+        std::size_t j = i;
+        while (j < sides.size() && sides[j].key == sides[i].key) ++j;
+        check_side(nodes, std::span(sides).subspan(i, j - i), !skin.empty(), found_skin);
+        i = j;
+    }
+    check_skin_edges(nodes, found_skin);
+    check_nodes(nodes, 0, context);
+    return quality;
+}
+
+} // namespace lacuna::quality

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quality/text.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace lacuna::quality {
+namespace {
+
+template <class... Format>
+std::string digits_of(double value, Format... format)
+{
+    char text[512];
+    const auto end = std::to_chars(text, text + sizeof text, value, format...);
+    return {text, end.ptr};
+}
+
+std::string pad_left(const std::string& text, std::size_t width)
+{
+    return std::string(width > text.size() ? width - text.size() : 0, ' ') + text;
+}
+
+} // namespace
+
+std::string number(double value)
+{
+    return digits_of(value, std::chars_format::general, 6);
+}
+
+std::string fixed(double value, int digits, std::size_t width)
+{
+    return pad_left(digits_of(value, std::chars_format::fixed, digits), width);
+}
+
+std::string place(const Vec3& point)
+{
+    return number(point.x()) + " " + number(point.y()) + " " + number(point.z());
+}
+
+std::string describe(const WorstCell& cell, int layers)
+{
+    std::string text = "cell " + std::to_string(cell.cell + 1) + " (";
+    if (cell.layer >= 0) text += "layer " + std::to_string(cell.layer + 1) + " of " + std::to_string(layers) + ", ";
+    return text + "at " + place(cell.centre) + ") has scaled Jacobian " + number(cell.scaled_jacobian);
+}
+
+std::string to_table(const Quality& quality)
+{
+    const auto count = [](std::size_t value, std::size_t width) { return pad_left(std::to_string(value), width); };
+    std::string text = "hexahedra              " + count(quality.hexes, 12) + "\n";
+    text += "scaled Jacobian  least " + fixed(quality.min_scaled_jacobian, 4, 12) + "\n";
+    text += "                  mean " + fixed(quality.mean_scaled_jacobian, 4, 12) + "\n";
+    text += "inverted               " + count(quality.inverted, 12) + "\n";
+    text += "not certified valid    " + count(quality.uncertified, 12) + "\n";
+    text += "volume                 " + pad_left(number(quality.volume), 12) + "\n";
+
+    const std::size_t most = *std::max_element(quality.histogram.begin(), quality.histogram.end());
+    if (most == 0) return text;
+    constexpr std::size_t kBar = 40;
+    std::size_t bin = 0;
+    while (quality.histogram[bin] == 0) ++bin;
+    for (; bin < quality.histogram.size(); ++bin) {
+        const std::size_t cells = quality.histogram[bin];
+        const std::size_t bar = (cells * kBar + most - 1) / most;
+        const double low = -1 + 0.1 * static_cast<double>(bin);
+        text += "  " + fixed(low, 1, 4) + " … " + fixed(low + 0.1, 1, 4) + count(cells, 19);
+        text += (bar > 0 ? "  " : "") + std::string(bar, '#') + "\n";
+    }
+    return text;
+}
+
+} // namespace lacuna::quality
