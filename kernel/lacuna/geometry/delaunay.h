@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace lacuna::geometry {
+
+///        2
+///       / \        Side i lies opposite corner i and runs from corner i+1 to corner i+2.
+///   s1 /   \ s0    next[i] is the triangle across side i, -1 at the very outside.
+///     /     \      Bit i of fixed: side i is a constraint.
+///    0--s2---1
+struct DelaunayTriangle {
+    Triangle corner{-1, -1, -1};
+    std::array<Index, 3> next{-1, -1, -1};
+    std::uint8_t fixed = 0;
+    bool inside = false;
+
+    [[nodiscard]] bool is_fixed(int side) const { return (fixed >> side) & 1; }
+    [[nodiscard]] Index from(int side) const { return corner[static_cast<std::size_t>((side + 1) % 3)]; }
+    [[nodiscard]] Index to(int side) const { return corner[static_cast<std::size_t>((side + 2) % 3)]; }
+    [[nodiscard]] Index across(int side) const { return next[static_cast<std::size_t>(side)]; }
+};
+
+/// The constrained Delaunay triangulation behind `triangulate()`, a step at a time.
+///
+/// It lives in one huge triangle whose three corners follow the given points. What is delivered lies within
+/// closed constraints, which hide those corners, so they do not touch the result.
+class DelaunayMesh {
+public:
+    /// The Delaunay triangulation of the points that `used` names, inserted along a space-filling curve.
+    /// @throw InvalidInput where two of them coincide.
+    DelaunayMesh(std::span<const Vec2> points, const std::vector<Index>& used);
+
+    /// Make the segment from a to b a side, by triangulating anew what it cuts.
+    /// @pre both are inserted; no point lies on the segment and no constraint crosses it.
+    void fix_segment(Index a, Index b);
+
+    /// How many constraints lie between each triangle and the outside. Sets `inside` where that is odd.
+    std::vector<Index> mark_inside();
+
+    /// The triangle of the directed side a → b, and which of its sides it is; {-1, -1} where there is none.
+    [[nodiscard]] std::pair<Index, int> find_side(Index a, Index b) const;
+
+    /// What inserting a point would replace.
+    struct Cavity {
+        struct Border {
+            Index from, to, outer;
+            bool fixed;
+        };
+        std::vector<Index> triangles;
+        std::vector<Border> border;                  ///< counter-clockwise, closed
+        std::vector<std::pair<Index, int>> pending;  ///< scratch
+    };
+
+    /// Walk from `start` to the triangle that holds p; -1 where constraints bar the way.
+    [[nodiscard]] Index locate(const Vec2& p, Index start) const;
+    /// Triangles whose circle holds p, from the one it lies in, not across constraints.
+    /// @return false where p is on a constraint or on a point.
+    bool find_cavity(const Vec2& p, Index holder, Cavity& cavity);
+    /// Replace the cavity by a fan around a new point; the new triangles are listed in `fresh`.
+    Index fill_cavity(const Vec2& p, const Cavity& cavity, std::vector<Index>& fresh);
+
+    [[nodiscard]] const std::vector<Vec2>& points() const { return points_; }
+    [[nodiscard]] const Vec2& at(Index point) const { return points_[static_cast<std::size_t>(point)]; }
+    [[nodiscard]] const std::vector<DelaunayTriangle>& triangles() const { return triangles_; }
+    [[nodiscard]] const DelaunayTriangle& operator[](Index t) const { return triangles_[static_cast<std::size_t>(t)]; }
+    [[nodiscard]] Index given_count() const { return given_; }
+
+private:
+    DelaunayTriangle& triangle(Index t) { return triangles_[static_cast<std::size_t>(t)]; }
+    void insert_all(const std::vector<Index>& used, const Vec2& low, double extent);
+    void fan(Index point, const Cavity& cavity, std::vector<Index>& fresh);
+    void relink(Index triangle, Index from, Index to, Index next, bool fixed);
+    void mark_fixed(Index a, Index b);
+    void replace_strip(const std::vector<Index>& strip, std::vector<Index> left, const std::vector<Index>& right);
+
+    std::vector<Vec2> points_;
+    std::vector<DelaunayTriangle> triangles_;
+    std::vector<Index> triangle_of_;  ///< one triangle at each point, -1 while it is not inserted
+    std::vector<Index> stamp_;        ///< last cavity each triangle was found in
+    Index stamp_now_ = 0;
+    Index given_ = 0;
+};
+
+} // namespace lacuna::geometry
