@@ -1,2 +1,194 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/close.h>
+
+#include <lacuna/closure/class_five.h>
+#include <lacuna/closure/sealing.h>
+#include <lacuna/closure/void_edges.h>
+#include <lacuna/closure/void_faces.h>
+#include <lacuna/closure/void_geometry.h>
+#include <lacuna/core/error.h>
+
+#include <algorithm>
+#include <set>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+void note(Closure& closure, const std::string& algorithm)
+{
+    auto& list = closure.algorithms;
+    if (std::find(list.begin(), list.end(), algorithm) == list.end()) list.push_back(algorithm);
+}
+
+void add_face(OpenVolume& volume, Closure& closure, const std::vector<Loop>& loops, Role role)
+{
+    const std::string name = "void face " + std::to_string(closure.void_faces.size() + 1);
+    Filling filling = fill(volume, loops, name);
+    note(closure, filling.algorithm);
+    closure.void_faces.push_back(add_void_face(volume, std::move(filling), role));
+}
+
+/// With no walls between them nothing but the match says how source and target face each other.
+void turn_target_to_source(OpenVolume& volume, const matching::Match& match)
+{
+    if (match.loops.empty() || !match.loops.front().flipped) return;
+    for (const std::vector<FaceId>& part : connected_parts(volume.model, volume.faces(Role::target))) {
+        flip_faces(volume.model, part);
+    }
+}
+
+/// Eq. (2): V = ∪(Fs, Ft) + ∪ Fi + ∪ Fvi, one wall v-TopoFace a free loop.
+void add_void_walls(OpenVolume& volume, Closure& closure)
+{
+    for (const Loop& loop : void_loops(volume, closure.void_edges))
+        add_face(volume, closure, {loop}, Role::wall);
+    note(closure, "Algorithm 3");
+}
+
+/// Class I has no algorithm of its own in the paper; its walls are those of class II with no wall given.
+void close_class_one_or_two(OpenVolume& volume, const matching::Match& match, EdgeShape shape, Closure& closure)
+{
+    if (closure.value == VolumeClass::II) note(closure, "Algorithm 8");
+    turn_target_to_source(volume, match);
+    closure.void_edges = make_void_edges(volume, match, shape);
+    note(closure, "Algorithm 2");
+    add_void_walls(volume, closure);
+}
+
+void close_class_three(OpenVolume& volume, Closure& closure)
+{
+    note(closure, "Algorithm 9");
+    add_void_walls(volume, closure);
+}
+
+Loop reversed(const Rim& rim)
+{
+    Loop loop;
+    for (auto use = rim.uses.rbegin(); use != rim.uses.rend(); ++use)
+        loop.uses.push_back({use->edge, !use->reversed});
+    return loop;
+}
+
+/// Eq. (3) and (4): the free loops of source and walls are the target's.
+void close_class_four(OpenVolume& volume, Closure& closure)
+{
+    note(closure, "Algorithm 10");
+    const Model& model = volume.model;
+    std::set<EdgeId> on_source;
+    for (const FaceId face : volume.faces(Role::source)) {
+        for (const Loop& loop : model[face].loops) {
+            for (const EdgeUse& use : loop.uses) on_source.insert(use.edge);
+        }
+    }
+    std::vector<Loop> loops;
+    for (const Rim& rim : free_loops(volume)) {
+        for (const EdgeUse& use : rim.uses) {
+            if (!on_source.contains(use.edge)) continue;
+            throw NotClosed("closure.wall_missing",
+                            name_of(model, use.edge) +
+                                " of the source has no wall; without a target every wall must be there "
+                                "(class IV): name the wall, or the target");
+        }
+        loops.push_back(reversed(rim));
+    }
+    const std::size_t wanted = rims(model, volume.faces(Role::source)).size();
+    if (loops.size() != wanted) {
+        throw NotClosed("closure.loop_counts",
+                        "the source has " + std::to_string(wanted) + " loops and the walls leave " +
+                            std::to_string(loops.size()) + " free loops for the target; a sweep needs as many on both ends: check the walls, or name the target");
+    }
+    add_face(volume, closure, loops, Role::target);
+}
+
+/// Eq. (5) to (8): the free loops, sorted into two subsets, are the source's and the target's.
+void close_class_five(OpenVolume& volume, Closure& closure)
+{
+    note(closure, "Algorithm 11");
+    const EndLoops ends = group_loops(volume);
+    add_face(volume, closure, ends.source, Role::source);
+    add_face(volume, closure, ends.target, Role::target);
+}
+
+Closure close_as(OpenVolume& volume, const matching::Match& match, VolumeClass value, EdgeShape shape)
+{
+    Closure closure;
+    closure.value = value;
+    switch (value) {
+    case VolumeClass::closed:
+        break;
+    case VolumeClass::I:
+    case VolumeClass::II:
+        close_class_one_or_two(volume, match, shape, closure);
+        break;
+    case VolumeClass::III:
+        close_class_three(volume, closure);
+        break;
+    case VolumeClass::IV:
+        close_class_four(volume, closure);
+        break;
+    case VolumeClass::V:
+        close_class_five(volume, closure);
+        break;
+    }
+    if (enclosed_volume(volume) < 0) {
+        std::vector<FaceId> all;
+        for (std::size_t f = 0; f < volume.model.faces.size(); ++f) all.emplace_back(f);
+        flip_faces(volume.model, all);
+    }
+    return closure;
+}
+
+/// @throw NotClosed unless the volume is sealed.
+void prove_sealed(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    const auto uses = edge_uses(model);
+    for (std::size_t e = 0; e < uses.size(); ++e) {
+        if (uses[e].size() == 2 && uses[e][0].reversed != uses[e][1].reversed) continue;
+        throw NotClosed("closure.not_watertight",
+                        name_of(model, EdgeId(e)) + " is used " + std::to_string(uses[e].size()) +
+                            (uses[e].size() == 2 ? " times in the same direction" : " times") + " after closing; every edge must be used twice, in opposite directions: check the faces around it");
+    }
+    if (!(enclosed_volume(volume) > 0)) {
+        throw NotClosed("closure.no_volume", "the sealed faces enclose no volume; source and target may lie "
+                                             "in each other, or the match be twisted: try match{ flip = … }");
+    }
+}
+
+} // namespace
+
+Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptions& options, const RunContext& context)
+{
+    check_cancelled(context);
+    const VolumeClass value = classify(volume).value;
+    const bool tries = options.edge_shape == EdgeShape::automatic && value == VolumeClass::II;
+    const EdgeShape first = options.edge_shape == EdgeShape::follow ? EdgeShape::follow : EdgeShape::straight;
+
+    OpenVolume sealed = volume;
+    Closure closure = close_as(sealed, match, value, first);
+    auto crossing = first_crossing(sealed);
+    if (crossing && tries) {
+        OpenVolume bent = volume;
+        Closure followed = close_as(bent, match, value, EdgeShape::follow);
+        if (!first_crossing(bent)) {
+            crossing.reset();
+            sealed = std::move(bent);
+            closure = std::move(followed);
+        }
+    }
+    if (crossing) {
+        throw NotClosed(
+            "closure.faces_cross",
+            name_of(sealed.model, crossing->first) + " would cross " + name_of(sealed.model, crossing->second) +
+                "; try close{ edge_shape = \"follow\" }, another match, or give the missing face");
+    }
+    prove_sealed(sealed);
+    closure.watertight = true;
+    volume = std::move(sealed);
+    return closure;
+}
+
+} // namespace lacuna::closure

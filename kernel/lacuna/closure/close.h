@@ -12,9 +12,9 @@ namespace lacuna::closure {
 
 /// How a void edge runs between its two vertices.
 enum class EdgeShape {
-    automatic,  ///< straight; bent as its neighbours where a straight one would cross the given faces
-    straight,   ///< the paper's
-    follow,     ///< as the side edges next to it
+    automatic, ///< straight; bent as its neighbours where a straight one would cross the given faces
+    straight,  ///< the paper's
+    follow,    ///< as the side edges next to it
 };
 
 struct CloseOptions {
@@ -26,7 +26,7 @@ struct Closure {
     topology::VolumeClass value = topology::VolumeClass::closed;
     std::vector<EdgeId> void_edges;
     std::vector<FaceId> void_faces;
-    std::vector<std::string> algorithms;  ///< of the paper, in the order used: "Algorithm 8", "Algorithm 4", …
+    std::vector<std::string> algorithms; ///< of the paper, in the order used: "Algorithm 8", "Algorithm 4", …
     bool watertight = false;
 };
 

@@ -1,2 +1,450 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/matching/match.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/affine.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/matching/assignment.h>
+#include <lacuna/matching/side_lines.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+
+namespace lacuna::matching {
+
+using namespace topology;
+
+namespace {
+
+/// How many points stand for a loop in a fit.
+constexpr int kSamples = 64;
+/// What a turn of 180° counts in a score, against a residual as large as the loop: small, so that it only decides
+/// between fits that are about as good.
+constexpr double kTurnWeight = 0.1;
+
+std::vector<VertexId> vertices_of(const Model& model, const Rim& rim)
+{
+    std::vector<VertexId> vertices;
+    for (const EdgeUse& use : rim.uses) vertices.push_back(use_from(model, use));
+    return vertices;
+}
+
+/// A loop as matching sees it.
+struct LoopShape {
+    std::vector<VertexId> vertices;
+    std::vector<Vec3> points;       ///< polyline, closed: first repeated at the end
+    std::vector<double> arc;        ///< running length of `points`
+    std::vector<double> vertex_arc; ///< running length at each vertex
+    Vec3 centroid = Vec3::Zero();
+    Vec3 area = Vec3::Zero();
+    double length = 0;
+};
+
+LoopShape shape_of(const Model& model, const Rim& rim)
+{
+    LoopShape shape;
+    shape.vertices = vertices_of(model, rim);
+    std::vector<std::size_t> first;
+    for (const EdgeUse& use : rim.uses) {
+        const std::vector<Index> chain = use_points(model, use);
+        first.push_back(shape.points.size());
+        for (std::size_t i = 0; i + 1 < chain.size(); ++i) shape.points.push_back(model.at(chain[i]));
+    }
+    shape.area = geometry::newell_vector(shape.points);
+    shape.points.push_back(shape.points.front());
+    shape.arc = geometry::arc_lengths(shape.points);
+    shape.length = shape.arc.back();
+    for (const std::size_t i : first) shape.vertex_arc.push_back(shape.arc[i]);
+    for (std::size_t i = 0; i + 1 < shape.points.size(); ++i) {
+        shape.centroid += (shape.arc[i + 1] - shape.arc[i]) * (shape.points[i] + shape.points[i + 1]) / 2;
+    }
+    shape.centroid /= shape.length > 0 ? shape.length : 1;
+    return shape;
+}
+
+/// Sample a loop from vertex `start`, forward or backward. With `per_edge`, as many points on each edge, so that
+/// vertex meets vertex; else evenly by arc length.
+std::vector<Vec3> samples(const LoopShape& shape, std::size_t start, bool backward, bool per_edge)
+{
+    std::vector<Vec3> result;
+    const std::size_t n = shape.vertices.size();
+    const auto at = [&](double s) {
+        const double wrapped = s - shape.length * std::floor(s / shape.length);
+        result.push_back(geometry::point_at(shape.points, shape.arc, wrapped));
+    };
+    if (!per_edge) {
+        for (int i = 0; i < kSamples; ++i) {
+            const double step = shape.length * i / kSamples;
+            at(shape.vertex_arc[start] + (backward ? -step : step));
+        }
+        return result;
+    }
+    const int each = std::max<int>(1, kSamples / static_cast<int>(n));
+    for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t edge = backward ? (start + 2 * n - k - 1) % n : (start + k) % n;
+        const double from = shape.vertex_arc[edge];
+        const double to = edge + 1 < n ? shape.vertex_arc[edge + 1] : shape.length;
+        for (int i = 0; i < each; ++i) {
+            const double f = static_cast<double>(i) / each;
+            at(backward ? to + (from - to) * f : from + (to - from) * f);
+        }
+    }
+    return result;
+}
+
+double turn_of(const Eigen::Matrix3d& rotation)
+{
+    return std::abs(Eigen::AngleAxisd(rotation).angle()) / std::numbers::pi;
+}
+
+/// One way to lay a source loop on a target loop.
+struct Lay {
+    std::size_t shift = 0; ///< target vertex that the source's first vertex meets
+    bool backward = true;  ///< the target loop is walked against its own direction
+    double score = std::numeric_limits<double>::infinity();
+    geometry::RigidFit fit;
+};
+
+struct Problem {
+    const OpenVolume& volume;
+    const MatchOptions& options;
+    std::vector<LoopShape> source, target;
+    std::map<VertexId, VertexId> hard; ///< source vertex → target vertex
+    std::vector<int> forced;           ///< target loop of each source loop, -1: open
+    std::optional<bool> backward;      ///< known when walls join the ends
+};
+
+std::size_t position(const std::vector<VertexId>& list, VertexId wanted)
+{
+    return static_cast<std::size_t>(std::find(list.begin(), list.end(), wanted) - list.begin());
+}
+
+/// True when the hard pairs of the two loops allow the lay.
+bool allowed(const Problem& problem, const LoopShape& source, const LoopShape& target, std::size_t shift, bool backward)
+{
+    const std::size_t n = source.vertices.size();
+    if (n != target.vertices.size()) return true;
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto pair = problem.hard.find(source.vertices[i]);
+        if (pair == problem.hard.end()) continue;
+        const std::size_t j = backward ? (shift + n - i) % n : (shift + i) % n;
+        if (target.vertices[j] != pair->second) return false;
+    }
+    return true;
+}
+
+/// Every lay of one loop on another, best first. Points already matched elsewhere (`from`, `to`) take part in the fit.
+std::vector<Lay> lays(const Problem& problem, int s, int t, bool with_scale,
+                      const std::vector<Vec3>& from = {}, const std::vector<Vec3>& to = {})
+{
+    const LoopShape& source = problem.source[static_cast<std::size_t>(s)];
+    const LoopShape& target = problem.target[static_cast<std::size_t>(t)];
+    const bool per_edge = source.vertices.size() == target.vertices.size();
+    const double scale = std::max(source.length, target.length);
+    std::vector<Vec3> a = samples(source, 0, false, per_edge);
+    a.insert(a.end(), from.begin(), from.end());
+    std::vector<Lay> result;
+    for (const bool backward : {true, false}) {
+        if (problem.backward && *problem.backward != backward) continue;
+        for (std::size_t shift = 0; shift < target.vertices.size(); ++shift) {
+            if (!allowed(problem, source, target, shift, backward)) continue;
+            std::vector<Vec3> b = samples(target, shift, backward, per_edge);
+            b.insert(b.end(), to.begin(), to.end());
+            Lay lay{shift, backward, 0, geometry::fit_rigid(a, b, with_scale)};
+            lay.score = lay.fit.rms / scale + kTurnWeight * turn_of(lay.fit.rotation);
+            result.push_back(lay);
+        }
+    }
+    std::stable_sort(result.begin(), result.end(), [](const Lay& x, const Lay& y) { return x.score < y.score; });
+    return result;
+}
+
+double relative(double a, double b)
+{
+    const double most = std::max(std::abs(a), std::abs(b));
+    return most > 0 ? std::abs(a - b) / most : 0;
+}
+
+/// What it costs to send loop s to loop t once the source has been moved by `fit`.
+double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geometry::RigidFit& fit, double reach)
+{
+    if (problem.forced[s] >= 0) {
+        return problem.forced[s] == static_cast<int>(t) ? 0.0 : std::numeric_limits<double>::infinity();
+    }
+    const LoopShape& a = problem.source[s];
+    const LoopShape& b = problem.target[t];
+    const double counts = relative(static_cast<double>(a.vertices.size()), static_cast<double>(b.vertices.size()));
+    return (fit(a.centroid) - b.centroid).norm() / reach + relative(a.length * fit.scale, b.length) +
+           relative(a.area.norm() * fit.scale * fit.scale, b.area.norm()) + counts;
+}
+
+struct Arrangement {
+    std::vector<int> target; ///< of each source loop
+    int anchor = 0;
+    Lay lay;
+    double score = std::numeric_limits<double>::infinity();
+};
+
+/// Pair the loops: lay one source loop on each target loop it may go to, in every way, and see how the others fall.
+/// @return the arrangements, best first; of those with the same pairs only the best.
+std::vector<Arrangement> arrange(const Problem& problem)
+{
+    const std::size_t n = problem.source.size();
+    double reach = 0;
+    for (const LoopShape& shape : problem.target) reach = std::max(reach, shape.length);
+    std::size_t anchor = 0;
+    for (std::size_t s = 0; s < n; ++s) {
+        if (problem.forced[s] >= 0) {
+            anchor = s;
+            break;
+        }
+    }
+    std::vector<Arrangement> found;
+    for (std::size_t t = 0; t < n; ++t) {
+        if (problem.forced[anchor] >= 0 && problem.forced[anchor] != static_cast<int>(t)) continue;
+        for (const bool with_scale : {false, true}) {
+            for (const Lay& lay : lays(problem, static_cast<int>(anchor), static_cast<int>(t), with_scale)) {
+                Eigen::MatrixXd cost(n, n);
+                for (std::size_t i = 0; i < n; ++i) {
+                    for (std::size_t j = 0; j < n; ++j) {
+                        const bool fixed = (i == anchor) != (j == t);
+                        cost(static_cast<Eigen::Index>(i),
+                             static_cast<Eigen::Index>(j)) = fixed ? std::numeric_limits<double>::infinity()
+                                                                   : loop_cost(problem, i, j, lay.fit, reach);
+                    }
+                }
+                const std::vector<int> columns = assign(cost);
+                double sum = 0;
+                bool complete = true;
+                for (std::size_t i = 0; i < n; ++i) {
+                    complete = complete && columns[i] >= 0;
+                    if (columns[i] >= 0) sum += cost(static_cast<Eigen::Index>(i), columns[i]);
+                }
+                if (!complete) continue;
+                found.push_back({columns, static_cast<int>(anchor), lay, lay.score + sum / static_cast<double>(n)});
+            }
+        }
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Arrangement& a, const Arrangement& b) { return a.score < b.score; });
+    std::vector<Arrangement> distinct;
+    for (Arrangement& candidate : found) {
+        const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const Arrangement& other) {
+            return other.target == candidate.target;
+        });
+        if (!known) distinct.push_back(std::move(candidate));
+    }
+    return distinct;
+}
+
+/// Loop that holds a vertex; -1 for none.
+int loop_with(const std::vector<LoopShape>& loops, VertexId vertex)
+{
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        if (position(loops[l].vertices, vertex) < loops[l].vertices.size()) return static_cast<int>(l);
+    }
+    return -1;
+}
+
+void force(Problem& problem, int s, int t, const std::string& because)
+{
+    int& now = problem.forced[static_cast<std::size_t>(s)];
+    if (now >= 0 && now != t) {
+        throw NotClosed("matching.loops_contradict",
+                        "source loop " + std::to_string(s + 1) + " would go to target loop " +
+                            std::to_string(now + 1) + " and, " + because + ", to target loop " +
+                            std::to_string(t + 1) + "; give the pairs by hand with match{ loops = … }");
+    }
+    now = t;
+}
+
+/// Walls settle loops and vertices before anything is guessed.
+void read_walls(Problem& problem)
+{
+    const OpenVolume& volume = problem.volume;
+    const Model& model = volume.model;
+    for (const SideLine& line : side_lines(volume)) {
+        problem.hard[line.source] = line.target;
+        force(problem, loop_with(problem.source, line.source), loop_with(problem.target, line.target), "by its walls");
+    }
+    for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
+        std::vector<int> s, t;
+        for (const FaceId face : part) {
+            for (const Loop& loop : model[face].loops) {
+                for (const EdgeUse& use : loop.uses) {
+                    const int on_s = loop_with(problem.source, use_from(model, use));
+                    const int on_t = loop_with(problem.target, use_from(model, use));
+                    if (on_s >= 0 && std::find(s.begin(), s.end(), on_s) == s.end()) s.push_back(on_s);
+                    if (on_t >= 0 && std::find(t.begin(), t.end(), on_t) == t.end()) t.push_back(on_t);
+                }
+            }
+        }
+        if (!s.empty() && !t.empty())
+            problem.backward = true; // oriented through the walls: the rims run opposite ways
+        if (s.size() == 1 && t.size() == 1)
+            force(problem, s.front(), t.front(), "by " + name_of(model, part.front()));
+    }
+}
+
+VertexId vertex_with_tag(const Model& model, const std::vector<LoopShape>& loops, int tag, const std::string& end)
+{
+    std::string known;
+    for (const LoopShape& loop : loops) {
+        for (const VertexId v : loop.vertices) {
+            if (model[v].tag == tag) return v;
+            known += (known.empty() ? "" : ", ") + std::to_string(model[v].tag);
+        }
+    }
+    throw InvalidInput("matching.unknown_vertex", "vertex " + std::to_string(tag) + " is not on the rim of the " +
+                                                      end + ", whose vertices are " + known);
+}
+
+void read_options(Problem& problem)
+{
+    const Model& model = problem.volume.model;
+    for (const auto& [s, t] : problem.options.loops) {
+        if (s < 0 || t < 0 || s >= static_cast<int>(problem.source.size()) ||
+            t >= static_cast<int>(problem.target.size())) {
+            throw InvalidInput("matching.unknown_loop",
+                               "loop pair {" + std::to_string(s + 1) + ", " + std::to_string(t + 1) +
+                                   "}: the loops are numbered from 1 to " + std::to_string(problem.source.size()));
+        }
+        force(problem, s, t, "as the recipe asks");
+    }
+    for (const auto& [s, t] : problem.options.vertices) {
+        const VertexId from = vertex_with_tag(model, problem.source, s, "source");
+        const VertexId to = vertex_with_tag(model, problem.target, t, "target");
+        const auto known = problem.hard.find(from);
+        if (known != problem.hard.end() && known->second != to) {
+            throw InvalidInput("matching.vertices_contradict",
+                               "vertex " + std::to_string(s) + " is joined by walls to vertex " +
+                                   std::to_string(model[known->second].tag) + " and cannot go to vertex " +
+                                   std::to_string(t));
+        }
+        problem.hard[from] = to;
+        force(problem, loop_with(problem.source, from), loop_with(problem.target, to), "by its vertices");
+    }
+}
+
+void pair_vertices(const Problem& problem, Match& match, const Lay& anchor_lay, int anchor)
+{
+    const std::size_t n = problem.source.size();
+    std::vector<Vec3> from, to;
+    std::vector<LoopPair> pairs(n);
+    std::vector<std::vector<std::pair<VertexId, VertexId>>> vertices(n);
+    std::vector<std::size_t> order{static_cast<std::size_t>(anchor)};
+    for (std::size_t s = 0; s < n; ++s) {
+        if (s != static_cast<std::size_t>(anchor)) order.push_back(s);
+    }
+    std::optional<bool> backward = problem.backward;
+    for (const std::size_t s : order) {
+        const int t = match.loops[s].target;
+        const LoopShape& source = problem.source[s];
+        const LoopShape& target = problem.target[static_cast<std::size_t>(t)];
+        Problem local = problem;
+        local.backward = backward;
+        const auto flip = std::find(problem.options.flip.begin(), problem.options.flip.end(), static_cast<int>(s));
+        std::vector<Lay> found;
+        if (s == static_cast<std::size_t>(anchor) && flip == problem.options.flip.end()) {
+            found = lays(problem, static_cast<int>(s), t, anchor_lay.fit.scale != 1);
+        } else {
+            if (flip != problem.options.flip.end())
+                local.backward = !(backward ? *backward : anchor_lay.backward);
+            found = lays(local, static_cast<int>(s), t, true, from, to);
+        }
+        if (found.empty()) {
+            throw NotClosed(
+                "matching.vertices_contradict",
+                "no way to lay source loop " + std::to_string(s + 1) + " on target loop " + std::to_string(t + 1) +
+                    " keeps the vertex pairs that the walls or the recipe fix; check match{ vertices = … }");
+        }
+        const Lay& lay = found.front();
+        if (!backward) backward = lay.backward;
+        match.loops[s] = {static_cast<int>(s), t, !lay.backward};
+        const std::size_t k = source.vertices.size();
+        if (k == target.vertices.size()) {
+            for (std::size_t i = 0; i < k; ++i) {
+                const std::size_t j = lay.backward ? (lay.shift + k - i) % k : (lay.shift + i) % k;
+                vertices[s].emplace_back(source.vertices[i], target.vertices[j]);
+            }
+            if (found.size() > 1 && !problem.hard.contains(source.vertices.front())) {
+                const double best = std::max(lay.score, 1e-12);
+                const double second = std::max(found[1].score, 1e-12);
+                match.confidence = std::min(match.confidence, 1 - best / second);
+            }
+        } else {
+            for (const VertexId v : source.vertices) {
+                const auto pair = problem.hard.find(v);
+                if (pair != problem.hard.end()) vertices[s].emplace_back(*pair);
+            }
+            match.notes.push_back("source loop " + std::to_string(s + 1) + " has " + std::to_string(k) +
+                                  " vertices, target loop " + std::to_string(t + 1) + " has " +
+                                  std::to_string(target.vertices.size()) + ": paired where walls join them");
+        }
+        const bool per_edge = k == target.vertices.size();
+        const std::vector<Vec3> a = samples(source, 0, false, per_edge);
+        const std::vector<Vec3> b = samples(target, lay.shift, lay.backward, per_edge);
+        from.insert(from.end(), a.begin(), a.end());
+        to.insert(to.end(), b.begin(), b.end());
+    }
+    for (std::size_t s = 0; s < n; ++s) {
+        for (const auto& pair : vertices[s]) {
+            match.vertices.push_back(pair);
+            const auto known = problem.hard.find(pair.first);
+            match.hard.push_back(known != problem.hard.end() && known->second == pair.second);
+        }
+    }
+}
+
+} // namespace
+
+Match match(const OpenVolume& volume, const MatchOptions& options)
+{
+    const Model& model = volume.model;
+    if (options.method == Method::nearest) {
+        throw InvalidInput("matching.method",
+                           "match: method \"nearest\" is not available yet; use \"aligned\"");
+    }
+    Match result;
+    result.method = "aligned";
+    result.source_loops = rims(model, volume.faces(Role::source));
+    result.target_loops = rims(model, volume.faces(Role::target));
+    if (result.source_loops.empty() || result.target_loops.empty()) {
+        const bool source = result.source_loops.empty();
+        throw NotClosed("matching.no_rim",
+                        std::string("the ") + (source ? "source" : "target") +
+                            " has no rim to match: it is missing, or it is a closed surface");
+    }
+    if (result.source_loops.size() != result.target_loops.size()) {
+        throw NotClosed("matching.loop_counts",
+                        "the source has " + std::to_string(result.source_loops.size()) + " loops and the target has " +
+                            std::to_string(result.target_loops.size()) + "; a sweep needs as many on both ends: check the roles, or leave out the faces that close a loop");
+    }
+    Problem problem{volume, options, {}, {}, {}, {}, {}};
+    for (const Rim& rim : result.source_loops) problem.source.push_back(shape_of(model, rim));
+    for (const Rim& rim : result.target_loops) problem.target.push_back(shape_of(model, rim));
+    problem.forced.assign(problem.source.size(), -1);
+    read_walls(problem);
+    read_options(problem);
+
+    const std::vector<Arrangement> found = arrange(problem);
+    if (found.empty()) {
+        throw NotClosed("matching.no_pairs", "no pairing of the loops keeps what walls and recipe fix; check "
+                                             "match{ loops = …, vertices = … }");
+    }
+    result.loops.resize(problem.source.size());
+    for (std::size_t s = 0; s < result.loops.size(); ++s) result.loops[s].target = found.front().target[s];
+    const bool open = std::find(problem.forced.begin(), problem.forced.end(), -1) != problem.forced.end();
+    if (open && found.size() > 1) {
+        result.confidence = 1 - std::max(found[0].score, 1e-12) / std::max(found[1].score, 1e-12);
+    }
+    pair_vertices(problem, result, found.front().lay, found.front().anchor);
+    return result;
+}
+
+} // namespace lacuna::matching

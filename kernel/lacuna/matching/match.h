@@ -14,25 +14,25 @@ enum class Method { aligned, nearest };
 /// Parts of a match a person forces; what is left empty is found. Numbers count from 0.
 struct MatchOptions {
     Method method = Method::aligned;
-    std::vector<std::pair<int, int>> vertices;  ///< (source, target) vertex tags
-    std::vector<std::pair<int, int>> loops;     ///< (source, target) loop numbers
-    std::vector<int> flip;                      ///< source loops whose direction on the target is turned round
+    std::vector<std::pair<int, int>> vertices; ///< (source, target) vertex tags
+    std::vector<std::pair<int, int>> loops;    ///< (source, target) loop numbers
+    std::vector<int> flip;                     ///< source loops whose direction on the target is turned round
 };
 
 /// A source loop and the target loop it is swept to.
 struct LoopPair {
     int source = -1, target = -1;
-    bool flipped = false;  ///< the target loop has to be walked against its own direction
+    bool flipped = false; ///< the target loop has to be walked against its own direction
 };
 
 /// Which loop and vertex of the source goes to which of the target (Algorithm 1).
 struct Match {
     std::vector<topology::Rim> source_loops, target_loops;
     std::vector<LoopPair> loops;
-    std::vector<std::pair<VertexId, VertexId>> vertices;  ///< (source, target), source loop by source loop in walking order
-    std::vector<bool> hard;                               ///< of each vertex pair: joined by a chain of wall edges
+    std::vector<std::pair<VertexId, VertexId>> vertices; ///< (source, target), source loop by source loop in walking order
+    std::vector<bool> hard; ///< of each vertex pair: joined by a chain of wall edges
     std::string method;
-    double confidence = 1;  ///< 0…1: 1 − best / second best residual; 1 where nothing had to be guessed
+    double confidence = 1; ///< 0…1: 1 − best / second best residual; 1 where nothing had to be guessed
     std::vector<std::string> notes;
 };
 

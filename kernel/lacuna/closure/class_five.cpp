@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/class_five.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/newell.h>
+
+#include <algorithm>
+#include <array>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// A connected part of the walls with its two open ends.
+struct Tube {
+    std::vector<FaceId> walls;
+    std::array<Rim, 2> rim;
+    std::array<std::vector<Vec3>, 2> points;
+};
+
+std::vector<Vec3> points_of(const Model& model, const Rim& rim)
+{
+    std::vector<Vec3> points;
+    for (const EdgeUse& use : rim.uses) {
+        const std::vector<Index> chain = use_points(model, use);
+        for (std::size_t i = 0; i + 1 < chain.size(); ++i) points.push_back(model.at(chain[i]));
+    }
+    return points;
+}
+
+Vec3 mean(const std::vector<Vec3>& points)
+{
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& p : points) sum += p;
+    return sum / static_cast<double>(points.size());
+}
+
+std::string names(const Model& model, const std::vector<FaceId>& faces)
+{
+    std::string text;
+    for (const FaceId face : faces) text += (text.empty() ? "" : ", ") + name_of(model, face);
+    return text;
+}
+
+std::vector<Tube> tubes_of(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    std::vector<Tube> tubes;
+    for (std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
+        const std::vector<Rim> open = rims(model, part);
+        if (open.size() != 2) {
+            throw NotClosed("closure.tube_loops",
+                            "the walls " + names(model, part) + " have " + std::to_string(open.size()) +
+                                (open.size() == 1 ? " free loop" : " free loops") +
+                                "; in class V each connected part of the walls needs two, one at either end: "
+                                "name the source or the target, or the walls "
+                                "that close the others");
+        }
+        tubes.push_back({std::move(part), {open[0], open[1]}, {points_of(model, open[0]), points_of(model, open[1])}});
+    }
+    std::stable_sort(tubes.begin(), tubes.end(), [](const Tube& a, const Tube& b) {
+        const auto size = [](const Tube& tube) {
+            return geometry::newell_vector(tube.points[0]).norm() + geometry::newell_vector(tube.points[1]).norm();
+        };
+        return size(a) > size(b);
+    });
+    return tubes;
+}
+
+/// How far a loop's middle is from another loop: along that loop's normal, which is the sweeping direction there.
+double distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to)
+{
+    const Vec3 normal = geometry::newell_vector(to).stableNormalized();
+    return std::abs((mean(from) - mean(to)).dot(normal));
+}
+
+/// Put each tube's loops in the order of the first tube's.
+void sort_ends(const Model& model, std::vector<Tube>& tubes)
+{
+    const Tube& first = tubes.front();
+    for (std::size_t i = 1; i < tubes.size(); ++i) {
+        Tube& tube = tubes[i];
+        const double as_is = distance(tube.points[0], first.points[0]) + distance(tube.points[1], first.points[1]);
+        const double turned = distance(tube.points[1], first.points[0]) + distance(tube.points[0], first.points[1]);
+        const double apart = (mean(first.points[0]) - mean(first.points[1])).norm();
+        if (std::abs(as_is - turned) <= 1e-6 * apart) {
+            throw NotClosed("closure.ambiguous_loops",
+                            "the two free loops of " + names(model, tube.walls) +
+                                " are as near to one end of " + names(model, first.walls) +
+                                " as to the other, so no source and target can be told; name the source");
+        }
+        if (turned < as_is) {
+            std::swap(tube.rim[0], tube.rim[1]);
+            std::swap(tube.points[0], tube.points[1]);
+        }
+    }
+}
+
+bool inside(const Vec2& p, const std::vector<Vec2>& polygon)
+{
+    bool in = false;
+    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+        const Vec2& a = polygon[i];
+        const Vec2& b = polygon[j];
+        if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
+            in = !in;
+    }
+    return in;
+}
+
+Loop as_end(const Rim& rim)
+{
+    Loop loop;
+    for (auto use = rim.uses.rbegin(); use != rim.uses.rend(); ++use)
+        loop.uses.push_back({use->edge, !use->reversed});
+    return loop;
+}
+
+/// Turn over the tubes inside another, so that all ends agree on which side is the void.
+void face_the_void(OpenVolume& volume, std::vector<Tube>& tubes)
+{
+    const std::array<std::vector<Vec3>, 1> outer{tubes.front().points[0]};
+    const geometry::Plane plane = geometry::newell_plane(outer);
+    std::vector<std::vector<Vec2>> flat;
+    for (const Tube& tube : tubes) {
+        std::vector<Vec2>& loop = flat.emplace_back();
+        for (const Vec3& p : tube.points[0]) loop.push_back(geometry::to_plane(plane, p));
+    }
+    for (std::size_t i = 1; i < tubes.size(); ++i) {
+        std::size_t depth = 0;
+        for (std::size_t j = 0; j < tubes.size(); ++j)
+            depth += j != i && inside(flat[i].front(), flat[j]) ? 1 : 0;
+        if (depth != 1) {
+            throw NotClosed("closure.nested_loops",
+                            "the walls " + names(volume.model, tubes[i].walls) +
+                                (depth == 0 ? " stand beside " : " are nested more than once in ") +
+                                names(volume.model, tubes.front().walls) +
+                                ": these are several volumes; make one open volume of each");
+        }
+        // With the void between them, an inner tube's loop runs against the outer one's.
+        const double along = geometry::newell_vector(tubes[i].points[0])
+                                 .dot(geometry::newell_vector(tubes.front().points[0]));
+        if (along > 0) {
+            flip_faces(volume.model, tubes[i].walls);
+            for (Rim& rim : tubes[i].rim) {
+                std::reverse(rim.uses.begin(), rim.uses.end());
+                for (EdgeUse& use : rim.uses) use.reversed = !use.reversed;
+            }
+        }
+    }
+}
+
+} // namespace
+
+EndLoops group_loops(OpenVolume& volume)
+{
+    std::vector<Tube> tubes = tubes_of(volume);
+    if (tubes.empty()) throw NotClosed("closure.no_walls", "class V needs walls, and the volume has none");
+    sort_ends(volume.model, tubes);
+    face_the_void(volume, tubes);
+    EndLoops ends;
+    for (const Tube& tube : tubes) {
+        ends.source.push_back(as_end(tube.rim[0]));
+        ends.target.push_back(as_end(tube.rim[1]));
+    }
+    return ends;
+}
+
+} // namespace lacuna::closure

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/sealing.h>
+
+#include <lacuna/closure/close.h>
+#include <lacuna/geometry/facet_tree.h>
+
+#include <algorithm>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+int shared_points(const Triangle& a, const Triangle& b)
+{
+    int count = 0;
+    for (const Index p : a) count += std::count(b.begin(), b.end(), p) > 0 ? 1 : 0;
+    return count;
+}
+
+} // namespace
+
+std::optional<FaceCrossing> first_crossing(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    std::vector<geometry::FacetTree> trees(model.faces.size());
+    for (std::size_t f = 0; f < model.faces.size(); ++f)
+        trees[f] = geometry::FacetTree(model.points, model.faces[f].triangles);
+    const auto corners = [&](const Triangle& t) {
+        return std::array<Vec3, 3>{model.at(t[0]), model.at(t[1]), model.at(t[2])};
+    };
+    for (std::size_t v = 0; v < model.faces.size(); ++v) {
+        if (model.faces[v].origin != Origin::made_void) continue;
+        for (std::size_t f = 0; f < model.faces.size(); ++f) {
+            if (f == v || (f < v && model.faces[f].origin == Origin::made_void)) continue;
+            const bool clear = trees[v].overlaps(trees[f], [&](Index a, Index b) {
+                const Triangle& mine = model.faces[v].triangles[static_cast<std::size_t>(a)];
+                const Triangle& theirs = model.faces[f].triangles[static_cast<std::size_t>(b)];
+                // Neighbours along a shared side can only fold onto each other, which the enclosed volume shows.
+                if (shared_points(mine, theirs) >= 2) return true;
+                return !geometry::triangles_cross(corners(mine), corners(theirs), model.tolerance);
+            });
+            if (!clear) return FaceCrossing{FaceId(v), FaceId(f)};
+        }
+    }
+    return std::nullopt;
+}
+
+double enclosed_volume(const OpenVolume& volume)
+{
+    std::vector<FaceId> all;
+    for (std::size_t f = 0; f < volume.model.faces.size(); ++f) all.emplace_back(f);
+    return volume_integral(volume.model, all);
+}
+
+bool is_watertight(const OpenVolume& volume)
+{
+    for (const auto& uses : edge_uses(volume.model)) {
+        if (uses.size() != 2 || uses[0].reversed == uses[1].reversed) return false;
+    }
+    return enclosed_volume(volume) > 0;
+}
+
+} // namespace lacuna::closure

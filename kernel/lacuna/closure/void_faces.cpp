@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/void_faces.h>
+
+#include <lacuna/core/error.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+class Walker {
+public:
+    Walker(const Model& model, const std::vector<EdgeId>& void_edges) : model_(model)
+    {
+        const auto uses = edge_uses(model);
+        for (std::size_t e = 0; e < uses.size(); ++e) {
+            if (uses[e].size() == 1) add({EdgeId(e), !uses[e].front().reversed});
+        }
+        for (const EdgeId edge : void_edges) {
+            made_.insert(edge);
+            add({edge, false});
+            add({edge, true});
+        }
+    }
+
+    [[nodiscard]] bool open(EdgeUse half) const { return halves_.contains(half); }
+
+    /// Walk from a half until it is reached again; nothing when the walk ends in a vertex with no way on.
+    [[nodiscard]] std::optional<std::vector<EdgeUse>> walk(EdgeUse start, int depth) const
+    {
+        std::vector<EdgeUse> path{start};
+        std::set<EdgeUse> on_path{start};
+        for (;;) {
+            const std::vector<EdgeUse> choices = ways_on(path.back(), start, on_path);
+            if (choices.empty()) return std::nullopt;
+            std::optional<EdgeUse> next = choices.front();
+            if (choices.size() > 1 && depth > 0) next = shortest(choices, start, depth);
+            if (!next) return std::nullopt;
+            if (*next == start) return path;
+            on_path.insert(*next);
+            path.push_back(*next);
+        }
+    }
+
+    void take(const std::vector<EdgeUse>& path)
+    {
+        for (const EdgeUse& half : path) halves_.erase(half);
+    }
+
+private:
+    void add(EdgeUse half)
+    {
+        halves_.insert(half);
+        leaving_[use_from(model_, half)].push_back(half);
+    }
+
+    std::vector<EdgeUse> ways_on(EdgeUse half, EdgeUse start, const std::set<EdgeUse>& on_path) const
+    {
+        std::vector<EdgeUse> made, given;
+        const auto found = leaving_.find(use_to(model_, half));
+        if (found == leaving_.end()) return {};
+        for (const EdgeUse& next : found->second) {
+            if (!halves_.contains(next) || (on_path.contains(next) && next != start)) continue;
+            if (next.edge == half.edge && next.reversed != half.reversed) continue;
+            (made_.contains(next.edge) ? made : given).push_back(next);
+        }
+        // A void edge is there to be turned into; after one, the rim goes on.
+        const bool came_by_void = made_.contains(half.edge);
+        std::vector<EdgeUse>& first = came_by_void ? given : made;
+        return first.empty() ? (came_by_void ? made : given) : first;
+    }
+
+    std::optional<EdgeUse> shortest(const std::vector<EdgeUse>& choices, EdgeUse start, int depth) const
+    {
+        std::optional<EdgeUse> best;
+        std::size_t least = 0;
+        for (const EdgeUse& choice : choices) {
+            if (choice == start) return choice;
+            const auto rest = walk_to(choice, start, depth - 1);
+            if (rest && (!best || *rest < least)) {
+                best = choice;
+                least = *rest;
+            }
+        }
+        return best;
+    }
+
+    /// How many halves it takes from `from` to come to `goal`.
+    std::optional<std::size_t> walk_to(EdgeUse from, EdgeUse goal, int depth) const
+    {
+        std::set<EdgeUse> on_path{from};
+        EdgeUse at = from;
+        for (std::size_t steps = 1; steps <= halves_.size(); ++steps) {
+            const std::vector<EdgeUse> choices = ways_on(at, goal, on_path);
+            if (choices.empty()) return std::nullopt;
+            std::optional<EdgeUse> next = choices.front();
+            if (std::find(choices.begin(), choices.end(), goal) != choices.end()) return steps;
+            if (choices.size() > 1 && depth > 0) next = shortest(choices, goal, depth);
+            if (!next) return std::nullopt;
+            on_path.insert(*next);
+            at = *next;
+        }
+        return std::nullopt;
+    }
+
+    const Model& model_;
+    std::set<EdgeId> made_;
+    std::set<EdgeUse> halves_;
+    std::map<VertexId, std::vector<EdgeUse>> leaving_;
+};
+
+/// How many branchings ahead a walk looks.
+constexpr int kLookAhead = 3;
+
+} // namespace
+
+std::vector<Loop> void_loops(const OpenVolume& volume, const std::vector<EdgeId>& void_edges)
+{
+    const Model& model = volume.model;
+    Walker walker(model, void_edges);
+    std::vector<EdgeUse> starts;
+    for (const Rim& rim : rims(model, volume.faces(Role::source))) {
+        for (const EdgeUse& use : rim.uses) starts.push_back({use.edge, !use.reversed});
+    }
+    for (const EdgeId edge : free_edges(volume)) {
+        starts.push_back({edge, false});
+        starts.push_back({edge, true});
+    }
+    std::vector<Loop> loops;
+    for (const EdgeUse& start : starts) {
+        if (!walker.open(start)) continue;
+        const auto path = walker.walk(start, kLookAhead);
+        if (!path) {
+            throw NotClosed("closure.walk_open",
+                            "the walk from free " + name_of(model, start.edge) +
+                                " does not come back to it: the free edges around it do not form a loop; "
+                                "check the faces next to it, "
+                                "or match the vertices by hand with match{ vertices = … }");
+        }
+        walker.take(*path);
+        loops.push_back({*path});
+    }
+    return loops;
+}
+
+} // namespace lacuna::closure

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/void_geometry.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/harmonic.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/triangulate.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+std::vector<Index> points_of(const Model& model, const std::vector<EdgeUse>& uses, bool closed)
+{
+    std::vector<Index> points;
+    for (const EdgeUse& use : uses) {
+        const std::vector<Index> chain = use_points(model, use);
+        points.insert(points.end(), chain.begin(), chain.end() - 1);
+        if (!closed && &use == &uses.back()) points.push_back(chain.back());
+    }
+    return points;
+}
+
+std::vector<Vec3> places(const Model& model, const std::vector<Index>& points)
+{
+    std::vector<Vec3> result;
+    result.reserve(points.size());
+    for (const Index p : points) result.push_back(model.at(p));
+    return result;
+}
+
+/// Boundary points of the face in the plane it is triangulated in; a seam's points stand twice.
+struct Outline {
+    std::vector<Index> model_point;
+    std::vector<Vec2> flat;
+    std::vector<std::vector<Index>> loops;
+};
+
+/// Turn a triangulation of an outline into a filling; `lift` gives the place of an added point.
+template <class Lift>
+Filling filling_of(const Model& model, const Outline& outline, const geometry::Triangulation& flat, const Lift& lift)
+{
+    Filling result;
+    const auto base = static_cast<Index>(model.points.size());
+    const std::size_t rim = outline.flat.size();
+    for (std::size_t i = rim; i < flat.points.size(); ++i) result.points.push_back(lift(i));
+    for (const Triangle& t : flat.triangles) {
+        Triangle mapped{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto p = static_cast<std::size_t>(t[i]);
+            mapped[i] = p < rim ? outline.model_point[p] : base + static_cast<Index>(p - rim);
+        }
+        result.triangles.push_back(mapped);
+    }
+    return result;
+}
+
+// --- Algorithm 4: the Newell plane ------------------------------------------------------------------
+
+struct NewellOutline {
+    Outline outline;
+    geometry::Plane plane;
+    double bulge = 0; ///< largest height of the rim over the plane
+};
+
+NewellOutline newell_outline(const Model& model, const std::vector<Loop>& loops)
+{
+    NewellOutline result;
+    std::vector<std::vector<Vec3>> rims;
+    for (const Loop& loop : loops) rims.push_back(places(model, points_of(model, loop.uses, true)));
+    result.plane = geometry::newell_plane(rims);
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        const std::vector<Index> points = points_of(model, loops[l].uses, true);
+        std::vector<Index>& numbers = result.outline.loops.emplace_back();
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            numbers.push_back(static_cast<Index>(result.outline.flat.size()));
+            result.outline.model_point.push_back(points[i]);
+            result.outline.flat.push_back(geometry::to_plane(result.plane, rims[l][i]));
+            result.bulge = std::max(result.bulge, std::abs(geometry::height(result.plane, rims[l][i])));
+        }
+    }
+    return result;
+}
+
+Filling fill_on_newell_plane(const Model& model, const NewellOutline& newell)
+{
+    const Outline& outline = newell.outline;
+    const geometry::Triangulation flat = geometry::triangulate(outline.flat, outline.loops);
+    std::vector<double> heights(flat.points.size(), 0);
+    if (newell.bulge > model.tolerance && flat.points.size() > outline.flat.size()) {
+        std::vector<Vec3> points;
+        for (const Vec2& p : flat.points) points.emplace_back(p.x(), p.y(), 0);
+        geometry::HarmonicProblem problem;
+        problem.points = points;
+        problem.triangles = flat.triangles;
+        const auto rim = static_cast<Eigen::Index>(outline.flat.size());
+        problem.fixed_values.resize(rim, 1);
+        for (Eigen::Index i = 0; i < rim; ++i) {
+            problem.fixed.push_back(static_cast<Index>(i));
+            problem.fixed_values(i, 0) = geometry::height(
+                newell.plane, model.at(outline.model_point[static_cast<std::size_t>(i)]));
+        }
+        const Eigen::MatrixXd lifted = geometry::solve_harmonic(problem);
+        for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = lifted(static_cast<Eigen::Index>(i), 0);
+    }
+    Filling result = filling_of(model, outline, flat, [&](std::size_t i) {
+        return geometry::from_plane(newell.plane, flat.points[i], heights[i]);
+    });
+    result.geometry = Geometry::newell;
+    result.algorithm = "Algorithm 4";
+    return result;
+}
+
+// --- Algorithms 5 and 6: the transfinite patch ------------------------------------------------------
+
+/// A Coons patch over four sides in walking order, each a polyline over its arc length.
+struct CoonsPatch {
+    std::array<std::vector<Vec3>, 4> side;
+    std::array<std::vector<double>, 4> arc;
+
+    [[nodiscard]] Vec3 on(std::size_t i, double f) const
+    {
+        return geometry::point_at(side[i], arc[i], f * arc[i].back());
+    }
+    [[nodiscard]] Vec3 operator()(double s, double t) const
+    {
+        const Vec3 rows = (1 - t) * on(0, s) + t * on(2, 1 - s);
+        const Vec3 columns = (1 - s) * on(3, 1 - t) + s * on(1, t);
+        const Vec3 corners = (1 - t) * ((1 - s) * side[0].front() + s * side[1].front()) +
+                             t * ((1 - s) * side[3].front() + s * side[2].front());
+        return rows + columns - corners;
+    }
+};
+
+Filling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeUse>>& sides)
+{
+    CoonsPatch patch;
+    std::array<std::vector<Index>, 4> chain;
+    for (std::size_t i = 0; i < 4; ++i) {
+        chain[i] = points_of(model, sides[i], false);
+        patch.side[i] = places(model, chain[i]);
+        patch.arc[i] = geometry::arc_lengths(patch.side[i]);
+    }
+    // Triangulate a rectangle with the patch's own proportions, so that facets come out well shaped.
+    const double width = (patch.arc[0].back() + patch.arc[2].back()) / 2;
+    const double height = (patch.arc[1].back() + patch.arc[3].back()) / 2;
+    const std::array<Vec2, 5> corner{Vec2(0, 0), Vec2(width, 0), Vec2(width, height), Vec2(0, height), Vec2(0, 0)};
+    Outline outline;
+    outline.loops.emplace_back();
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t k = 0; k + 1 < chain[i].size(); ++k) {
+            const double f = patch.arc[i][k] / patch.arc[i].back();
+            outline.loops.front().push_back(static_cast<Index>(outline.flat.size()));
+            outline.model_point.push_back(chain[i][k]);
+            outline.flat.emplace_back((1 - f) * corner[i] + f * corner[i + 1]);
+        }
+    }
+    const geometry::Triangulation flat = geometry::triangulate(outline.flat, outline.loops);
+    Filling result = filling_of(model, outline, flat, [&](std::size_t i) {
+        return patch(flat.points[i].x() / width, flat.points[i].y() / height);
+    });
+    const bool seam = sides[1].size() == sides[3].size() && sides[1].front().edge == sides[3].back().edge;
+    result.geometry = seam ? Geometry::annular : Geometry::transfinite;
+    result.algorithm = seam ? "Algorithm 5" : "Algorithm 6";
+    return result;
+}
+
+std::string crossing_in_words(const Model& model, const std::vector<Loop>& loops, const geometry::LoopCrossing& crossing)
+{
+    const auto edge_at = [&](std::size_t loop, std::size_t segment) {
+        for (const EdgeUse& use : loops[loop].uses) {
+            const std::size_t segments = model[use.edge].points.size() - 1;
+            if (segment < segments) return name_of(model, use.edge);
+            segment -= segments;
+        }
+        return std::string("an edge");
+    };
+    return edge_at(crossing.loop_a, crossing.segment_a) + " and " + edge_at(crossing.loop_b, crossing.segment_b);
+}
+
+} // namespace
+
+std::vector<std::vector<EdgeUse>> logical_sides(const OpenVolume& volume, const Loop& loop)
+{
+    const auto edges_of = [&](Role role) {
+        std::set<EdgeId> edges;
+        for (const Rim& rim : rims(volume.model, volume.faces(role))) {
+            for (const EdgeUse& use : rim.uses) edges.insert(use.edge);
+        }
+        return edges;
+    };
+    const std::set<EdgeId> source = edges_of(Role::source);
+    const std::set<EdgeId> target = edges_of(Role::target);
+    const std::size_t n = loop.uses.size();
+    const auto kind = [&](std::size_t i) {
+        const EdgeId edge = loop.uses[i % n].edge;
+        return source.contains(edge) ? 0 : target.contains(edge) ? 2 : 1;
+    };
+    std::size_t start = 0;
+    while (start < n && !(kind(start) == 0 && kind(start + n - 1) != 0)) ++start;
+    if (start == n) return {};
+    std::vector<std::vector<EdgeUse>> sides;
+    std::vector<int> kinds;
+    for (std::size_t i = 0; i < n; ++i) {
+        const int k = kind(start + i);
+        if (kinds.empty() || kinds.back() != k) {
+            kinds.push_back(k);
+            sides.emplace_back();
+        }
+        sides.back().push_back(loop.uses[(start + i) % n]);
+    }
+    if (kinds != std::vector<int>{0, 1, 2, 1}) return {};
+    return sides;
+}
+
+Filling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const std::string& name)
+{
+    const Model& model = volume.model;
+    const NewellOutline newell = newell_outline(model, loops);
+    const auto crossing = geometry::find_crossing(newell.outline.flat, newell.outline.loops);
+    const bool flat = newell.bulge <= model.tolerance;
+    const auto sides = loops.size() == 1 ? logical_sides(volume, loops.front()) : std::vector<std::vector<EdgeUse>>{};
+    Filling result;
+    if (!sides.empty() && (!flat || crossing)) {
+        result = fill_transfinite(model, sides);
+    } else if (!crossing) {
+        result = fill_on_newell_plane(model, newell);
+    } else {
+        throw NotClosed(
+            "closure.outline_crosses",
+            name + " cannot be laid out in a plane: " + crossing_in_words(model, loops, *crossing) +
+                " cross there, and it has no four sides; give a face for it, or split it by one more wall");
+    }
+    result.loops = loops;
+    return result;
+}
+
+FaceId add_void_face(OpenVolume& volume, Filling filling, Role role)
+{
+    Model& model = volume.model;
+    Face face;
+    face.origin = Origin::made_void;
+    face.geometry = filling.geometry;
+    face.kind = "void";
+    face.tag = 1;
+    for (const Face& other : model.faces) face.tag += other.origin == Origin::made_void ? 1 : 0;
+    face.triangles = std::move(filling.triangles);
+    face.loops = std::move(filling.loops);
+    model.points.insert(model.points.end(), filling.points.begin(), filling.points.end());
+    model.faces.push_back(std::move(face));
+    volume.role.push_back(role);
+    return FaceId(model.faces.size() - 1);
+}
+
+} // namespace lacuna::closure

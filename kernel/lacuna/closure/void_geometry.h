@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/closure/close.h>
+
+#include <string>
+#include <vector>
+
+namespace lacuna::closure {
+
+/// Facets for a void face, not yet in the model.
+struct Filling {
+    std::vector<topology::Loop> loops;
+    std::vector<Vec3> points;        ///< new ones; number i stands for model point model.points.size() + i
+    std::vector<Triangle> triangles; ///< model points, the loops' side consistent with them
+    topology::Geometry geometry = topology::Geometry::newell;
+    std::string algorithm; ///< the paper's: "Algorithm 4" …
+};
+
+/// The four logical sides of a loop that runs once along the source rim and once along the target rim, in
+/// walking order from the source's: source, side, target, side; empty when it has none.
+std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVolume& volume, const topology::Loop& loop);
+
+/// Facets for the loops of one void face (its outer loop and islands).
+///
+/// A flat face, and a bent one whose outline does not cross itself in its Newell plane: Algorithm 4, constrained Delaunay
+/// there, interior lifted by the harmonic interpolation of the rim's heights. A bent face with four logical sides: Algorithm 6
+/// (Algorithm 5 where two of them are closed edges), a bilinear Coons patch over arc length. Departure from the paper: a bent four-sided
+/// face is transfinite at once, so that its facets and its mesh are the same surface. What remains, minimal area.
+/// @param name  of the face, for messages.
+/// @throw NotClosed  names the face and the edges that cross.
+Filling fill(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops, const std::string& name);
+
+/// Put a filled face into the volume.
+FaceId add_void_face(topology::OpenVolume& volume, Filling filling, topology::Role role);
+
+} // namespace lacuna::closure

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/matching/side_lines.h>
+
+#include <lacuna/geometry/harmonic.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <queue>
+#include <set>
+
+namespace lacuna::matching {
+
+using namespace topology;
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+/// Below this climb an edge runs along the wall more than up it (60° from the steepest way).
+constexpr double kLevel = 0.5;
+
+std::vector<Index> rim_points(const Model& model, const std::vector<FaceId>& faces)
+{
+    std::vector<Index> points;
+    for (const Rim& rim : rims(model, faces)) {
+        for (const EdgeUse& use : rim.uses) {
+            const std::vector<Index>& chain = model[use.edge].points;
+            points.insert(points.end(), chain.begin(), chain.end());
+        }
+    }
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    return points;
+}
+
+std::set<EdgeId> edges_of(const OpenVolume& volume, Role role)
+{
+    std::set<EdgeId> edges;
+    for (const FaceId face : volume.faces(role)) {
+        for (const Loop& loop : volume.model[face].loops) {
+            for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
+        }
+    }
+    return edges;
+}
+
+/// Edges that climb, by the vertex they leave.
+struct Rise {
+    EdgeUse use;
+    VertexId to;
+    double cost;
+};
+using Rises = std::map<VertexId, std::vector<Rise>>;
+
+Rises rises(const OpenVolume& volume, const std::vector<double>& heights)
+{
+    const Model& model = volume.model;
+    const std::vector<double> gradient = height_gradient(volume, heights);
+    const std::set<EdgeId> source = edges_of(volume, Role::source);
+    const std::set<EdgeId> target = edges_of(volume, Role::target);
+    Rises result;
+    for (const EdgeId edge : edges_of(volume, Role::wall)) {
+        if (source.contains(edge) || target.contains(edge)) continue;
+        const double up = climb(model, edge, heights, gradient);
+        if (!(std::abs(up) > kLevel)) continue;
+        const EdgeUse use{edge, up < 0};
+        result[use_from(model, use)].push_back({use, use_to(model, use), edge_length(model, edge) / std::abs(up)});
+    }
+    return result;
+}
+
+struct Path {
+    SideLine line;
+    double cost = 0;
+};
+
+/// Cheapest rise from one vertex to any target vertex, around the vertices taken.
+std::optional<Path> climb_from(VertexId start, const Rises& graph, const std::set<VertexId>& targets,
+                               const std::set<VertexId>& taken, const Model& model)
+{
+    std::map<VertexId, std::pair<double, EdgeUse>> reached;
+    using Item = std::pair<double, VertexId>;
+    std::priority_queue<Item, std::vector<Item>, std::greater<>> front;
+    std::set<VertexId> done;
+    front.emplace(0.0, start);
+    while (!front.empty()) {
+        const auto [cost, at] = front.top();
+        front.pop();
+        if (!done.insert(at).second) continue;
+        if (targets.contains(at)) {
+            Path path{{start, at, {}}, cost};
+            for (VertexId back = at; back != start; back = use_from(model, reached.at(back).second)) {
+                path.line.uses.push_back(reached.at(back).second);
+            }
+            std::reverse(path.line.uses.begin(), path.line.uses.end());
+            return path;
+        }
+        const auto found = graph.find(at);
+        if (found == graph.end()) continue;
+        for (const Rise& rise : found->second) {
+            if (taken.contains(rise.to) || done.contains(rise.to)) continue;
+            const double sum = cost + rise.cost;
+            const auto known = reached.find(rise.to);
+            if (known != reached.end() && known->second.first <= sum) continue;
+            reached[rise.to] = {sum, rise.use};
+            front.emplace(sum, rise.to);
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+std::vector<double> wall_heights(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    std::vector<double> heights(model.points.size(), kNaN);
+    const std::vector<Index> low = rim_points(model, volume.faces(Role::source));
+    const std::vector<Index> high = rim_points(model, volume.faces(Role::target));
+    for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
+        std::vector<Triangle> triangles;
+        std::set<Index> used;
+        for (const FaceId face : part) {
+            triangles.insert(triangles.end(), model[face].triangles.begin(), model[face].triangles.end());
+            for (const Triangle& t : model[face].triangles) used.insert(t.begin(), t.end());
+        }
+        geometry::HarmonicProblem problem;
+        std::vector<double> values;
+        const auto fix = [&](const std::vector<Index>& points, double value) {
+            std::size_t count = 0;
+            for (const Index p : points) {
+                if (!used.contains(p)) continue;
+                problem.fixed.push_back(p);
+                values.push_back(value);
+                ++count;
+            }
+            return count > 0;
+        };
+        const bool joins_source = fix(low, 0);
+        const bool joins_target = fix(high, 1);
+        if (!joins_source || !joins_target) continue;
+        problem.points = model.points;
+        problem.triangles = triangles;
+        problem.fixed_values = Eigen::Map<const Eigen::MatrixXd>(values.data(),
+                                                                 static_cast<Eigen::Index>(values.size()), 1);
+        const Eigen::MatrixXd solution = geometry::solve_harmonic(problem);
+        for (const Index p : used) heights[static_cast<std::size_t>(p)] = solution(p, 0);
+    }
+    return heights;
+}
+
+std::vector<double> height_gradient(const OpenVolume& volume, const std::vector<double>& heights)
+{
+    const Model& model = volume.model;
+    std::vector<double> sum(model.points.size(), 0), weight(model.points.size(), 0);
+    for (const FaceId face : volume.faces(Role::wall)) {
+        for (const Triangle& t : model[face].triangles) {
+            const Vec3 a = model.at(t[1]) - model.at(t[0]);
+            const Vec3 b = model.at(t[2]) - model.at(t[0]);
+            const Vec3 normal = a.cross(b);
+            const double area2 = normal.squaredNorm();
+            const double ha = heights[static_cast<std::size_t>(t[1])] - heights[static_cast<std::size_t>(t[0])];
+            const double hb = heights[static_cast<std::size_t>(t[2])] - heights[static_cast<std::size_t>(t[0])];
+            if (!(area2 > 0) || std::isnan(ha) || std::isnan(hb)) continue;
+            const Vec3 gradient = (ha * b.cross(normal) + hb * normal.cross(a)) / area2;
+            const double area = std::sqrt(area2);
+            for (const Index p : t) {
+                sum[static_cast<std::size_t>(p)] += area * gradient.norm();
+                weight[static_cast<std::size_t>(p)] += area;
+            }
+        }
+    }
+    for (std::size_t p = 0; p < sum.size(); ++p) sum[p] = weight[p] > 0 ? sum[p] / weight[p] : kNaN;
+    return sum;
+}
+
+double climb(const Model& model, EdgeId edge, const std::vector<double>& heights, const std::vector<double>& gradient)
+{
+    const std::vector<Index>& points = model[edge].points;
+    double most = 0;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const auto a = static_cast<std::size_t>(points[i]);
+        const auto b = static_cast<std::size_t>(points[i + 1]);
+        most += (model.points[b] - model.points[a]).norm() * (gradient[a] + gradient[b]) / 2;
+    }
+    const double rise = heights[static_cast<std::size_t>(points.back())] -
+                        heights[static_cast<std::size_t>(points.front())];
+    return most > 0 ? rise / most : kNaN;
+}
+
+std::vector<SideLine> side_lines(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    const Rises graph = rises(volume, wall_heights(volume));
+    const auto rim_vertices = [&](Role role) {
+        std::set<VertexId> vertices;
+        for (const Rim& rim : rims(model, volume.faces(role))) {
+            for (const EdgeUse& use : rim.uses) vertices.insert(use_from(model, use));
+        }
+        return vertices;
+    };
+    const std::set<VertexId> targets = rim_vertices(Role::target);
+    std::set<VertexId> waiting = rim_vertices(Role::source);
+
+    std::vector<SideLine> lines;
+    std::set<VertexId> taken;
+    while (!waiting.empty()) {
+        std::optional<Path> best;
+        for (auto it = waiting.begin(); it != waiting.end();) {
+            std::optional<Path> path = climb_from(*it, graph, targets, taken, model);
+            if (!path) {
+                it = waiting.erase(it);
+                continue;
+            }
+            if (!best || path->cost < best->cost) best = std::move(path);
+            ++it;
+        }
+        if (!best) break;
+        waiting.erase(best->line.source);
+        for (const EdgeUse& use : best->line.uses) taken.insert(use_to(model, use));
+        lines.push_back(std::move(best->line));
+    }
+    std::sort(lines.begin(), lines.end(),
+              [](const SideLine& a, const SideLine& b) { return a.source < b.source; });
+    return lines;
+}
+
+} // namespace lacuna::matching
