@@ -47,8 +47,7 @@ public:
     {
         for (std::size_t t = 0; t < face.triangles.size(); ++t) {
             for (std::size_t i = 0; i < 3; ++i) {
-                const auto [found, fresh] =
-                    half_.try_emplace(directed(from(3 * t + i), to(3 * t + i)), 3 * t + i);
+                const auto [found, fresh] = half_.try_emplace(directed(from(3 * t + i), to(3 * t + i)), 3 * t + i);
                 if (!fresh) {
                     throw InvalidInput("topology.not_manifold",
                                        "the facets of " + name() + " overlap or are not consistently oriented at the point " +
@@ -182,7 +181,8 @@ double edge_length(const Model& model, EdgeId edge)
 {
     const std::vector<Index>& points = model[edge].points;
     double sum = 0;
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) sum += (model.at(points[i + 1]) - model.at(points[i])).norm();
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+        sum += (model.at(points[i + 1]) - model.at(points[i])).norm();
     return sum;
 }
 
@@ -285,8 +285,8 @@ void orient_consistently(Model& model)
         std::string names;
         for (const FaceUse& use : uses[e]) names += (names.empty() ? "" : ", ") + name_of(model, use.face);
         throw InvalidInput("topology.not_manifold",
-                           name_of(model, EdgeId(e)) + " is shared by " + std::to_string(uses[e].size()) + " faces (" + names +
-                               "); the skin of a volume has two at each edge: leave the others out of the volume");
+                           name_of(model, EdgeId(e)) + " is shared by " + std::to_string(uses[e].size()) + " faces (" +
+                               names + "); the skin of a volume has two at each edge: leave the others out of the volume");
     }
 
     std::vector<FaceId> all;
@@ -316,9 +316,11 @@ void orient_consistently(Model& model)
                     }
                     if (settled[other.index()]) {
                         if (!agrees) {
-                            throw InvalidInput("topology.not_orientable",
-                                               name_of(model, face) + " and " + name_of(model, other) + " cannot be oriented alike across " +
-                                                   name_of(model, use.edge) + ": the faces form a one-sided band; leave one of them out");
+                            throw InvalidInput(
+                                "topology.not_orientable",
+                                name_of(model, face) + " and " + name_of(model, other) +
+                                    " cannot be oriented alike across " + name_of(model, use.edge) +
+                                    ": the faces form a one-sided band; leave one of them out");
                         }
                         continue;
                     }

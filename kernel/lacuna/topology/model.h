@@ -19,8 +19,8 @@ enum class Origin { given, made_void };
 enum class Geometry { given, newell, transfinite, annular, minimal };
 
 struct Vertex {
-    Index point = -1;            ///< in Model::points
-    int tag = 0;                 ///< as the person knows it
+    Index point = -1; ///< in Model::points
+    int tag = 0;      ///< as the person knows it
     Origin origin = Origin::given;
 };
 
@@ -29,9 +29,9 @@ struct Edge {
     int tag = 0;
     Origin origin = Origin::given;
     VertexId from, to;
-    std::vector<Index> points;                          ///< from..to inclusive, at least 2; closed: first == last
-    std::vector<double> params;                         ///< the curve's parameter at each point; empty without `curve`
-    std::shared_ptr<const geometry::ExactCurve> curve;  ///< null where the facets are all there is
+    std::vector<Index> points;  ///< from..to inclusive, at least 2; closed: first == last
+    std::vector<double> params; ///< the curve's parameter at each point; empty without `curve`
+    std::shared_ptr<const geometry::ExactCurve> curve; ///< null where the facets are all there is
 };
 
 /// One use of an edge by a loop: as the edge runs, or against it.
@@ -48,18 +48,18 @@ struct Loop {
 
 /// Facets with a boundary. The facets of two faces that share an edge share its points.
 struct Face {
-    int tag = 0;                    ///< the one Gmsh shows for the same file
-    std::string name;               ///< a physical group, part, element set; may be empty
-    std::string kind = "discrete";  ///< "plane", "cylinder", "cone", "sphere", "torus", "bspline", "surface", "discrete"
+    int tag = 0;                   ///< the one Gmsh shows for the same file
+    std::string name;              ///< a physical group, part, element set; may be empty
+    std::string kind = "discrete"; ///< "plane", "cylinder", "cone", "sphere", "torus", "bspline", "surface", "discrete"
     Origin origin = Origin::given;
     Geometry geometry = Geometry::given;
 
-    std::vector<Triangle> triangles;                       ///< model points, counter-clockwise, oriented as the face
-    std::vector<std::array<Vec2, 3>> uv;                   ///< surface parameters at the corners; empty without `surface`
+    std::vector<Triangle> triangles;     ///< model points, counter-clockwise, oriented as the face
+    std::vector<std::array<Vec2, 3>> uv; ///< surface parameters at the corners; empty without `surface`
     std::shared_ptr<const geometry::ExactSurface> surface; ///< null where the facets are all there is
-    std::vector<Quad> given_quads;                         ///< the mesh the face came with, model points; may be empty
+    std::vector<Quad> given_quads; ///< the mesh the face came with, model points; may be empty
 
-    std::vector<Loop> loops;  ///< derived from the triangles by build_loops(); the longest first
+    std::vector<Loop> loops; ///< derived from the triangles by build_loops(); the longest first
 };
 
 /// Faces, edges and vertices over one array of points. A value: copies are independent, exact geometry is shared.
@@ -68,9 +68,9 @@ struct Model {
     std::vector<Vertex> vertices;
     std::vector<Edge> edges;
     std::vector<Face> faces;
-    double diagonal = 0;   ///< of the bounding box [model length]
-    double tolerance = 0;  ///< points closer than this are one [model length]
-    std::string source;    ///< the file(s) it was read from, for messages
+    double diagonal = 0;  ///< of the bounding box [model length]
+    double tolerance = 0; ///< points closer than this are one [model length]
+    std::string source;   ///< the file(s) it was read from, for messages
 
     [[nodiscard]] const Vertex& operator[](VertexId id) const { return vertices[id.index()]; }
     [[nodiscard]] const Edge& operator[](EdgeId id) const { return edges[id.index()]; }
@@ -110,16 +110,16 @@ void orient_consistently(Model& model);
 
 /// Options of `split_facets()`.
 struct SplitOptions {
-    double feature_angle = 40;  ///< facets that meet at a sharper turn belong to two faces [degrees]
-    double tolerance = 0;       ///< points closer than this are one [model length]; 0: 1e-6 × the diagonal
+    double feature_angle = 40; ///< facets that meet at a sharper turn belong to two faces [degrees]
+    double tolerance = 0;      ///< points closer than this are one [model length]; 0: 1e-6 × the diagonal
 };
 
 /// Facets as a file holds them.
 struct FacetSoup {
     std::vector<Vec3> points;
     std::vector<Triangle> triangles;
-    std::vector<Quad> quads;             ///< given quads, kept; each also counts as two facets
-    std::vector<int> triangle_label;     ///< part each belongs to (element set, STL solid); empty: all 0
+    std::vector<Quad> quads;         ///< given quads, kept; each also counts as two facets
+    std::vector<int> triangle_label; ///< part each belongs to (element set, STL solid); empty: all 0
     std::vector<int> quad_label;
     std::vector<std::string> label_name; ///< name of each label; may be shorter than the labels used
 };

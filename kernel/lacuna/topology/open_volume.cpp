@@ -125,9 +125,12 @@ void check_walls_touch(const OpenVolume& volume)
         const bool touches = std::any_of(part.begin(), part.end(),
                                          [&](FaceId face) { return volume.role[face.index()] != Role::wall; });
         if (touches) continue;
-        throw InvalidInput("topology.wall_apart",
-                           name_of(model, part.front()) + " is named as a wall and touches neither the source's rim nor the target's; leave it "
-                           "out, or raise the tolerance (now " + std::to_string(model.tolerance) + ") if it should be joined to them");
+        throw InvalidInput(
+            "topology.wall_apart",
+            name_of(model, part.front()) +
+                " is named as a wall and touches neither the source's rim nor the target's; leave it "
+                "out, or raise the tolerance (now " +
+                std::to_string(model.tolerance) + ") if it should be joined to them");
     }
 }
 
@@ -140,23 +143,28 @@ void check_override(const OpenVolume& volume, const Classification& found)
     const bool walls = !volume.faces(Role::wall).empty();
     const auto refuse = [&](const std::string& why) {
         throw InvalidInput("topology.class_contradicted",
-                           "the volume cannot be of class " + std::string(to_string(asked)) + ": " + why + " (found: class " +
-                               std::string(to_string(found.value)) + ")");
+                           "the volume cannot be of class " + std::string(to_string(asked)) + ": " + why +
+                               " (found: class " + std::string(to_string(found.value)) + ")");
     };
     switch (asked) {
     case VolumeClass::closed:
         refuse(count(found.free_loops.size(), "free loop") + " remain");
         break;
     case VolumeClass::I:
-        if (!source || !target) refuse(std::string("it needs a source and a target, and has no ") + (source ? "target" : "source"));
-        if (walls) refuse("it has no walls, and " + count(volume.faces(Role::wall).size(), "wall") + " are given; leave them out");
+        if (!source || !target)
+            refuse(std::string("it needs a source and a target, and has no ") + (source ? "target" : "source"));
+        if (walls)
+            refuse("it has no walls, and " + count(volume.faces(Role::wall).size(), "wall") + " are given; leave them out");
         break;
     case VolumeClass::II:
     case VolumeClass::III:
-        if (!source || !target) refuse(std::string("it needs a source and a target, and has no ") + (source ? "target" : "source"));
+        if (!source || !target)
+            refuse(std::string("it needs a source and a target, and has no ") + (source ? "target" : "source"));
         if (!walls) refuse("it needs at least one wall, and none is given");
-        if (asked == VolumeClass::II && found.wall_free_source.empty()) refuse("every vertex of the source is on a wall");
-        if (asked == VolumeClass::II && found.wall_free_target.empty()) refuse("every vertex of the target is on a wall");
+        if (asked == VolumeClass::II && found.wall_free_source.empty())
+            refuse("every vertex of the source is on a wall");
+        if (asked == VolumeClass::II && found.wall_free_target.empty())
+            refuse("every vertex of the target is on a wall");
         if (asked == VolumeClass::III && (!found.wall_free_source.empty() || !found.wall_free_target.empty())) {
             refuse("vertices of source and target are on no wall (source: " + tags_of(volume.model, found.wall_free_source) +
                    "; target: " + tags_of(volume.model, found.wall_free_target) + ")");
@@ -168,7 +176,8 @@ void check_override(const OpenVolume& volume, const Classification& found)
         if (!walls) refuse("it needs all walls, and none is given");
         break;
     case VolumeClass::V:
-        if (source || target) refuse(std::string("it has walls alone, and a ") + (source ? "source" : "target") + " is given; leave it out");
+        if (source || target)
+            refuse(std::string("it has walls alone, and a ") + (source ? "source" : "target") + " is given; leave it out");
         break;
     }
 }
@@ -207,12 +216,13 @@ OpenVolume open_volume(const Model& model, const Roles& roles)
         for (const FaceId face : list) {
             std::optional<Role>& now = given[face.index()];
             if (now && *now == role) {
-                throw InvalidInput("topology.face_twice",
-                                   name_of(model, face) + " is named twice as " + std::string(word(role)) + "; name it once");
+                throw InvalidInput("topology.face_twice", name_of(model, face) + " is named twice as " +
+                                                              std::string(word(role)) + "; name it once");
             }
             if (now) {
-                throw InvalidInput("topology.face_in_two_roles", name_of(model, face) + " is named as " + std::string(word(*now)) +
-                                                                     " and as " + std::string(word(role)) + "; a face has one role");
+                throw InvalidInput("topology.face_in_two_roles",
+                                   name_of(model, face) + " is named as " + std::string(word(*now)) +
+                                       " and as " + std::string(word(role)) + "; a face has one role");
             }
             now = role;
             faces.push_back(face);
@@ -270,8 +280,11 @@ Classification classify(const OpenVolume& volume)
     found.wall_free_source = wall_free(volume, Role::source);
     found.wall_free_target = wall_free(volume, Role::target);
     auto& why = found.reasons;
-    why.push_back(count(sources, "source face") + ", " + count(targets, "target face") + ", " + count(walls, "wall") + " given");
-    if (volume.turned_round) why.push_back("the target is given and the source is missing: class IV turned round, swept from the target");
+    why.push_back(count(sources, "source face") + ", " + count(targets, "target face") + ", " +
+                  count(walls, "wall") + " given");
+    if (volume.turned_round)
+        why.push_back(
+            "the target is given and the source is missing: class IV turned round, swept from the target");
     if (found.free_loops.empty()) {
         found.value = VolumeClass::closed;
         why.push_back("every edge is used twice: nothing is missing");
@@ -284,8 +297,8 @@ Classification classify(const OpenVolume& volume)
             const bool both = !found.wall_free_source.empty() && !found.wall_free_target.empty();
             found.value = both ? VolumeClass::II : VolumeClass::III;
             const auto on_no_wall = [&](std::string_view end, const std::vector<VertexId>& list) {
-                why.push_back("vertices of the " + std::string(end) + " on no wall: " +
-                              (list.empty() ? std::string("none") : tags_of(volume.model, list)));
+                why.push_back("vertices of the " + std::string(end) +
+                              " on no wall: " + (list.empty() ? std::string("none") : tags_of(volume.model, list)));
             };
             on_no_wall("source", found.wall_free_source);
             on_no_wall("target", found.wall_free_target);
@@ -299,8 +312,8 @@ Classification classify(const OpenVolume& volume)
     }
     check_override(volume, found);
     if (volume.override_class && *volume.override_class != found.value) {
-        why.push_back("class " + std::string(to_string(*volume.override_class)) + " by override, instead of " +
-                      std::string(to_string(found.value)));
+        why.push_back("class " + std::string(to_string(*volume.override_class)) +
+                      " by override, instead of " + std::string(to_string(found.value)));
         found.value = *volume.override_class;
     }
     return found;
@@ -329,15 +342,16 @@ std::string describe(const Model& model)
 {
     std::string text;
     std::array<char, 256> line{};
-    std::snprintf(line.data(), line.size(), "%6s  %-10s %5s %5s %12s  %-24s %s\n", "face", "kind", "loops", "edges", "area", "mean normal", "name");
+    std::snprintf(line.data(), line.size(), "%6s  %-10s %5s %5s %12s  %-24s %s\n", "face", "kind", "loops",
+                  "edges", "area", "mean normal", "name");
     text += line.data();
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         const Face& face = model.faces[f];
         std::size_t edges = 0;
         for (const Loop& loop : face.loops) edges += loop.uses.size();
         const Vec3 n = face_area_vector(model, FaceId(f)).stableNormalized();
-        std::snprintf(line.data(), line.size(), "%6d  %-10s %5zu %5zu %12.6g  (%6.3f, %6.3f, %6.3f) ", face.tag, face.kind.c_str(), face.loops.size(),
-                      edges, face_area(model, FaceId(f)), n.x(), n.y(), n.z());
+        std::snprintf(line.data(), line.size(), "%6d  %-10s %5zu %5zu %12.6g  (%6.3f, %6.3f, %6.3f) ", face.tag,
+                      face.kind.c_str(), face.loops.size(), edges, face_area(model, FaceId(f)), n.x(), n.y(), n.z());
         text += line.data();
         text += face.name + "\n";
     }

@@ -29,9 +29,9 @@ struct Roles {
 /// outward where that can be known, and whatever closing adds.
 struct OpenVolume {
     Model model;
-    std::vector<Role> role;  ///< of each face of `model`
+    std::vector<Role> role; ///< of each face of `model`
     std::optional<VolumeClass> override_class;
-    bool turned_round = false;  ///< a target was given and no source: the two have changed places
+    bool turned_round = false; ///< a target was given and no source: the two have changed places
 
     [[nodiscard]] std::vector<FaceId> faces(Role wanted) const;
 };
@@ -79,7 +79,7 @@ std::vector<Rim> free_loops(const OpenVolume& volume);
 struct Classification {
     VolumeClass value = VolumeClass::closed;
     std::vector<Rim> free_loops;
-    std::vector<VertexId> wall_free_source;  ///< source rim vertices on no wall
+    std::vector<VertexId> wall_free_source; ///< source rim vertices on no wall
     std::vector<VertexId> wall_free_target;
     std::vector<std::string> reasons;
 };
