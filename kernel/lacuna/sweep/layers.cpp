@@ -1,2 +1,194 @@
 // SPDX-License-Identifier: MIT
+//
+// Every inner layer l is, before its rim residual is spread,
+//   (1 - h) · A(source node) + h · B(target node),
+// h the layer's height, A and B the affine maps of the source's and the target's rim onto the layer's. Where an affine
+// motion takes rim to rim the two agree, and the sum is the motion itself.
 #include <lacuna/sweep/layers.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/core/parallel.h>
+#include <lacuna/sweep/rim.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace lacuna::sweep {
+
+namespace {
+
+/// Mean over the columns of the part of their length that lies below each layer.
+std::vector<double> mean_heights(const Columns& columns)
+{
+    const auto layers = static_cast<std::size_t>(columns.layers);
+    std::vector<double> heights(layers + 1, 0.0);
+    std::vector<double> length(layers + 1, 0.0);
+    std::size_t counted = 0;
+    for (std::size_t k = 0; k < columns.rim.size(); ++k) {
+        for (std::size_t l = 1; l <= layers; ++l) {
+            const std::size_t at = l * columns.rim.size() + k;
+            length[l] = length[l - 1] + (columns.points[at] - columns.points[at - columns.rim.size()]).norm();
+        }
+        if (!(length[layers] > 0)) continue;  // a vertex source and target share
+        ++counted;
+        for (std::size_t l = 1; l <= layers; ++l) heights[l] += length[l] / length[layers];
+    }
+    for (std::size_t l = 1; l <= layers; ++l) {
+        heights[l] = counted > 0 ? heights[l] / static_cast<double>(counted)
+                                 : static_cast<double>(l) / static_cast<double>(layers);
+    }
+    return heights;
+}
+
+std::vector<double> heights_of(const Columns& columns, const PlacementOptions& options)
+{
+    if (options.heights.empty()) return mean_heights(columns);
+    if (options.heights.size() != static_cast<std::size_t>(columns.layers) + 1) {
+        throw InvalidInput("sweep.layer_heights", "columns of " + std::to_string(columns.layers) +
+                                                      " layers need one height more than layers, found " +
+                                                      std::to_string(options.heights.size()));
+    }
+    return options.heights;
+}
+
+std::string in_short(double value)
+{
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.2g", value);
+    return buffer;
+}
+
+} // namespace
+
+LayerPlacer::LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> target, const Columns& columns,
+                         const PlacementOptions& options)
+    : source_(source), target_(target), columns_(columns)
+{
+    if (target.size() != source.nodes.size()) {
+        throw InvalidInput("sweep.target", "the target needs a position for each of the " +
+                                               std::to_string(source.nodes.size()) + " source nodes, found " +
+                                               std::to_string(target.size()));
+    }
+    check_columns(source, columns, target);
+    const std::vector<double> heights = heights_of(columns, options);
+    if (options.straight_lines || columns.rim.empty()) {
+        placement_ = Placement::straight;
+        fit_straight(heights);
+    } else {
+        fit_rims(heights);
+    }
+}
+
+void LayerPlacer::fit_straight(std::span<const double> heights)
+{
+    for (int l = 1; l < columns_.layers; ++l) {
+        const double height = heights[static_cast<std::size_t>(l)];
+        motions_.push_back({(1 - height) * Eigen::Matrix3d::Identity(), height * Eigen::Matrix3d::Identity(),
+                            Vec3::Zero()});
+    }
+}
+
+void LayerPlacer::fit_rims(std::span<const double> heights)
+{
+    const std::vector<Segment> sides = rim_sides(source_, columns_);
+    const std::span<const Vec3> low = columns_.row(0);
+    const std::span<const Vec3> high = columns_.row(columns_.layers);
+    const RimFitter from_source(low, sides, source_.nodes);
+    const RimFitter from_target(high, sides, target_);
+    const double low_size = radius(low);
+    const double side_by_radius = low_size > 0 ? shortest_side(source_.quads, source_.nodes) / low_size : 0;
+
+    bool exact = true;
+    for (int l = 1; l < columns_.layers; ++l) {
+        const double height = heights[static_cast<std::size_t>(l)];
+        const std::span<const Vec3> rim = columns_.row(l);
+        const Vec3 area = rim_area(rim, sides);
+        const double size = radius(rim);
+        const double negligible = kNegligible * side_by_radius * size;
+        const geometry::AffineFit up = from_source.fit(rim, area, negligible);
+        const geometry::AffineFit down = from_target.fit(rim, area, negligible);
+        motions_.push_back({(1 - height) * up.linear, height * down.linear,
+                            (1 - height) * (up.to_centre - up.linear * up.from_centre) +
+                                height * (down.to_centre - down.linear * down.from_centre)});
+        for (std::size_t k = 0; k < rim.size(); ++k) {
+            residuals_.push_back(rim[k] - (1 - height) * up(low[k]) - height * down(high[k]));
+            const double residual = residuals_.back().norm();
+            exact = exact && residual <= negligible;
+            if (residual > residual_) {
+                residual_ = residual;
+                size_ = 2 * size;
+            }
+        }
+    }
+    if (exact) {
+        residuals_.clear();
+        return;
+    }
+    placement_ = Placement::fitted;
+    spread_.emplace(node_graph(source_.quads, source_.nodes.size()), columns_.rim);
+}
+
+void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunContext& context) const
+{
+    const std::size_t nodes = source_.nodes.size();
+    const std::size_t rim = columns_.rim.size();
+    // A chunk's ends stay in the nearest cache while all its layers are written.
+    constexpr std::size_t kChunk = 512;
+    parallel_for(context, nodes, kChunk, [&](std::size_t begin, std::size_t end) {
+        for (int l = first; l < last; ++l) {
+            Vec3* layer = out.data() + static_cast<std::size_t>(l - first) * nodes;
+            if (l == 0) {
+                std::copy(source_.nodes.begin() + static_cast<std::ptrdiff_t>(begin),
+                          source_.nodes.begin() + static_cast<std::ptrdiff_t>(end), layer + begin);
+            } else if (l == columns_.layers) {
+                std::copy(target_.begin() + static_cast<std::ptrdiff_t>(begin),
+                          target_.begin() + static_cast<std::ptrdiff_t>(end), layer + begin);
+            } else {
+                const Motion motion = motions_[static_cast<std::size_t>(l - 1)];
+                for (std::size_t i = begin; i < end; ++i) {
+                    layer[i] = motion.from_source * source_.nodes[i] + motion.from_target * target_[i] + motion.shift;
+                }
+            }
+        }
+    });
+
+    const int first_inner = std::max(first, 1);
+    const int last_inner = std::min(last, columns_.layers);
+    if (placement_ == Placement::fitted && first_inner < last_inner) {
+        const auto count = static_cast<std::size_t>(last_inner - first_inner);
+        const std::span<const Vec3> values{residuals_.data() + static_cast<std::size_t>(first_inner - 1) * rim,
+                                           count * rim};
+        spread_->add(values, count, out.data() + static_cast<std::size_t>(first_inner - first) * nodes, nodes,
+                     context);
+    }
+    for (int l = first; l < last; ++l) {
+        const std::span<const Vec3> row = columns_.row(l);
+        Vec3* layer = out.data() + static_cast<std::size_t>(l - first) * nodes;
+        for (std::size_t k = 0; k < rim; ++k) layer[columns_.rim[k]] = row[k];
+    }
+}
+
+std::string LayerPlacer::report() const
+{
+    if (placement_ == Placement::straight) return "layers: straight lines between source and target";
+    const std::string residual = in_short(size_ > 0 ? residual_ / size_ : 0);
+    if (placement_ == Placement::affine) {
+        return "layers: affine motion of the rims, exact to " + residual + " of their size";
+    }
+    return "layers: affine fit from both ends, rim residual of " + residual + " of its size spread harmonically";
+}
+
+LayerNodes place_layers(const mesh::QuadMesh& source, std::span<const Vec3> target, const Columns& columns,
+                        const PlacementOptions& options, const RunContext& context)
+{
+    const LayerPlacer placer(source, target, columns, options);
+    LayerNodes result;
+    result.placement = placer.placement();
+    result.report = placer.report();
+    result.nodes.resize((static_cast<std::size_t>(columns.layers) + 1) * source.nodes.size());
+    placer.place(0, columns.layers + 1, result.nodes, context);
+    return result;
+}
+
+} // namespace lacuna::sweep

@@ -3,37 +3,25 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/sweep/carry.h>
+#include <lacuna/sweep/columns.h>
+#include <lacuna/sweep/harmonic_spread.h>
 
-#include <functional>
+#include <Eigen/Core>
+
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace lacuna::sweep {
 
-/// The walls' node columns over the source rim.
-struct Columns {
-    int layers = 0;
-    std::vector<Index> rim;    ///< source node under each column
-    std::vector<Vec3> points;  ///< (layers + 1) × rim.size(), layer-major; row 0 is the source rim itself
-};
-
-/// Moves points onto the target surface, each to the closest place near where it is.
-using SurfaceProjector = std::function<void(std::span<Vec3>)>;
-
-/// Carry the source mesh to the target: rim nodes to the last row of the columns, the rest by the affine fit
-/// of the rims and the harmonic residual, then onto the surface, then smoothed there where that betters it.
-///
-/// @return  target position of each source node [model length].
-/// @post  rim nodes are those of the columns, bit for bit.
-std::vector<Vec3> carry_to_target(const mesh::QuadMesh& source, const Columns& columns,
-                                  const SurfaceProjector& project, const RunContext& context = {});
-
 /// How the inside of the layers was found.
 enum class Placement { straight, affine, fitted };
 
 struct PlacementOptions {
     bool straight_lines = false;  ///< Class I: nodes on the straight line between their ends
+    std::vector<double> heights;  ///< layers + 1 numbers from 0 to 1; empty: from the columns' lengths [-]
 };
 
 /// Node coordinates of all layers.
@@ -51,7 +39,42 @@ struct LayerNodes {
 ///
 /// @param target  position of each source node on the target.
 /// @post  rim nodes are those of the columns and end layers those given, bit for bit; same result for any thread count.
+/// @throw InvalidInput  columns that do not fit the source or the target; names the node.
 LayerNodes place_layers(const mesh::QuadMesh& source, std::span<const Vec3> target, const Columns& columns,
                         const PlacementOptions& options = {}, const RunContext& context = {});
+
+/// `place_layers()` for those who take the layers a few at a time: fits and factors once, then places any layer alone.
+/// Refers to the source, the target and the columns; they must outlive it.
+class LayerPlacer {
+public:
+    LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> target, const Columns& columns,
+                const PlacementOptions& options = {});
+
+    /// Nodes of layers [first, last), 0 the source and `columns.layers` the target: bit for bit those of `place_layers()`.
+    /// @param out  (last - first) × source.nodes, layer-major.
+    void place(int first, int last, std::span<Vec3> out, const RunContext& context = {}) const;
+
+    [[nodiscard]] Placement placement() const { return placement_; }
+    [[nodiscard]] std::string report() const;
+
+private:
+    /// An inner layer before its residual: from_source · source node + from_target · target node + shift.
+    struct Motion {
+        Eigen::Matrix3d from_source, from_target;
+        Vec3 shift;
+    };
+    void fit_straight(std::span<const double> heights);
+    void fit_rims(std::span<const double> heights);
+
+    const mesh::QuadMesh& source_;
+    std::span<const Vec3> target_;
+    const Columns& columns_;
+    Placement placement_ = Placement::affine;
+    double residual_ = 0;                   ///< largest distance of a rim node from its fit [model length]
+    double size_ = 0;                       ///< across the rim where that was found [model length]
+    std::vector<Motion> motions_;           ///< of the inner layers 1 … layers - 1
+    std::vector<Vec3> residuals_;           ///< of the inner layers' rims; only where fitted
+    std::optional<HarmonicSpread> spread_;  ///< only where fitted
+};
 
 } // namespace lacuna::sweep

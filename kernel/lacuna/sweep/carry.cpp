@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/carry.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/sweep/harmonic_spread.h>
+#include <lacuna/sweep/rim.h>
+#include <lacuna/sweep/surface_smoothing.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+namespace lacuna::sweep {
+
+namespace {
+
+// A worst quad this much below the source's is as good as the source's.
+constexpr double kSameQuality = 0.01;
+// Moves below this part of the rim are what a projection leaves of a point that lies on the surface already.
+constexpr double kOnSurface = 1e-9;
+
+struct Guess {
+    std::vector<Vec3> nodes;
+    bool affine = true;  ///< the rims are related by an affine motion
+};
+
+/// Nodes where the rims put them, the surface not asked.
+Guess guess_from_rims(const mesh::QuadMesh& source, const Columns& columns, const HarmonicSpread& spread,
+                      const RunContext& context)
+{
+    Guess guess{source.nodes, true};
+    if (columns.rim.empty()) return guess;
+    const std::vector<Segment> sides = rim_sides(source, columns);
+    const std::span<const Vec3> low = columns.row(0);
+    const std::span<const Vec3> high = columns.row(columns.layers);
+    const double low_size = radius(low);
+    const double shrink = low_size > 0 ? radius(high) / low_size : 0;
+    const double negligible = kNegligible * shrink * shortest_side(source.quads, source.nodes);
+    const geometry::AffineFit fit =
+        RimFitter(low, sides, source.nodes).fit(high, rim_area(high, sides), negligible);
+    for (Vec3& node : guess.nodes) node = fit(node);
+    if (fit.max_residual > negligible) {
+        guess.affine = false;
+        std::vector<Vec3> residual(high.begin(), high.end());
+        for (std::size_t k = 0; k < low.size(); ++k) residual[k] -= fit(low[k]);
+        spread.add(residual, 1, guess.nodes.data(), guess.nodes.size(), context);
+    }
+    for (std::size_t k = 0; k < high.size(); ++k) guess.nodes[static_cast<std::size_t>(columns.rim[k])] = high[k];
+    return guess;
+}
+
+std::vector<Index> nodes_off_rim(const mesh::QuadMesh& source, const Columns& columns)
+{
+    std::vector<char> on_rim(source.nodes.size(), 0);
+    for (const Index node : columns.rim) on_rim[static_cast<std::size_t>(node)] = 1;
+    std::vector<Index> result;
+    for (std::size_t i = 0; i < on_rim.size(); ++i) {
+        if (on_rim[i] == 0) result.push_back(static_cast<Index>(i));
+    }
+    return result;
+}
+
+/// Nodes of a mesh with its worst quad.
+struct Candidate {
+    std::vector<Vec3> nodes;
+    double worst = -1;
+};
+
+/// A deep bowl above a flat rim: the closest places to the flat guess are crowded on the rim. Guesses bulged to either
+/// side, as a membrane under pressure is, meet it evenly; the one whose image has the best worst quad is taken.
+Candidate bulged_start(const mesh::QuadMesh& source, const Columns& columns, const std::vector<Vec3>& guess,
+                       const HarmonicSpread& spread, const SurfaceSmoother& smoother, Candidate best)
+{
+    const std::span<const Vec3> rim = columns.row(columns.layers);
+    const Vec3 area = rim_area(rim, rim_sides(source, columns));
+    if (!(area.norm() > 0)) return best;
+    std::vector<Vec3> bulge(guess.size(), Vec3(1, 0, 0));
+    spread.solve(bulge);
+    double top = 0;
+    for (const Vec3& height : bulge) top = std::max(top, height[0]);
+    if (!(top > 0)) return best;
+    for (const double height : {0.5, -0.5, 1.0, -1.0, 2.0, -2.0, 4.0, -4.0}) {  // in radii of the rim
+        Candidate other{guess, -1};
+        const Vec3 reach = height * radius(rim) / top * area.normalized();
+        for (std::size_t i = 0; i < guess.size(); ++i) other.nodes[i] += bulge[i][0] * reach;
+        smoother.project(other.nodes);
+        other.worst = worst_quad(source.quads, other.nodes);
+        if (other.worst > best.worst) best = std::move(other);
+    }
+    return best;
+}
+
+std::string in_short(double value)
+{
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.2g", value);
+    return buffer;
+}
+
+double largest_move(std::span<const Vec3> from, std::span<const Vec3> to)
+{
+    double largest = 0;
+    for (std::size_t i = 0; i < from.size(); ++i) largest = std::max(largest, (to[i] - from[i]).norm());
+    return largest;
+}
+
+} // namespace
+
+Carried carry(const mesh::QuadMesh& source, const Columns& columns, const SurfaceProjector& project,
+              const RunContext& context)
+{
+    check_columns(source, columns);
+    const std::vector<Index> free_nodes = nodes_off_rim(source, columns);
+    const NodeGraph graph = node_graph(source.quads, source.nodes.size());
+    const HarmonicSpread spread(graph, columns.rim);
+    const Guess guess = guess_from_rims(source, columns, spread, context);
+
+    Carried result;
+    result.worst_source = worst_quad(source.quads, source.nodes);
+    result.report = guess.affine ? "target: affine image of the source" : "target: fitted image of the source";
+    Candidate found{guess.nodes, worst_quad(source.quads, guess.nodes)};
+    if (project && !free_nodes.empty()) {
+        const SurfaceSmoother smoother(source, graph, spread, free_nodes, project);
+        Candidate projected{guess.nodes, -1};
+        smoother.project(projected.nodes);
+        const double move = largest_move(guess.nodes, projected.nodes);
+        const double size = columns.rim.empty() ? radius(source.nodes) : radius(columns.row(columns.layers));
+        if (move > kOnSurface * size) {
+            projected.worst = worst_quad(source.quads, projected.nodes);
+            found = std::move(projected);
+            result.report += ", projected by up to " + in_short(size > 0 ? move / size : 0) + " of its radius";
+        }
+
+        const double good_enough = result.worst_source - kSameQuality;
+        const double before = found.worst;
+        if (found.worst < 0.5 * good_enough) {
+            found = bulged_start(source, columns, guess.nodes, spread, smoother, std::move(found));
+        }
+        if (found.worst < good_enough) {
+            found.nodes = smoother.relax(std::move(found.nodes), good_enough, context);
+            found.nodes = smoother.polish(std::move(found.nodes), good_enough, context);
+            found.worst = worst_quad(source.quads, found.nodes);
+        }
+        if (found.worst > before) result.report += ", smoothed from a worst quad of " + in_short(before);
+    }
+    result.worst = found.worst;
+    result.nodes = std::move(found.nodes);
+    result.report += "; worst quad " + in_short(result.worst) + " (source " + in_short(result.worst_source) + ")";
+    log_line(context, result.report);
+    return result;
+}
+
+std::vector<Vec3> carry_to_target(const mesh::QuadMesh& source, const Columns& columns,
+                                  const SurfaceProjector& project, const RunContext& context)
+{
+    return carry(source, columns, project, context).nodes;
+}
+
+} // namespace lacuna::sweep

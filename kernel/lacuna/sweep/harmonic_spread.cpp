@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/harmonic_spread.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/core/parallel.h>
+
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <vector>
+
+namespace lacuna::sweep {
+
+namespace {
+
+/// Nodes a walk along sides reaches from the fixed ones, the fixed ones included.
+std::vector<char> joined_to(const NodeGraph& graph, std::span<const Index> fixed)
+{
+    std::vector<char> joined(graph.begin.size() - 1, 0);
+    std::vector<Index> front;
+    for (const Index node : fixed) {
+        joined[static_cast<std::size_t>(node)] = 1;
+        front.push_back(node);
+    }
+    while (!front.empty()) {
+        const auto node = static_cast<std::size_t>(front.back());
+        front.pop_back();
+        for (const Index next : graph.of(node)) {
+            if (joined[static_cast<std::size_t>(next)] != 0) continue;
+            joined[static_cast<std::size_t>(next)] = 1;
+            front.push_back(next);
+        }
+    }
+    return joined;
+}
+
+} // namespace
+
+NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes)
+{
+    // Every quad offers two neighbours to each corner; sides two quads share are offered twice, then weeded.
+    std::vector<Index> offset(nodes + 1, 0);
+    for (const Quad& quad : quads) {
+        for (const Index node : quad) offset[static_cast<std::size_t>(node) + 1] += 2;
+    }
+    for (std::size_t i = 0; i < nodes; ++i) offset[i + 1] += offset[i];
+    std::vector<Index> offered(static_cast<std::size_t>(offset[nodes]));
+    std::vector<Index> next(offset.begin(), offset.end() - 1);
+    for (const Quad& quad : quads) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            Index& at = next[static_cast<std::size_t>(quad[i])];
+            offered[static_cast<std::size_t>(at++)] = quad[(i + 1) % 4];
+            offered[static_cast<std::size_t>(at++)] = quad[(i + 3) % 4];
+        }
+    }
+
+    NodeGraph graph;
+    graph.begin.reserve(nodes + 1);
+    graph.begin.push_back(0);
+    graph.neighbours.reserve(offered.size() / 2 + nodes);
+    for (std::size_t i = 0; i < nodes; ++i) {
+        const auto first = offered.begin() + offset[i];
+        const auto last = offered.begin() + offset[i + 1];
+        std::sort(first, last);
+        std::unique_copy(first, last, std::back_inserter(graph.neighbours));
+        graph.begin.push_back(static_cast<Index>(graph.neighbours.size()));
+    }
+    return graph;
+}
+
+HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const Index> fixed) : fixed_count_(fixed.size())
+{
+    const std::size_t nodes = graph.begin.size() - 1;
+    const std::vector<char> joined = joined_to(graph, fixed);
+    std::vector<Index> position(nodes, -1);  // of fixed nodes in `fixed`
+    for (std::size_t k = 0; k < fixed.size(); ++k) position[static_cast<std::size_t>(fixed[k])] = static_cast<Index>(k);
+
+    place_.assign(nodes, -1);
+    int unknowns = 0;
+    for (std::size_t i = 0; i < nodes; ++i) {
+        if (joined[i] != 0 && position[i] < 0) place_[i] = unknowns++;
+    }
+    if (unknowns == 0) return;
+
+    Eigen::SparseMatrix<double> laplacian(unknowns, unknowns);
+    laplacian.reserve(Eigen::VectorXi::Constant(unknowns, 5));
+    for (std::size_t i = 0; i < nodes; ++i) {
+        if (place_[i] < 0) continue;
+        laplacian.insert(place_[i], place_[i]) = static_cast<double>(graph.of(i).size());
+        for (const Index next : graph.of(i)) {
+            const Index other = place_[static_cast<std::size_t>(next)];
+            if (other > place_[i]) laplacian.insert(other, place_[i]) = -1;
+            if (other < 0) rim_sides_.push_back({place_[i], position[static_cast<std::size_t>(next)]});
+        }
+    }
+    laplacian.makeCompressed();
+
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(laplacian);
+    if (factor.info() != Eigen::Success) {
+        throw NotSweepable("sweep.laplacian", "the source mesh's Laplacian could not be factored: check the source "
+                                              "quads for nodes used twice in one quad");
+    }
+    lower_ = factor.matrixL().nestedExpression();
+    diagonal_ = factor.vectorD();
+    const auto& order = factor.permutationP().indices();
+    for (Index& place : place_) {
+        if (place >= 0) place = order[place];
+    }
+    for (RimSide& side : rim_sides_) side.row = order[side.row];
+}
+
+/// Both triangles and the diagonal over a block of `width` right-hand sides, row-major in the factor's order.
+template <int width>
+void HarmonicSpread::substitute(std::vector<double>& block) const
+{
+    using Row = Eigen::Array<double, width, 1>;
+    const auto row = [&](Eigen::Index i) { return Eigen::Map<Row>(block.data() + i * width); };
+    const int* begin = lower_.outerIndexPtr();
+    const int* inner = lower_.innerIndexPtr();
+    const double* value = lower_.valuePtr();
+    const Eigen::Index unknowns = lower_.cols();
+    for (Eigen::Index j = 0; j < unknowns; ++j) {
+        const Row known = row(j);
+        for (int p = begin[j]; p < begin[j + 1]; ++p) {
+            if (inner[p] != j) row(inner[p]) -= value[p] * known;
+        }
+    }
+    for (Eigen::Index j = unknowns - 1; j >= 0; --j) {
+        Row sum = row(j) / diagonal_[j];
+        for (int p = begin[j]; p < begin[j + 1]; ++p) {
+            if (inner[p] != j) sum -= value[p] * row(inner[p]);
+        }
+        row(j) = sum;
+    }
+}
+
+void HarmonicSpread::add(std::span<const Vec3> values, std::size_t fields, Vec3* out, std::size_t stride,
+                         const RunContext& context) const
+{
+    const auto unknowns = static_cast<std::size_t>(lower_.cols());
+    if (unknowns == 0) return;
+    constexpr std::size_t fields_at_once = kFields;
+    constexpr std::size_t width = 3 * fields_at_once;
+    const std::size_t blocks = (fields + fields_at_once - 1) / fields_at_once;
+    parallel_for(context, blocks, 1, [&](std::size_t first_block, std::size_t last_block) {
+        std::vector<double> block(unknowns * width);
+        for (std::size_t b = first_block; b < last_block; ++b) {
+            const std::size_t first = b * fields_at_once;
+            const std::size_t count = std::min(fields_at_once, fields - first);
+            std::fill(block.begin(), block.end(), 0.0);
+            for (const RimSide& side : rim_sides_) {
+                double* row = block.data() + static_cast<std::size_t>(side.row) * width;
+                for (std::size_t f = 0; f < count; ++f) {
+                    const Vec3& value = values[(first + f) * fixed_count_ + static_cast<std::size_t>(side.fixed)];
+                    for (int k = 0; k < 3; ++k) row[3 * f + static_cast<std::size_t>(k)] += value[k];
+                }
+            }
+            substitute<static_cast<int>(width)>(block);
+            for (std::size_t f = 0; f < count; ++f) {
+                Vec3* layer = out + (first + f) * stride;
+                for (std::size_t i = 0; i < place_.size(); ++i) {
+                    if (place_[i] < 0) continue;
+                    const double* row = block.data() + static_cast<std::size_t>(place_[i]) * width + 3 * f;
+                    layer[i] += Vec3(row[0], row[1], row[2]);
+                }
+            }
+        }
+    });
+}
+
+void HarmonicSpread::solve(std::span<Vec3> load) const
+{
+    std::vector<double> block(static_cast<std::size_t>(lower_.cols()) * 3);
+    for (std::size_t i = 0; i < place_.size(); ++i) {
+        if (place_[i] < 0) continue;
+        for (int k = 0; k < 3; ++k) block[static_cast<std::size_t>(3 * place_[i] + k)] = load[i][k];
+    }
+    substitute<3>(block);
+    for (std::size_t i = 0; i < place_.size(); ++i) {
+        const double* row = block.data() + 3 * static_cast<std::size_t>(std::max(place_[i], Index{0}));
+        load[i] = place_[i] < 0 ? Vec3(Vec3::Zero()) : Vec3(row[0], row[1], row[2]);
+    }
+}
+
+} // namespace lacuna::sweep

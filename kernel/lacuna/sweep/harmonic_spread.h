@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/core/types.h>
+
+#include <Eigen/SparseCore>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// The nodes each node shares a quad side with, rising: those of node i are neighbours[begin[i]] … [begin[i + 1]).
+struct NodeGraph {
+    std::vector<Index> begin;
+    std::vector<Index> neighbours;
+
+    [[nodiscard]] std::span<const Index> of(std::size_t node) const
+    {
+        const auto first = static_cast<std::size_t>(begin[node]);
+        return {neighbours.data() + first, static_cast<std::size_t>(begin[node + 1]) - first};
+    }
+};
+
+/// O(quads).
+NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes);
+
+/// Spreads values given at fixed nodes over the rest, each the mean of its neighbours.
+///
+/// The graph Laplacian with equal weights, factored once. Equal weights are positive, so a spread value never leaves
+/// the range of the given ones. A part of the mesh that no fixed node is joined to gets zero.
+class HarmonicSpread {
+public:
+    static constexpr int kFields = 4;  ///< fields solved together; each entry of the factor is then read once for 12 numbers
+
+    /// @param fixed  nodes whose values are given, each named once.
+    HarmonicSpread(const NodeGraph& graph, std::span<const Index> fixed);
+
+    /// Add the spread of each of `fields` fields to the nodes that are not fixed: out[f · stride + node] += value.
+    /// @param values  fields × fixed.size(), field-major.
+    /// The result of a field does not depend on which others it is solved with, nor on the number of threads.
+    void add(std::span<const Vec3> values, std::size_t fields, Vec3* out, std::size_t stride,
+             const RunContext& context = {}) const;
+
+    /// Solve for a given load at every free node with fixed nodes held at zero, in place: one Vec3 a node of the mesh;
+    /// what the fixed nodes hold is ignored, and set to zero.
+    void solve(std::span<Vec3> load) const;
+
+private:
+    template <int width>
+    void substitute(std::vector<double>& block) const;
+
+    struct RimSide {
+        Index row, fixed;  ///< place in the factor; position in `fixed`
+    };
+    std::size_t fixed_count_ = 0;
+    std::vector<Index> place_;        ///< of each node in the factor's order; -1: fixed or joined to none
+    std::vector<RimSide> rim_sides_;  ///< sides between a free node and a fixed one
+    Eigen::SparseMatrix<double> lower_;
+    Eigen::VectorXd diagonal_;
+};
+
+} // namespace lacuna::sweep

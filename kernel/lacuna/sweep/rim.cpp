@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/rim.h>
+
+#include <lacuna/core/error.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace lacuna::sweep {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& message)
+{
+    throw InvalidInput("sweep.columns", message);
+}
+
+/// Column over each source node; -1 for none.
+std::vector<Index> column_of_node(const mesh::QuadMesh& source, const Columns& columns)
+{
+    std::vector<Index> column(source.nodes.size(), -1);
+    for (std::size_t k = 0; k < columns.rim.size(); ++k) {
+        const Index node = columns.rim[k];
+        if (node < 0 || static_cast<std::size_t>(node) >= source.nodes.size()) {
+            refuse("column " + std::to_string(k) + " stands on source node " + std::to_string(node) +
+                   ", but the source has nodes 0 to " + std::to_string(source.nodes.size()) + " - 1");
+        }
+        if (column[static_cast<std::size_t>(node)] >= 0) {
+            refuse("two columns stand on source node " + std::to_string(node) + ": give each rim node one column");
+        }
+        column[static_cast<std::size_t>(node)] = static_cast<Index>(k);
+    }
+    return column;
+}
+
+/// The row must hold the very nodes of the mesh it ends on, up to what a projection leaves.
+void check_row(const Columns& columns, int layer, std::span<const Vec3> nodes, const char* end)
+{
+    const std::span<const Vec3> row = columns.row(layer);
+    double reach = 0;
+    for (const Vec3& p : row) reach = std::max(reach, (p - row[0]).norm());
+    constexpr double kProjection = 1e-6;  // what given faces are held to, by their size
+    for (std::size_t k = 0; k < row.size(); ++k) {
+        const Vec3& node = nodes[static_cast<std::size_t>(columns.rim[k])];
+        const double gap = (row[k] - node).norm();
+        if (gap <= kProjection * reach) continue;
+        refuse("the column over source node " + std::to_string(columns.rim[k]) + " ends " + std::to_string(gap) +
+               " away from its node on the " + end + ": columns must start and end on the rims");
+    }
+}
+
+} // namespace
+
+void check_columns(const mesh::QuadMesh& source, const Columns& columns, std::span<const Vec3> target)
+{
+    if (columns.layers < 1) {
+        refuse("a sweep needs at least 1 layer, found " + std::to_string(columns.layers));
+    }
+    const std::size_t expected = (static_cast<std::size_t>(columns.layers) + 1) * columns.rim.size();
+    if (columns.points.size() != expected) {
+        refuse("columns of " + std::to_string(columns.layers) + " layers over " + std::to_string(columns.rim.size()) +
+               " rim nodes need " + std::to_string(expected) + " points, found " +
+               std::to_string(columns.points.size()));
+    }
+    for (std::size_t i = 0; i < columns.points.size(); ++i) {
+        if (columns.points[i].allFinite()) continue;
+        refuse("the column over source node " + std::to_string(columns.rim[i % columns.rim.size()]) +
+               " has a coordinate that is not a finite number in layer " + std::to_string(i / columns.rim.size()));
+    }
+    column_of_node(source, columns);
+    if (columns.rim.empty()) return;
+    check_row(columns, 0, source.nodes, "source");
+    if (!target.empty()) check_row(columns, columns.layers, target, "target");
+}
+
+std::vector<Segment> rim_sides(const mesh::QuadMesh& source, const Columns& columns)
+{
+    const std::vector<Index> column = column_of_node(source, columns);
+    std::vector<Segment> sides;
+    const auto add = [&](Index from, Index to) {
+        for (const Index node : {from, to}) {
+            if (column[static_cast<std::size_t>(node)] >= 0) continue;
+            refuse("source node " + std::to_string(node) +
+                   " is on the boundary of the source mesh but has no column: every rim node needs one");
+        }
+        sides.push_back({column[static_cast<std::size_t>(from)], column[static_cast<std::size_t>(to)]});
+    };
+    if (source.loops.empty()) {
+        for (const mesh::BoundarySide& side : mesh::boundary_sides(source.quads)) add(side.from, side.to);
+    } else {
+        for (const std::vector<Index>& loop : source.loops) {
+            for (std::size_t i = 0; i < loop.size(); ++i) add(loop[i], loop[(i + 1) % loop.size()]);
+        }
+    }
+    return sides;
+}
+
+Vec3 rim_area(std::span<const Vec3> rim, std::span<const Segment> sides)
+{
+    const Vec3 centre = geometry::mean_point(rim);
+    Vec3 twice = Vec3::Zero();
+    for (const Segment& side : sides) {
+        const Vec3 from = rim[static_cast<std::size_t>(side[0])] - centre;
+        twice += from.cross(rim[static_cast<std::size_t>(side[1])] - centre);
+    }
+    return twice / 2;
+}
+
+double shortest_side(std::span<const Quad> quads, std::span<const Vec3> nodes)
+{
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const Quad& quad : quads) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Vec3& from = nodes[static_cast<std::size_t>(quad[i])];
+            const Vec3& to = nodes[static_cast<std::size_t>(quad[(i + 1) % 4])];
+            shortest = std::min(shortest, (to - from).squaredNorm());
+        }
+    }
+    return quads.empty() ? 0 : std::sqrt(shortest);
+}
+
+double radius(std::span<const Vec3> points)
+{
+    const Vec3 centre = geometry::mean_point(points);
+    double sum = 0;
+    for (const Vec3& p : points) sum += (p - centre).squaredNorm();
+    return points.empty() ? 0 : std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+RimFitter::RimFitter(std::span<const Vec3> rim, std::span<const Segment> sides, std::span<const Vec3> nodes)
+    : points_(rim), paired_(rim, rim_area(rim, sides))
+{
+    if (points_.rank() < 3) return;
+    double rim_reach = 0;
+    for (const Vec3& p : rim) rim_reach = std::max(rim_reach, points_.reach(p));
+    // No node may lie further out than the rim's own farthest point again: beyond, the map extrapolates.
+    spans_inside_ = std::all_of(nodes.begin(), nodes.end(),
+                                [&](const Vec3& p) { return points_.reach(p) <= 2 * rim_reach; });
+}
+
+geometry::AffineFit RimFitter::fit(std::span<const Vec3> to, const Vec3& to_area, double negligible) const
+{
+    if (spans_inside_) {
+        const geometry::AffineFit alone = points_.fit(to);
+        if (alone.max_residual <= negligible && alone.linear.determinant() > 0) return alone;
+    }
+    return paired_.fit(to, to_area);
+}
+
+} // namespace lacuna::sweep

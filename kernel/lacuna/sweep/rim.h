@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/geometry/affine.h>
+#include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/sweep/columns.h>
+
+#include <span>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// @throw InvalidInput  columns that do not fit the source: sizes, node numbers, boundary nodes without a column, a number
+///                      that is not finite, a first row away from the source's nodes, a last one away from the target's.
+void check_columns(const mesh::QuadMesh& source, const Columns& columns, std::span<const Vec3> target = {});
+
+/// Boundary sides of the source as pairs of column numbers.
+std::vector<Segment> rim_sides(const mesh::QuadMesh& source, const Columns& columns);
+
+/// Newell area vector enclosed by the rim's sides, all loops summed.
+Vec3 rim_area(std::span<const Vec3> rim, std::span<const Segment> sides);
+
+/// Rim residuals below this part of the shortest side of the mesh cannot be seen in the shape of any cell.
+inline constexpr double kNegligible = 1e-4;
+
+/// Length of the shortest side of a quad [model length]; 0 for no quads.
+double shortest_side(std::span<const Quad> quads, std::span<const Vec3> nodes);
+
+/// One end of the sweep, ready to be moved onto other rims.
+///
+/// The rim's points alone decide the map where they span what lies between them, the map is exact and right-handed: a
+/// skin between two circles, say. Elsewhere (planar and nearly planar rims) the pseudo-normals join in, since the map
+/// would otherwise be thrown far off the rim's plane by the smallest waves of the rim.
+class RimFitter {
+public:
+    /// @param rim    the end's rim, in the order of the columns; must outlive the fitter.
+    /// @param nodes  all nodes of the end's mesh.
+    RimFitter(std::span<const Vec3> rim, std::span<const Segment> sides, std::span<const Vec3> nodes);
+
+    /// @param negligible  residual up to which a map counts as exact [model length].
+    [[nodiscard]] geometry::AffineFit fit(std::span<const Vec3> to, const Vec3& to_area, double negligible) const;
+
+private:
+    geometry::AffineFitter points_;
+    geometry::AffineFitter paired_;  ///< with the pseudo-normal
+    bool spans_inside_ = false;
+};
+
+/// Root mean square distance of the points from their centre.
+double radius(std::span<const Vec3> points);
+
+} // namespace lacuna::sweep

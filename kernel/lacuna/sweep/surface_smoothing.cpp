@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/surface_smoothing.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lacuna::sweep {
+
+namespace {
+
+// Enough for the relaxation's preconditioned steps to settle; the best mesh on the way is what is kept.
+constexpr int kRelaxations = 20;
+constexpr int kPolishes = 20;
+
+const Vec3& at(std::span<const Vec3> points, Index i)
+{
+    return points[static_cast<std::size_t>(i)];
+}
+
+/// The part of a move that goes along the surface.
+Vec3 along(const Vec3& move, const Vec3& normal)
+{
+    const double squared = normal.squaredNorm();
+    return squared > 0 ? Vec3(move - normal * (normal.dot(move) / squared)) : move;
+}
+
+/// Weights of the neighbours, nearest to equal ones, whose mean is the node itself as seen along its normal.
+void hold_in_place(std::span<const Vec3> nodes, std::span<const Index> neighbours, const Vec3& node,
+                   const Vec3& normal, std::span<double> weights)
+{
+    const double equal = 1 / static_cast<double>(neighbours.size());
+    std::fill(weights.begin(), weights.end(), equal);
+    if (!(normal.norm() > 0)) return;
+    const Vec3 u = normal.unitOrthogonal();
+    const Vec3 v = normal.normalized().cross(u);
+    Vec2 mean = Vec2::Zero();
+    for (const Index n : neighbours) {
+        const Vec3 step = at(nodes, n) - node;
+        mean += equal * Vec2(u.dot(step), v.dot(step));
+    }
+    Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+    for (const Index n : neighbours) {
+        const Vec3 step = at(nodes, n) - node;
+        const Vec2 off = Vec2(u.dot(step), v.dot(step)) - mean;
+        spread += off * off.transpose();
+    }
+    Eigen::Matrix2d inverse;
+    bool invertible = false;
+    double determinant = 0;
+    spread.computeInverseAndDetWithCheck(inverse, determinant, invertible);
+    if (!invertible) return;
+    const Vec2 pull = inverse * mean;
+    for (std::size_t k = 0; k < neighbours.size(); ++k) {
+        const Vec3 step = at(nodes, neighbours[k]) - node;
+        weights[k] = equal - pull.dot(Vec2(u.dot(step), v.dot(step)) - mean);
+    }
+    // A neighbour that pushes away lets meshes fold: then equal weights are the safer choice.
+    if (std::any_of(weights.begin(), weights.end(), [](double w) { return w < 0; })) {
+        std::fill(weights.begin(), weights.end(), equal);
+    }
+}
+
+} // namespace
+
+std::vector<Vec3> node_normals(std::span<const Quad> quads, std::span<const Vec3> nodes)
+{
+    std::vector<Vec3> normals(nodes.size(), Vec3::Zero());
+    for (const Quad& q : quads) {
+        const Vec3 area = (at(nodes, q[2]) - at(nodes, q[0])).cross(at(nodes, q[3]) - at(nodes, q[1]));
+        for (const Index node : q) normals[static_cast<std::size_t>(node)] += area;
+    }
+    return normals;
+}
+
+double quad_quality(const Quad& quad, std::span<const Vec3> nodes, std::span<const Vec3> normals)
+{
+    Vec3 normal = (at(nodes, quad[2]) - at(nodes, quad[0])).cross(at(nodes, quad[3]) - at(nodes, quad[1]));
+    Vec3 around = Vec3::Zero();
+    for (const Index node : quad) around += at(normals, node);
+    const double length = normal.norm();
+    if (!(length > 0)) return -1;
+    normal /= normal.dot(around) < 0 ? -length : length;
+
+    double worst = 1;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Vec3 out = at(nodes, quad[(i + 1) % 4]) - at(nodes, quad[i]);
+        const Vec3 in = at(nodes, quad[(i + 3) % 4]) - at(nodes, quad[i]);
+        const double sides = out.norm() * in.norm();
+        worst = std::min(worst, sides > 0 ? out.cross(in).dot(normal) / sides : -1.0);
+    }
+    return worst;
+}
+
+double worst_quad(std::span<const Quad> quads, std::span<const Vec3> nodes)
+{
+    const std::vector<Vec3> normals = node_normals(quads, nodes);
+    double worst = 1;
+    for (const Quad& quad : quads) worst = std::min(worst, quad_quality(quad, nodes, normals));
+    return worst;
+}
+
+SurfaceSmoother::SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& graph, const HarmonicSpread& spread,
+                                 std::span<const Index> free_nodes, const SurfaceProjector& project)
+    : model_(model), graph_(graph), spread_(spread), free_nodes_(free_nodes), project_(project),
+      weights_(graph.neighbours.size()), quad_begin_(model.nodes.size() + 1, 0), is_free_(model.nodes.size(), 0)
+{
+    const std::vector<Vec3> normals = node_normals(model.quads, model.nodes);
+    for (const Index node : free_nodes) {
+        const auto i = static_cast<std::size_t>(node);
+        is_free_[i] = 1;
+        const std::span<const Index> neighbours = graph.of(i);
+        hold_in_place(model.nodes, neighbours, model.nodes[i], normals[i],
+                      std::span(weights_).subspan(static_cast<std::size_t>(graph.begin[i]), neighbours.size()));
+    }
+
+    for (const Quad& quad : model.quads) {
+        for (const Index node : quad) ++quad_begin_[static_cast<std::size_t>(node) + 1];
+    }
+    for (std::size_t i = 1; i < quad_begin_.size(); ++i) quad_begin_[i] += quad_begin_[i - 1];
+    quad_list_.resize(static_cast<std::size_t>(quad_begin_.back()));
+    std::vector<Index> next(quad_begin_.begin(), quad_begin_.end() - 1);
+    for (std::size_t q = 0; q < model.quads.size(); ++q) {
+        for (const Index node : model.quads[q]) {
+            quad_list_[static_cast<std::size_t>(next[static_cast<std::size_t>(node)]++)] = static_cast<Index>(q);
+        }
+    }
+}
+
+void SurfaceSmoother::project(std::vector<Vec3>& nodes) const
+{
+    std::vector<Vec3> points;
+    points.reserve(free_nodes_.size());
+    for (const Index node : free_nodes_) points.push_back(nodes[static_cast<std::size_t>(node)]);
+    if (!points.empty()) project_(points);
+    for (std::size_t k = 0; k < points.size(); ++k) nodes[static_cast<std::size_t>(free_nodes_[k])] = points[k];
+}
+
+std::vector<Vec3> SurfaceSmoother::relax(std::vector<Vec3> nodes, double good_enough,
+                                         const RunContext& context) const
+{
+    std::vector<Vec3> best = nodes;
+    double best_worst = worst_quad(model_.quads, nodes);
+    std::vector<Vec3> load(nodes.size());
+    for (int round = 0; round < kRelaxations && best_worst < good_enough; ++round) {
+        check_cancelled(context);
+        const std::vector<Vec3> normals = node_normals(model_.quads, nodes);
+        for (const Index node : free_nodes_) {
+            const auto i = static_cast<std::size_t>(node);
+            const std::span<const Index> neighbours = graph_.of(i);
+            Vec3 pull = Vec3::Zero();
+            for (std::size_t k = 0; k < neighbours.size(); ++k) {
+                pull += weights_[static_cast<std::size_t>(graph_.begin[i]) + k] * (at(nodes, neighbours[k]) - nodes[i]);
+            }
+            load[i] = static_cast<double>(neighbours.size()) * along(pull, normals[i]);
+        }
+        spread_.solve(load);
+        for (const Index node : free_nodes_) {
+            const auto i = static_cast<std::size_t>(node);
+            nodes[i] += along(load[i], normals[i]);
+        }
+        project(nodes);
+        const double worst = worst_quad(model_.quads, nodes);
+        if (worst > best_worst) {
+            best_worst = worst;
+            best = nodes;
+        }
+    }
+    return best;
+}
+
+std::span<const Index> SurfaceSmoother::quads_of(std::size_t node) const
+{
+    const auto first = static_cast<std::size_t>(quad_begin_[node]);
+    return {quad_list_.data() + first, static_cast<std::size_t>(quad_begin_[node + 1]) - first};
+}
+
+double SurfaceSmoother::worst_around(std::size_t node, std::span<const Vec3> nodes,
+                                     std::span<const Vec3> normals) const
+{
+    double worst = 1;
+    for (const Index q : quads_of(node)) {
+        worst = std::min(worst, quad_quality(model_.quads[static_cast<std::size_t>(q)], nodes, normals));
+    }
+    return worst;
+}
+
+/// One round of trials for the nodes of poor quads. @return whether any moved.
+bool SurfaceSmoother::polish_once(std::vector<Vec3>& nodes, double good_enough) const
+{
+    const std::vector<Vec3> normals = node_normals(model_.quads, nodes);
+    std::vector<std::size_t> poor;
+    for (const Quad& quad : model_.quads) {
+        if (quad_quality(quad, nodes, normals) >= good_enough) continue;
+        for (const Index node : quad) {
+            if (is_free_[static_cast<std::size_t>(node)] != 0) poor.push_back(static_cast<std::size_t>(node));
+        }
+    }
+    std::sort(poor.begin(), poor.end());
+    poor.erase(std::unique(poor.begin(), poor.end()), poor.end());
+    if (poor.empty()) return false;
+
+    bool moved = false;
+    std::vector<Vec3> trial(poor.size());
+    constexpr int kDirections = 8;
+    constexpr int kLengths = 3;
+    for (int kind = 0; kind <= kDirections * kLengths; ++kind) {
+        for (std::size_t k = 0; k < poor.size(); ++k) {
+            const Vec3& node = nodes[poor[k]];
+            const Vec3& normal = normals[poor[k]];
+            Vec3 mean = Vec3::Zero();
+            double side = 0;
+            for (const Index n : graph_.of(poor[k])) {
+                mean += at(nodes, n);
+                side += (at(nodes, n) - node).norm();
+            }
+            const double count = static_cast<double>(graph_.of(poor[k]).size());
+            if (kind == 0 || !(normal.norm() > 0)) {
+                trial[k] = mean / count;
+                continue;
+            }
+            // A quarter, a sixteenth and a sixty-fourth of the mean side, eight ways round.
+            const double length = side / count * std::pow(0.25, 1 + (kind - 1) / kDirections);
+            const double angle = (kind - 1) % kDirections * std::atan(1.0);
+            const Vec3 u = normal.unitOrthogonal();
+            const Vec3 v = normal.normalized().cross(u);
+            trial[k] = node + length * (std::cos(angle) * u + std::sin(angle) * v);
+        }
+        project_(trial);
+        for (std::size_t k = 0; k < poor.size(); ++k) {
+            Vec3& node = nodes[poor[k]];
+            const double before = worst_around(poor[k], nodes, normals);
+            std::swap(node, trial[k]);
+            if (worst_around(poor[k], nodes, normals) > before) {
+                moved = true;
+            } else {
+                std::swap(node, trial[k]);
+            }
+        }
+    }
+    return moved;
+}
+
+std::vector<Vec3> SurfaceSmoother::polish(std::vector<Vec3> nodes, double good_enough,
+                                          const RunContext& context) const
+{
+    std::vector<Vec3> best = nodes;
+    double best_worst = worst_quad(model_.quads, nodes);
+    for (int round = 0; round < kPolishes && best_worst < good_enough; ++round) {
+        check_cancelled(context);
+        if (!polish_once(nodes, good_enough)) break;
+        const double worst = worst_quad(model_.quads, nodes);
+        if (!(worst > best_worst)) break;
+        best_worst = worst;
+        best = nodes;
+    }
+    return best;
+}
+
+} // namespace lacuna::sweep

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/sweep/carry.h>
+#include <lacuna/sweep/harmonic_spread.h>
+
+#include <span>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// Area vector around each node: the sum of those of its quads.
+std::vector<Vec3> node_normals(std::span<const Quad> quads, std::span<const Vec3> nodes);
+
+/// Smallest scaled Jacobian at the corners of a quad, seen along its own normal turned to the side its nodes' normals
+/// are on: 1 for a rectangle, 0 for a corner without an angle, negative where folded over.
+double quad_quality(const Quad& quad, std::span<const Vec3> nodes, std::span<const Vec3> normals);
+
+/// The worst of all quads; 1 for none.
+double worst_quad(std::span<const Quad> quads, std::span<const Vec3> nodes);
+
+/// Moves the free nodes of a mesh along a surface until its worst quad is as good as that of a model mesh.
+///
+/// Two ways, each kept only as far as it betters the worst quad. Relaxation: every node goes where its neighbours put it
+/// with the weights that hold the model's node in place, so the model's grading survives; solved for all nodes at once
+/// with the graph Laplacian as preconditioner. Then the nodes of the quads still poor try the neighbours' mean and steps
+/// along the surface, and take what betters the worst of their own quads.
+class SurfaceSmoother {
+public:
+    /// All are referred to and must outlive the smoother. @param spread  with the nodes that must not move fixed.
+    SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& graph, const HarmonicSpread& spread,
+                    std::span<const Index> free_nodes, const SurfaceProjector& project);
+
+    /// Put the free nodes on the surface.
+    void project(std::vector<Vec3>& nodes) const;
+    /// @return  the nodes with the worst quad bettered, or as they came in.
+    std::vector<Vec3> relax(std::vector<Vec3> nodes, double good_enough, const RunContext& context) const;
+    std::vector<Vec3> polish(std::vector<Vec3> nodes, double good_enough, const RunContext& context) const;
+
+private:
+    /// Quads around each node, compressed as in NodeGraph.
+    [[nodiscard]] std::span<const Index> quads_of(std::size_t node) const;
+    [[nodiscard]] double worst_around(std::size_t node, std::span<const Vec3> nodes,
+                                      std::span<const Vec3> normals) const;
+    bool polish_once(std::vector<Vec3>& nodes, double good_enough) const;
+
+    const mesh::QuadMesh& model_;
+    const NodeGraph& graph_;
+    const HarmonicSpread& spread_;
+    std::span<const Index> free_nodes_;
+    const SurfaceProjector& project_;
+    std::vector<double> weights_;  ///< of the neighbours, in the graph's order
+    std::vector<Index> quad_begin_, quad_list_;
+    std::vector<char> is_free_;
+};
+
+} // namespace lacuna::sweep
