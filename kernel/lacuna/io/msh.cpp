@@ -1,2 +1,382 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/msh.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/io/msh_content.h>
+#include <lacuna/io/sections.h>
+
+#include <cstring>
+
+// The format: https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format. All nodes form one block of the volume and
+// are numbered from 1 as in the mesh. Elements are numbered from 1, the skin's quads patch after patch, then the
+// hexahedra.
+
+namespace lacuna::io {
+namespace {
+
+constexpr int kQuadType = 3;
+constexpr int kHexType = 5;
+
+std::uint64_t node_tag(Index node) { return static_cast<std::uint64_t>(node) + 1; }
+
+/// Header and names, which are text in every version.
+std::string opening(const MshContent& content, const char* version, bool binary)
+{
+    std::string text = std::string("$MeshFormat\n") + version + (binary ? " 1 8\n" : " 0 8\n");
+    if (binary) {
+        put(text, int{1});  // tells the reader the order of bytes
+        text += "\n";
+    }
+    text += "$EndMeshFormat\n$PhysicalNames\n" + std::to_string(content.names.size()) + "\n";
+    for (const PhysicalName& name : content.names)
+        text += std::to_string(name.dimension) + " " + std::to_string(name.tag) + " \"" + name.name + "\"\n";
+    return text + "$EndPhysicalNames\n";
+}
+
+// ---- Version 4.1, binary
+
+void put_list(std::string& text, const std::vector<int>& tags)
+{
+    put(text, static_cast<std::uint64_t>(tags.size()));
+    for (const int tag : tags) put(text, tag);
+}
+
+void put_box(std::string& text, const Eigen::AlignedBox3d& box)
+{
+    for (const double value : box.min()) put(text, value);
+    for (const double value : box.max()) put(text, value);
+}
+
+std::vector<int> surface_tags(const MshContent& content)
+{
+    std::vector<int> tags;
+    for (const MshSurface& surface : content.surfaces) tags.push_back(surface.tag);
+    return tags;
+}
+
+std::string binary_entities(const MshContent& content)
+{
+    std::string text = "$Entities\n";
+    for (const std::size_t count : {std::size_t(0), std::size_t(0), content.surfaces.size(), std::size_t(1)})
+        put(text, static_cast<std::uint64_t>(count));
+    for (const MshSurface& surface : content.surfaces) {
+        put(text, surface.tag);
+        put_box(text, surface.box);
+        put_list(text, surface.physical);
+        put_list(text, std::vector<int>{});
+    }
+    put(text, kVolumeTag);
+    put_box(text, content.box);
+    put_list(text, content.volume_physical);
+    put_list(text, surface_tags(content));
+    return text + "\n$EndEntities\n";
+}
+
+/// Number of a cell and its nodes, each eight bytes.
+template <std::size_t N>
+char* put_element(char* out, std::uint64_t number, const std::array<Index, N>& nodes)
+{
+    std::array<std::uint64_t, N + 1> record;
+    record[0] = number;
+    for (std::size_t i = 0; i < N; ++i) record[i + 1] = node_tag(nodes[i]);
+    std::memcpy(out, record.data(), sizeof record);
+    return out + sizeof record;
+}
+
+std::string block_head(int dimension, int tag, int third, std::size_t count)
+{
+    std::string text;
+    put(text, dimension);
+    put(text, tag);
+    put(text, third);
+    put(text, static_cast<std::uint64_t>(count));
+    return text;
+}
+
+std::string counts_of(std::size_t blocks, std::size_t count)
+{
+    std::string text;
+    for (const std::size_t value : {blocks, count, std::size_t(1), count}) put(text, static_cast<std::uint64_t>(value));
+    return text;
+}
+
+Section coordinates(const mesh::HexMesh& mesh)
+{
+    static_assert(sizeof(Vec3) == 3 * sizeof(double));
+    return {{}, mesh.nodes.size(), sizeof(Vec3), [&mesh](std::size_t begin, std::size_t end, char* out) {
+                std::memcpy(out, mesh.nodes.data() + begin, (end - begin) * sizeof(Vec3));
+                return out + (end - begin) * sizeof(Vec3);
+            }};
+}
+
+void add_binary_elements(std::vector<Section>& sections, const mesh::HexMesh& mesh, const MshContent& content)
+{
+    std::string head = "$Elements\n" + counts_of(content.surfaces.size() + 1, mesh.skin_count() + mesh.hex_count());
+    for (const MshSurface& surface : content.surfaces) {
+        const std::size_t count = surface.end - surface.begin;
+        sections.push_back({head + block_head(2, surface.tag, kQuadType, count), count, 5 * sizeof(std::uint64_t),
+                            [&mesh, &content, &surface](std::size_t begin, std::size_t end, char* out) {
+                                for (std::size_t i = surface.begin + begin; i < surface.begin + end; ++i)
+                                    out = put_element(out, i + 1, skin_quad(mesh, content.skin[i]).nodes);
+                                return out;
+                            }});
+        head.clear();
+    }
+    sections.push_back({head + block_head(3, kVolumeTag, kHexType, mesh.hex_count()), mesh.hex_count(),
+                        9 * sizeof(std::uint64_t), [&mesh](std::size_t begin, std::size_t end, char* out) {
+                            const std::size_t first = mesh.skin_count() + 1;
+                            for (std::size_t i = begin; i < end; ++i) out = put_element(out, first + i, mesh.hex(i));
+                            return out;
+                        }});
+    sections.push_back({"\n$EndElements\n", 0, 0, {}});
+}
+
+std::vector<Section> binary_41(const mesh::HexMesh& mesh, const MshContent& content)
+{
+    const std::size_t nodes = mesh.nodes.size();
+    std::vector<Section> sections;
+    sections.push_back({opening(content, "4.1", true) + binary_entities(content) + "$Nodes\n" + counts_of(1, nodes) +
+                            block_head(3, kVolumeTag, 0, nodes),
+                        nodes, sizeof(std::uint64_t), [](std::size_t begin, std::size_t end, char* out) {
+                            for (std::size_t i = begin; i < end; ++i) out = put(out, static_cast<std::uint64_t>(i + 1));
+                            return out;
+                        }});
+    sections.push_back(coordinates(mesh));
+    sections.push_back({"\n$EndNodes\n", 0, 0, {}});
+    add_binary_elements(sections, mesh, content);
+    return sections;
+}
+
+// ---- Version 4.1, text
+
+/// Numbers, a blank before each.
+std::string spaced(std::initializer_list<std::size_t> numbers)
+{
+    std::string text;
+    for (const std::size_t number : numbers) text.append(1, ' ').append(std::to_string(number));
+    return text;
+}
+
+std::string list_text(const std::vector<int>& tags)
+{
+    std::string text = spaced({tags.size()});
+    for (const int tag : tags) text.append(1, ' ').append(std::to_string(tag));
+    return text;
+}
+
+std::string box_text(const Eigen::AlignedBox3d& box)
+{
+    std::string text;
+    for (const double value : box.min()) text.append(1, ' ').append(text_of(value));
+    for (const double value : box.max()) text.append(1, ' ').append(text_of(value));
+    return text;
+}
+
+std::string text_entities(const MshContent& content)
+{
+    std::string text = "$Entities\n0 0 " + std::to_string(content.surfaces.size()) + " 1\n";
+    for (const MshSurface& surface : content.surfaces)
+        text += std::to_string(surface.tag) + box_text(surface.box) + list_text(surface.physical) + " 0\n";
+    text += std::to_string(kVolumeTag) + box_text(content.box) + list_text(content.volume_physical) +
+            list_text(surface_tags(content)) + "\n";
+    return text + "$EndEntities\n";
+}
+
+template <std::size_t N>
+char* put_nodes(char* out, const std::array<Index, N>& nodes)
+{
+    for (const Index node : nodes) {
+        *out++ = ' ';
+        out = put_text(out, static_cast<long long>(node) + 1);
+    }
+    *out++ = '\n';
+    return out;
+}
+
+char* put_point(char* out, const Vec3& point)
+{
+    out = put_text(out, point.x());
+    *out++ = ' ';
+    out = put_text(out, point.y());
+    *out++ = ' ';
+    out = put_text(out, point.z());
+    *out++ = '\n';
+    return out;
+}
+
+std::string words(std::initializer_list<std::size_t> numbers)
+{
+    return spaced(numbers).substr(1) + "\n";
+}
+
+/// Elements as lines: number, `middle(surface)` or `middle(nullptr)` for hexahedra, nodes.
+template <class Head, class Middle>
+void add_text_elements(std::vector<Section>& sections, const mesh::HexMesh& mesh, const MshContent& content,
+                       const std::string& start, const Head& head, const Middle& middle)
+{
+    std::string text = start;
+    for (const MshSurface& surface : content.surfaces) {
+        const std::size_t count = surface.end - surface.begin;
+        const std::string between = middle(&surface);
+        sections.push_back({text + head(&surface, count), count, 5 * kNumberBytes + between.size() + 2,
+                            [&mesh, &content, &surface, between](std::size_t begin, std::size_t end, char* out) {
+                                for (std::size_t i = surface.begin + begin; i < surface.begin + end; ++i) {
+                                    out = put_text(out, static_cast<long long>(i) + 1);
+                                    out = between.copy(out, between.size()) + out;
+                                    out = put_nodes(out, skin_quad(mesh, content.skin[i]).nodes);
+                                }
+                                return out;
+                            }});
+        text.clear();
+    }
+    const std::string between = middle(nullptr);
+    sections.push_back({text + head(nullptr, mesh.hex_count()), mesh.hex_count(), 9 * kNumberBytes + between.size() + 2,
+                        [&mesh, between](std::size_t begin, std::size_t end, char* out) {
+                            const std::size_t first = mesh.skin_count() + 1;
+                            for (std::size_t i = begin; i < end; ++i) {
+                                out = put_text(out, static_cast<long long>(first + i));
+                                out = between.copy(out, between.size()) + out;
+                                out = put_nodes(out, mesh.hex(i));
+                            }
+                            return out;
+                        }});
+    sections.push_back({"$EndElements\n", 0, 0, {}});
+}
+
+std::vector<Section> text_41(const mesh::HexMesh& mesh, const MshContent& content)
+{
+    const std::size_t nodes = mesh.nodes.size();
+    std::vector<Section> sections;
+    sections.push_back({opening(content, "4.1", false) + text_entities(content) + "$Nodes\n" +
+                            words({1, nodes, 1, nodes}) + words({3, kVolumeTag, 0, nodes}),
+                        nodes, kNumberBytes, [](std::size_t begin, std::size_t end, char* out) {
+                            for (std::size_t i = begin; i < end; ++i) {
+                                out = put_text(out, static_cast<long long>(i) + 1);
+                                *out++ = '\n';
+                            }
+                            return out;
+                        }});
+    sections.push_back({{}, nodes, 3 * kNumberBytes, [&mesh](std::size_t begin, std::size_t end, char* out) {
+                            for (std::size_t i = begin; i < end; ++i) out = put_point(out, mesh.nodes[i]);
+                            return out;
+                        }});
+    const std::size_t elements = mesh.skin_count() + mesh.hex_count();
+    const auto head = [](const MshSurface* surface, std::size_t count) {
+        return surface != nullptr ? words({2, static_cast<std::size_t>(surface->tag), kQuadType, count})
+                                  : words({3, kVolumeTag, kHexType, count});
+    };
+    add_text_elements(sections, mesh, content,
+                      "$EndNodes\n$Elements\n" + words({content.surfaces.size() + 1, elements, 1, elements}), head,
+                      [](const MshSurface*) { return std::string(); });
+    return sections;
+}
+
+// ---- Version 2.2: an element carries one physical group and its entity
+
+std::vector<Section> text_22(const mesh::HexMesh& mesh, const MshContent& content)
+{
+    std::vector<Section> sections;
+    sections.push_back({opening(content, "2.2", false) + "$Nodes\n" + words({mesh.nodes.size()}), mesh.nodes.size(),
+                        4 * kNumberBytes, [&mesh](std::size_t begin, std::size_t end, char* out) {
+                            for (std::size_t i = begin; i < end; ++i) {
+                                out = put_text(out, static_cast<long long>(i) + 1);
+                                *out++ = ' ';
+                                out = put_point(out, mesh.nodes[i]);
+                            }
+                            return out;
+                        }});
+    const auto middle = [&](const MshSurface* surface) {
+        const int type = surface != nullptr ? kQuadType : kHexType;
+        const int physical = surface != nullptr ? surface->physical.front() : content.volume_physical.front();
+        const int entity = surface != nullptr ? surface->tag : kVolumeTag;
+        const auto unsign = [](int value) { return static_cast<std::size_t>(value); };
+        return spaced({unsign(type), 2, unsign(physical), unsign(entity)});
+    };
+    add_text_elements(sections, mesh, content,
+                      "$EndNodes\n$Elements\n" + words({mesh.skin_count() + mesh.hex_count()}),
+                      [](const MshSurface*, std::size_t) { return std::string(); }, middle);
+    return sections;
+}
+
+template <std::size_t N>
+char* put_element_22(char* out, std::size_t number, int physical, int entity, const std::array<Index, N>& nodes)
+{
+    std::array<int, N + 3> record{static_cast<int>(number), physical, entity};
+    for (std::size_t i = 0; i < N; ++i) record[i + 3] = nodes[i] + 1;
+    std::memcpy(out, record.data(), sizeof record);
+    return out + sizeof record;
+}
+
+/// Type, count and number of tags of the elements that follow.
+std::string head_22(int type, std::size_t count)
+{
+    std::string text;
+    for (const int value : {type, static_cast<int>(count), 2}) put(text, value);
+    return text;
+}
+
+std::vector<Section> binary_22(const mesh::HexMesh& mesh, const MshContent& content)
+{
+    std::vector<Section> sections;
+    sections.push_back({opening(content, "2.2", true) + "$Nodes\n" + words({mesh.nodes.size()}), mesh.nodes.size(),
+                        sizeof(int) + sizeof(Vec3), [&mesh](std::size_t begin, std::size_t end, char* out) {
+                            for (std::size_t i = begin; i < end; ++i) {
+                                out = put(out, static_cast<int>(i) + 1);
+                                for (const double value : mesh.nodes[i]) out = put(out, value);
+                            }
+                            return out;
+                        }});
+    std::string head = "\n$EndNodes\n$Elements\n" + words({mesh.skin_count() + mesh.hex_count()});
+    for (const MshSurface& surface : content.surfaces) {
+        const std::size_t count = surface.end - surface.begin;
+        sections.push_back({head + head_22(kQuadType, count), count, 7 * sizeof(int),
+                            [&mesh, &content, &surface](std::size_t begin, std::size_t end, char* out) {
+                                for (std::size_t i = surface.begin + begin; i < surface.begin + end; ++i)
+                                    out = put_element_22(out, i + 1, surface.physical.front(), surface.tag,
+                                                         skin_quad(mesh, content.skin[i]).nodes);
+                                return out;
+                            }});
+        head.clear();
+    }
+    sections.push_back({head + head_22(kHexType, mesh.hex_count()), mesh.hex_count(), 11 * sizeof(int),
+                        [&mesh, &content](std::size_t begin, std::size_t end, char* out) {
+                            const std::size_t first = mesh.skin_count() + 1;
+                            for (std::size_t i = begin; i < end; ++i)
+                                out = put_element_22(out, first + i, content.volume_physical.front(), kVolumeTag,
+                                                     mesh.hex(i));
+                            return out;
+                        }});
+    sections.push_back({"\n$EndElements\n", 0, 0, {}});
+    return sections;
+}
+
+void tell_lost_groups(const MshContent& content, const RunContext& context)
+{
+    for (const MshSurface& surface : content.surfaces)
+        if (surface.physical.size() > 1)
+            log_line(context, "MSH 2.2 holds one group an element: surface " + std::to_string(surface.tag) +
+                                  " keeps the first of its " + std::to_string(surface.physical.size()));
+    if (content.volume_physical.size() > 1)
+        log_line(context, "MSH 2.2 holds one group an element: the volume keeps the first of its groups");
+}
+
+} // namespace
+
+void write_msh(const mesh::HexMesh& mesh, const std::string& path, const MshOptions& options,
+               const RunContext& context)
+{
+    const bool old = options.version == 2.2;
+    if (!old && options.version != 4.1)
+        throw InvalidInput("io.unknown_version",
+                           "MSH version " + text_of(options.version) + " cannot be written; known are 4.1 and 2.2");
+    const MshContent content = msh_content(mesh);
+    if (old) tell_lost_groups(content, context);
+    WholeFile file(path);
+    if (options.binary)
+        write_sections(file, old ? binary_22(mesh, content) : binary_41(mesh, content), Sizes::exact, context);
+    else
+        write_sections(file, old ? text_22(mesh, content) : text_41(mesh, content), Sizes::varying, context);
+    file.commit();
+}
+
+} // namespace lacuna::io

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/msh_content.h>
+
+#include <lacuna/core/error.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace lacuna::io {
+namespace {
+
+constexpr std::size_t kLongestName = 127;  // what Gmsh reads
+
+/// A name the format can hold: it knows no escape for a quote, and a name ends with its line.
+std::string printable(const std::string& name)
+{
+    std::string result;
+    for (const char c : name) {
+        if (c == '"') result += '\'';
+        else if (static_cast<unsigned char>(c) < 32 || c == 127) result += ' ';
+        else result += c;
+    }
+    return result;
+}
+
+/// The first bytes of a name, no UTF-8 character cut in two.
+std::string shortened(const std::string& name, std::size_t bytes)
+{
+    if (name.size() <= bytes) return name;
+    while (bytes > 0 && (static_cast<unsigned char>(name[bytes]) & 0xC0) == 0x80) --bytes;
+    return name.substr(0, bytes);
+}
+
+/// Gives each group one tag. Tags are unique over all dimensions, for readers that know a tag alone.
+class GroupTags {
+public:
+    int tag_of(int dimension, const std::string& group)
+    {
+        const auto [at, fresh] = tags_.try_emplace({dimension, group}, static_cast<int>(names_.size()) + 1);
+        if (fresh) names_.push_back({dimension, at->second, unique_name(dimension, group)});
+        return at->second;
+    }
+    std::vector<int> tags_of(int dimension, const std::vector<std::string>& groups, const std::string& otherwise)
+    {
+        std::set<int> tags;
+        for (const std::string& group : groups) tags.insert(tag_of(dimension, group));
+        if (tags.empty()) tags.insert(tag_of(dimension, otherwise));
+        return {tags.begin(), tags.end()};
+    }
+    std::vector<PhysicalName> take() { return std::move(names_); }
+
+private:
+    /// Two groups stay two, even where shortening makes their names alike.
+    std::string unique_name(int dimension, const std::string& group)
+    {
+        const std::string whole = printable(group);
+        std::string name = shortened(whole, kLongestName);
+        for (int i = 2; !written_.insert({dimension, name}).second; ++i) {
+            const std::string mark = "~" + std::to_string(i);
+            name = shortened(whole, kLongestName - mark.size()) + mark;
+        }
+        return name;
+    }
+
+    std::map<std::pair<int, std::string>, int> tags_;
+    std::set<std::pair<int, std::string>> written_;
+    std::vector<PhysicalName> names_;
+};
+
+void check_patches(const mesh::HexMesh& mesh)
+{
+    const auto layers = static_cast<std::size_t>(std::max(mesh.layers, 0));
+    const auto valid = [&](Index patch) { return patch >= 0 && static_cast<std::size_t>(patch) < mesh.patches.size(); };
+    const bool sizes = mesh.source_patch.size() == mesh.quads.size() && mesh.target_patch.size() == mesh.quads.size() &&
+                       mesh.wall_patch.size() == layers * mesh.rim.size();
+    if (!sizes || !std::all_of(mesh.source_patch.begin(), mesh.source_patch.end(), valid) ||
+        !std::all_of(mesh.target_patch.begin(), mesh.target_patch.end(), valid) ||
+        !std::all_of(mesh.wall_patch.begin(), mesh.wall_patch.end(), valid))
+        throw InvalidInput("io.no_patch", "a quad of the skin belongs to no patch; every one needs one to be written");
+    std::set<int> tags;
+    for (const mesh::SkinPatch& patch : mesh.patches)
+        if (patch.tag <= 0 || !tags.insert(patch.tag).second)
+            throw InvalidInput("io.patch_tag", "the skin patch with tag " + std::to_string(patch.tag) +
+                                                   " must have a positive tag of its own");
+}
+
+} // namespace
+
+MshContent msh_content(const mesh::HexMesh& mesh)
+{
+    check_patches(mesh);
+    MshContent content;
+    const std::size_t count = mesh.skin_count();
+    std::vector<std::size_t> start(mesh.patches.size() + 1, 0);
+    for (std::size_t i = 0; i < count; ++i) ++start[static_cast<std::size_t>(skin_quad(mesh, i).patch) + 1];
+    for (std::size_t p = 1; p < start.size(); ++p) start[p] += start[p - 1];
+    content.skin.resize(count);
+    std::vector<Eigen::AlignedBox3d> boxes(mesh.patches.size());
+    std::vector<std::size_t> next(start.begin(), start.end() - 1);
+    for (std::size_t i = 0; i < count; ++i) {
+        const mesh::SkinQuad quad = skin_quad(mesh, i);
+        const auto patch = static_cast<std::size_t>(quad.patch);
+        content.skin[next[patch]++] = static_cast<std::uint32_t>(i);
+        for (const Index node : quad.nodes) boxes[patch].extend(mesh.nodes[static_cast<std::size_t>(node)]);
+    }
+
+    GroupTags groups;
+    for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+        if (start[p] == start[p + 1]) continue;  // nothing to see of it
+        MshSurface surface;
+        surface.tag = mesh.patches[p].tag;
+        surface.physical = groups.tags_of(2, mesh.patches[p].groups, "surface:" + std::to_string(surface.tag));
+        surface.box = boxes[p];
+        surface.begin = start[p];
+        surface.end = start[p + 1];
+        content.box.extend(surface.box);  // the inside of a valid mesh reaches no further than its skin
+        content.surfaces.push_back(std::move(surface));
+    }
+    content.volume_physical = groups.tags_of(3, mesh.volume_groups, "volume");
+    content.names = groups.take();
+    return content;
+}
+
+} // namespace lacuna::io

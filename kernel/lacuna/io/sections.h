@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/io/whole_file.h>
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+/// Files as a list of sections, filled in parallel. Internal to this folder.
+namespace lacuna::io {
+
+/// A piece of a file: some text, then records without number.
+struct Section {
+    std::string text;
+    std::size_t records = 0;
+    std::size_t record_bytes = 0;  ///< of every record; in files of `Sizes::varying` no record is longer
+    /// Puts records [begin, end) at `out`, returns where they end.
+    std::function<char*(std::size_t begin, std::size_t end, char* out)> fill;
+};
+
+enum class Sizes { exact, varying };
+
+/// Write the sections one behind the other. Memory is bounded by a few buffers, whatever the file's size; the
+/// bytes are the same for any thread count.
+void write_sections(WholeFile& file, const std::vector<Section>& sections, Sizes sizes, const RunContext& context);
+
+/// Bytes of a value as they lie in memory.
+template <class Value>
+char* put(char* out, const Value& value)
+{
+    const char* bytes = reinterpret_cast<const char*>(&value);
+    for (std::size_t i = 0; i < sizeof value; ++i) *out++ = bytes[i];
+    return out;
+}
+
+template <class Value>
+void put(std::string& out, const Value& value)
+{
+    out.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+/// A number as text, the shortest that reads back to the same bits; the same in every locale.
+char* put_text(char* out, double value);
+char* put_text(char* out, long long value);
+std::string text_of(double value);
+
+/// No number is longer as text, a separator included.
+inline constexpr std::size_t kNumberBytes = 26;
+
+} // namespace lacuna::io
