@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/geometry/flatten.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/predicates.h>
+
+#include "flatten_maps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+namespace lacuna::geometry {
+
+namespace {
+
+using flat::Facets;
+using flat::Positions;
+
+const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+[[noreturn]] void fail(const std::string& what)
+{
+    throw InvalidInput("geometry.not_flattenable", "facets cannot be flattened: " + what);
+}
+
+/// The points in use, numbered densely.
+Facets densely(std::span<const Vec3> points, std::span<const Triangle> triangles, std::vector<Index>& used)
+{
+    std::vector<Index> local(points.size(), -1);
+    for (const Triangle& triangle : triangles)
+        for (const Index corner : triangle) {
+            if (corner < 0 || at(corner) >= points.size())
+                fail("one names point " + std::to_string(corner) + " of " + std::to_string(points.size()));
+            local[at(corner)] = 0;
+        }
+    Facets facets;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (local[i] < 0) continue;
+        local[i] = static_cast<Index>(used.size());
+        used.push_back(static_cast<Index>(i));
+        facets.points.push_back(points[i]);
+    }
+    for (const Triangle& t : triangles)
+        facets.triangles.push_back({local[at(t[0])], local[at(t[1])], local[at(t[2])]});
+    return facets;
+}
+
+// --- the boundary ---------------------------------------------------------------------------------
+
+/// Directed sides of the triangles that no other triangle runs along the other way, in rising order.
+/// @param twice  set to a side that two triangles run along the same way, if there is one.
+std::vector<Segment> boundary_sides(std::span<const Triangle> triangles, std::vector<Segment>& twice)
+{
+    std::vector<Segment> sides, boundary;
+    for (const Triangle& t : triangles)
+        for (std::size_t i = 0; i < 3; ++i) sides.push_back({t[i], t[(i + 1) % 3]});
+    std::sort(sides.begin(), sides.end());
+    const auto again = std::adjacent_find(sides.begin(), sides.end());
+    if (again != sides.end()) twice.push_back(*again);
+    for (const Segment& side : sides)
+        if (!std::binary_search(sides.begin(), sides.end(), Segment{side[1], side[0]}))
+            boundary.push_back(side);
+    return boundary;
+}
+
+/// Chain directed sides, sorted by their first point, into cycles.
+std::vector<std::vector<Index>> cycles(const std::vector<Segment>& sides)
+{
+    std::vector<std::vector<Index>> loops;
+    std::vector<bool> taken(sides.size(), false);
+    for (std::size_t start = 0; start < sides.size(); ++start) {
+        if (taken[start]) continue;
+        loops.emplace_back();
+        for (std::size_t next = start; next < sides.size() && !taken[next];) {
+            taken[next] = true;
+            loops.back().push_back(sides[next][0]);
+            const Segment from{sides[next][1], -1};
+            next = at(static_cast<Index>(std::lower_bound(sides.begin(), sides.end(), from) - sides.begin()));
+            while (next < sides.size() && sides[next][0] == from[0] && taken[next]) ++next;
+            if (next < sides.size() && sides[next][0] != from[0]) break;
+        }
+    }
+    return loops;
+}
+
+double loop_length(const Facets& facets, const std::vector<Index>& loop)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        sum += (facets.points[at(loop[(i + 1) % loop.size()])] - facets.points[at(loop[i])]).norm();
+    return sum;
+}
+
+void sort_longest_first(Facets& facets)
+{
+    std::stable_sort(facets.loops.begin(), facets.loops.end(), [&](const auto& a, const auto& b) {
+        return loop_length(facets, a) > loop_length(facets, b);
+    });
+}
+
+// --- what curved facets must be -------------------------------------------------------------------
+
+Index count_parts(const Facets& facets)
+{
+    std::vector<Index> parent(facets.points.size());
+    std::iota(parent.begin(), parent.end(), Index{0});
+    const auto root = [&](Index i) {
+        while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
+        return i;
+    };
+    auto parts = static_cast<Index>(facets.points.size());
+    for (const Triangle& t : facets.triangles)
+        for (std::size_t i = 1; i < 3; ++i) {
+            const Index a = root(t[0]), b = root(t[i]);
+            if (a == b) continue;
+            parent[at(b)] = a;
+            --parts;
+        }
+    return parts;
+}
+
+void check_disc(const Facets& facets, const std::vector<Segment>& boundary, const std::vector<Segment>& twice,
+                const std::vector<Index>& used)
+{
+    if (!twice.empty())
+        fail("two run along the side from point " + std::to_string(used[at(twice.front()[0])]) +
+             " to point " + std::to_string(used[at(twice.front()[1])]) +
+             " the same way; expected an oriented manifold");
+    if (boundary.empty()) fail("they are closed; expected at least one boundary, so cut them open");
+    const Index parts = count_parts(facets);
+    if (parts != 1)
+        fail("they fall into " + std::to_string(parts) + " parts; expected one, so flatten each by itself");
+    const auto v = static_cast<long>(facets.points.size()), f = static_cast<long>(facets.triangles.size());
+    const auto b = static_cast<long>(boundary.size()), loops = static_cast<long>(facets.loops.size());
+    const long edges = (3 * f + b) / 2, euler = v - edges + f + loops;
+    // Each handle takes 2 from a sphere's 2. A boundary that meets itself in a point is let pass.
+    if (euler <= 0)
+        fail("they have " + std::to_string((2 - euler) / 2) + " handles; expected none, so cut them open");
+}
+
+// --- how well it went -----------------------------------------------------------------------------
+
+Vec3 in_space(const Vec2& p) { return {p.x(), p.y(), 0}; }
+
+bool boundary_crosses(const std::vector<Segment>& boundary, const Positions& positions)
+{
+    std::vector<Vec3> points;
+    std::vector<Triangle> needles;
+    for (const Vec2& p : positions) points.push_back(in_space(p));
+    for (const Segment& side : boundary) needles.push_back({side[0], side[1], side[1]});
+    const FacetTree tree(points, needles);
+    return !tree.overlaps(tree, [&](Index i, Index j) {
+        const Segment& s = boundary[at(i)];
+        const Segment& t = boundary[at(j)];
+        if (s[0] == t[0] || s[0] == t[1] || s[1] == t[0] || s[1] == t[1]) return true;
+        const Vec2 &a = positions[at(s[0])], &b = positions[at(s[1])];
+        const Vec2 &c = positions[at(t[0])], &d = positions[at(t[1])];
+        const bool cross = orient2d(a, b, c) * orient2d(a, b, d) < 0 &&
+                           orient2d(c, d, a) * orient2d(c, d, b) < 0;
+        return !cross;
+    });
+}
+
+/// Fill in what is to be said about a map.
+void judge(const Facets& facets, const std::vector<Segment>& boundary, Flattened& flat)
+{
+    flat.flips = 0;
+    flat.max_stretch = 1;
+    for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
+        const auto [large, small] = flat::stretches(flat::jacobian(facets, t, flat.position));
+        if (facets.shapes[t].thin) {
+            // Its sign is rounding's, unless it has grown.
+            if (small * large < -1) ++flat.flips;
+            continue;
+        }
+        if (!(small > 0)) ++flat.flips;
+        const double least = std::max(std::abs(small), std::numeric_limits<double>::min());
+        flat.max_stretch = std::max({flat.max_stretch, large, 1 / least});
+    }
+    flat.overlaps = boundary_crosses(boundary, flat.position);
+    flat.folded = flat.flips > 0 || flat.overlaps;
+}
+
+// --- candidates -----------------------------------------------------------------------------------
+
+Plane plane_of(const Facets& facets)
+{
+    std::vector<std::vector<Vec3>> loops;
+    for (const std::vector<Index>& loop : facets.loops) {
+        loops.emplace_back();
+        for (const Index i : loop) loops.back().push_back(facets.points[at(i)]);
+    }
+    if (loops.empty()) loops.push_back(facets.points);
+    return newell_plane(loops);
+}
+
+bool is_planar(const Facets& facets, const Plane& plane, double tolerance)
+{
+    Eigen::AlignedBox3d box;
+    for (const Vec3& point : facets.points) box.extend(point);
+    // A billionth: six digits more than a drawing has, six more than a double needs.
+    if (!(tolerance > 0)) tolerance = 1e-9 * box.diagonal().norm();
+    return std::all_of(facets.points.begin(), facets.points.end(),
+                       [&](const Vec3& p) { return std::abs(height(plane, p)) <= tolerance; });
+}
+
+/// Turn and shift about the means so that the map agrees best with `model`.
+void align(Positions& positions, const Positions& model)
+{
+    const auto count = static_cast<double>(positions.size());
+    Vec2 mean = Vec2::Zero(), model_mean = Vec2::Zero();
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        mean += positions[i] / count;
+        model_mean += model[i] / count;
+    }
+    double c = 0, s = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const Vec2 p = positions[i] - mean, q = model[i] - model_mean;
+        c += p.dot(q);
+        s += p.x() * q.y() - p.y() * q.x();
+    }
+    const double size = std::hypot(c, s);
+    const Eigen::Rotation2Dd turn(size > 0 ? std::atan2(s, c) : 0.0);
+    for (Vec2& p : positions) p = model_mean + turn * (p - mean);
+}
+
+/// Try the maps in order of stretch until one is one to one; else keep the one with the fewest flips.
+void choose_map(const Facets& facets, const std::vector<Segment>& boundary, const FlattenOptions& options,
+                Flattened& flat)
+{
+    bool any = false;
+    const auto good = [&](FlatMap map, const Positions& positions) {
+        Flattened trial;
+        trial.position = positions;
+        trial.map = map;
+        judge(facets, boundary, trial);
+        if (any && trial.flips >= flat.flips && trial.folded) return false;
+        any = true;
+        trial.used = std::move(flat.used);
+        trial.triangles = std::move(flat.triangles);
+        flat = std::move(trial);
+        return !flat.folded;
+    };
+    const int limit = options.max_iterations;
+    const Positions conformal = flat::conformal(facets);
+    if (good(FlatMap::rigid, flat::as_rigid_as_possible(facets, conformal, limit, options.settled))) return;
+    if (good(FlatMap::injective, flat::injective(facets, conformal, limit, options.settled))) return;
+    const Positions convex = flat::convex(facets);
+    if (good(FlatMap::injective, flat::injective(facets, convex, limit, options.settled))) return;
+    if (good(FlatMap::conformal, conformal)) return;
+    good(FlatMap::convex, convex);
+}
+
+} // namespace
+
+Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                  const FlattenOptions& options)
+{
+    if (triangles.empty()) fail("there are none");
+    Flattened flat;
+    Facets facets = densely(points, triangles, flat.used);
+    flat.triangles = facets.triangles;
+    flat::measure_shapes(facets);
+    std::vector<Segment> twice;
+    const std::vector<Segment> boundary = boundary_sides(facets.triangles, twice);
+    facets.loops = cycles(boundary);
+    sort_longest_first(facets);
+
+    const Plane plane = plane_of(facets);
+    Positions projected;
+    for (const Vec3& point : facets.points) projected.push_back(to_plane(plane, point));
+    if (is_planar(facets, plane, options.planar_tolerance)) {
+        flat.position = projected;
+        judge(facets, boundary, flat);
+        // Facets folded over within their plane are unfolded as curved ones are.
+        if (!flat.folded) return flat;
+    }
+    check_disc(facets, boundary, twice, flat.used);
+    choose_map(facets, boundary, options, flat);
+    align(flat.position, projected);
+    return flat;
+}
+
+// --- back again -----------------------------------------------------------------------------------
+
+PlanarLocator::PlanarLocator(std::span<const Vec2> points, std::span<const Triangle> triangles)
+{
+    std::vector<Vec3> lifted;
+    lifted.reserve(points.size());
+    for (const Vec2& p : points) lifted.push_back(in_space(p));
+    tree_ = FacetTree(lifted, triangles);
+}
+
+PlanarLocator::PlanarLocator(const Flattened& flat) : PlanarLocator(flat.position, flat.triangles) {}
+
+PlanarLocator::Place PlanarLocator::locate(const Vec2& place) const
+{
+    const FacetTree::Hit hit = tree_.closest(in_space(place));
+    return {hit.triangle, hit.barycentric, hit.triangle >= 0 ? std::sqrt(hit.distance2) : 0.0};
+}
+
+Vec3 lift(const Flattened& flat, std::span<const Vec3> points, const PlanarLocator::Place& place)
+{
+    const Triangle& triangle = flat.triangles[at(place.triangle)];
+    // From one corner out, points far from the origin lose no digits.
+    const auto corner = [&](std::size_t i) -> const Vec3& { return points[at(flat.used[at(triangle[i])])]; };
+    return corner(0) + place.barycentric[1] * (corner(1) - corner(0)) +
+           place.barycentric[2] * (corner(2) - corner(0));
+}
+
+} // namespace lacuna::geometry
