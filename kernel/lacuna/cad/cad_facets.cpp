@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <lacuna/cad/cad_facets.h>
+
+#include <lacuna/cad/face_grid.h>
+#include <lacuna/cad/gmsh_api.h>
+#include <lacuna/geometry/delaunay.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+namespace lacuna::cad {
+
+namespace {
+
+/// Places of one model point closer than this in the grid are one corner of the border. [grid cells]
+constexpr double kSameCorner = 0.25;
+/// Grid points keep this far from the border. [grid cells]
+constexpr double kClearance = 0.5;
+
+/// A curve as the face's parameter rectangle sees it.
+struct BorderChain {
+    std::vector<Vec2> uv;
+    std::vector<Index> points;  ///< of the model
+    bool pole = false;          ///< all one point
+    bool slit = false;          ///< the face on both sides, at the same place
+};
+
+std::vector<Vec2> parameters_on_face(const CadCurveInfo& curve, const std::vector<double>& params, int face, int which)
+{
+    std::vector<double> values;
+    gmsh::model::reparametrizeOnSurface(1, curve.tag, params, face, values, which);
+    std::vector<Vec2> uv(params.size());
+    if (values.size() != 2 * params.size()) return {};
+    for (std::size_t i = 0; i < uv.size(); ++i) uv[i] = {values[2 * i], values[2 * i + 1]};
+    return uv;
+}
+
+/// Where reparametrisation misses the points, the closest place of the surface stands in.
+void mend_parameters(int face, const std::vector<Vec3>& at, std::vector<Vec2>& uv, double allowed)
+{
+    if (uv.size() == at.size()) {
+        const std::vector<Vec3> there = surface_points(face, uv);
+        bool good = true;
+        for (std::size_t i = 0; i < at.size(); ++i) good = good && (there[i] - at[i]).norm() <= allowed;
+        if (good) return;
+    }
+    std::vector<double> coordinates, values;
+    for (const Vec3& p : at) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
+    gmsh::model::getParametrization(2, face, coordinates, values);
+    if (values.size() != 2 * at.size()) return;
+    std::vector<Vec2> closest(at.size());
+    for (std::size_t i = 0; i < at.size(); ++i) closest[i] = {values[2 * i], values[2 * i + 1]};
+    if (uv.size() != at.size()) {
+        uv = std::move(closest);
+        return;
+    }
+    const std::vector<Vec3> there = surface_points(face, uv);
+    const std::vector<Vec3> here = surface_points(face, closest);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        if ((here[i] - at[i]).norm() < (there[i] - at[i]).norm()) uv[i] = closest[i];
+    }
+}
+
+/// Every curve of the face as chains of places; a seam gives two.
+std::vector<BorderChain> border_of(const CadWire& wire, const CadFaceInfo& face, double allowed)
+{
+    std::vector<BorderChain> border;
+    for (const CadFaceInfo::Side& side : face.sides) {
+        const CadCurveInfo& curve = wire.curves[side.curve];
+        BorderChain chain;
+        std::vector<double> params;
+        std::vector<Vec3> at;
+        if (curve.pieces.empty()) {
+            const Index point = wire.vertices[static_cast<std::size_t>(curve.from)].point;
+            params = {curve.low, curve.high};
+            chain.points = {point, point};
+            chain.pole = true;
+        }
+        for (const std::size_t p : curve.pieces) {
+            PieceNodes nodes = nodes_of(wire, p);
+            const std::size_t shared = params.empty() ? 0 : 1;
+            params.insert(params.end(), nodes.params.begin() + static_cast<std::ptrdiff_t>(shared), nodes.params.end());
+            chain.points.insert(chain.points.end(), nodes.points.begin() + static_cast<std::ptrdiff_t>(shared), nodes.points.end());
+        }
+        for (const Index p : chain.points) at.push_back(wire.points[static_cast<std::size_t>(p)]);
+        chain.uv = parameters_on_face(curve, params, face.tag, 0);
+        if (!chain.pole) mend_parameters(face.tag, at, chain.uv, allowed);
+        if (chain.uv.size() != params.size()) continue;
+        if (side.uses > 1) {
+            BorderChain other = chain;
+            other.uv = parameters_on_face(curve, params, face.tag, 1);
+            const bool seam = other.uv.size() == chain.uv.size() &&
+                              (other.uv.front() - chain.uv.front()).norm() > 1e-9 * (1 + chain.uv.front().norm());
+            if (seam) {
+                border.push_back(std::move(other));
+            } else {
+                chain.slit = true;
+            }
+        }
+        border.push_back(std::move(chain));
+    }
+    return border;
+}
+
+ParameterBox box_of(const std::vector<BorderChain>& border, const CadFaceInfo& face, const CadWire& wire)
+{
+    ParameterBox box;
+    Eigen::AlignedBox2d bounds;
+    for (const BorderChain& chain : border) {
+        for (const Vec2& uv : chain.uv) bounds.extend(uv);
+    }
+    box.low = bounds.min();
+    box.high = bounds.max();
+    for (const CadFaceInfo::Side& side : face.sides) {
+        const CadCurveInfo& curve = wire.curves[side.curve];
+        if (side.uses < 2 || curve.pieces.empty()) continue;
+        const auto a = parameters_on_face(curve, {curve.low}, face.tag, 0);
+        const auto b = parameters_on_face(curve, {curve.low}, face.tag, 1);
+        if (a.empty() || b.empty()) continue;
+        for (int k = 0; k < 2; ++k) {
+            // A seam's two sides are one period apart, and nothing of the face lies beyond.
+            const double apart = std::abs(a[0][k] - b[0][k]);
+            if (apart > 0.99 * (box.high[k] - box.low[k]) && apart > 0) box.closed[static_cast<std::size_t>(k)] = true;
+        }
+    }
+    return box;
+}
+
+/// The border and the grid points inside it, in grid coordinates.
+struct GridDomain {
+    struct Node {
+        Vec2 grid, uv;
+        Index point;  ///< of the model
+    };
+    struct Segment {
+        Index a, b;
+        bool slit;
+    };
+    std::vector<Node> nodes;
+    std::vector<Segment> segments;
+};
+
+/// Collects the chains' places as nodes, the ends of chains that meet as one.
+class DomainBuilder {
+public:
+    explicit DomainBuilder(const FaceGrid& grid) : grid_(grid) {}
+
+    void add(const BorderChain& chain)
+    {
+        if (chain.pole) {
+            const Vec2 a = grid_.to_grid(chain.uv.front());
+            const Vec2 b = grid_.to_grid(chain.uv.back());
+            join(node(a, chain.uv.front(), chain.points.front()), node(b, chain.uv.back(), chain.points.back()));
+            return;
+        }
+        Index last = -1;
+        for (std::size_t i = 0; i < chain.uv.size(); ++i) {
+            const Index next = node(grid_.to_grid(chain.uv[i]), chain.uv[i], chain.points[i]);
+            if (last >= 0 && next != last) domain_.segments.push_back({last, next, chain.slit});
+            last = next;
+        }
+    }
+
+    /// Close what does not meet: some files leave out the curve at a pole.
+    GridDomain finish()
+    {
+        std::vector<int> degree(domain_.nodes.size(), 0);
+        for (const GridDomain::Segment& s : domain_.segments) {
+            if (s.slit) continue;
+            ++degree[static_cast<std::size_t>(s.a)];
+            ++degree[static_cast<std::size_t>(s.b)];
+        }
+        const std::size_t count = degree.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            if (degree[i] % 2 == 0) continue;
+            std::size_t nearest = count;
+            for (std::size_t k = i + 1; k < count; ++k) {
+                if (degree[k] % 2 == 0 || domain_.nodes[k].point != domain_.nodes[i].point) continue;
+                if (nearest == count || distance(i, k) < distance(i, nearest)) nearest = k;
+            }
+            if (nearest == count) continue;
+            join(static_cast<Index>(i), static_cast<Index>(nearest));
+            ++degree[i];
+            ++degree[nearest];
+        }
+        return std::move(domain_);
+    }
+
+private:
+    [[nodiscard]] double distance(std::size_t a, std::size_t b) const
+    {
+        return (domain_.nodes[a].grid - domain_.nodes[b].grid).norm();
+    }
+
+    Index node(const Vec2& grid, const Vec2& uv, Index point)
+    {
+        std::vector<Index>& same = nodes_of_point_[point];
+        for (const Index n : same) {
+            if ((domain_.nodes[static_cast<std::size_t>(n)].grid - grid).norm() < kSameCorner) return n;
+        }
+        same.push_back(static_cast<Index>(domain_.nodes.size()));
+        domain_.nodes.push_back({grid, uv, point});
+        return same.back();
+    }
+
+    /// A line of segments between two places of one point, about a cell each.
+    void join(Index a, Index b)
+    {
+        const GridDomain::Node from = domain_.nodes[static_cast<std::size_t>(a)];
+        const GridDomain::Node to = domain_.nodes[static_cast<std::size_t>(b)];
+        const int sides = std::max(1, static_cast<int>(std::lround((to.grid - from.grid).norm())));
+        Index last = a;
+        for (int i = 1; i < sides; ++i) {
+            const Vec2 grid = from.grid + (to.grid - from.grid) * i / sides;
+            const auto next = static_cast<Index>(domain_.nodes.size());
+            domain_.nodes.push_back({grid, grid_.to_uv(grid), from.point});
+            domain_.segments.push_back({last, next, false});
+            last = next;
+        }
+        if (last != b) domain_.segments.push_back({last, b, false});
+    }
+
+    const FaceGrid& grid_;
+    GridDomain domain_;
+    std::unordered_map<Index, std::vector<Index>> nodes_of_point_;
+};
+
+double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b)
+{
+    const Vec2 side = b - a;
+    const double t = side.squaredNorm() > 0 ? std::clamp((p - a).dot(side) / side.squaredNorm(), 0.0, 1.0) : 0;
+    return (a + t * side - p).norm();
+}
+
+/// Grid crossings inside the border that keep their distance to it, as nodes without a model point yet.
+void add_grid_points(GridDomain& domain, const FaceGrid& grid)
+{
+    const int nu = grid.axis[0].cells();
+    const int nv = grid.axis[1].cells();
+    const auto at = [&](int i, int j) { return static_cast<std::size_t>(j) * static_cast<std::size_t>(nu + 1) + static_cast<std::size_t>(i); };
+    std::vector<char> near(static_cast<std::size_t>(nu + 1) * static_cast<std::size_t>(nv + 1), 0);
+    std::vector<std::vector<double>> crossings(static_cast<std::size_t>(nv + 1));
+    for (const GridDomain::Segment& s : domain.segments) {
+        const Vec2& a = domain.nodes[static_cast<std::size_t>(s.a)].grid;
+        const Vec2& b = domain.nodes[static_cast<std::size_t>(s.b)].grid;
+        const Vec2 low = a.cwiseMin(b);
+        const Vec2 high = a.cwiseMax(b);
+        const auto clip = [](double value, int most) { return std::clamp(static_cast<int>(value), 0, most); };
+        for (int j = clip(std::ceil(low.y() - kClearance), nv); j <= clip(std::floor(high.y() + kClearance), nv); ++j) {
+            for (int i = clip(std::ceil(low.x() - kClearance), nu); i <= clip(std::floor(high.x() + kClearance), nu); ++i) {
+                if (distance_to_segment(Vec2(i, j), a, b) < kClearance) near[at(i, j)] = 1;
+            }
+            if (s.slit) continue;
+            // Half open, so that a corner on the line counts once.
+            if ((a.y() <= j) == (b.y() <= j)) continue;
+            crossings[static_cast<std::size_t>(j)].push_back(a.x() + (j - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+        }
+    }
+    for (int j = 1; j < nv; ++j) {
+        std::vector<double>& cuts = crossings[static_cast<std::size_t>(j)];
+        std::sort(cuts.begin(), cuts.end());
+        for (std::size_t c = 0; c + 1 < cuts.size(); c += 2) {
+            for (int i = std::max(1, static_cast<int>(std::ceil(cuts[c]))); i < nu && i <= cuts[c + 1]; ++i) {
+                if (near[at(i, j)]) continue;
+                const Vec2 place(i, j);
+                domain.nodes.push_back({place, grid.to_uv(place), -1});
+            }
+        }
+    }
+}
+
+/// Triangles within the border; empty where its segments cross.
+std::vector<Triangle> triangulate(const GridDomain& domain)
+{
+    std::vector<Vec2> places;
+    std::vector<Index> all;
+    for (const GridDomain::Node& node : domain.nodes) {
+        all.push_back(static_cast<Index>(places.size()));
+        places.push_back(node.grid);
+    }
+    std::optional<geometry::DelaunayMesh> made;
+    try {
+        made.emplace(places, all);
+        for (const GridDomain::Segment& s : domain.segments) made->fix_segment(s.a, s.b);
+    } catch (const Error&) { // A point of the border lies on another, or on a segment.
+        return {};
+    }
+    geometry::DelaunayMesh& mesh = *made;
+    mesh.mark_inside();
+    for (const GridDomain::Segment& s : domain.segments) {
+        const Index left = mesh.find_side(s.a, s.b).first;
+        const Index right = mesh.find_side(s.b, s.a).first;
+        if (left < 0 || right < 0) return {};
+        if (!s.slit && mesh[left].inside == mesh[right].inside) return {};
+    }
+    std::vector<Triangle> inside;
+    for (const geometry::DelaunayTriangle& t : mesh.triangles()) {
+        if (t.inside) inside.push_back(t.corner);
+    }
+    return inside;
+}
+
+} // namespace
+
+std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo& face, const FacetOptions& options,
+                                         Index first_added)
+{
+    const double allowed = std::max(10 * options.tolerance, 1e-3 * options.fineness.max_size);
+    const std::vector<BorderChain> border = border_of(wire, face, allowed);
+    if (border.empty()) {
+        throw BackendError("cad.no_border", "face " + std::to_string(face.tag) +
+                                                " has no boundary curves; split it in the CAD system, or export the file anew");
+    }
+    CadFacets facets;
+    facets.box = box_of(border, face, wire);
+    facets.kind = kind_of_face(face.tag, facets.box);
+    const FaceGrid grid = lay_grid(face.tag, facets.kind == "plane", facets.box, options.fineness, options.max_cells);
+
+    DomainBuilder builder(grid);
+    for (const BorderChain& chain : border) builder.add(chain);
+    GridDomain domain = builder.finish();
+    add_grid_points(domain, grid);
+    const std::vector<Triangle> triangles = triangulate(domain);
+
+    std::vector<Vec2> inner;
+    for (GridDomain::Node& node : domain.nodes) {
+        if (node.point >= 0) continue;
+        node.point = first_added + static_cast<Index>(inner.size());
+        inner.push_back(node.uv);
+    }
+    if (!inner.empty()) facets.added = surface_points(face.tag, inner);
+    for (const Triangle& t : triangles) {
+        Triangle corners{};
+        std::array<Vec2, 3> uv;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const GridDomain::Node& node = domain.nodes[static_cast<std::size_t>(t[k])];
+            corners[k] = node.point;
+            uv[k] = node.uv;
+        }
+        // At a pole a side shrinks to a point, and the triangle with it.
+        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
+        facets.triangles.push_back(corners);
+        facets.uv.push_back(uv);
+    }
+    if (facets.triangles.empty()) return std::nullopt;
+    return facets;
+}
+
+} // namespace lacuna::cad

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <lacuna/cad/face_grid.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace lacuna::cad {
+
+namespace {
+
+/// A facet may be this many times longer than wide: a cylinder's need no cuts across its rulings, but slivers
+/// serve the flattening of faces badly.
+constexpr double kMaxAspect = 5;
+/// A face is at least this many cells along its longer side.
+constexpr double kCellsAlong = 4;
+
+/// Derivatives and normals on a regular lattice over the rectangle.
+struct Lattice {
+    std::size_t sides;
+    std::array<std::vector<double>, 2> knots;
+    std::vector<SurfaceFrame> frames;  ///< at u index i, v index j: i · (sides + 1) + j
+
+    [[nodiscard]] const SurfaceFrame& at(int axis, std::size_t along, std::size_t across) const
+    {
+        return axis == 0 ? frames[along * (sides + 1) + across] : frames[across * (sides + 1) + along];
+    }
+};
+
+Lattice sample(int tag, const ParameterBox& box, std::size_t sides)
+{
+    Lattice lattice{sides, {}, {}};
+    for (int k = 0; k < 2; ++k) {
+        for (std::size_t i = 0; i <= sides; ++i) {
+            const double part = static_cast<double>(i) / static_cast<double>(sides);
+            lattice.knots[static_cast<std::size_t>(k)].push_back(box.low[k] + part * (box.high[k] - box.low[k]));
+        }
+    }
+    std::vector<Vec2> uv;
+    for (const double u : lattice.knots[0]) {
+        for (const double v : lattice.knots[1]) uv.emplace_back(u, v);
+    }
+    lattice.frames = surface_frames(tag, uv);
+    return lattice;
+}
+
+/// Angle between the normals of two frames; none where one is at a pole.
+double turn_between(const SurfaceFrame& a, const SurfaceFrame& b)
+{
+    const Vec3 na = a.du.cross(a.dv);
+    const Vec3 nb = b.du.cross(b.dv);
+    const double floor_a = 1e-9 * a.du.norm() * a.dv.norm();
+    const double floor_b = 1e-9 * b.du.norm() * b.dv.norm();
+    if (!(na.norm() > floor_a) || !(nb.norm() > floor_b)) return 0;
+    return std::atan2(na.cross(nb).norm(), na.dot(nb));
+}
+
+/// For each interval along an axis, the largest length and the largest turn over all lines across.
+struct Profile {
+    std::vector<double> length, turn;
+    [[nodiscard]] double total_length() const { return std::accumulate(length.begin(), length.end(), 0.0); }
+};
+
+Profile profile_along(const Lattice& lattice, int axis)
+{
+    Profile profile;
+    const std::vector<double>& knots = lattice.knots[static_cast<std::size_t>(axis)];
+    for (std::size_t i = 0; i < lattice.sides; ++i) {
+        double length = 0, turn = 0;
+        for (std::size_t j = 0; j <= lattice.sides; ++j) {
+            const SurfaceFrame& a = lattice.at(axis, i, j);
+            const SurfaceFrame& b = lattice.at(axis, i + 1, j);
+            const double speed = axis == 0 ? (a.du + b.du).norm() / 2 : (a.dv + b.dv).norm() / 2;
+            length = std::max(length, speed * (knots[i + 1] - knots[i]));
+            turn = std::max(turn, turn_between(a, b));
+        }
+        profile.length.push_back(length);
+        profile.turn.push_back(turn);
+    }
+    return profile;
+}
+
+} // namespace
+
+GridAxis::GridAxis(std::vector<double> knots, const std::vector<double>& density, int least_cells)
+    : knots_(std::move(knots)), grid_(1, 0.0)
+{
+    double total = std::accumulate(density.begin(), density.end(), 0.0);
+    // A little everywhere keeps the map rising.
+    const double least = total > 0 ? 1e-3 * total / static_cast<double>(density.size()) : 1;
+    for (const double d : density) grid_.push_back(grid_.back() + std::max(d, least));
+    cells_ = std::max(least_cells, static_cast<int>(std::ceil(total - 1e-6)));
+    const double scale = cells_ / grid_.back();
+    for (double& g : grid_) g *= scale;
+    grid_.back() = cells_;
+}
+
+double GridAxis::to_grid(double parameter) const
+{
+    const auto next = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, parameter);
+    const auto i = static_cast<std::size_t>(next - knots_.begin());
+    const double width = knots_[i] - knots_[i - 1];
+    const double part = width > 0 ? (parameter - knots_[i - 1]) / width : 0;
+    return grid_[i - 1] + part * (grid_[i] - grid_[i - 1]);
+}
+
+double GridAxis::to_parameter(double grid) const
+{
+    const auto next = std::upper_bound(grid_.begin() + 1, grid_.end() - 1, grid);
+    const auto i = static_cast<std::size_t>(next - grid_.begin());
+    const double part = (grid - grid_[i - 1]) / (grid_[i] - grid_[i - 1]);
+    return knots_[i - 1] + part * (knots_[i] - knots_[i - 1]);
+}
+
+FaceGrid lay_grid(int tag, bool flat, const ParameterBox& box, const Fineness& fineness, double max_cells)
+{
+    const Lattice lattice = sample(tag, box, flat ? 2 : 32);
+    const std::array<Profile, 2> profile{profile_along(lattice, 0), profile_along(lattice, 1)};
+    const double longest = std::max(profile[0].total_length(), profile[1].total_length());
+    const double size = std::min(fineness.max_size, longest / kCellsAlong);
+
+    std::array<std::vector<double>, 2> density;
+    std::array<double, 2> cells{}, cell_length{};
+    for (std::size_t k = 0; k < 2; ++k) {
+        for (std::size_t i = 0; i < lattice.sides; ++i) {
+            density[k].push_back(std::max(profile[k].length[i] / size, profile[k].turn[i] / fineness.turn));
+        }
+        cells[k] = std::max(1.0, std::accumulate(density[k].begin(), density[k].end(), 0.0));
+        cell_length[k] = profile[k].total_length() / cells[k];
+    }
+    std::array<double, 2> factor{1, 1};
+    for (std::size_t k = 0; k < 2; ++k) {
+        const double widest = kMaxAspect * cell_length[1 - k];
+        if (widest > 0 && cell_length[k] > widest) factor[k] = cell_length[k] / widest;
+    }
+    const double count = cells[0] * factor[0] * cells[1] * factor[1];
+    if (count > max_cells) {
+        for (double& f : factor) f *= std::sqrt(max_cells / count);
+    }
+    FaceGrid grid;
+    for (std::size_t k = 0; k < 2; ++k) {
+        for (double& d : density[k]) d *= factor[k];
+        // Around a closed surface fewer than four would fold facets onto each other.
+        grid.axis[k] = GridAxis(lattice.knots[k], density[k], box.closed[k] ? 4 : 1);
+    }
+    return grid;
+}
+
+} // namespace lacuna::cad

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <lacuna/cad/import_cad.h>
+
+#include <map>
+
+namespace lacuna::cad {
+
+namespace {
+
+/// A side of a face's border, as a facet runs along it.
+struct BorderUse {
+    std::size_t face;
+    bool forward;
+};
+using Borders = std::map<std::pair<Index, Index>, std::vector<BorderUse>>;
+
+Borders borders_of(const topology::Model& model, const std::vector<std::size_t>& group)
+{
+    Borders borders;
+    for (const std::size_t f : group) {
+        // Sides inside a face come once each way and cancel; what is left is its border.
+        std::map<std::pair<Index, Index>, int> net;
+        for (const Triangle& t : model.faces[f].triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index a = t[k];
+                const Index b = t[(k + 1) % 3];
+                net[std::minmax(a, b)] += a < b ? 1 : -1;
+            }
+        }
+        for (const auto& [side, sum] : net) {
+            if (sum != 0) borders[side].push_back({f, sum > 0});
+        }
+    }
+    return borders;
+}
+
+void flip(topology::Face& face)
+{
+    for (Triangle& t : face.triangles) std::swap(t[1], t[2]);
+    for (std::array<Vec2, 3>& uv : face.uv) std::swap(uv[1], uv[2]);
+    for (Quad& q : face.given_quads) std::swap(q[1], q[3]);
+}
+
+double six_volumes(const topology::Model& model, const topology::Face& face, const Vec3& origin)
+{
+    double sum = 0;
+    for (const Triangle& t : face.triangles) {
+        sum += (model.at(t[0]) - origin).dot((model.at(t[1]) - origin).cross(model.at(t[2]) - origin));
+    }
+    return sum;
+}
+
+/// The faces of a group that hang together, each with whether it must turn to agree with the first.
+struct Part {
+    std::vector<std::size_t> faces;
+    bool agrees = true;
+    bool closed = true;
+};
+
+Part flood(std::size_t start, const std::map<std::size_t, std::vector<std::pair<std::size_t, bool>>>& neighbours,
+           std::map<std::size_t, bool>& turned)
+{
+    Part part{{start}, true, true};
+    turned[start] = false;
+    for (std::size_t i = 0; i < part.faces.size(); ++i) {
+        const auto found = neighbours.find(part.faces[i]);
+        if (found == neighbours.end()) continue;
+        for (const auto& [other, alike] : found->second) {
+            // Facets that agree run along a shared side in opposite directions.
+            const bool turn = alike != turned[part.faces[i]];
+            const auto [place, fresh] = turned.try_emplace(other, turn);
+            if (fresh) {
+                part.faces.push_back(other);
+            } else if (place->second != turn) {
+                part.agrees = false;
+            }
+        }
+    }
+    return part;
+}
+
+} // namespace
+
+void orient_groups(topology::Model& model, const std::vector<std::vector<std::size_t>>& groups)
+{
+    for (const std::vector<std::size_t>& group : groups) {
+        std::map<std::size_t, std::vector<std::pair<std::size_t, bool>>> neighbours;
+        std::map<std::size_t, bool> open;
+        for (const auto& [side, uses] : borders_of(model, group)) {
+            if (uses.size() != 2) {
+                for (const BorderUse& use : uses) open[use.face] = true;
+                continue;
+            }
+            const bool alike = uses[0].forward == uses[1].forward;
+            neighbours[uses[0].face].emplace_back(uses[1].face, alike);
+            neighbours[uses[1].face].emplace_back(uses[0].face, alike);
+        }
+        std::map<std::size_t, bool> turned;
+        for (const std::size_t start : group) {
+            if (turned.contains(start)) continue;
+            Part part = flood(start, neighbours, turned);
+            if (!part.agrees) continue;
+            for (const std::size_t f : part.faces) {
+                if (turned[f]) flip(model.faces[f]);
+                part.closed = part.closed && !open.contains(f);
+            }
+            if (!part.closed) continue;
+            const Vec3 origin = model.at(model.faces[start].triangles.front()[0]);
+            double volume = 0;
+            for (const std::size_t f : part.faces) volume += six_volumes(model, model.faces[f], origin);
+            if (volume >= 0) continue;
+            for (const std::size_t f : part.faces) flip(model.faces[f]);
+        }
+    }
+}
+
+} // namespace lacuna::cad

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <lacuna/cad/cad_facets.h>
+#include <lacuna/cad/gmsh_api.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lacuna::cad {
+
+namespace {
+
+/// What a surface is like at a place; |first| >= |second|.
+struct Bend {
+    Vec3 at, normal;
+    double first = 0, second = 0;  ///< principal curvatures, positive where the centre is on the normal's side
+    [[nodiscard]] Vec3 centre(double curvature) const { return at + normal / curvature; }
+};
+
+std::vector<Bend> bends_of(int tag, const ParameterBox& box)
+{
+    constexpr int kSamples = 5;
+    std::vector<Vec2> uv;
+    for (int i = 0; i < kSamples; ++i) {
+        for (int j = 0; j < kSamples; ++j) {
+            uv.push_back(box.low + (box.high - box.low).cwiseProduct(Vec2((i + 0.4) / kSamples, (j + 0.6) / kSamples)));
+        }
+    }
+    const std::vector<Vec3> at = surface_points(tag, uv);
+    const std::vector<SurfaceFrame> frames = surface_frames(tag, uv);
+    const std::vector<SecondDerivatives> second = surface_second(tag, uv);
+    std::vector<Bend> bends;
+    for (std::size_t i = 0; i < uv.size(); ++i) {
+        const SurfaceFrame& f = frames[i];
+        const Vec3 n = f.du.cross(f.dv).normalized();
+        Eigen::Matrix2d metric, shape;
+        metric << f.du.dot(f.du), f.du.dot(f.dv), f.du.dot(f.dv), f.dv.dot(f.dv);
+        shape << n.dot(second[i].uu), n.dot(second[i].uv), n.dot(second[i].uv), n.dot(second[i].vv);
+        if (!(metric.determinant() > 0)) continue;
+        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> solver(shape, metric, Eigen::EigenvaluesOnly);
+        double a = solver.eigenvalues()[0];
+        double b = solver.eigenvalues()[1];
+        if (std::abs(a) < std::abs(b)) std::swap(a, b);
+        bends.push_back({at[i], n, a, b});
+    }
+    return bends;
+}
+
+/// Do all points lie on one line, to a part of `size`?
+bool collinear(const std::vector<Vec3>& points, double size, double precision)
+{
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    Vec3 mean = Vec3::Zero();
+    for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
+    for (const Vec3& p : points) spread += (p - mean) * (p - mean).transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread, Eigen::EigenvaluesOnly);
+    return std::sqrt(std::max(0.0, solver.eigenvalues()[1])) <= precision * size * std::sqrt(static_cast<double>(points.size()));
+}
+
+std::string kind_by_bending(int tag, const ParameterBox& box)
+{
+    // Second derivatives of some of Gmsh's surfaces are differences, good to about this.
+    constexpr double kPrecision = 1e-4;
+    const std::vector<Bend> bends = bends_of(tag, box);
+    if (bends.empty()) return "surface";
+    Eigen::AlignedBox3d bounds;
+    for (const Bend& b : bends) bounds.extend(b.at);
+    const double size = bounds.diagonal().norm();
+    const auto none = [&](double curvature) { return std::abs(curvature) * size < kPrecision; };
+    const auto alike = [&](double a, double b) { return std::abs(a - b) <= kPrecision * std::max(std::abs(a), std::abs(b)); };
+    const auto all = [&](auto&& test) { return std::all_of(bends.begin(), bends.end(), test); };
+    const Bend& one = bends.front();
+
+    if (all([&](const Bend& b) { return none(b.first); })) return "plane";
+    if (all([&](const Bend& b) { return none(b.second); })) {
+        if (all([&](const Bend& b) { return alike(b.first, one.first); })) return "cylinder";
+        std::vector<Vec3> centres;
+        for (const Bend& b : bends) {
+            if (none(b.first)) return "surface";
+            centres.push_back(b.centre(b.first));
+        }
+        return collinear(centres, size, kPrecision) ? "cone" : "surface";
+    }
+    if (all([&](const Bend& b) { return alike(b.first, one.first) && alike(b.second, one.first); })) return "sphere";
+    // A torus bends one way the same everywhere, and the other way around its axis.
+    for (const double constant : {one.first, one.second}) {
+        if (none(constant)) continue;
+        std::vector<Vec3> centres;
+        bool matches = true;
+        for (const Bend& b : bends) {
+            const bool first = alike(b.first, constant);
+            if (!first && !alike(b.second, constant)) {
+                matches = false;
+                break;
+            }
+            const double other = first ? b.second : b.first;
+            if (std::abs(other) * size > 0.05) centres.push_back(b.centre(other));
+        }
+        if (matches && centres.size() > 2 && collinear(centres, size, kPrecision)) return "torus";
+    }
+    return "surface";
+}
+
+} // namespace
+
+std::string kind_of_face(int tag, const ParameterBox& box)
+{
+    const std::string type = gmsh_type(2, tag);
+    for (const auto& [word, kind] : {std::pair("Plane", "plane"), std::pair("Cylinder", "cylinder"), std::pair("Cone", "cone"),
+                                     std::pair("Sphere", "sphere"), std::pair("Torus", "torus"),
+                                     std::pair("BSpline surface", "bspline"), std::pair("Bezier surface", "bspline")}) {
+        if (type == word) return kind;
+    }
+    return kind_by_bending(tag, box);
+}
+
+} // namespace lacuna::cad
