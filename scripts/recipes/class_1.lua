@@ -38,8 +38,8 @@ print("class", void.class)
 assert(void.class == "I")
 
 local closure = void:close()
-print("added", #closure.void_edges .. " edges, " .. #closure.void_faces .. " faces")
-assert(#closure.void_edges == params.sides and #closure.void_faces == params.sides and closure.watertight)
+print("added", closure.void_edges .. " edges, " .. closure.void_faces .. " faces")
+assert(closure.void_edges == params.sides and closure.void_faces == params.sides and closure.watertight)
 
 local mesh = void:sweep { layers = params.layers, size = params.size }
 print(mesh:quality())

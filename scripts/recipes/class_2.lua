@@ -19,8 +19,8 @@ print(void:describe())
 assert(void.class == "II", void.class)
 
 local closure = void:close()
-print("added", #closure.void_edges .. " edge, " .. #closure.void_faces .. " faces")
-assert(#closure.void_edges == 1 and #closure.void_faces == 2 and closure.watertight)
+print("added", closure.void_edges .. " edge, " .. closure.void_faces .. " faces")
+assert(closure.void_edges == 1 and closure.void_faces == 2 and closure.watertight)
 
 local mesh = void:sweep { layers = params.layers, size = params.size }
 print(mesh:quality())

@@ -41,8 +41,8 @@ print("class", void.class)
 assert(void.class == "III", void.class)
 
 local closure = void:close()
-print("added", #closure.void_edges .. " edges, " .. #closure.void_faces .. " faces")
-assert(#closure.void_edges == 0 and #closure.void_faces == 2 and closure.watertight)
+print("added", closure.void_edges .. " edges, " .. closure.void_faces .. " faces")
+assert(closure.void_edges == 0 and closure.void_faces == 2 and closure.watertight)
 
 local mesh = void:sweep { layers = params.layers, size = params.size }
 print(mesh:quality())

@@ -30,8 +30,8 @@ print("class", void.class)
 assert(void.class == "IV", void.class)
 
 local closure = void:close()
-print("added", #closure.void_edges .. " edges, " .. #closure.void_faces .. " face")
-assert(#closure.void_edges == 0 and #closure.void_faces == 1 and closure.watertight)
+print("added", closure.void_edges .. " edges, " .. closure.void_faces .. " face")
+assert(closure.void_edges == 0 and closure.void_faces == 1 and closure.watertight)
 
 local mesh = void:sweep { layers = params.layers, size = params.size }
 print(mesh:quality())

@@ -32,7 +32,7 @@ assert(void.class == "II", void.class)
 
 local closure = void:close()
 print(void:tree())
-assert(#closure.void_edges == 1 and #closure.void_faces == 2 and closure.watertight)
+assert(closure.void_edges == 1 and closure.void_faces == 2 and closure.watertight)
 
 local mesh = void:sweep { layers = params.layers, size = params.size }
 print(mesh:quality())

@@ -34,8 +34,8 @@ print("class", void.class)
 assert(void.class == "I", void.class)
 
 local closure = void:close()
-print("added", #closure.void_faces .. " faces", table.concat(closure.algorithms, ", "))
-assert(#closure.void_faces == 2 and closure.watertight)
+print("added", closure.void_faces .. " faces", table.concat(closure.algorithms, ", "))
+assert(closure.void_faces == 2 and closure.watertight)
 
 local mesh = void:sweep { layers = params.layers, size = params.size }
 print(mesh:quality())

@@ -44,8 +44,8 @@ print("class", void.class)
 assert(void.class == "II", "two neighbouring sides are missing, so one corner of the floor is on no wall")
 
 local closure = void:close()
-print("added", #closure.void_edges .. " edge, " .. #closure.void_faces .. " faces", table.concat(closure.algorithms, ", "))
-assert(#closure.void_edges == 1 and #closure.void_faces == 2 and closure.watertight)
+print("added", closure.void_edges .. " edge, " .. closure.void_faces .. " faces", table.concat(closure.algorithms, ", "))
+assert(closure.void_edges == 1 and closure.void_faces == 2 and closure.watertight)
 
 local mesh = void:sweep { layers = params.layers, size = params.size }
 print(mesh:quality())
