@@ -49,7 +49,8 @@ Region star_with_islands(unsigned seed, int corners, int islands)
     add_star(region, dice, corners, 4, 7, {0.3, -0.2});
     for (int i = 0; i < islands; ++i) {
         const double angle = 2 * std::numbers::pi * i / islands;
-        add_star(region, dice, 3 + static_cast<int>(dice() % 9), 0.2, 0.7, 2 * Vec2(std::cos(angle), std::sin(angle)));
+        add_star(region, dice, 3 + static_cast<int>(dice() % 9), 0.2, 0.7,
+                 2 * Vec2(std::cos(angle), std::sin(angle)));
     }
     std::shuffle(region.loops.begin(), region.loops.end(), dice);
     return region;
@@ -119,14 +120,15 @@ void check_triangulation(const Region& region, const Triangulation& result, doub
             CHECK(is_segment);
         } else {
             CHECK(!is_segment);
-            CHECK(incircle(at(result.points, side.first), at(result.points, side.second), at(result.points, left),
-                           at(result.points, twin->second)) <= 0);
+            CHECK(incircle(at(result.points, side.first), at(result.points, side.second),
+                           at(result.points, left), at(result.points, twin->second)) <= 0);
         }
     }
     CHECK(border == segments.size());
     // Euler: V − E + F of a disc with holes.
     const auto sides = (apex.size() + border) / 2;
-    CHECK(static_cast<long>(used.size()) - static_cast<long>(sides) + static_cast<long>(result.triangles.size()) ==
+    CHECK(static_cast<long>(used.size()) - static_cast<long>(sides) +
+              static_cast<long>(result.triangles.size()) ==
           1 - islands);
 }
 
@@ -138,7 +140,8 @@ Region square(int per_side, const Vec2& low = {0, 0}, double length = 1)
     for (std::size_t side = 0; side < 4; ++side) {
         for (int i = 0; i < per_side; ++i) {
             region.loops[0].push_back(static_cast<Index>(region.points.size()));
-            region.points.push_back(low + length * (corner[side] + (corner[side + 1] - corner[side]) * i / per_side));
+            region.points.push_back(
+                low + length * (corner[side] + (corner[side + 1] - corner[side]) * i / per_side));
         }
     }
     return region;
@@ -195,8 +198,8 @@ TEST_CASE("stars with islands: exact area, all segments, Delaunay, Euler, with a
                 sum += loop_area(region, loop);
                 outer = std::max(outer, loop_area(region, loop));
             }
-            const auto result =
-                triangulate(region.points, region.loops, {.interior_points = interior, .single_region = true});
+            const auto result = triangulate(region.points, region.loops,
+                                            {.interior_points = interior, .single_region = true});
             check_triangulation(region, result, 2 * outer - sum, islands);
             if (!interior) CHECK(result.points.size() == region.points.size());
         }
@@ -217,7 +220,8 @@ TEST_CASE("where the rim is regular, every angle is fair and sizes follow the ri
             for (const Triangle& tri : result.triangles) {
                 for (std::size_t k = 0; k < 3; ++k) {
                     least = std::min(least, corner_angle(result.points, tri, k));
-                    longest = std::max(longest, (at(result.points, tri[k]) - at(result.points, tri[(k + 1) % 3])).norm());
+                    longest = std::max(
+                        longest, (at(result.points, tri[k]) - at(result.points, tri[(k + 1) % 3])).norm());
                 }
             }
             CHECK(least > 20.5); // what a circumradius of √2 × the shortest side means
@@ -230,12 +234,13 @@ TEST_CASE("a size function is met inside")
 {
     const Region region = square(50);
     const auto size = [](const Vec2& p) { return 0.002 + 0.1 * (p - Vec2(0.5, 0.5)).norm(); };
-    const auto result =
-        triangulate(region.points, region.loops, {.size = size, .grading = std::numeric_limits<double>::infinity()});
+    const auto result = triangulate(region.points, region.loops,
+                                    {.size = size, .grading = std::numeric_limits<double>::infinity()});
     check_triangulation(region, result, 1, 0);
     std::size_t met = 0;
     for (const Triangle& tri : result.triangles) {
-        const Vec2 centre = (at(result.points, tri[0]) + at(result.points, tri[1]) + at(result.points, tri[2])) / 3;
+        const Vec2 centre =
+            (at(result.points, tri[0]) + at(result.points, tri[1]) + at(result.points, tri[2])) / 3;
         double mean = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             mean += (at(result.points, tri[k]) - at(result.points, tri[(k + 1) % 3])).norm() / 3;
@@ -254,7 +259,8 @@ TEST_CASE("spacings a millionfold apart, cocircular grids and points in line are
         for (double x = 1e-6; x < 4; x *= 1.3) region.points.emplace_back(x, 0);
         region.points.emplace_back(4, 4);
         for (double y = 4 / 1.3; y > 1e-6; y /= 1.3) region.points.emplace_back(0, y);
-        for (std::size_t i = 0; i < region.points.size(); ++i) region.loops[0].push_back(static_cast<Index>(i));
+        for (std::size_t i = 0; i < region.points.size(); ++i)
+            region.loops[0].push_back(static_cast<Index>(i));
         const auto result = triangulate(region.points, region.loops);
         check_triangulation(region, result, loop_area(region, region.loops[0]), 0);
         CHECK(result.points.size() < 3000);
@@ -270,7 +276,8 @@ TEST_CASE("spacings a millionfold apart, cocircular grids and points in line are
         const int islands = (n - 1) * (n - 1);
         const double area = 1 - islands * 0.25 / (n * n);
         for (const bool interior : {false, true}) {
-            check_triangulation(region, triangulate(region.points, region.loops, {.interior_points = interior}), area,
+            check_triangulation(region,
+                                triangulate(region.points, region.loops, {.interior_points = interior}), area,
                                 islands);
         }
     }
@@ -304,7 +311,8 @@ TEST_CASE("a long segment through many triangles is kept")
         }
         region.points.emplace_back(0, 5);
         region.loops.emplace_back();
-        for (std::size_t i = 0; i < region.points.size(); ++i) region.loops[0].push_back(static_cast<Index>(i));
+        for (std::size_t i = 0; i < region.points.size(); ++i)
+            region.loops[0].push_back(static_cast<Index>(i));
         for (const bool interior : {false, true}) {
             const auto result = triangulate(region.points, region.loops, {.interior_points = interior});
             check_triangulation(region, result, loop_area(region, region.loops[0]), 0);
@@ -331,7 +339,8 @@ TEST_CASE("loops apart and loops within islands make regions of their own, unles
 TEST_CASE("loops that cross, touch or have no area are refused by number")
 {
     const auto refuse = [](const Region& region, const char* words) {
-        CHECK_THROWS_WITH_AS(triangulate(region.points, region.loops), doctest::Contains(words), InvalidInput);
+        CHECK_THROWS_WITH_AS(triangulate(region.points, region.loops), doctest::Contains(words),
+                             InvalidInput);
     };
     Region crossing = square(2);
     append(crossing, square(3, {0.5, 0.5}));
@@ -371,12 +380,16 @@ TEST_CASE("find_crossing agrees with comparing all pairs, and finds the first")
             region.loops.push_back(loop);
         }
         // Integers small enough for plain arithmetic to be exact; parameters compared by cross products.
-        struct Item { std::size_t loop, segment; Vec2 a, b; };
+        struct Item {
+            std::size_t loop, segment;
+            Vec2 a, b;
+        };
         std::vector<Item> items;
         for (std::size_t l = 0; l < 2; ++l) {
             const auto& loop = region.loops[l];
             for (std::size_t k = 0; k < loop.size(); ++k) {
-                items.push_back({l, k, at(region.points, loop[k]), at(region.points, loop[(k + 1) % loop.size()])});
+                items.push_back(
+                    {l, k, at(region.points, loop[k]), at(region.points, loop[(k + 1) % loop.size()])});
             }
         }
         const auto turn = [](const Vec2& a, const Vec2& b, const Vec2& c) {
@@ -395,8 +408,10 @@ TEST_CASE("find_crossing agrees with comparing all pairs, and finds the first")
                 return turn(r.a, r.b, s.b) == 0 && (r.a - r.b).dot(s.b - r.b) > 0;
             }
             return on(s.a, r.a, r.b) || on(s.b, r.a, r.b) || on(r.a, s.a, s.b) || on(r.b, s.a, s.b) ||
-                   (turn(s.a, s.b, r.a) != turn(s.a, s.b, r.b) && turn(r.a, r.b, s.a) != turn(r.a, r.b, s.b) &&
-                    turn(s.a, s.b, r.a) * turn(s.a, s.b, r.b) < 0 && turn(r.a, r.b, s.a) * turn(r.a, r.b, s.b) < 0);
+                   (turn(s.a, s.b, r.a) != turn(s.a, s.b, r.b) &&
+                    turn(r.a, r.b, s.a) != turn(r.a, r.b, s.b) &&
+                    turn(s.a, s.b, r.a) * turn(s.a, s.b, r.b) < 0 &&
+                    turn(r.a, r.b, s.a) * turn(r.a, r.b, s.b) < 0);
         };
         std::optional<std::pair<std::size_t, std::size_t>> wanted;
         for (std::size_t i = 0; i < items.size() && !wanted; ++i) {

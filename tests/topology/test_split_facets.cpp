@@ -134,7 +134,8 @@ void check_model(const Model& model)
 {
     std::set<Index> used;
     std::set<std::pair<Index, Index>> on_edges;
-    for (std::size_t v = 0; v < model.vertices.size(); ++v) CHECK(model.vertices[v].tag == static_cast<int>(v) + 1);
+    for (std::size_t v = 0; v < model.vertices.size(); ++v)
+        CHECK(model.vertices[v].tag == static_cast<int>(v) + 1);
     for (std::size_t e = 0; e < model.edges.size(); ++e) {
         const Edge& edge = model.edges[e];
         CHECK(edge.tag == static_cast<int>(e) + 1);
@@ -167,7 +168,8 @@ void check_model(const Model& model)
             for (std::size_t i = 0; i < loop.uses.size(); ++i) {
                 const auto points = use_points(model, loop.uses[i]);
                 CHECK(points.back() == use_points(model, loop.uses[(i + 1) % loop.uses.size()]).front());
-                for (std::size_t k = 0; k + 1 < points.size(); ++k) CHECK(sides.count({points[k], points[k + 1]}) == 1);
+                for (std::size_t k = 0; k + 1 < points.size(); ++k)
+                    CHECK(sides.count({points[k], points[k + 1]}) == 1);
                 in_loops += points.size() - 1;
             }
         }
@@ -196,7 +198,8 @@ FacetSoup read_stl(const std::filesystem::path& path)
         std::array<float, 9> xyz;
         std::memcpy(xyz.data(), bytes.data() + 84 + 50 * t + 12, 36);
         Triangle corner;
-        for (std::size_t k = 0; k < 3; ++k) corner[k] = add_point(soup, Vec3(xyz[3 * k], xyz[3 * k + 1], xyz[3 * k + 2]));
+        for (std::size_t k = 0; k < 3; ++k)
+            corner[k] = add_point(soup, Vec3(xyz[3 * k], xyz[3 * k + 1], xyz[3 * k + 2]));
         soup.triangles.push_back(corner);
     }
     return soup;
@@ -225,7 +228,8 @@ TEST_CASE("a box has 6 plane faces, 12 edges, 8 vertices, in triangles and in qu
     }
 }
 
-TEST_CASE("a cylinder has 3 faces and 2 closed edges, each with a vertex, at any turn below the feature angle")
+TEST_CASE(
+    "a cylinder has 3 faces and 2 closed edges, each with a vertex, at any turn below the feature angle")
 {
     for (const int sides : {12, 13, 40}) {
         for (const int rows : {1, 6}) {
@@ -392,7 +396,8 @@ TEST_CASE("weld joins what is within tolerance and nothing else, as comparing al
                         best = distance;
                     }
                 }
-                const auto same = std::find(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(i), points[i]);
+                const auto same = std::find(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(i),
+                                            points[i]);
                 wanted[i] = wanted[static_cast<std::size_t>(same - points.begin())];
             }
             CHECK(joined == wanted);
@@ -402,7 +407,8 @@ TEST_CASE("weld joins what is within tolerance and nothing else, as comparing al
 
 TEST_CASE("scanned parts: faces, bores and a watertight skin")
 {
-    const std::filesystem::path data = std::filesystem::path(LACUNA_SOURCE_DIR) / ".." / "shared" / "data" / "stl";
+    const std::filesystem::path data = std::filesystem::path(LACUNA_SOURCE_DIR) / ".." / "shared" / "data" /
+                                       "stl";
     if (!std::filesystem::exists(data)) {
         MESSAGE("no shared data beside the sources: skipped");
         return;
@@ -412,8 +418,8 @@ TEST_CASE("scanned parts: faces, bores and a watertight skin")
         const FacetSoup soup = read_stl(data / name);
         Model model = split_facets(soup, {.feature_angle = 30});
         check_model(model);
-        MESSAGE(std::string(name) << ": " << model.faces.size() << " faces, " << model.edges.size() << " edges, " << model.vertices.size()
-                     << " vertices");
+        MESSAGE(std::string(name) << ": " << model.faces.size() << " faces, " << model.edges.size()
+                                  << " edges, " << model.vertices.size() << " vertices");
         std::size_t facets = 0;
         std::size_t bores = 0;
         for (const Face& face : model.faces) {

@@ -134,8 +134,8 @@ bool folds_back(const Vec2& common, const Vec2& a, const Vec2& b, double toleran
 
 } // namespace
 
-std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points, std::span<const std::vector<Index>> loops,
-                                          double tolerance)
+std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points,
+                                          std::span<const std::vector<Index>> loops, double tolerance)
 {
     const auto at = [&](Index i) -> const Vec2& { return points[static_cast<std::size_t>(i)]; };
     std::vector<LoopSegment> segments;
@@ -154,8 +154,10 @@ std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points, std::spa
     const auto bad = [&](const LoopSegment& s, const LoopSegment& r) {
         const std::size_t count = loops[s.loop].size();
         if (s.loop == r.loop && count > 2) {
-            if ((s.segment + 1) % count == r.segment) return folds_back(at(s.to), at(s.from), at(r.to), tolerance);
-            if ((r.segment + 1) % count == s.segment) return folds_back(at(r.to), at(r.from), at(s.to), tolerance);
+            if ((s.segment + 1) % count == r.segment)
+                return folds_back(at(s.to), at(s.from), at(r.to), tolerance);
+            if ((r.segment + 1) % count == s.segment)
+                return folds_back(at(r.to), at(r.from), at(s.to), tolerance);
         }
         return segments_meet(at(s.from), at(s.to), at(r.from), at(r.to)) ||
                (tolerance > 0 && segments_near(at(s.from), at(s.to), at(r.from), at(r.to), tolerance));
@@ -166,7 +168,8 @@ std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points, std::spa
             if (j > i && j < first && bad(segments[i], segments[j])) first = j;
         });
         if (first == segments.size()) continue;
-        return LoopCrossing{segments[i].loop, segments[i].segment, segments[first].loop, segments[first].segment};
+        return LoopCrossing{segments[i].loop, segments[i].segment, segments[first].loop,
+                            segments[first].segment};
     }
     return std::nullopt;
 }

@@ -66,8 +66,8 @@ void DelaunayMesh::insert_all(const std::vector<Index>& used, const Vec2& low, d
     order.reserve(used.size());
     for (const Index p : used) {
         const Vec2 cell = (at(p) - low) / extent * 65535.0;
-        order.emplace_back(hilbert_key(static_cast<std::uint32_t>(cell.x()), static_cast<std::uint32_t>(cell.y())),
-                           p);
+        order.emplace_back(
+            hilbert_key(static_cast<std::uint32_t>(cell.x()), static_cast<std::uint32_t>(cell.y())), p);
     }
     std::sort(order.begin(), order.end());
 
@@ -231,9 +231,11 @@ void DelaunayMesh::fix_segment(Index a, Index b)
         const DelaunayTriangle& tri = (*this)[t];
         side = 0;
         while (tri.corner[static_cast<std::size_t>(side)] != a) ++side;
-        if (orient2d(at(a), at(b), at(tri.from(side))) < 0 && orient2d(at(a), at(b), at(tri.to(side))) > 0) break;
+        if (orient2d(at(a), at(b), at(tri.from(side))) < 0 && orient2d(at(a), at(b), at(tri.to(side))) > 0)
+            break;
         t = tri.across((side + 1) % 3);
-        if (t == start || t < 0) throw Error("geometry.internal", "a segment leaves its point through no triangle");
+        if (t == start || t < 0)
+            throw Error("geometry.internal", "a segment leaves its point through no triangle");
     }
     std::vector<Index> strip{t};
     std::vector<Index> right{a, (*this)[t].from(side)};
@@ -304,9 +306,10 @@ void DelaunayMesh::replace_strip(const std::vector<Index>& strip, std::vector<In
             pending.emplace_back(best, last);
         }
     };
-    fill(left);   // b … a, the base runs a → b
-    fill(right);  // a … b, the base runs b → a
-    if (made.size() != strip.size()) throw Error("geometry.internal", "a cut strip changed its count of triangles");
+    fill(left);  // b … a, the base runs a → b
+    fill(right); // a … b, the base runs b → a
+    if (made.size() != strip.size())
+        throw Error("geometry.internal", "a cut strip changed its count of triangles");
 
     std::map<std::pair<Index, Index>, Index> owner;
     for (std::size_t i = 0; i < made.size(); ++i) {

@@ -55,8 +55,8 @@ public:
             bool fixed;
         };
         std::vector<Index> triangles;
-        std::vector<Border> border;                  ///< counter-clockwise, closed
-        std::vector<std::pair<Index, int>> pending;  ///< scratch
+        std::vector<Border> border;                 ///< counter-clockwise, closed
+        std::vector<std::pair<Index, int>> pending; ///< scratch
     };
 
     /// Walk from `start` to the triangle that holds p; -1 where constraints bar the way.
@@ -70,7 +70,10 @@ public:
     [[nodiscard]] const std::vector<Vec2>& points() const { return points_; }
     [[nodiscard]] const Vec2& at(Index point) const { return points_[static_cast<std::size_t>(point)]; }
     [[nodiscard]] const std::vector<DelaunayTriangle>& triangles() const { return triangles_; }
-    [[nodiscard]] const DelaunayTriangle& operator[](Index t) const { return triangles_[static_cast<std::size_t>(t)]; }
+    [[nodiscard]] const DelaunayTriangle& operator[](Index t) const
+    {
+        return triangles_[static_cast<std::size_t>(t)];
+    }
     [[nodiscard]] Index given_count() const { return given_; }
 
 private:
@@ -79,12 +82,13 @@ private:
     void fan(Index point, const Cavity& cavity, std::vector<Index>& fresh);
     void relink(Index triangle, Index from, Index to, Index next, bool fixed);
     void mark_fixed(Index a, Index b);
-    void replace_strip(const std::vector<Index>& strip, std::vector<Index> left, const std::vector<Index>& right);
+    void replace_strip(const std::vector<Index>& strip, std::vector<Index> left,
+                       const std::vector<Index>& right);
 
     std::vector<Vec2> points_;
     std::vector<DelaunayTriangle> triangles_;
-    std::vector<Index> triangle_of_;  ///< one triangle at each point, -1 while it is not inserted
-    std::vector<Index> stamp_;        ///< last cavity each triangle was found in
+    std::vector<Index> triangle_of_; ///< one triangle at each point, -1 while it is not inserted
+    std::vector<Index> stamp_;       ///< last cavity each triangle was found in
     Index stamp_now_ = 0;
     Index given_ = 0;
 };

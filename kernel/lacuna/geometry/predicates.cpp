@@ -131,8 +131,10 @@ Expansion<2 * N * M> product(const Expansion<N>& a, const Expansion<M>& b)
         Expansion<half> low;
         Expansion<M - half> high;
         for (std::size_t i = 0; i < b.count; ++i) {
-            if (i < half) low.push(b.term[i]);
-            else high.push(b.term[i]);
+            if (i < half)
+                low.push(b.term[i]);
+            else
+                high.push(b.term[i]);
         }
         return sum(product(a, low), product(a, high));
     }

@@ -24,7 +24,8 @@ std::string loop_name(std::size_t loop, std::size_t count)
 
 void check_loops(std::span<const Vec2> points, std::span<const std::vector<Index>> loops)
 {
-    if (loops.empty()) throw InvalidInput("geometry.no_loop", "there is no loop to triangulate; give at least one");
+    if (loops.empty())
+        throw InvalidInput("geometry.no_loop", "there is no loop to triangulate; give at least one");
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const std::string name = loop_name(l, loops.size());
         if (loops[l].size() < 3) {
@@ -33,8 +34,8 @@ void check_loops(std::span<const Vec2> points, std::span<const std::vector<Index
         }
         for (const Index p : loops[l]) {
             if (p < 0 || index(p) >= points.size() || !points[index(p)].allFinite()) {
-                throw InvalidInput("geometry.bad_point", name + " uses point " + std::to_string(p + 1) + " of " +
-                                                             std::to_string(points.size()) +
+                throw InvalidInput("geometry.bad_point", name + " uses point " + std::to_string(p + 1) +
+                                                             " of " + std::to_string(points.size()) +
                                                              ", which does not exist or is not finite");
             }
         }
@@ -47,11 +48,12 @@ void check_loops(std::span<const Vec2> points, std::span<const std::vector<Index
         if (flat) throw InvalidInput("geometry.zero_area", name + " has all its points in line, so no area");
     }
     if (const auto crossing = find_crossing(points, loops)) {
-        const std::string where =
-            "segment " + std::to_string(crossing->segment_a + 1) + " of " + loop_name(crossing->loop_a, loops.size()) +
-            " crosses or touches segment " + std::to_string(crossing->segment_b + 1) + " of " +
-            loop_name(crossing->loop_b, loops.size());
-        throw InvalidInput("geometry.loops_cross", where + "; loops must be simple and apart from each other");
+        const std::string where = "segment " + std::to_string(crossing->segment_a + 1) + " of " +
+                                  loop_name(crossing->loop_a, loops.size()) + " crosses or touches segment " +
+                                  std::to_string(crossing->segment_b + 1) + " of " +
+                                  loop_name(crossing->loop_b, loops.size());
+        throw InvalidInput("geometry.loops_cross",
+                           where + "; loops must be simple and apart from each other");
     }
 }
 
@@ -74,11 +76,13 @@ void check_single_region(const std::vector<Index>& around)
     for (std::size_t l = 0; l < around.size(); ++l) {
         const std::string name = loop_name(l, around.size());
         if (around[l] == 0 && l != outer) {
-            throw InvalidInput("geometry.loops_apart", name + " and " + loop_name(outer, around.size()) +
-                                                           " lie outside each other; one must hold all the others");
+            throw InvalidInput("geometry.loops_apart",
+                               name + " and " + loop_name(outer, around.size()) +
+                                   " lie outside each other; one must hold all the others");
         }
         if (around[l] > 1) {
-            throw InvalidInput("geometry.island_in_island", name + " lies within an island; islands must lie side by side");
+            throw InvalidInput("geometry.island_in_island",
+                               name + " lies within an island; islands must lie side by side");
         }
     }
 }
@@ -96,7 +100,8 @@ constexpr double kKeepAway = kEquilateral;
 
 class Refinement {
 public:
-    Refinement(DelaunayMesh& mesh, std::span<const std::vector<Index>> loops, const TriangulateOptions& options)
+    Refinement(DelaunayMesh& mesh, std::span<const std::vector<Index>> loops,
+               const TriangulateOptions& options)
         : mesh_(mesh), options_(options), size_(mesh.points().size(), std::numeric_limits<double>::infinity())
     {
         rim_sizes(loops);
@@ -124,9 +129,9 @@ public:
 
 private:
     struct State {
-        double badness = 0;   ///< above 1 where the triangle should go
-        Index stamp = 0;      ///< tells entries of the queue that mean an earlier triangle of the same number
-        bool settled = true;  ///< good, or nothing can be done
+        double badness = 0;  ///< above 1 where the triangle should go
+        Index stamp = 0;     ///< tells entries of the queue that mean an earlier triangle of the same number
+        bool settled = true; ///< good, or nothing can be done
         bool queued = false;
     };
     struct Waiting {
@@ -163,7 +168,8 @@ private:
                 around[index(tri.to(side))].push_back(tri.from(side));
             }
         }
-        std::priority_queue<std::pair<double, Index>, std::vector<std::pair<double, Index>>, std::greater<>> queue;
+        std::priority_queue<std::pair<double, Index>, std::vector<std::pair<double, Index>>, std::greater<>>
+            queue;
         for (std::size_t p = 0; p < around.size(); ++p) {
             if (!around[p].empty()) queue.emplace(size_[p], static_cast<Index>(p));
         }
@@ -195,7 +201,8 @@ private:
         double wanted = wished(p);
         if (std::isfinite(options_.grading)) {
             for (const Index corner : mesh_[holder].corner) {
-                wanted = std::min(wanted, size_[index(corner)] + options_.grading * (mesh_.at(corner) - p).norm());
+                wanted = std::min(wanted,
+                                  size_[index(corner)] + options_.grading * (mesh_.at(corner) - p).norm());
             }
         }
         return wanted;
@@ -223,9 +230,11 @@ private:
             shortest = std::min(shortest, length);
             product *= length;
         }
-        const double area2 = orient2d(mesh_.at(tri.corner[0]), mesh_.at(tri.corner[1]), mesh_.at(tri.corner[2]));
+        const double area2 = orient2d(mesh_.at(tri.corner[0]), mesh_.at(tri.corner[1]),
+                                      mesh_.at(tri.corner[2]));
         const double radius = std::min(product / (2 * area2), std::numeric_limits<double>::max());
-        state.badness = std::max(radius / (kTooLarge * mean_size(tri.corner)), radius / (kTooSkinny * shortest));
+        state.badness = std::max(radius / (kTooLarge * mean_size(tri.corner)),
+                                 radius / (kTooSkinny * shortest));
         state.settled = !(state.badness > 1);
     }
 
@@ -301,8 +310,8 @@ private:
 
     DelaunayMesh& mesh_;
     const TriangulateOptions& options_;
-    std::vector<double> size_;  ///< wanted edge length at each point
-    std::vector<State> state_;  ///< of each triangle
+    std::vector<double> size_; ///< wanted edge length at each point
+    std::vector<State> state_; ///< of each triangle
     std::priority_queue<Waiting> queue_;
     DelaunayMesh::Cavity cavity_;
     std::vector<Index> fresh_;

@@ -13,20 +13,21 @@ namespace lacuna::geometry {
 
 /// A triangulated part of the plane.
 struct Triangulation {
-    std::vector<Vec2> points;         ///< the given ones first, unchanged, then those added
-    std::vector<Triangle> triangles;  ///< counter-clockwise
+    std::vector<Vec2> points;        ///< the given ones first, unchanged, then those added
+    std::vector<Triangle> triangles; ///< counter-clockwise
 };
 
 /// Options of `triangulate()`. Lengths are in the units of the points.
 struct TriangulateOptions {
-    bool interior_points = true;                ///< false: the given points alone
-    std::function<double(const Vec2&)> size{};  ///< wanted edge length, > 0; combined with the rim's by the lesser
+    bool interior_points = true; ///< false: the given points alone
+    std::function<double(const Vec2&)>
+        size{}; ///< wanted edge length, > 0; combined with the rim's by the lesser
     /// How fast edges may grow with the distance to the rim [length per length, >= 0]: the wanted length at x
     /// is the least of (spacing at p) + grading × |x − p| over the rim points p. 0: as fine as the finest
     /// spacing all over; infinity: the rim does not count, only `size`.
     double grading = 0.2;
-    std::size_t max_points = 1'000'000;  ///< refinement stops at this many added points
-    bool single_region = false;          ///< a loop outside the outermost one, or inside an island, is an error
+    std::size_t max_points = 1'000'000; ///< refinement stops at this many added points
+    bool single_region = false; ///< a loop outside the outermost one, or inside an island, is an error
 };
 
 /// Constrained Delaunay triangulation of the region within closed loops.
@@ -57,7 +58,7 @@ struct LoopCrossing {
 ///
 /// @param tolerance  0: exact. Segments should be longer than it: those next but one to a shorter one are near.
 /// @note  O(n log n) for segments that do not crowd.
-std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points, std::span<const std::vector<Index>> loops,
-                                          double tolerance = 0);
+std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points,
+                                          std::span<const std::vector<Index>> loops, double tolerance = 0);
 
 } // namespace lacuna::geometry

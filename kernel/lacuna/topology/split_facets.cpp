@@ -40,7 +40,7 @@ struct Facets {
     std::vector<Vec3> points;
     std::vector<Triangle> corner;
     std::vector<int> label;
-    std::vector<Index> quad;   ///< the quad each is half of, in `quads`; -1
+    std::vector<Index> quad; ///< the quad each is half of, in `quads`; -1
     std::vector<Quad> quads;
     double tolerance = 0, diagonal = 0;
 
@@ -48,18 +48,20 @@ struct Facets {
 };
 
 template <std::size_t N>
-void check_cells(const FacetSoup& soup, const std::vector<std::array<Index, N>>& cells, const std::vector<int>& labels,
-                 const char* kind)
+void check_cells(const FacetSoup& soup, const std::vector<std::array<Index, N>>& cells,
+                 const std::vector<int>& labels, const char* kind)
 {
     if (!labels.empty() && labels.size() != cells.size()) {
-        throw InvalidInput("topology.bad_labels", "there are " + std::to_string(labels.size()) + " labels for " +
-                                                      std::to_string(cells.size()) + " " + kind + "s; give one each, or none");
+        throw InvalidInput("topology.bad_labels", "there are " + std::to_string(labels.size()) +
+                                                      " labels for " + std::to_string(cells.size()) + " " +
+                                                      kind + "s; give one each, or none");
     }
     for (std::size_t c = 0; c < cells.size(); ++c) {
         for (const Index p : cells[c]) {
             if (p >= 0 && index(p) < soup.points.size() && soup.points[index(p)].allFinite()) continue;
-            throw InvalidInput("topology.bad_point", std::string(kind) + " " + std::to_string(c + 1) + " uses point " +
-                                                         std::to_string(p + 1) + " of " + std::to_string(soup.points.size()) +
+            throw InvalidInput("topology.bad_point", std::string(kind) + " " + std::to_string(c + 1) +
+                                                         " uses point " + std::to_string(p + 1) + " of " +
+                                                         std::to_string(soup.points.size()) +
                                                          ", which does not exist or is not finite");
         }
     }
@@ -68,15 +70,16 @@ void check_cells(const FacetSoup& soup, const std::vector<std::array<Index, N>>&
 /// The two halves of a quad, cut along the diagonal whose worse half is the better shaped.
 std::array<Triangle, 2> halves_of(const std::vector<Vec3>& points, const Quad& q)
 {
-    const std::array<std::array<Triangle, 2>, 2> choices{{{{{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}},
-                                                          {{{q[1], q[2], q[3]}, {q[1], q[3], q[0]}}}}};
+    const std::array<std::array<Triangle, 2>, 2> choices{
+        {{{{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}}, {{{q[1], q[2], q[3]}, {q[1], q[3], q[0]}}}}};
     const Vec3 normal = area_vector(points, choices[0][0]) + area_vector(points, choices[0][1]);
     std::array<double, 2> worst;
     for (std::size_t c = 0; c < 2; ++c) {
         worst[c] = std::numeric_limits<double>::max();
         for (const Triangle& t : choices[c]) {
             double sides = 0;
-            for (std::size_t k = 0; k < 3; ++k) sides += (points[index(t[k])] - points[index(t[(k + 1) % 3])]).squaredNorm();
+            for (std::size_t k = 0; k < 3; ++k)
+                sides += (points[index(t[k])] - points[index(t[(k + 1) % 3])]).squaredNorm();
             worst[c] = std::min(worst[c], area_vector(points, t).dot(normal) / sides);
         }
     }
@@ -87,8 +90,10 @@ std::array<Triangle, 2> halves_of(const std::vector<Vec3>& points, const Quad& q
 std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& facets)
 {
     std::vector<bool> used(soup.points.size(), false);
-    for (const Triangle& t : soup.triangles) for (const Index p : t) used[index(p)] = true;
-    for (const Quad& q : soup.quads) for (const Index p : q) used[index(p)] = true;
+    for (const Triangle& t : soup.triangles)
+        for (const Index p : t) used[index(p)] = true;
+    for (const Quad& q : soup.quads)
+        for (const Index p : q) used[index(p)] = true;
     std::vector<Index> number(soup.points.size(), -1);
     std::vector<Vec3> points;
     for (std::size_t p = 0; p < used.size(); ++p) {
@@ -115,7 +120,8 @@ std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& fa
             kept[p] = kept[index(joined[p])];
         }
     }
-    for (Index& p : number) if (p >= 0) p = kept[index(p)];
+    for (Index& p : number)
+        if (p >= 0) p = kept[index(p)];
     return number;
 }
 
@@ -123,7 +129,8 @@ std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& fa
 void drop_unused_points(Facets& facets)
 {
     std::vector<Index> number(facets.points.size(), -1);
-    for (const Triangle& t : facets.corner) for (const Index p : t) number[index(p)] = 0;
+    for (const Triangle& t : facets.corner)
+        for (const Index p : t) number[index(p)] = 0;
     Index kept = 0;
     for (std::size_t p = 0; p < number.size(); ++p) {
         if (number[p] < 0) continue;
@@ -131,8 +138,10 @@ void drop_unused_points(Facets& facets)
         facets.points[index(kept++)] = facets.points[p];
     }
     facets.points.resize(index(kept));
-    for (Triangle& t : facets.corner) for (Index& p : t) p = number[index(p)];
-    for (Quad& q : facets.quads) for (Index& p : q) p = number[index(p)];
+    for (Triangle& t : facets.corner)
+        for (Index& p : t) p = number[index(p)];
+    for (Quad& q : facets.quads)
+        for (Index& p : q) p = number[index(p)];
 }
 
 Facets welded(const FacetSoup& soup, double tolerance)
@@ -159,14 +168,17 @@ Facets welded(const FacetSoup& soup, double tolerance)
         Quad q;
         for (std::size_t k = 0; k < 4; ++k) q[k] = number[index(soup.quads[c][k])];
         const int label = soup.quad_label.empty() ? 0 : soup.quad_label[c];
-        const bool whole = q[0] != q[1] && q[1] != q[2] && q[2] != q[3] && q[3] != q[0] && q[0] != q[2] && q[1] != q[3];
+        const bool whole = q[0] != q[1] && q[1] != q[2] && q[2] != q[3] && q[3] != q[0] && q[0] != q[2] &&
+                           q[1] != q[3];
         const auto halves = halves_of(facets.points, q);
-        for (const Triangle& half : halves) add(half, label, whole ? static_cast<Index>(facets.quads.size()) : -1);
+        for (const Triangle& half : halves)
+            add(half, label, whole ? static_cast<Index>(facets.quads.size()) : -1);
         if (whole) facets.quads.push_back(q);
     }
     if (facets.count() == 0) {
         throw InvalidInput("topology.no_facets", "every facet is smaller than the tolerance of " +
-                                                     std::to_string(facets.tolerance) + "; give a smaller tolerance");
+                                                     std::to_string(facets.tolerance) +
+                                                     "; give a smaller tolerance");
     }
     drop_unused_points(facets);
     return facets;
@@ -202,7 +214,10 @@ public:
     }
 
     [[nodiscard]] Index from(Index side) const { return facets_.corner[index(side) / 3][index(side) % 3]; }
-    [[nodiscard]] Index to(Index side) const { return facets_.corner[index(side) / 3][(index(side) + 1) % 3]; }
+    [[nodiscard]] Index to(Index side) const
+    {
+        return facets_.corner[index(side) / 3][(index(side) + 1) % 3];
+    }
     [[nodiscard]] Index segment(Index side) const { return segment_[index(side)]; }
     [[nodiscard]] std::size_t segment_count() const { return first_.size() - 1; }
     /// The sides that lie on a segment, in order of facet.
@@ -225,9 +240,9 @@ public:
 
 private:
     const Facets& facets_;
-    std::vector<Index> segment_;  ///< of each side
-    std::vector<Index> sides_;    ///< by segment
-    std::vector<Index> first_;    ///< of each segment, in sides_
+    std::vector<Index> segment_; ///< of each side
+    std::vector<Index> sides_;   ///< by segment
+    std::vector<Index> first_;   ///< of each segment, in sides_
 };
 
 /// Unit normals as given. A facet so thin that moving its points by the tolerance could turn it by the
@@ -242,14 +257,17 @@ std::vector<Vec3> normals_of(const Facets& facets, const Sides& sides, double fe
         double length = 0;
         for (Index k = 0; k < 3; ++k) {
             const Index side = 3 * static_cast<Index>(f) + k;
-            const double own = (facets.points[index(sides.to(side))] - facets.points[index(sides.from(side))]).norm();
+            const double own =
+                (facets.points[index(sides.to(side))] - facets.points[index(sides.from(side))]).norm();
             if (own <= length) continue;
             length = own;
             longest[f] = side;
         }
         const Vec3 area = area_vector(facets.points, facets.corner[f]);
-        if (2 * area.norm() > least_height * length) normal[f] = area.normalized();
-        else thin.push_back(static_cast<Index>(f));
+        if (2 * area.norm() > least_height * length)
+            normal[f] = area.normalized();
+        else
+            thin.push_back(static_cast<Index>(f));
     }
     // Thin facets may lie side by side: go on while some learn.
     for (bool learnt = true; learnt && !thin.empty();) {
@@ -269,8 +287,8 @@ std::vector<Vec3> normals_of(const Facets& facets, const Sides& sides, double fe
 }
 
 struct Flood {
-    std::vector<Index> face;    ///< of each facet
-    std::vector<bool> flipped;  ///< facets that run against their face
+    std::vector<Index> face;   ///< of each facet
+    std::vector<bool> flipped; ///< facets that run against their face
     Index faces = 0;
 };
 
@@ -288,14 +306,16 @@ Flood flood_faces(const Facets& facets, const Sides& sides, double feature)
         double as_given = 0; // area that keeps the direction it was given, less what is turned
         for (std::size_t i = 0; i < front.size(); ++i) {
             const Index f = front[i];
-            as_given += (flood.flipped[index(f)] ? -1 : 1) * area_vector(facets.points, facets.corner[index(f)]).norm();
+            as_given += (flood.flipped[index(f)] ? -1 : 1) *
+                        area_vector(facets.points, facets.corner[index(f)]).norm();
             for (Index side = 3 * f; side < 3 * f + 3; ++side) {
                 const Index other = sides.partner(side);
                 if (other < 0) continue;
                 const Index g = other / 3;
                 const bool agree = sides.from(other) != sides.from(side);
                 const double cosine = (agree ? 1 : -1) * normal[index(f)].dot(normal[index(g)]);
-                const bool one_quad = facets.quad[index(f)] >= 0 && facets.quad[index(f)] == facets.quad[index(g)];
+                const bool one_quad = facets.quad[index(f)] >= 0 &&
+                                      facets.quad[index(f)] == facets.quad[index(g)];
                 if (cosine < least_cosine && !one_quad) continue;
                 const bool flipped = agree ? flood.flipped[index(f)] : !flood.flipped[index(f)];
                 if (flood.face[index(g)] < 0) {
@@ -304,13 +324,15 @@ Flood flood_faces(const Facets& facets, const Sides& sides, double feature)
                     front.push_back(g);
                 } else if (flood.flipped[index(g)] != flipped) {
                     throw InvalidInput("topology.not_orientable",
-                                       "face " + std::to_string(face + 1) + " is one-sided, as a Möbius band is: facets at " +
+                                       "face " + std::to_string(face + 1) +
+                                           " is one-sided, as a Möbius band is: facets at " +
                                            place(facets.points[index(sides.from(side))]) +
                                            " cannot run alike; give its parts labels of their own");
                 }
             }
         }
-        if (as_given < 0) for (const Index f : front) flood.flipped[index(f)] = !flood.flipped[index(f)];
+        if (as_given < 0)
+            for (const Index f : front) flood.flipped[index(f)] = !flood.flipped[index(f)];
     }
     return flood;
 }
@@ -341,7 +363,8 @@ void add_faces(Model& model, const Facets& facets, const Flood& flood, const Fac
         Face& face = model.faces[index(flood.face[f])];
         Triangle corner = facets.corner[f];
         if (flood.flipped[f]) std::swap(corner[1], corner[2]);
-        if (face.triangles.empty() && facets.label[f] >= 0 && static_cast<std::size_t>(facets.label[f]) < soup.label_name.size()) {
+        if (face.triangles.empty() && facets.label[f] >= 0 &&
+            static_cast<std::size_t>(facets.label[f]) < soup.label_name.size()) {
             face.name = soup.label_name[static_cast<std::size_t>(facets.label[f])];
         }
         face.triangles.push_back(corner);
@@ -361,17 +384,22 @@ void add_faces(Model& model, const Facets& facets, const Flood& flood, const Fac
 class Chains {
 public:
     Chains(Model& model, const Sides& sides, const Flood& flood, double feature)
-        : model_(model), sides_(sides), least_cosine_(std::cos(std::min(feature + kAngleSlack, std::numbers::pi))),
-          kind_(sides.segment_count(), -1), done_(sides.segment_count(), false)
+        : model_(model),
+          sides_(sides),
+          least_cosine_(std::cos(std::min(feature + kAngleSlack, std::numbers::pi))),
+          kind_(sides.segment_count(), -1),
+          done_(sides.segment_count(), false)
     {
         find_borders(flood);
         vertex_at_.assign(model.points.size(), VertexId());
         is_vertex_.resize(model.points.size());
-        for (std::size_t p = 0; p < model.points.size(); ++p) is_vertex_[p] = ends_chains(static_cast<Index>(p));
+        for (std::size_t p = 0; p < model.points.size(); ++p)
+            is_vertex_[p] = ends_chains(static_cast<Index>(p));
         // In the order faces are met, each edge with the face that met it on its left.
         std::vector<Index> order(flood.face.size());
         for (std::size_t f = 0; f < order.size(); ++f) order[f] = static_cast<Index>(f);
-        std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return flood.face[index(a)] < flood.face[index(b)]; });
+        std::stable_sort(order.begin(), order.end(),
+                         [&](Index a, Index b) { return flood.face[index(a)] < flood.face[index(b)]; });
         for (const Index f : order) {
             for (Index side = 3 * f; side < 3 * f + 3; ++side) {
                 const Index segment = sides_.segment(side);
@@ -397,7 +425,8 @@ private:
             for (const Index side : on) faces.push_back(flood.face[index(side) / 3]);
             std::sort(faces.begin(), faces.end());
             bool border = false;
-            for (const Index face : faces) border = border || std::count(faces.begin(), faces.end(), face) != 2;
+            for (const Index face : faces)
+                border = border || std::count(faces.begin(), faces.end(), face) != 2;
             if (!border) continue;
             kind_[index(s)] = kinds.try_emplace(faces, static_cast<Index>(kinds.size())).first->second;
             ++degree[index(ends(s).first) + 1];
@@ -425,7 +454,8 @@ private:
     }
     [[nodiscard]] std::span<const Index> segments_at(Index point) const
     {
-        return std::span(at_).subspan(index(first_[index(point)]), index(first_[index(point) + 1] - first_[index(point)]));
+        return std::span(at_).subspan(index(first_[index(point)]),
+                                      index(first_[index(point) + 1] - first_[index(point)]));
     }
 
     [[nodiscard]] bool ends_chains(Index point) const
@@ -489,9 +519,9 @@ private:
     Model& model_;
     const Sides& sides_;
     double least_cosine_;
-    std::vector<Index> kind_;          ///< of each segment; -1 within a face
-    std::vector<bool> done_;           ///< segments strung
-    std::vector<Index> first_, at_;    ///< edge segments at each point
+    std::vector<Index> kind_;       ///< of each segment; -1 within a face
+    std::vector<bool> done_;        ///< segments strung
+    std::vector<Index> first_, at_; ///< edge segments at each point
     std::vector<bool> is_vertex_;
     std::vector<VertexId> vertex_at_;
 };
@@ -505,12 +535,13 @@ Model split_facets(const FacetSoup& soup, const SplitOptions& options)
                                                      " degrees; it must be above 0 and at most 180");
     }
     if (!(options.tolerance >= 0)) {
-        throw InvalidInput("topology.bad_tolerance", "tolerance is " + std::to_string(options.tolerance) + "; it must be 0 or above");
+        throw InvalidInput("topology.bad_tolerance",
+                           "tolerance is " + std::to_string(options.tolerance) + "; it must be 0 or above");
     }
     const double feature = options.feature_angle * std::numbers::pi / 180;
     Facets facets = welded(soup, options.tolerance);
     const Sides sides(facets);
-    const Flood flood = flood_faces(facets, sides, feature);
+    const Flood flood = flood_faces(facets, sides, options.whole_labels ? std::numbers::pi : feature);
     Model model;
     model.points = facets.points;
     model.tolerance = facets.tolerance;

@@ -30,7 +30,10 @@ std::uint64_t hash_of(const Cell& cell)
 /// Points by the cell they lie in, chained where hashes fall together.
 class CellTable {
 public:
-    explicit CellTable(std::size_t points) : first_(std::bit_ceil(points + points / 2 + 1), -1), next_(points, -1) {}
+    explicit CellTable(std::size_t points)
+        : first_(std::bit_ceil(points + points / 2 + 1), -1), next_(points, -1)
+    {
+    }
 
     void add(const Cell& cell, Index point)
     {
@@ -93,8 +96,10 @@ std::vector<Index> weld(std::span<const Vec3> points, double tolerance)
         Cell least, most;
         for (std::size_t k = 0; k < 3; ++k) {
             const auto axis = static_cast<Eigen::Index>(k);
-            least[k] = static_cast<std::int64_t>(std::floor((points[i][axis] - tolerance - low[axis]) / width));
-            most[k] = static_cast<std::int64_t>(std::floor((points[i][axis] + tolerance - low[axis]) / width));
+            least[k] = static_cast<std::int64_t>(
+                std::floor((points[i][axis] - tolerance - low[axis]) / width));
+            most[k] = static_cast<std::int64_t>(
+                std::floor((points[i][axis] + tolerance - low[axis]) / width));
         }
         Index best = -1;
         double best_distance = tolerance * tolerance;
