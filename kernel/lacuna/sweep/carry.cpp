@@ -21,13 +21,42 @@ constexpr double kSameQuality = 0.01;
 // Moves below this part of the rim are what a projection leaves of a point that lies on the surface already.
 constexpr double kOnSurface = 1e-9;
 
+/// The mesh's graph and its factor, made when first asked for: affine images on planes need neither.
+class Spreader {
+public:
+    Spreader(const mesh::QuadMesh& mesh, std::span<const Index> fixed) : mesh_(mesh), fixed_(fixed) {}
+
+    const NodeGraph& graph()
+    {
+        if (!graph_) graph_ = node_graph(mesh_.quads, mesh_.nodes.size());
+        return *graph_;
+    }
+    const HarmonicSpread& spread()
+    {
+        if (!spread_) spread_.emplace(graph(), weights(), fixed_);
+        return *spread_;
+    }
+    const std::vector<double>& weights()
+    {
+        if (weights_.empty()) weights_ = side_weights(graph(), mesh_.quads, mesh_.nodes);
+        return weights_;
+    }
+
+private:
+    const mesh::QuadMesh& mesh_;
+    std::span<const Index> fixed_;
+    std::optional<NodeGraph> graph_;
+    std::vector<double> weights_;
+    std::optional<HarmonicSpread> spread_;
+};
+
 struct Guess {
     std::vector<Vec3> nodes;
     bool affine = true;  ///< the rims are related by an affine motion
 };
 
 /// Nodes where the rims put them, the surface not asked.
-Guess guess_from_rims(const mesh::QuadMesh& source, const Columns& columns, const HarmonicSpread& spread,
+Guess guess_from_rims(const mesh::QuadMesh& source, const Columns& columns, Spreader& spreader,
                       const RunContext& context)
 {
     Guess guess{source.nodes, true};
@@ -45,7 +74,7 @@ Guess guess_from_rims(const mesh::QuadMesh& source, const Columns& columns, cons
         guess.affine = false;
         std::vector<Vec3> residual(high.begin(), high.end());
         for (std::size_t k = 0; k < low.size(); ++k) residual[k] -= fit(low[k]);
-        spread.add(residual, 1, guess.nodes.data(), guess.nodes.size(), context);
+        spreader.spread().add(residual, 1, guess.nodes.data(), guess.nodes.size(), context);
     }
     for (std::size_t k = 0; k < high.size(); ++k) guess.nodes[static_cast<std::size_t>(columns.rim[k])] = high[k];
     return guess;
@@ -67,6 +96,20 @@ struct Candidate {
     std::vector<Vec3> nodes;
     double worst = -1;
 };
+
+std::string in_short(double value)
+{
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.2g", value);
+    return buffer;
+}
+
+double largest_move(std::span<const Vec3> from, std::span<const Vec3> to)
+{
+    double largest = 0;
+    for (std::size_t i = 0; i < from.size(); ++i) largest = std::max(largest, (to[i] - from[i]).norm());
+    return largest;
+}
 
 /// A deep bowl above a flat rim: the closest places to the flat guess are crowded on the rim. Guesses bulged to either
 /// side, as a membrane under pressure is, meet it evenly; the one whose image has the best worst quad is taken.
@@ -92,18 +135,19 @@ Candidate bulged_start(const mesh::QuadMesh& source, const Columns& columns, con
     return best;
 }
 
-std::string in_short(double value)
+/// The best mesh that can be found from `found` on, until the worst quad is good enough.
+Candidate smoothed(const mesh::QuadMesh& source, const Columns& columns, const std::vector<Vec3>& guess,
+                   Spreader& spreader, std::span<const Index> free_nodes, const SurfaceProjector& project,
+                   double good_enough, Candidate found, const RunContext& context)
 {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.2g", value);
-    return buffer;
-}
-
-double largest_move(std::span<const Vec3> from, std::span<const Vec3> to)
-{
-    double largest = 0;
-    for (std::size_t i = 0; i < from.size(); ++i) largest = std::max(largest, (to[i] - from[i]).norm());
-    return largest;
+    const SurfaceSmoother smoother(source, spreader.graph(), spreader.weights(), spreader.spread(), free_nodes, project);
+    if (found.worst < 0.5 * good_enough) {
+        found = bulged_start(source, columns, guess, spreader.spread(), smoother, std::move(found));
+    }
+    found.nodes = smoother.relax(std::move(found.nodes), good_enough, context);
+    found.nodes = smoother.polish(std::move(found.nodes), good_enough, context);
+    found.worst = worst_quad(source.quads, found.nodes);
+    return found;
 }
 
 } // namespace
@@ -113,18 +157,18 @@ Carried carry(const mesh::QuadMesh& source, const Columns& columns, const Surfac
 {
     check_columns(source, columns);
     const std::vector<Index> free_nodes = nodes_off_rim(source, columns);
-    const NodeGraph graph = node_graph(source.quads, source.nodes.size());
-    const HarmonicSpread spread(graph, columns.rim);
-    const Guess guess = guess_from_rims(source, columns, spread, context);
+    Spreader spreader(source, columns.rim);
+    const Guess guess = guess_from_rims(source, columns, spreader, context);
 
     Carried result;
     result.worst_source = worst_quad(source.quads, source.nodes);
     result.report = guess.affine ? "target: affine image of the source" : "target: fitted image of the source";
     Candidate found{guess.nodes, worst_quad(source.quads, guess.nodes)};
+    // What an affine map takes from the source's quads is the rims' doing; the rest is there to be mended.
+    const double model = guess.affine ? std::min(result.worst_source, found.worst) : result.worst_source;
     if (project && !free_nodes.empty()) {
-        const SurfaceSmoother smoother(source, graph, spread, free_nodes, project);
         Candidate projected{guess.nodes, -1};
-        smoother.project(projected.nodes);
+        project_nodes(projected.nodes, free_nodes, project);
         const double move = largest_move(guess.nodes, projected.nodes);
         const double size = columns.rim.empty() ? radius(source.nodes) : radius(columns.row(columns.layers));
         if (move > kOnSurface * size) {
@@ -132,16 +176,11 @@ Carried carry(const mesh::QuadMesh& source, const Columns& columns, const Surfac
             found = std::move(projected);
             result.report += ", projected by up to " + in_short(size > 0 ? move / size : 0) + " of its radius";
         }
-
-        const double good_enough = result.worst_source - kSameQuality;
         const double before = found.worst;
-        if (found.worst < 0.5 * good_enough) {
-            found = bulged_start(source, columns, guess.nodes, spread, smoother, std::move(found));
-        }
-        if (found.worst < good_enough) {
-            found.nodes = smoother.relax(std::move(found.nodes), good_enough, context);
-            found.nodes = smoother.polish(std::move(found.nodes), good_enough, context);
-            found.worst = worst_quad(source.quads, found.nodes);
+        const double good_enough = model - kSameQuality;
+        if (before < good_enough) {
+            found = smoothed(source, columns, guess.nodes, spreader, free_nodes, project, good_enough,
+                             std::move(found), context);
         }
         if (found.worst > before) result.report += ", smoothed from a worst quad of " + in_short(before);
     }

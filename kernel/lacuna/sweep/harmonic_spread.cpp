@@ -68,7 +68,34 @@ NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes)
     return graph;
 }
 
-HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const Index> fixed) : fixed_count_(fixed.size())
+std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> quads, std::span<const Vec3> nodes)
+{
+    std::vector<double> weights(graph.neighbours.size(), 0.0);
+    const auto add = [&](Index from, Index to, double weight) {
+        const std::span<const Index> around = graph.of(static_cast<std::size_t>(from));
+        const auto place = std::lower_bound(around.begin(), around.end(), to) - around.begin();
+        weights[static_cast<std::size_t>(graph.begin[static_cast<std::size_t>(from)] + place)] += weight;
+    };
+    const auto at = [&](Index node) -> const Vec3& { return nodes[static_cast<std::size_t>(node)]; };
+    for (const Quad& q : quads) {
+        const Vec3 middle = (at(q[0]) + at(q[1]) + at(q[2]) + at(q[3])) / 4;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Index from = q[i];
+            const Index to = q[(i + 1) % 4];
+            const double across = (middle - (at(from) + at(to)) / 2).norm();
+            const double length = (at(to) - at(from)).norm();
+            // A quad without width or a side without length says nothing of the other.
+            const double weight = across > 0 && length > 0 ? across / length : 0.5;
+            add(from, to, weight);
+            add(to, from, weight);
+        }
+    }
+    return weights;
+}
+
+HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> weights,
+                               std::span<const Index> fixed)
+    : fixed_count_(fixed.size())
 {
     const std::size_t nodes = graph.begin.size() - 1;
     const std::vector<char> joined = joined_to(graph, fixed);
@@ -86,11 +113,14 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const Index> fi
     laplacian.reserve(Eigen::VectorXi::Constant(unknowns, 5));
     for (std::size_t i = 0; i < nodes; ++i) {
         if (place_[i] < 0) continue;
-        laplacian.insert(place_[i], place_[i]) = static_cast<double>(graph.of(i).size());
-        for (const Index next : graph.of(i)) {
-            const Index other = place_[static_cast<std::size_t>(next)];
-            if (other > place_[i]) laplacian.insert(other, place_[i]) = -1;
-            if (other < 0) rim_sides_.push_back({place_[i], position[static_cast<std::size_t>(next)]});
+        double sum = 0;
+        for (Index k = graph.begin[i]; k < graph.begin[i + 1]; ++k) sum += weights[static_cast<std::size_t>(k)];
+        laplacian.insert(place_[i], place_[i]) = sum;
+        for (Index k = graph.begin[i]; k < graph.begin[i + 1]; ++k) {
+            const auto next = static_cast<std::size_t>(graph.neighbours[static_cast<std::size_t>(k)]);
+            const double weight = weights[static_cast<std::size_t>(k)];
+            if (place_[next] > place_[i]) laplacian.insert(place_[next], place_[i]) = -weight;
+            if (place_[next] < 0) rim_sides_.push_back({place_[i], position[next], weight});
         }
     }
     laplacian.makeCompressed();
@@ -152,7 +182,7 @@ void HarmonicSpread::add(std::span<const Vec3> values, std::size_t fields, Vec3*
                 double* row = block.data() + static_cast<std::size_t>(side.row) * width;
                 for (std::size_t f = 0; f < count; ++f) {
                     const Vec3& value = values[(first + f) * fixed_count_ + static_cast<std::size_t>(side.fixed)];
-                    for (int k = 0; k < 3; ++k) row[3 * f + static_cast<std::size_t>(k)] += value[k];
+                    for (int k = 0; k < 3; ++k) row[3 * f + static_cast<std::size_t>(k)] += side.weight * value[k];
                 }
             }
             substitute<static_cast<int>(width)>(block);

@@ -27,16 +27,21 @@ struct NodeGraph {
 /// O(quads).
 NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes);
 
-/// Spreads values given at fixed nodes over the rest, each the mean of its neighbours.
+/// Weight of each side, in the order of the graph's neighbours: the length across it, between the middles of its quads,
+/// over its own. That of finite volumes: never negative, and blind to how mesh lines crowd.
+std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> quads, std::span<const Vec3> nodes);
+
+/// Spreads values given at fixed nodes over the rest, each the weighted mean of its neighbours.
 ///
-/// The graph Laplacian with equal weights, factored once. Equal weights are positive, so a spread value never leaves
-/// the range of the given ones. A part of the mesh that no fixed node is joined to gets zero.
+/// The graph Laplacian, factored once. The weights are positive, so a spread value never leaves the range of the given
+/// ones. A part of the mesh that no fixed node is joined to gets zero.
 class HarmonicSpread {
 public:
     static constexpr int kFields = 4;  ///< fields solved together; each entry of the factor is then read once for 12 numbers
 
-    /// @param fixed  nodes whose values are given, each named once.
-    HarmonicSpread(const NodeGraph& graph, std::span<const Index> fixed);
+    /// @param weights  of the graph's sides, equal both ways, above 0.
+    /// @param fixed    nodes whose values are given, each named once.
+    HarmonicSpread(const NodeGraph& graph, std::span<const double> weights, std::span<const Index> fixed);
 
     /// Add the spread of each of `fields` fields to the nodes that are not fixed: out[f · stride + node] += value.
     /// @param values  fields × fixed.size(), field-major.
@@ -54,6 +59,7 @@ private:
 
     struct RimSide {
         Index row, fixed;  ///< place in the factor; position in `fixed`
+        double weight;
     };
     std::size_t fixed_count_ = 0;
     std::vector<Index> place_;        ///< of each node in the factor's order; -1: fixed or joined to none

@@ -126,7 +126,12 @@ void LayerPlacer::fit_rims(std::span<const double> heights)
         return;
     }
     placement_ = Placement::fitted;
-    spread_.emplace(node_graph(source_.quads, source_.nodes.size()), columns_.rim);
+    const NodeGraph graph = node_graph(source_.quads, source_.nodes.size());
+    // Of both ends together, so that it does not matter which of them is called the source.
+    std::vector<double> weights = side_weights(graph, source_.quads, source_.nodes);
+    const std::vector<double> target_weights = side_weights(graph, source_.quads, target_);
+    for (std::size_t k = 0; k < weights.size(); ++k) weights[k] += target_weights[k];
+    spread_.emplace(graph, weights, columns_.rim);
 }
 
 void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunContext& context) const

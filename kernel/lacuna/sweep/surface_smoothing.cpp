@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace lacuna::sweep {
@@ -27,39 +28,36 @@ Vec3 along(const Vec3& move, const Vec3& normal)
     return squared > 0 ? Vec3(move - normal * (normal.dot(move) / squared)) : move;
 }
 
-/// Weights of the neighbours, nearest to equal ones, whose mean is the node itself as seen along its normal.
+/// Turns the weights of the neighbours so that their mean is the node itself as seen along its normal; their sum stays.
 void hold_in_place(std::span<const Vec3> nodes, std::span<const Index> neighbours, const Vec3& node,
                    const Vec3& normal, std::span<double> weights)
 {
-    const double equal = 1 / static_cast<double>(neighbours.size());
-    std::fill(weights.begin(), weights.end(), equal);
     if (!(normal.norm() > 0)) return;
     const Vec3 u = normal.unitOrthogonal();
     const Vec3 v = normal.normalized().cross(u);
+    const auto seen = [&](Index n) {
+        const Vec3 step = at(nodes, n) - node;
+        return Vec2(u.dot(step), v.dot(step));
+    };
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     Vec2 mean = Vec2::Zero();
-    for (const Index n : neighbours) {
-        const Vec3 step = at(nodes, n) - node;
-        mean += equal * Vec2(u.dot(step), v.dot(step));
-    }
+    for (std::size_t k = 0; k < neighbours.size(); ++k) mean += weights[k] / sum * seen(neighbours[k]);
     Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-    for (const Index n : neighbours) {
-        const Vec3 step = at(nodes, n) - node;
-        const Vec2 off = Vec2(u.dot(step), v.dot(step)) - mean;
-        spread += off * off.transpose();
+    for (std::size_t k = 0; k < neighbours.size(); ++k) {
+        const Vec2 off = seen(neighbours[k]) - mean;
+        spread += weights[k] / sum * off * off.transpose();
     }
     Eigen::Matrix2d inverse;
     bool invertible = false;
     double determinant = 0;
     spread.computeInverseAndDetWithCheck(inverse, determinant, invertible);
     if (!invertible) return;
+    std::vector<double> turned(weights.begin(), weights.end());
     const Vec2 pull = inverse * mean;
-    for (std::size_t k = 0; k < neighbours.size(); ++k) {
-        const Vec3 step = at(nodes, neighbours[k]) - node;
-        weights[k] = equal - pull.dot(Vec2(u.dot(step), v.dot(step)) - mean);
-    }
-    // A neighbour that pushes away lets meshes fold: then equal weights are the safer choice.
-    if (std::any_of(weights.begin(), weights.end(), [](double w) { return w < 0; })) {
-        std::fill(weights.begin(), weights.end(), equal);
+    for (std::size_t k = 0; k < neighbours.size(); ++k) turned[k] *= 1 - pull.dot(seen(neighbours[k]) - mean);
+    // A neighbour that pushes away lets meshes fold: then the sides' own weights are the safer choice.
+    if (std::all_of(turned.begin(), turned.end(), [](double w) { return w > 0; })) {
+        std::copy(turned.begin(), turned.end(), weights.begin());
     }
 }
 
@@ -102,10 +100,20 @@ double worst_quad(std::span<const Quad> quads, std::span<const Vec3> nodes)
     return worst;
 }
 
-SurfaceSmoother::SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& graph, const HarmonicSpread& spread,
+void project_nodes(std::vector<Vec3>& nodes, std::span<const Index> which, const SurfaceProjector& project)
+{
+    std::vector<Vec3> points;
+    points.reserve(which.size());
+    for (const Index node : which) points.push_back(at(nodes, node));
+    if (!points.empty()) project(points);
+    for (std::size_t k = 0; k < points.size(); ++k) nodes[static_cast<std::size_t>(which[k])] = points[k];
+}
+
+SurfaceSmoother::SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& graph,
+                                 std::span<const double> weights, const HarmonicSpread& spread,
                                  std::span<const Index> free_nodes, const SurfaceProjector& project)
     : model_(model), graph_(graph), spread_(spread), free_nodes_(free_nodes), project_(project),
-      weights_(graph.neighbours.size()), quad_begin_(model.nodes.size() + 1, 0), is_free_(model.nodes.size(), 0)
+      weights_(weights.begin(), weights.end()), quad_begin_(model.nodes.size() + 1, 0), is_free_(model.nodes.size(), 0)
 {
     const std::vector<Vec3> normals = node_normals(model.quads, model.nodes);
     for (const Index node : free_nodes) {
@@ -129,15 +137,6 @@ SurfaceSmoother::SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& g
     }
 }
 
-void SurfaceSmoother::project(std::vector<Vec3>& nodes) const
-{
-    std::vector<Vec3> points;
-    points.reserve(free_nodes_.size());
-    for (const Index node : free_nodes_) points.push_back(nodes[static_cast<std::size_t>(node)]);
-    if (!points.empty()) project_(points);
-    for (std::size_t k = 0; k < points.size(); ++k) nodes[static_cast<std::size_t>(free_nodes_[k])] = points[k];
-}
-
 std::vector<Vec3> SurfaceSmoother::relax(std::vector<Vec3> nodes, double good_enough,
                                          const RunContext& context) const
 {
@@ -154,14 +153,14 @@ std::vector<Vec3> SurfaceSmoother::relax(std::vector<Vec3> nodes, double good_en
             for (std::size_t k = 0; k < neighbours.size(); ++k) {
                 pull += weights_[static_cast<std::size_t>(graph_.begin[i]) + k] * (at(nodes, neighbours[k]) - nodes[i]);
             }
-            load[i] = static_cast<double>(neighbours.size()) * along(pull, normals[i]);
+            load[i] = along(pull, normals[i]);
         }
         spread_.solve(load);
         for (const Index node : free_nodes_) {
             const auto i = static_cast<std::size_t>(node);
             nodes[i] += along(load[i], normals[i]);
         }
-        project(nodes);
+        project_nodes(nodes, free_nodes_, project_);
         const double worst = worst_quad(model_.quads, nodes);
         if (worst > best_worst) {
             best_worst = worst;

@@ -21,6 +21,9 @@ double quad_quality(const Quad& quad, std::span<const Vec3> nodes, std::span<con
 /// The worst of all quads; 1 for none.
 double worst_quad(std::span<const Quad> quads, std::span<const Vec3> nodes);
 
+/// Put some nodes on the surface, all at once.
+void project_nodes(std::vector<Vec3>& nodes, std::span<const Index> which, const SurfaceProjector& project);
+
 /// Moves the free nodes of a mesh along a surface until its worst quad is as good as that of a model mesh.
 ///
 /// Two ways, each kept only as far as it betters the worst quad. Relaxation: every node goes where its neighbours put it
@@ -30,11 +33,11 @@ double worst_quad(std::span<const Quad> quads, std::span<const Vec3> nodes);
 class SurfaceSmoother {
 public:
     /// All are referred to and must outlive the smoother. @param spread  with the nodes that must not move fixed.
-    SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& graph, const HarmonicSpread& spread,
-                    std::span<const Index> free_nodes, const SurfaceProjector& project);
+    SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& graph, std::span<const double> weights,
+                    const HarmonicSpread& spread, std::span<const Index> free_nodes, const SurfaceProjector& project);
 
     /// Put the free nodes on the surface.
-    void project(std::vector<Vec3>& nodes) const;
+    void project(std::vector<Vec3>& nodes) const { project_nodes(nodes, free_nodes_, project_); }
     /// @return  the nodes with the worst quad bettered, or as they came in.
     std::vector<Vec3> relax(std::vector<Vec3> nodes, double good_enough, const RunContext& context) const;
     std::vector<Vec3> polish(std::vector<Vec3> nodes, double good_enough, const RunContext& context) const;
@@ -51,7 +54,7 @@ private:
     const HarmonicSpread& spread_;
     std::span<const Index> free_nodes_;
     const SurfaceProjector& project_;
-    std::vector<double> weights_;  ///< of the neighbours, in the graph's order
+    std::vector<double> weights_;  ///< of the neighbours, in the graph's order; their sum is that of the sides' own
     std::vector<Index> quad_begin_, quad_list_;
     std::vector<char> is_free_;
 };
