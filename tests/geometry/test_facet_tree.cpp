@@ -109,7 +109,8 @@ TEST_CASE("the closest place of a triangle is on it and no sampled point of it i
         const FacetTree::Hit hit = closest_on_triangle(p, c);
         CHECK(hit.barycentric.minCoeff() >= 0);
         CHECK(hit.barycentric.sum() == doctest::Approx(1));
-        const Vec3 rebuilt = hit.barycentric[0] * c[0] + hit.barycentric[1] * c[1] + hit.barycentric[2] * c[2];
+        const Vec3 rebuilt = hit.barycentric[0] * c[0] + hit.barycentric[1] * c[1] +
+                             hit.barycentric[2] * c[2];
         CHECK((rebuilt - hit.point).norm() < 1e-14);
         CHECK(hit.distance2 == doctest::Approx((p - hit.point).squaredNorm()));
         for (int i = 0; i <= 20; ++i)

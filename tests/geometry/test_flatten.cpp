@@ -242,7 +242,7 @@ TEST_CASE("facets of no area do no harm")
 {
     for (const bool curved : {false, true}) {
         Patch bad = patch(8, 8, [&](double s, double t) { return Vec3(s, t, curved ? s * t : 0.0); });
-        // A point in the middle of a side splits the one triangle only, with a facet of no area for the other.
+        // A point in the middle of a side splits one triangle, with a facet of no area for the other.
         const Triangle split = bad.triangles[40];
         const auto middle = Index(bad.points.size());
         bad.points.push_back(0.5 * (bad.points[std::size_t(split[0])] + bad.points[std::size_t(split[2])]));

@@ -148,7 +148,8 @@ TEST_CASE("facets of no area and needles neither break the solution nor turn fac
         // Inner points moved onto or next to a neighbour, or onto the line between two.
         const auto row = Index(bad.n + 1);
         for (int trial = 0; trial < 12; ++trial) {
-            const Index i = 1 + Index(random() % unsigned(bad.n - 1)), j = 1 + Index(random() % unsigned(bad.n - 1));
+            const Index i = 1 + Index(random() % unsigned(bad.n - 1)),
+                        j = 1 + Index(random() % unsigned(bad.n - 1));
             const auto p = std::size_t(2 + j * row + i);
             if (trial % 3 == 0) bad.points[p] = bad.points[p + 1];
             if (trial % 3 == 1) bad.points[p] = 0.5 * (bad.points[p - 1] + bad.points[p + 1]);
@@ -195,12 +196,14 @@ TEST_CASE("a bumpy tube maps one to one onto the periodic strip, wherever it is 
         for (int j = 0; j <= up; ++j)
             for (int i = 0; i < around; ++i) {
                 const double angle = 2 * std::numbers::pi * i / around, radius = 1 + 0.3 * any(random);
-                points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), j + 0.3 * any(random));
+                points.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
+                                    j + 0.3 * any(random));
             }
         std::vector<Triangle> triangles;
         for (int j = 0; j < up; ++j)
             for (int i = 0; i < around; ++i) {
-                const Index a = j * around + i, b = j * around + (i + 1) % around, c = b + around, d = a + around;
+                const Index a = j * around + i, b = j * around + (i + 1) % around, c = b + around,
+                            d = a + around;
                 const int turn = i + 1 == around ? 1 : 0;
                 triangles.push_back({a, b, c});
                 problem.corner_turns.push_back({0, turn, turn});

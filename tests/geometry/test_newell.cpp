@@ -19,7 +19,8 @@ std::vector<Vec3> ring(int count, double radius, const Vec3& centre = Vec3::Zero
     std::vector<Vec3> points;
     for (int i = 0; i < count; ++i) {
         const double angle = 2 * std::numbers::pi * i / count;
-        points.push_back(centre + Vec3(radius * std::cos(angle), radius * std::sin(angle), wave * std::cos(3 * angle)));
+        points.push_back(
+            centre + Vec3(radius * std::cos(angle), radius * std::sin(angle), wave * std::cos(3 * angle)));
     }
     return points;
 }
@@ -28,7 +29,8 @@ Eigen::Affine3d random_motion(std::mt19937& random)
 {
     std::normal_distribution<double> normal;
     const Eigen::Quaterniond turn(normal(random), normal(random), normal(random), normal(random));
-    return Eigen::Translation3d(10 * normal(random), 10 * normal(random), 10 * normal(random)) * turn.normalized();
+    return Eigen::Translation3d(10 * normal(random), 10 * normal(random), 10 * normal(random)) *
+           turn.normalized();
 }
 
 std::vector<Vec3> moved(const Eigen::Affine3d& motion, std::vector<Vec3> points)

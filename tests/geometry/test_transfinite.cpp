@@ -21,7 +21,8 @@ struct Sides {
     Grid bottom, right, top, left;
 };
 
-Sides sides_of(const std::function<Vec3(double, double)>& map, const std::vector<double>& s, const std::vector<double>& t)
+Sides sides_of(const std::function<Vec3(double, double)>& map, const std::vector<double>& s,
+               const std::vector<double>& t)
 {
     Sides sides;
     for (const double x : s) {

@@ -38,10 +38,7 @@ bool near(const Box& a, const Box& b, double margin)
 }
 
 /// Componentwise inverse with +∞ for both zeros, so that the sides of a box keep their order.
-Vec3 inverse_of(const Vec3& direction)
-{
-    return (direction.array() + 0.0).inverse();
-}
+Vec3 inverse_of(const Vec3& direction) { return (direction.array() + 0.0).inverse(); }
 
 /// Does the ray, up to t_max, meet the box? `inverse` may hold infinities.
 bool meets(const Box& box, const Vec3& origin, const Vec3& inverse, double t_max)
@@ -217,7 +214,8 @@ FacetTree::Hit FacetTree::closest(const Vec3& p, double max_distance2) const
     return best;
 }
 
-bool FacetTree::overlaps(const FacetTree& other, const std::function<bool(Index, Index)>& visit, double margin) const
+bool FacetTree::overlaps(const FacetTree& other, const std::function<bool(Index, Index)>& visit,
+                         double margin) const
 {
     if (node_.empty() || other.node_.empty()) return true;
     const bool itself = &other == this;
@@ -289,7 +287,8 @@ FacetTree::RayHit FacetTree::first_along(const Vec3& origin, const Vec3& directi
     return best;
 }
 
-bool FacetTree::all_along(const Vec3& origin, const Vec3& direction, const std::function<bool(const RayHit&)>& visit) const
+bool FacetTree::all_along(const Vec3& origin, const Vec3& direction,
+                          const std::function<bool(const RayHit&)>& visit) const
 {
     if (node_.empty()) return true;
     const Vec3 inverse = inverse_of(direction);
@@ -348,7 +347,8 @@ Vec3 heights_over(const Corners& of, const Corners& plane, const Vec3& normal, d
 /// parameter at the corners on the plane and at the sides that pass through.
 std::pair<double, double> stretch(const Corners& c, const Vec3& heights, const Vec3& origin, const Vec3& line)
 {
-    std::pair<double, double> range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    std::pair<double, double> range{std::numeric_limits<double>::infinity(),
+                                    -std::numeric_limits<double>::infinity()};
     const auto add = [&](double s) { range = {std::min(range.first, s), std::max(range.second, s)}; };
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3;
@@ -371,7 +371,8 @@ bool overlap_in_plane(const Corners& a, const Corners& b, const Vec3& normal, do
                 sa[i] = (a[i] - a[0]).dot(axis);
                 sb[i] = (b[i] - a[0]).dot(axis);
             }
-            const double shared = std::min(sa.maxCoeff(), sb.maxCoeff()) - std::max(sa.minCoeff(), sb.minCoeff());
+            const double shared = std::min(sa.maxCoeff(), sb.maxCoeff()) -
+                                  std::max(sa.minCoeff(), sb.minCoeff());
             if (!(shared > tolerance)) return false;
         }
     }
@@ -390,7 +391,8 @@ bool triangles_cross(const Corners& a, const Corners& b, double tolerance)
     Box extent;
     for (const Vec3& corner : a) extent.extend(corner);
     for (const Vec3& corner : b) extent.extend(corner);
-    const double reach = std::max(tolerance, 16 * std::numeric_limits<double>::epsilon() * extent.diagonal().norm());
+    const double reach = std::max(tolerance,
+                                  16 * std::numeric_limits<double>::epsilon() * extent.diagonal().norm());
     const Vec3 ha = heights_over(a, b, normal_b, reach), hb = heights_over(b, a, normal_a, reach);
     if (ha.isZero(0)) return overlap_in_plane(a, b, normal_b, reach);
     if (hb.isZero(0)) return overlap_in_plane(a, b, normal_a, reach);

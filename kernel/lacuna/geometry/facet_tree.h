@@ -38,7 +38,8 @@ public:
     /// Hand every pair (own triangle, other's triangle) whose boxes come within `margin` to `visit`, until it
     /// returns false. A tree against itself gives each pair of different triangles once, the lower one first.
     /// @return false if `visit` stopped it.
-    bool overlaps(const FacetTree& other, const std::function<bool(Index, Index)>& visit, double margin = 0) const;
+    bool overlaps(const FacetTree& other, const std::function<bool(Index, Index)>& visit,
+                  double margin = 0) const;
 
     /// Where a ray meets a facet.
     struct RayHit {
@@ -50,7 +51,8 @@ public:
     [[nodiscard]] RayHit first_along(const Vec3& origin, const Vec3& direction) const;
     /// Every facet met, in no special order, until `visit` returns false. A ray through a shared edge meets
     /// both its facets. @return false if `visit` stopped it.
-    bool all_along(const Vec3& origin, const Vec3& direction, const std::function<bool(const RayHit&)>& visit) const;
+    bool all_along(const Vec3& origin, const Vec3& direction,
+                   const std::function<bool(const RayHit&)>& visit) const;
 
     /// How often the facets wind round a point: 1 inside closed facets that face outward, 0 outside them,
     /// between the two where there are gaps (Jacobson et al. 2013). A sum over all facets: O(triangles),

@@ -44,7 +44,8 @@ struct Flattened {
 /// (Lévy et al. 2002) and are relaxed to as rigid as possible by local and global steps (Liu et al. 2008).
 /// Should that turn a triangle over or a boundary cross, maps that cannot turn triangles over come in: least
 /// symmetric Dirichlet energy by reweighted steps (Rabinovich et al. 2017), at worst the harmonic map onto a
-/// disc. The first that is one to one is given; if none is, the one with the fewest flips, and `folded` says so.
+/// disc. The first that is one to one is given; if none is, the one with the fewest flips, and `folded` says
+/// so.
 /// Curved facets come out with the area they have in space, turned to agree best with their Newell plane.
 ///
 /// @param points     the whole model's may be given.
@@ -75,7 +76,8 @@ private:
     FacetTree tree_;
 };
 
-/// The point in space at a place of the flat facets. @pre place.triangle >= 0; `points` as given to flatten().
+/// The point in space at a place of the flat facets; `points` as given to flatten().
+/// @pre place.triangle >= 0
 Vec3 lift(const Flattened& flat, std::span<const Vec3> points, const PlanarLocator::Place& place);
 
 } // namespace lacuna::geometry

@@ -22,10 +22,7 @@ const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
 
 constexpr Index kFree = -1, kUnused = -2;
 
-std::size_t at(Index i)
-{
-    return static_cast<std::size_t>(i);
-}
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// tan(angle / 2) between two sides, kept away from 0 and from infinity.
 double half_tangent(const Vec3& a, const Vec3& b)
@@ -53,7 +50,8 @@ std::vector<Weight> corner_weights(const HarmonicProblem& problem)
     weights.reserve(6 * problem.triangles.size());
     for (std::size_t t = 0; t < problem.triangles.size(); ++t) {
         const Triangle& triangle = problem.triangles[t];
-        const std::array<int, 3> turns = problem.corner_turns.empty() ? std::array<int, 3>{} : problem.corner_turns[t];
+        const std::array<int, 3> turns = problem.corner_turns.empty() ? std::array<int, 3>{}
+                                                                      : problem.corner_turns[t];
         std::array<double, 3> side{}; // side i faces corner i
         std::array<Vec3, 3> p;
         for (std::size_t i = 0; i < 3; ++i) p[i] = problem.points[at(triangle[i])];
@@ -127,7 +125,8 @@ void check_anchored(const HarmonicProblem& problem, std::span<const Index> role)
     for (std::size_t i = 0; i < role.size(); ++i)
         if (role[i] == kFree && !anchored[at(root(static_cast<Index>(i)))])
             throw BackendError("geometry.singular",
-                               "harmonic values are not determined: the facets about point " + std::to_string(i) +
+                               "harmonic values are not determined: the facets about point " +
+                                   std::to_string(i) +
                                    " hang together with no point whose value is known; "
                                    "fix at least one point of each connected part");
 }
@@ -189,8 +188,9 @@ Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem)
     Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> solver;
     solver.compute(matrix);
     if (solver.info() != Eigen::Success)
-        throw BackendError("geometry.singular", "harmonic values cannot be solved for: " + solver.lastErrorMessage() +
-                                                    "; look for coordinates that are not numbers");
+        throw BackendError("geometry.singular",
+                           "harmonic values cannot be solved for: " + solver.lastErrorMessage() +
+                               "; look for coordinates that are not numbers");
     const Eigen::MatrixXd solution = solver.solve(right);
     for (Index row = 0; row < size; ++row) values.row(point_of[at(row)]) = solution.row(row);
     return values;

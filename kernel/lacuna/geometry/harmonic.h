@@ -22,16 +22,16 @@ struct HarmonicProblem {
     Eigen::MatrixXd fixed_values;        ///< fixed.size() × k, a row a point
 
     /// For values known up to a period only (an angle round a cylinder): what to add to the value of each
-    /// corner, as a multiple of `period`, for the corners of a triangle to be seen on one branch. Corners of a
-    /// triangle that straddles the cut have different turns; all others may stay 0. Empty: all zero.
+    /// corner, as a multiple of `period`, for the corners of a triangle to be seen on one branch. Corners of
+    /// a triangle that straddles the cut have different turns; all others may stay 0. Empty: all zero.
     std::vector<std::array<int, 3>> corner_turns;
     Eigen::RowVectorXd period; ///< k numbers; read only where there are corner_turns
 };
 
 /// Solve for all points, k values each.
 ///
-/// @return points.size() × k, on the branch of turn 0. The rows of fixed points are the given ones bit for bit,
-///         those of points no triangle uses are 0.
+/// @return points.size() × k, on the branch of turn 0. The rows of fixed points are the given ones bit for
+///         bit, those of points no triangle uses are 0.
 /// @throw  InvalidInput "geometry.harmonic_input"  sizes that do not fit, an index that is out of range.
 /// @throw  BackendError "geometry.singular"  points that are joined to no fixed point; names one of them.
 /// @note   Triangles of no area do no harm: weights are kept within what rounding can bear. One sparse

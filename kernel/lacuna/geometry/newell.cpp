@@ -97,9 +97,6 @@ Vec3 from_plane(const Plane& plane, const Vec2& uv, double height)
     return plane.origin + uv.x() * plane.u + uv.y() * plane.v + height * plane.normal;
 }
 
-double height(const Plane& plane, const Vec3& point)
-{
-    return (point - plane.origin).dot(plane.normal);
-}
+double height(const Plane& plane, const Vec3& point) { return (point - plane.origin).dot(plane.normal); }
 
 } // namespace lacuna::geometry

@@ -39,9 +39,10 @@ void check_sides(std::span<const Vec3> bottom, std::span<const Vec3> right, std:
         throw InvalidInput("geometry.transfinite_sides", "a transfinite grid cannot be laid: " + what);
     };
     if (bottom.size() != top.size() || left.size() != right.size())
-        fail("opposite sides must have as many points as each other; found bottom " + std::to_string(bottom.size()) +
-             ", top " + std::to_string(top.size()) + ", left " + std::to_string(left.size()) + ", right " +
-             std::to_string(right.size()) + "; give opposite sides the same number of divisions");
+        fail("opposite sides must have as many points as each other; found bottom " +
+             std::to_string(bottom.size()) + ", top " + std::to_string(top.size()) + ", left " +
+             std::to_string(left.size()) + ", right " + std::to_string(right.size()) +
+             "; give opposite sides the same number of divisions");
     if (bottom.size() < 2 || left.size() < 2) fail("each side needs at least two points");
     if (bottom.front() != left.front()) fail("the bottom and the left side do not start in the same point");
     if (bottom.back() != right.front()) fail("the bottom side does not end where the right one starts");
@@ -51,8 +52,9 @@ void check_sides(std::span<const Vec3> bottom, std::span<const Vec3> right, std:
 
 } // namespace
 
-std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3> right, std::span<const Vec3> top,
-                              std::span<const Vec3> left, const TransfiniteOptions& options)
+std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3> right,
+                              std::span<const Vec3> top, std::span<const Vec3> left,
+                              const TransfiniteOptions& options)
 {
     check_sides(bottom, right, top, left);
     const std::size_t n = bottom.size() - 1, m = left.size() - 1;

@@ -36,7 +36,8 @@ struct TransfiniteOptions {
 ///         (for a parallelogram the affine) grid to rounding.
 /// @throw  InvalidInput "geometry.transfinite_sides"  opposite sides differ in number of points, a side has
 ///         fewer than two, or neighbouring sides do not meet in the same point.
-std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3> right, std::span<const Vec3> top,
-                              std::span<const Vec3> left, const TransfiniteOptions& options = {});
+std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3> right,
+                              std::span<const Vec3> top, std::span<const Vec3> left,
+                              const TransfiniteOptions& options = {});
 
 } // namespace lacuna::geometry
