@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace lacuna::quality {
 namespace {
@@ -80,6 +81,7 @@ LACUNA_INLINE void find_edges(const CellBatch<N>& batch, Edges<N>& edges)
 template <int N>
 LACUNA_INLINE void find_corners(const Edges<N>& edges, CellValues<N>& values)
 {
+    constexpr double kLargest = std::numeric_limits<double>::max();
     alignas(64) double least[N];
     for (int i = 0; i < N; ++i) least[i] = 1;
     for (int w = 0; w < 2; ++w) {
@@ -93,7 +95,7 @@ LACUNA_INLINE void find_corners(const Edges<N>& edges, CellValues<N>& values)
                 for (int i = 0; i < N; ++i) {
                     const double lengths = square_u[i] * square_v[i] * square_w[i];
                     const double ratio = det[i] * std::abs(det[i]) / lengths;
-                    const double safe = lengths > 0 ? ratio : 0.0;
+                    const double safe = lengths > 0 && lengths <= kLargest ? ratio : 0.0;
                     least[i] = safe < least[i] ? safe : least[i];
                 }
             }

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quality/quality.h>
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace lacuna;
+
+namespace {
+
+using Corners = std::array<Vec3, 8>;
+
+Corners cube()
+{
+    return {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0),
+            Vec3(0, 0, 1), Vec3(1, 0, 1), Vec3(1, 1, 1), Vec3(0, 1, 1)};
+}
+
+Corners mapped(const Corners& corners, const Eigen::Affine3d& map)
+{
+    Corners result = corners;
+    for (Vec3& corner : result) corner = map * corner;
+    return result;
+}
+
+Corners shaken(std::mt19937& random, double amount)
+{
+    std::uniform_real_distribution<double> shift(-amount, amount);
+    Corners corners = cube();
+    for (Vec3& corner : corners) corner += Vec3(shift(random), shift(random), shift(random));
+    return corners;
+}
+
+/// The Jacobian from derivatives of the shape functions.
+double jacobian(const Corners& c, double u, double v, double w)
+{
+    const auto mix = [](const Vec3& a, const Vec3& b, double t) -> Vec3 { return (1 - t) * a + t * b; };
+    const Vec3 du = mix(mix(c[1] - c[0], c[2] - c[3], v), mix(c[5] - c[4], c[6] - c[7], v), w);
+    const Vec3 dv = mix(mix(c[3] - c[0], c[2] - c[1], u), mix(c[7] - c[4], c[6] - c[5], u), w);
+    const Vec3 dw = mix(mix(c[4] - c[0], c[5] - c[1], u), mix(c[7] - c[3], c[6] - c[2], u), v);
+    return du.dot(dv.cross(dw));
+}
+
+double least_sampled(const Corners& corners, int steps)
+{
+    double least = jacobian(corners, 0, 0, 0);
+    for (int i = 0; i <= steps; ++i)
+        for (int j = 0; j <= steps; ++j)
+            for (int k = 0; k <= steps; ++k)
+                least = std::min(least, jacobian(corners, double(i) / steps, double(j) / steps, double(k) / steps));
+    return least;
+}
+
+/// Twisted so far that the Jacobian is negative in the middle of an edge, yet positive at every corner.
+Corners twisted()
+{
+    std::mt19937 random(7);
+    for (;;) {
+        const Corners corners = shaken(random, 0.5);
+        if (quality::scaled_jacobian(corners) > 0.01 && least_sampled(corners, 8) < -0.02) return corners;
+    }
+}
+
+} // namespace
+
+TEST_CASE("the scaled Jacobian of a box is 1, wherever it lies and however large it is")
+{
+    for (const double size : {1e-9, 1.0, 1e9}) {
+        Eigen::Affine3d map = Eigen::Affine3d::Identity();
+        map.translate(size * Vec3(3, -2, 5)).rotate(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+        map.scale(size * Vec3(1, 2, 5));
+        const Corners box = mapped(cube(), map);
+        CHECK(quality::scaled_jacobian(box) == doctest::Approx(1).epsilon(1e-9));
+        CHECK(quality::certified_positive(box));
+    }
+}
+
+TEST_CASE("the scaled Jacobian of a sheared box is the cosine of the shear, negative when turned over")
+{
+    for (const double degrees : {10.0, 45.0, 80.0}) {
+        const double angle = degrees * EIGEN_PI / 180;
+        Eigen::Affine3d shear = Eigen::Affine3d::Identity();
+        shear.linear()(0, 2) = std::tan(angle);
+        CHECK(quality::scaled_jacobian(mapped(cube(), shear)) == doctest::Approx(std::cos(angle)));
+        shear.linear().row(2) *= -1;
+        CHECK(quality::scaled_jacobian(mapped(cube(), shear)) == doctest::Approx(-std::cos(angle)));
+        CHECK_FALSE(quality::certified_positive(mapped(cube(), shear)));
+    }
+}
+
+TEST_CASE("cells without height, with an edge of no length or a node that is not finite are not valid")
+{
+    Corners flat = cube();
+    for (std::size_t i = 4; i < 8; ++i) flat[i].z() = 0;
+    Corners joined = cube();
+    joined[1] = joined[0];
+    Corners nowhere = cube();
+    nowhere[6].y() = std::nan("");
+    Corners endless = cube();
+    endless[3].x() = std::numeric_limits<double>::infinity();
+    for (const Corners& corners : {flat, joined, nowhere, endless}) {
+        CHECK(quality::scaled_jacobian(corners) == 0);
+        CHECK_FALSE(quality::certified_positive(corners));
+    }
+}
+
+TEST_CASE("the certificate finds a cell that is invalid between corners that are not")
+{
+    const Corners corners = twisted();
+    REQUIRE(quality::scaled_jacobian(corners) > 0);
+    REQUIRE(least_sampled(corners, 8) < 0);
+    CHECK_FALSE(quality::certified_positive(corners));
+}
+
+TEST_CASE("over random cells, certified means no sample is negative, and a negative sample means not certified")
+{
+    std::mt19937 random(1);
+    int certified = 0;
+    int hidden = 0;   // invalid, though every corner is positive
+    int deep = 0;     // valid, though only found so by cutting the cell
+    for (int trial = 0; trial < 6000; ++trial) {
+        const Corners corners = shaken(random, 0.2 + 0.4 * (trial % 7) / 7);
+        const bool valid = quality::certified_positive(corners);
+        const double least = least_sampled(corners, 10);
+        const bool agrees = valid ? least > 0 : true;
+        CHECK(agrees);
+        if (least <= 0) CHECK_FALSE(valid);
+        if (valid) ++certified;
+        if (least <= 0 && quality::scaled_jacobian(corners) > 0) ++hidden;
+        if (valid && !quality::certified_positive(corners, 0)) ++deep;
+        // Nothing valid by a margin is refused.
+        if (least > 1e-2) CHECK(valid);
+    }
+    CHECK(certified > 1000);
+    CHECK(hidden >= 3);
+    CHECK(deep > 10);
+}

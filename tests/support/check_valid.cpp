@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "support/check_valid.h"
+
+#include <lacuna/quality/quality.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace lacuna::test {
+namespace {
+
+using Faults = std::vector<std::string>;
+
+void expect(Faults& faults, bool good, const std::string& fault)
+{
+    if (!good && faults.size() < 20) faults.push_back(fault);
+}
+
+Quad begin_lowest(Quad quad)
+{
+    std::rotate(quad.begin(), std::min_element(quad.begin(), quad.end()), quad.end());
+    return quad;
+}
+
+Quad reversed(const Quad& quad) { return begin_lowest({quad[3], quad[2], quad[1], quad[0]}); }
+
+bool good_sizes(const mesh::HexMesh& mesh, Faults& faults)
+{
+    const auto layers = static_cast<std::size_t>(mesh.layers);
+    expect(faults, mesh.hex_count() > 0, "no cells");
+    expect(faults, mesh.nodes.size() == (layers + 1) * static_cast<std::size_t>(mesh.nodes_per_layer), "node count");
+    expect(faults, mesh.source_patch.size() == mesh.quads.size(), "source patch count");
+    expect(faults, mesh.target_patch.size() == mesh.quads.size(), "target patch count");
+    expect(faults, mesh.wall_patch.size() == mesh.rim.size() * layers, "wall patch count");
+    for (const Quad& quad : mesh.quads)
+        for (const Index node : quad) expect(faults, node >= 0 && node < mesh.nodes_per_layer, "node out of range");
+    return faults.empty();
+}
+
+/// Sides of all cells, each told by its nodes in any order, with the ways it is run, outward.
+std::map<std::set<Index>, std::vector<Quad>> all_sides(const mesh::HexMesh& mesh)
+{
+    std::map<std::set<Index>, std::vector<Quad>> sides;
+    for (std::size_t cell = 0; cell < mesh.hex_count(); ++cell) {
+        const Hex hex = mesh.hex(cell);
+        const Quad outward[6] = {{hex[0], hex[3], hex[2], hex[1]}, {hex[4], hex[5], hex[6], hex[7]},
+                                 {hex[0], hex[1], hex[5], hex[4]}, {hex[1], hex[2], hex[6], hex[5]},
+                                 {hex[2], hex[3], hex[7], hex[6]}, {hex[3], hex[0], hex[4], hex[7]}};
+        for (const Quad& quad : outward)
+            sides[std::set<Index>(quad.begin(), quad.end())].push_back(begin_lowest(quad));
+    }
+    return sides;
+}
+
+void find_conformity_faults(const mesh::HexMesh& mesh, Faults& faults)
+{
+    std::multiset<Quad> lone;
+    for (const auto& [nodes, uses] : all_sides(mesh)) {
+        expect(faults, nodes.size() == 4, "a side uses a node twice");
+        expect(faults, uses.size() <= 2, "a side is used by more than two cells");
+        if (uses.size() == 2) expect(faults, uses[0] == reversed(uses[1]), "a side is run the same way by its two cells");
+        if (uses.size() == 1) lone.insert(uses[0]);
+    }
+    std::multiset<Quad> skin;
+    std::map<Segment, int> edges;
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        const mesh::SkinQuad quad = mesh::skin_quad(mesh, i);
+        expect(faults, quad.patch >= 0 && static_cast<std::size_t>(quad.patch) < mesh.patches.size(),
+               "a skin quad without patch");
+        skin.insert(begin_lowest(quad.nodes));
+        for (std::size_t k = 0; k < 4; ++k) ++edges[{quad.nodes[k], quad.nodes[(k + 1) % 4]}];
+    }
+    expect(faults, skin == lone, "the skin's quads are not the sides of one cell alone, outward");
+    for (const auto& [edge, uses] : edges) {
+        const auto back = edges.find({edge[1], edge[0]});
+        expect(faults, uses == 1 && back != edges.end() && back->second == 1, "an edge of the skin does not join two quads");
+    }
+}
+
+void find_node_faults(const mesh::HexMesh& mesh, Faults& faults)
+{
+    std::vector<bool> used(mesh.nodes.size(), false);
+    for (std::size_t cell = 0; cell < mesh.hex_count(); ++cell)
+        for (const Index node : mesh.hex(cell)) used[static_cast<std::size_t>(node)] = true;
+    expect(faults, std::find(used.begin(), used.end(), false) == used.end(), "a node belongs to no cell");
+
+    std::vector<Vec3> sorted = mesh.nodes;
+    std::sort(sorted.begin(), sorted.end(), [](const Vec3& a, const Vec3& b) { return a.x() < b.x(); });
+    Eigen::AlignedBox3d box;
+    for (const Vec3& node : sorted) {
+        box.extend(node);
+        expect(faults, node.allFinite(), "a node is not finite");
+    }
+    const double tolerance = 1e-9 * box.diagonal().norm();
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+        for (std::size_t j = i + 1; j < sorted.size() && sorted[j].x() - sorted[i].x() <= tolerance; ++j)
+            expect(faults, (sorted[i] - sorted[j]).norm() > tolerance, "two nodes in one place");
+}
+
+constexpr double kCorner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+
+/// Jacobian of the trilinear map, from the derivatives of the shape functions.
+double jacobian(const std::array<Vec3, 8>& corners, const Vec3& at)
+{
+    Eigen::Matrix3d columns = Eigen::Matrix3d::Zero();
+    for (std::size_t c = 0; c < 8; ++c) {
+        for (int d = 0; d < 3; ++d) {
+            double slope = 1;
+            for (int e = 0; e < 3; ++e) {
+                const bool upper = kCorner[c][e] > 0;
+                if (e == d) slope *= upper ? 1 : -1;
+                else slope *= upper ? at[e] : 1 - at[e];
+            }
+            columns.col(d) += slope * corners[c];
+        }
+    }
+    return columns.determinant();
+}
+
+double naive_scaled_jacobian(const std::array<Vec3, 8>& corners)
+{
+    double least = 1;
+    for (const auto& corner : kCorner) {
+        const auto find = [&](int flipped) {
+            for (std::size_t c = 0; c < 8; ++c) {
+                bool same = true;
+                for (int e = 0; e < 3; ++e) same = same && (kCorner[c][e] != corner[e]) == (e == flipped);
+                if (same) return corners[c];
+            }
+            return Vec3(0, 0, 0);
+        };
+        Eigen::Matrix3d edges;
+        for (int d = 0; d < 3; ++d) edges.col(d) = ((find(d) - find(-1)) * (corner[d] > 0 ? -1 : 1)).normalized();
+        least = std::min(least, edges.determinant());
+    }
+    return least;
+}
+
+const double kGauss[2] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
+
+double cell_volume(const std::array<Vec3, 8>& corners)
+{
+    double volume = 0;
+    for (const double u : kGauss)
+        for (const double v : kGauss)
+            for (const double w : kGauss) volume += jacobian(corners, {u, v, w}) / 8;
+    return volume;
+}
+
+/// A third of the flux of the position through the bilinear quads: the volume within, by Gauss's theorem.
+double skin_volume(const mesh::HexMesh& mesh)
+{
+    double sum = 0;
+    const Vec3 origin = mesh.nodes.front();
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        const Quad quad = mesh::skin_quad(mesh, i).nodes;
+        const auto at = [&](std::size_t k) -> Vec3 { return mesh.nodes[static_cast<std::size_t>(quad[k])] - origin; };
+        for (const double u : kGauss) {
+            for (const double v : kGauss) {
+                const Vec3 along_u = (1 - v) * (at(1) - at(0)) + v * (at(2) - at(3));
+                const Vec3 along_v = (1 - u) * (at(3) - at(0)) + u * (at(2) - at(1));
+                const Vec3 point = (1 - u) * ((1 - v) * at(0) + v * at(3)) + u * ((1 - v) * at(1) + v * at(2));
+                sum += point.dot(along_u.cross(along_v)) / 12;
+            }
+        }
+    }
+    return sum;
+}
+
+void find_shape_faults(const mesh::HexMesh& mesh, Faults& faults)
+{
+    double least = 1;
+    double sum = 0;
+    double volume = 0;
+    for (std::size_t cell = 0; cell < mesh.hex_count(); ++cell) {
+        std::array<Vec3, 8> corners;
+        for (std::size_t c = 0; c < 8; ++c) corners[c] = mesh.nodes[static_cast<std::size_t>(mesh.hex(cell)[c])];
+        for (int s = 0; s < 64; ++s)
+            expect(faults, jacobian(corners, Vec3(s % 4, s / 4 % 4, s / 16) / 3) > 0, "a Jacobian is not positive");
+        const double scaled = naive_scaled_jacobian(corners);
+        least = std::min(least, scaled);
+        sum += scaled;
+        volume += cell_volume(corners);
+    }
+    const double within = skin_volume(mesh);
+    expect(faults, std::abs(volume - within) <= 1e-9 * std::abs(volume), "the skin does not hold the volume of the cells");
+
+    const quality::Quality quality = quality::measure(mesh);
+    const double mean = sum / static_cast<double>(mesh.hex_count());
+    expect(faults, quality.hexes == mesh.hex_count(), "measured count");
+    expect(faults, std::abs(quality.min_scaled_jacobian - least) < 1e-9, "measured least scaled Jacobian");
+    expect(faults, std::abs(quality.mean_scaled_jacobian - mean) < 1e-9, "measured mean scaled Jacobian");
+    expect(faults, std::abs(quality.volume - volume) <= 1e-9 * std::abs(volume), "measured volume");
+    expect(faults, quality.uncertified == 0, "cells without certificate");
+}
+
+} // namespace
+
+std::vector<std::string> faults(const mesh::HexMesh& mesh)
+{
+    Faults found;
+    if (!good_sizes(mesh, found)) return found;
+    find_conformity_faults(mesh, found);
+    find_node_faults(mesh, found);
+    find_shape_faults(mesh, found);
+    return found;
+}
+
+void check_valid(const mesh::HexMesh& mesh)
+{
+    std::string all;
+    for (const std::string& fault : faults(mesh)) all += fault + "\n";
+    CHECK_MESSAGE(all.empty(), all);
+}
+
+} // namespace lacuna::test
