@@ -23,8 +23,8 @@ cad:close()
 
 local part = lacuna.load(cad_path)
 local void = part:open_volume {
-  source = { facing = { 0, 0, -1 } },
-  target = { facing = { 0, 0, 1 } },
+  source = { kind = "plane", facing = { 0, 0, -1 } },
+  target = { kind = "plane", facing = { 0, 0, 1 } },
   walls  = { kind = "cylinder" },
 }
 print("class", void.class)

@@ -31,13 +31,13 @@ local part = lacuna.load(cad_path)
 print(part:describe())
 
 local void = part:open_volume {
-  source = { facing = { 0, 0, -1 } },
-  target = { facing = { 0, 0, 1 } },
+  source = { kind = "plane", facing = { 0, 0, -1 } },
+  target = { kind = "plane", facing = { 0, 0, 1 } },
   walls  = {
     { kind = "cone" },
     { kind = "cylinder" },
-    { facing = { -1, 0, 0 } },
-    { facing = { 0, 1, 0 } },
+    { kind = "plane", facing = { -1, 0, 0 } },
+    { kind = "plane", facing = { 0, 1, 0 } },
   },
 }
 print("class", void.class)
