@@ -52,7 +52,7 @@ private:
 
 struct Guess {
     std::vector<Vec3> nodes;
-    bool affine = true;  ///< the rims are related by an affine motion
+    bool affine = true; ///< the rims are related by an affine motion
 };
 
 /// Nodes where the rims put them, the surface not asked.
@@ -76,7 +76,8 @@ Guess guess_from_rims(const mesh::QuadMesh& source, const Columns& columns, Spre
         for (std::size_t k = 0; k < low.size(); ++k) residual[k] -= fit(low[k]);
         spreader.spread().add(residual, 1, guess.nodes.data(), guess.nodes.size(), context);
     }
-    for (std::size_t k = 0; k < high.size(); ++k) guess.nodes[static_cast<std::size_t>(columns.rim[k])] = high[k];
+    for (std::size_t k = 0; k < high.size(); ++k)
+        guess.nodes[static_cast<std::size_t>(columns.rim[k])] = high[k];
     return guess;
 }
 
@@ -124,7 +125,7 @@ Candidate bulged_start(const mesh::QuadMesh& source, const Columns& columns, con
     double top = 0;
     for (const Vec3& height : bulge) top = std::max(top, height[0]);
     if (!(top > 0)) return best;
-    for (const double height : {0.5, -0.5, 1.0, -1.0, 2.0, -2.0, 4.0, -4.0}) {  // in radii of the rim
+    for (const double height : {0.5, -0.5, 1.0, -1.0, 2.0, -2.0, 4.0, -4.0}) { // in radii of the rim
         Candidate other{guess, -1};
         const Vec3 reach = height * radius(rim) / top * area.normalized();
         for (std::size_t i = 0; i < guess.size(); ++i) other.nodes[i] += bulge[i][0] * reach;
@@ -140,7 +141,8 @@ Candidate smoothed(const mesh::QuadMesh& source, const Columns& columns, const s
                    Spreader& spreader, std::span<const Index> free_nodes, const SurfaceProjector& project,
                    double good_enough, Candidate found, const RunContext& context)
 {
-    const SurfaceSmoother smoother(source, spreader.graph(), spreader.weights(), spreader.spread(), free_nodes, project);
+    const SurfaceSmoother smoother(source, spreader.graph(), spreader.weights(), spreader.spread(),
+                                   free_nodes, project);
     if (found.worst < 0.5 * good_enough) {
         found = bulged_start(source, columns, guess, spreader.spread(), smoother, std::move(found));
     }
@@ -162,7 +164,8 @@ Carried carry(const mesh::QuadMesh& source, const Columns& columns, const Surfac
 
     Carried result;
     result.worst_source = worst_quad(source.quads, source.nodes);
-    result.report = guess.affine ? "target: affine image of the source" : "target: fitted image of the source";
+    result.report = guess.affine ? "target: affine image of the source"
+                                 : "target: fitted image of the source";
     Candidate found{guess.nodes, worst_quad(source.quads, guess.nodes)};
     // What an affine map takes from the source's quads is the rims' doing; the rest is there to be mended.
     const double model = guess.affine ? std::min(result.worst_source, found.worst) : result.worst_source;
@@ -174,7 +177,8 @@ Carried carry(const mesh::QuadMesh& source, const Columns& columns, const Surfac
         if (move > kOnSurface * size) {
             projected.worst = worst_quad(source.quads, projected.nodes);
             found = std::move(projected);
-            result.report += ", projected by up to " + in_short(size > 0 ? move / size : 0) + " of its radius";
+            result.report += ", projected by up to " + in_short(size > 0 ? move / size : 0) +
+                             " of its radius";
         }
         const double before = found.worst;
         const double good_enough = model - kSameQuality;
@@ -186,7 +190,8 @@ Carried carry(const mesh::QuadMesh& source, const Columns& columns, const Surfac
     }
     result.worst = found.worst;
     result.nodes = std::move(found.nodes);
-    result.report += "; worst quad " + in_short(result.worst) + " (source " + in_short(result.worst_source) + ")";
+    result.report += "; worst quad " + in_short(result.worst) + " (source " + in_short(result.worst_source) +
+                     ")";
     log_line(context, result.report);
     return result;
 }

@@ -17,10 +17,11 @@ using SurfaceProjector = std::function<void(std::span<Vec3>)>;
 
 /// The source mesh on the target.
 struct Carried {
-    std::vector<Vec3> nodes;  ///< target position of each source node [model length]
-    double worst_source = 1;  ///< smallest scaled Jacobian of a quad of the source, seen along the surface's normal [-1, 1]
-    double worst = 1;         ///< and of a quad on the target
-    std::string report;       ///< one line for a person
+    std::vector<Vec3> nodes; ///< target position of each source node [model length]
+    double worst_source =
+        1; ///< smallest scaled Jacobian of a quad of the source, seen along the surface's normal [-1, 1]
+    double worst = 1;   ///< and of a quad on the target
+    std::string report; ///< one line for a person
 };
 
 /// Carry the source mesh to the target: rim nodes to the last row of the columns, the rest by the affine fit

@@ -12,8 +12,8 @@ namespace lacuna::sweep {
 /// The walls' node columns over the source rim.
 struct Columns {
     int layers = 0;
-    std::vector<Index> rim;    ///< source node under each column; every node of the source's boundary, once
-    std::vector<Vec3> points;  ///< (layers + 1) × rim.size(), layer-major; row 0 is the source rim itself
+    std::vector<Index> rim;   ///< source node under each column; every node of the source's boundary, once
+    std::vector<Vec3> points; ///< (layers + 1) × rim.size(), layer-major; row 0 is the source rim itself
 
     /// Points of one layer's rim, in the order of `rim`.
     [[nodiscard]] std::span<const Vec3> row(int layer) const

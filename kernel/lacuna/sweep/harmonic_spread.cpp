@@ -68,7 +68,8 @@ NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes)
     return graph;
 }
 
-std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> quads, std::span<const Vec3> nodes)
+std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> quads,
+                                 std::span<const Vec3> nodes)
 {
     std::vector<double> weights(graph.neighbours.size(), 0.0);
     const auto add = [&](Index from, Index to, double weight) {
@@ -99,8 +100,9 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
 {
     const std::size_t nodes = graph.begin.size() - 1;
     const std::vector<char> joined = joined_to(graph, fixed);
-    std::vector<Index> position(nodes, -1);  // of fixed nodes in `fixed`
-    for (std::size_t k = 0; k < fixed.size(); ++k) position[static_cast<std::size_t>(fixed[k])] = static_cast<Index>(k);
+    std::vector<Index> position(nodes, -1); // of fixed nodes in `fixed`
+    for (std::size_t k = 0; k < fixed.size(); ++k)
+        position[static_cast<std::size_t>(fixed[k])] = static_cast<Index>(k);
 
     place_.assign(nodes, -1);
     int unknowns = 0;
@@ -114,7 +116,8 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
     for (std::size_t i = 0; i < nodes; ++i) {
         if (place_[i] < 0) continue;
         double sum = 0;
-        for (Index k = graph.begin[i]; k < graph.begin[i + 1]; ++k) sum += weights[static_cast<std::size_t>(k)];
+        for (Index k = graph.begin[i]; k < graph.begin[i + 1]; ++k)
+            sum += weights[static_cast<std::size_t>(k)];
         laplacian.insert(place_[i], place_[i]) = sum;
         for (Index k = graph.begin[i]; k < graph.begin[i + 1]; ++k) {
             const auto next = static_cast<std::size_t>(graph.neighbours[static_cast<std::size_t>(k)]);
@@ -127,8 +130,9 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
 
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(laplacian);
     if (factor.info() != Eigen::Success) {
-        throw NotSweepable("sweep.laplacian", "the source mesh's Laplacian could not be factored: check the source "
-                                              "quads for nodes used twice in one quad");
+        throw NotSweepable("sweep.laplacian",
+                           "the source mesh's Laplacian could not be factored: check the source "
+                           "quads for nodes used twice in one quad");
     }
     lower_ = factor.matrixL().nestedExpression();
     diagonal_ = factor.vectorD();
@@ -181,8 +185,10 @@ void HarmonicSpread::add(std::span<const Vec3> values, std::size_t fields, Vec3*
             for (const RimSide& side : rim_sides_) {
                 double* row = block.data() + static_cast<std::size_t>(side.row) * width;
                 for (std::size_t f = 0; f < count; ++f) {
-                    const Vec3& value = values[(first + f) * fixed_count_ + static_cast<std::size_t>(side.fixed)];
-                    for (int k = 0; k < 3; ++k) row[3 * f + static_cast<std::size_t>(k)] += side.weight * value[k];
+                    const Vec3& value =
+                        values[(first + f) * fixed_count_ + static_cast<std::size_t>(side.fixed)];
+                    for (int k = 0; k < 3; ++k)
+                        row[3 * f + static_cast<std::size_t>(k)] += side.weight * value[k];
                 }
             }
             substitute<static_cast<int>(width)>(block);

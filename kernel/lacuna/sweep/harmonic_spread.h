@@ -29,7 +29,8 @@ NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes);
 
 /// Weight of each side, in the order of the graph's neighbours: the length across it, between the middles of its quads,
 /// over its own. That of finite volumes: never negative, and blind to how mesh lines crowd.
-std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> quads, std::span<const Vec3> nodes);
+std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> quads,
+                                 std::span<const Vec3> nodes);
 
 /// Spreads values given at fixed nodes over the rest, each the weighted mean of its neighbours.
 ///
@@ -37,7 +38,8 @@ std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> q
 /// ones. A part of the mesh that no fixed node is joined to gets zero.
 class HarmonicSpread {
 public:
-    static constexpr int kFields = 4;  ///< fields solved together; each entry of the factor is then read once for 12 numbers
+    static constexpr int kFields =
+        4; ///< fields solved together; each entry of the factor is then read once for 12 numbers
 
     /// @param weights  of the graph's sides, equal both ways, above 0.
     /// @param fixed    nodes whose values are given, each named once.
@@ -58,12 +60,12 @@ private:
     void substitute(std::vector<double>& block) const;
 
     struct RimSide {
-        Index row, fixed;  ///< place in the factor; position in `fixed`
+        Index row, fixed; ///< place in the factor; position in `fixed`
         double weight;
     };
     std::size_t fixed_count_ = 0;
-    std::vector<Index> place_;        ///< of each node in the factor's order; -1: fixed or joined to none
-    std::vector<RimSide> rim_sides_;  ///< sides between a free node and a fixed one
+    std::vector<Index> place_;       ///< of each node in the factor's order; -1: fixed or joined to none
+    std::vector<RimSide> rim_sides_; ///< sides between a free node and a fixed one
     Eigen::SparseMatrix<double> lower_;
     Eigen::VectorXd diagonal_;
 };

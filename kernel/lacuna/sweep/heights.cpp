@@ -28,7 +28,8 @@ double exponent(const LayerSpec& spec, int layer)
         return spec.count > 1 ? static_cast<double>(layer) / (spec.count - 1) : 0.0;
     }
     const int middle = (spec.count - 1) / 2;
-    const double inward = middle > 0 ? static_cast<double>(std::min(layer, spec.count - 1 - layer)) / middle : 0.0;
+    const double inward = middle > 0 ? static_cast<double>(std::min(layer, spec.count - 1 - layer)) / middle
+                                     : 0.0;
     return spec.spacing == Spacing::bell ? inward : -inward;
 }
 
@@ -36,17 +37,18 @@ std::vector<double> given_heights(const LayerSpec& spec)
 {
     const int layers = static_cast<int>(spec.heights.size());
     if (spec.count != 0 && spec.count != layers) {
-        throw InvalidInput("sweep.layer_heights", std::to_string(layers) + " layer heights and a count of " +
-                                                      std::to_string(spec.count) +
-                                                      " layers were given: leave out the count, or the heights");
+        throw InvalidInput("sweep.layer_heights",
+                           std::to_string(layers) + " layer heights and a count of " +
+                               std::to_string(spec.count) +
+                               " layers were given: leave out the count, or the heights");
     }
     std::vector<double> result{0.0};
     for (int i = 0; i < layers; ++i) {
         const double height = spec.heights[static_cast<std::size_t>(i)];
         if (!(height > result.back()) || !std::isfinite(height)) {
-            throw InvalidInput("sweep.layer_heights",
-                               "layer heights must rise from above 0 to 1: height " + std::to_string(i + 1) + " is " +
-                                   text(height) + " after " + text(result.back()));
+            throw InvalidInput("sweep.layer_heights", "layer heights must rise from above 0 to 1: height " +
+                                                          std::to_string(i + 1) + " is " + text(height) +
+                                                          " after " + text(result.back()));
         }
         result.push_back(height);
     }
@@ -69,17 +71,20 @@ std::vector<double> layer_heights(const LayerSpec& spec)
 {
     if (!spec.heights.empty()) return given_heights(spec);
     if (spec.count < 1) {
-        throw InvalidInput("sweep.layers", "a sweep needs at least 1 layer, found " + std::to_string(spec.count) +
+        throw InvalidInput("sweep.layers", "a sweep needs at least 1 layer, found " +
+                                               std::to_string(spec.count) +
                                                ": set layers to a count or to a list of heights");
     }
     if (!(spec.bias > 0) || !std::isfinite(spec.bias)) {
-        throw InvalidInput("sweep.bias", "the bias of the layer heights must be a finite number above 0, found " +
-                                             text(spec.bias));
+        throw InvalidInput("sweep.bias",
+                           "the bias of the layer heights must be a finite number above 0, found " +
+                               text(spec.bias));
     }
 
     std::vector<double> result{0.0};
     result.reserve(static_cast<std::size_t>(spec.count) + 1);
-    for (int i = 0; i < spec.count; ++i) result.push_back(result.back() + std::pow(spec.bias, exponent(spec, i)));
+    for (int i = 0; i < spec.count; ++i)
+        result.push_back(result.back() + std::pow(spec.bias, exponent(spec, i)));
     const double total = result.back();
     for (double& height : result) height /= total;
     result.back() = 1;
@@ -88,7 +93,8 @@ std::vector<double> layer_heights(const LayerSpec& spec)
                             return !(low < high);
                         }) == result.end();
     if (!rising) {
-        throw InvalidInput("sweep.bias", "a bias of " + text(spec.bias) + " over " + std::to_string(spec.count) +
+        throw InvalidInput("sweep.bias", "a bias of " + text(spec.bias) + " over " +
+                                             std::to_string(spec.count) +
                                              " layers leaves layers without height: choose one nearer 1");
     }
     return result;

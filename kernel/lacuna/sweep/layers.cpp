@@ -30,7 +30,7 @@ std::vector<double> mean_heights(const Columns& columns)
             const std::size_t at = l * columns.rim.size() + k;
             length[l] = length[l - 1] + (columns.points[at] - columns.points[at - columns.rim.size()]).norm();
         }
-        if (!(length[layers] > 0)) continue;  // a vertex source and target share
+        if (!(length[layers] > 0)) continue; // a vertex source and target share
         ++counted;
         for (std::size_t l = 1; l <= layers; ++l) heights[l] += length[l] / length[layers];
     }
@@ -84,8 +84,8 @@ void LayerPlacer::fit_straight(std::span<const double> heights)
 {
     for (int l = 1; l < columns_.layers; ++l) {
         const double height = heights[static_cast<std::size_t>(l)];
-        motions_.push_back({(1 - height) * Eigen::Matrix3d::Identity(), height * Eigen::Matrix3d::Identity(),
-                            Vec3::Zero()});
+        motions_.push_back(
+            {(1 - height) * Eigen::Matrix3d::Identity(), height * Eigen::Matrix3d::Identity(), Vec3::Zero()});
     }
 }
 
@@ -152,7 +152,8 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
             } else {
                 const Motion motion = motions_[static_cast<std::size_t>(l - 1)];
                 for (std::size_t i = begin; i < end; ++i) {
-                    layer[i] = motion.from_source * source_.nodes[i] + motion.from_target * target_[i] + motion.shift;
+                    layer[i] = motion.from_source * source_.nodes[i] + motion.from_target * target_[i] +
+                               motion.shift;
                 }
             }
         }
@@ -162,8 +163,8 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
     const int last_inner = std::min(last, columns_.layers);
     if (placement_ == Placement::fitted && first_inner < last_inner) {
         const auto count = static_cast<std::size_t>(last_inner - first_inner);
-        const std::span<const Vec3> values{residuals_.data() + static_cast<std::size_t>(first_inner - 1) * rim,
-                                           count * rim};
+        const std::span<const Vec3> values{
+            residuals_.data() + static_cast<std::size_t>(first_inner - 1) * rim, count * rim};
         spread_->add(values, count, out.data() + static_cast<std::size_t>(first_inner - first) * nodes, nodes,
                      context);
     }
@@ -181,7 +182,8 @@ std::string LayerPlacer::report() const
     if (placement_ == Placement::affine) {
         return "layers: affine motion of the rims, exact to " + residual + " of their size";
     }
-    return "layers: affine fit from both ends, rim residual of " + residual + " of its size spread harmonically";
+    return "layers: affine fit from both ends, rim residual of " + residual +
+           " of its size spread harmonically";
 }
 
 LayerNodes place_layers(const mesh::QuadMesh& source, std::span<const Vec3> target, const Columns& columns,

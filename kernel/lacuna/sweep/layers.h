@@ -20,15 +20,15 @@ namespace lacuna::sweep {
 enum class Placement { straight, affine, fitted };
 
 struct PlacementOptions {
-    bool straight_lines = false;  ///< Class I: nodes on the straight line between their ends
-    std::vector<double> heights;  ///< layers + 1 numbers from 0 to 1; empty: from the columns' lengths [-]
+    bool straight_lines = false; ///< Class I: nodes on the straight line between their ends
+    std::vector<double> heights; ///< layers + 1 numbers from 0 to 1; empty: from the columns' lengths [-]
 };
 
 /// Node coordinates of all layers.
 struct LayerNodes {
-    std::vector<Vec3> nodes;  ///< (layers + 1) × source.nodes, layer-major from the source
+    std::vector<Vec3> nodes; ///< (layers + 1) × source.nodes, layer-major from the source
     Placement placement = Placement::affine;
-    std::string report;       ///< one line for a person: which method, which residual
+    std::string report; ///< one line for a person: which method, which residual
 };
 
 /// Place the nodes of every layer between the source and the target mesh.
@@ -71,11 +71,11 @@ private:
     std::span<const Vec3> target_;
     const Columns& columns_;
     Placement placement_ = Placement::affine;
-    double residual_ = 0;                   ///< largest distance of a rim node from its fit [model length]
-    double size_ = 0;                       ///< across the rim where that was found [model length]
-    std::vector<Motion> motions_;           ///< of the inner layers 1 … layers - 1
-    std::vector<Vec3> residuals_;           ///< of the inner layers' rims; only where fitted
-    std::optional<HarmonicSpread> spread_;  ///< only where fitted
+    double residual_ = 0;                  ///< largest distance of a rim node from its fit [model length]
+    double size_ = 0;                      ///< across the rim where that was found [model length]
+    std::vector<Motion> motions_;          ///< of the inner layers 1 … layers - 1
+    std::vector<Vec3> residuals_;          ///< of the inner layers' rims; only where fitted
+    std::optional<HarmonicSpread> spread_; ///< only where fitted
 };
 
 } // namespace lacuna::sweep

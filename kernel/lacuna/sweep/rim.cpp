@@ -14,10 +14,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& message)
-{
-    throw InvalidInput("sweep.columns", message);
-}
+[[noreturn]] void refuse(const std::string& message) { throw InvalidInput("sweep.columns", message); }
 
 /// Column over each source node; -1 for none.
 std::vector<Index> column_of_node(const mesh::QuadMesh& source, const Columns& columns)
@@ -30,7 +27,8 @@ std::vector<Index> column_of_node(const mesh::QuadMesh& source, const Columns& c
                    ", but the source has nodes 0 to " + std::to_string(source.nodes.size()) + " - 1");
         }
         if (column[static_cast<std::size_t>(node)] >= 0) {
-            refuse("two columns stand on source node " + std::to_string(node) + ": give each rim node one column");
+            refuse("two columns stand on source node " + std::to_string(node) +
+                   ": give each rim node one column");
         }
         column[static_cast<std::size_t>(node)] = static_cast<Index>(k);
     }
@@ -43,13 +41,14 @@ void check_row(const Columns& columns, int layer, std::span<const Vec3> nodes, c
     const std::span<const Vec3> row = columns.row(layer);
     double reach = 0;
     for (const Vec3& p : row) reach = std::max(reach, (p - row[0]).norm());
-    constexpr double kProjection = 1e-6;  // what given faces are held to, by their size
+    constexpr double kProjection = 1e-6; // what given faces are held to, by their size
     for (std::size_t k = 0; k < row.size(); ++k) {
         const Vec3& node = nodes[static_cast<std::size_t>(columns.rim[k])];
         const double gap = (row[k] - node).norm();
         if (gap <= kProjection * reach) continue;
-        refuse("the column over source node " + std::to_string(columns.rim[k]) + " ends " + std::to_string(gap) +
-               " away from its node on the " + end + ": columns must start and end on the rims");
+        refuse("the column over source node " + std::to_string(columns.rim[k]) + " ends " +
+               std::to_string(gap) + " away from its node on the " + end +
+               ": columns must start and end on the rims");
     }
 }
 
@@ -62,14 +61,15 @@ void check_columns(const mesh::QuadMesh& source, const Columns& columns, std::sp
     }
     const std::size_t expected = (static_cast<std::size_t>(columns.layers) + 1) * columns.rim.size();
     if (columns.points.size() != expected) {
-        refuse("columns of " + std::to_string(columns.layers) + " layers over " + std::to_string(columns.rim.size()) +
-               " rim nodes need " + std::to_string(expected) + " points, found " +
-               std::to_string(columns.points.size()));
+        refuse("columns of " + std::to_string(columns.layers) + " layers over " +
+               std::to_string(columns.rim.size()) + " rim nodes need " + std::to_string(expected) +
+               " points, found " + std::to_string(columns.points.size()));
     }
     for (std::size_t i = 0; i < columns.points.size(); ++i) {
         if (columns.points[i].allFinite()) continue;
         refuse("the column over source node " + std::to_string(columns.rim[i % columns.rim.size()]) +
-               " has a coordinate that is not a finite number in layer " + std::to_string(i / columns.rim.size()));
+               " has a coordinate that is not a finite number in layer " +
+               std::to_string(i / columns.rim.size()));
     }
     column_of_node(source, columns);
     if (columns.rim.empty()) return;

@@ -38,11 +38,12 @@ public:
     RimFitter(std::span<const Vec3> rim, std::span<const Segment> sides, std::span<const Vec3> nodes);
 
     /// @param negligible  residual up to which a map counts as exact [model length].
-    [[nodiscard]] geometry::AffineFit fit(std::span<const Vec3> to, const Vec3& to_area, double negligible) const;
+    [[nodiscard]] geometry::AffineFit fit(std::span<const Vec3> to, const Vec3& to_area,
+                                          double negligible) const;
 
 private:
     geometry::AffineFitter points_;
-    geometry::AffineFitter paired_;  ///< with the pseudo-normal
+    geometry::AffineFitter paired_; ///< with the pseudo-normal
     bool spans_inside_ = false;
 };
 

@@ -16,10 +16,7 @@ namespace {
 constexpr int kRelaxations = 20;
 constexpr int kPolishes = 20;
 
-const Vec3& at(std::span<const Vec3> points, Index i)
-{
-    return points[static_cast<std::size_t>(i)];
-}
+const Vec3& at(std::span<const Vec3> points, Index i) { return points[static_cast<std::size_t>(i)]; }
 
 /// The part of a move that goes along the surface.
 Vec3 along(const Vec3& move, const Vec3& normal)
@@ -112,16 +109,23 @@ void project_nodes(std::vector<Vec3>& nodes, std::span<const Index> which, const
 SurfaceSmoother::SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& graph,
                                  std::span<const double> weights, const HarmonicSpread& spread,
                                  std::span<const Index> free_nodes, const SurfaceProjector& project)
-    : model_(model), graph_(graph), spread_(spread), free_nodes_(free_nodes), project_(project),
-      weights_(weights.begin(), weights.end()), quad_begin_(model.nodes.size() + 1, 0), is_free_(model.nodes.size(), 0)
+    : model_(model),
+      graph_(graph),
+      spread_(spread),
+      free_nodes_(free_nodes),
+      project_(project),
+      weights_(weights.begin(), weights.end()),
+      quad_begin_(model.nodes.size() + 1, 0),
+      is_free_(model.nodes.size(), 0)
 {
     const std::vector<Vec3> normals = node_normals(model.quads, model.nodes);
     for (const Index node : free_nodes) {
         const auto i = static_cast<std::size_t>(node);
         is_free_[i] = 1;
         const std::span<const Index> neighbours = graph.of(i);
-        hold_in_place(model.nodes, neighbours, model.nodes[i], normals[i],
-                      std::span(weights_).subspan(static_cast<std::size_t>(graph.begin[i]), neighbours.size()));
+        hold_in_place(
+            model.nodes, neighbours, model.nodes[i], normals[i],
+            std::span(weights_).subspan(static_cast<std::size_t>(graph.begin[i]), neighbours.size()));
     }
 
     for (const Quad& quad : model.quads) {
@@ -132,7 +136,8 @@ SurfaceSmoother::SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& g
     std::vector<Index> next(quad_begin_.begin(), quad_begin_.end() - 1);
     for (std::size_t q = 0; q < model.quads.size(); ++q) {
         for (const Index node : model.quads[q]) {
-            quad_list_[static_cast<std::size_t>(next[static_cast<std::size_t>(node)]++)] = static_cast<Index>(q);
+            quad_list_[static_cast<std::size_t>(next[static_cast<std::size_t>(node)]++)] = static_cast<Index>(
+                q);
         }
     }
 }
@@ -151,7 +156,8 @@ std::vector<Vec3> SurfaceSmoother::relax(std::vector<Vec3> nodes, double good_en
             const std::span<const Index> neighbours = graph_.of(i);
             Vec3 pull = Vec3::Zero();
             for (std::size_t k = 0; k < neighbours.size(); ++k) {
-                pull += weights_[static_cast<std::size_t>(graph_.begin[i]) + k] * (at(nodes, neighbours[k]) - nodes[i]);
+                pull += weights_[static_cast<std::size_t>(graph_.begin[i]) + k] *
+                        (at(nodes, neighbours[k]) - nodes[i]);
             }
             load[i] = along(pull, normals[i]);
         }

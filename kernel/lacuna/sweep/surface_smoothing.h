@@ -34,7 +34,8 @@ class SurfaceSmoother {
 public:
     /// All are referred to and must outlive the smoother. @param spread  with the nodes that must not move fixed.
     SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& graph, std::span<const double> weights,
-                    const HarmonicSpread& spread, std::span<const Index> free_nodes, const SurfaceProjector& project);
+                    const HarmonicSpread& spread, std::span<const Index> free_nodes,
+                    const SurfaceProjector& project);
 
     /// Put the free nodes on the surface.
     void project(std::vector<Vec3>& nodes) const { project_nodes(nodes, free_nodes_, project_); }
@@ -54,7 +55,8 @@ private:
     const HarmonicSpread& spread_;
     std::span<const Index> free_nodes_;
     const SurfaceProjector& project_;
-    std::vector<double> weights_;  ///< of the neighbours, in the graph's order; their sum is that of the sides' own
+    std::vector<double>
+        weights_; ///< of the neighbours, in the graph's order; their sum is that of the sides' own
     std::vector<Index> quad_begin_, quad_list_;
     std::vector<char> is_free_;
 };

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/belt.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/surface/wall_map.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// A bend of a rim that a node must keep [degrees]. Less is a point on a smooth run (where two arcs meet, where a closed
+/// edge was cut), which the target need not keep; the source keeps all its vertices, as its edges are seeded one by one.
+constexpr double kCornerAngle = 15;
+
+std::vector<EdgeUse> against(const std::vector<EdgeUse>& uses)
+{
+    std::vector<EdgeUse> result;
+    for (auto use = uses.rbegin(); use != uses.rend(); ++use) result.push_back({use->edge, !use->reversed});
+    return result;
+}
+
+/// Start a closed walk at its use number `first`.
+std::vector<EdgeUse> rotated(std::vector<EdgeUse> uses, std::size_t first)
+{
+    std::rotate(uses.begin(), uses.begin() + static_cast<std::ptrdiff_t>(first), uses.end());
+    return uses;
+}
+
+std::optional<std::size_t> use_leaving(const Model& model, const std::vector<EdgeUse>& uses, VertexId vertex)
+{
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        if (use_from(model, uses[i]) == vertex) return i;
+    }
+    return std::nullopt;
+}
+
+/// The turn of a closed walk where use i starts [degrees].
+double turn_at(const Model& model, const std::vector<EdgeUse>& uses, std::size_t i)
+{
+    const std::vector<Index> before = use_points(model, uses[(i + uses.size() - 1) % uses.size()]);
+    const std::vector<Index> after = use_points(model, uses[i]);
+    const Vec3 in = model.at(before.back()) - model.at(before[before.size() - 2]);
+    const Vec3 out = model.at(after[1]) - model.at(after[0]);
+    return std::atan2(in.cross(out).norm(), in.dot(out)) * 180 / std::numbers::pi;
+}
+
+/// The turn that a smooth run makes from facet to facet is no corner: at least as much as the larger one next to it.
+bool is_corner(const Model& model, const std::vector<EdgeUse>& uses, std::size_t i)
+{
+    const auto bend_next_to = [&](const std::vector<Index>& points, bool at_start) {
+        if (points.size() < 3) return 0.0;
+        const std::size_t k = at_start ? 1 : points.size() - 2;
+        const Vec3 in = model.at(points[k]) - model.at(points[k - 1]);
+        const Vec3 out = model.at(points[k + 1]) - model.at(points[k]);
+        return std::atan2(in.cross(out).norm(), in.dot(out)) * 180 / std::numbers::pi;
+    };
+    const double smooth = std::max(bend_next_to(use_points(model, uses[(i + uses.size() - 1) % uses.size()]), false),
+                                   bend_next_to(use_points(model, uses[i]), true));
+    return turn_at(model, uses, i) > std::max(kCornerAngle, 1.5 * smooth);
+}
+
+struct RimOf {
+    std::map<EdgeId, std::size_t> rim;  ///< rim number of each rim edge
+    std::vector<Rim> rims;
+};
+
+RimOf rims_of(const OpenVolume& volume, Role role)
+{
+    RimOf result;
+    result.rims = rims(volume.model, volume.faces(role));
+    for (std::size_t r = 0; r < result.rims.size(); ++r) {
+        for (const EdgeUse& use : result.rims[r].uses) result.rim[use.edge] = r;
+    }
+    return result;
+}
+
+std::string names(const Model& model, const std::vector<FaceId>& faces)
+{
+    std::string text;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        if (i == 6) return text + ", …";
+        text += (i == 0 ? "" : ", ") + name_of(model, faces[i]);
+    }
+    return text;
+}
+
+/// The only rim that a wall part touches.
+std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const RimOf& of, const std::string& end)
+{
+    std::set<std::size_t> touched;
+    for (const FaceId face : part) {
+        for (const Loop& loop : model[face].loops) {
+            for (const EdgeUse& use : loop.uses) {
+                const auto found = of.rim.find(use.edge);
+                if (found != of.rim.end()) touched.insert(found->second);
+            }
+        }
+    }
+    if (touched.size() != 1) {
+        throw NotSweepable("surface.belt_loops", "the walls " + names(model, part) + " touch " + std::to_string(touched.size()) + " loops of the " + end +
+                                                     "; a sweep has one ring of walls between one source loop and one target loop: check the roles");
+    }
+    return *touched.begin();
+}
+
+/// Side lines must meet both rims in the same cyclic order: keep the first and all that follow it in order.
+std::vector<BeltLine> in_order(std::vector<BeltLine> lines)
+{
+    std::vector<BeltLine> kept;
+    for (BeltLine& line : lines) {
+        if (kept.empty() || line.target_at > kept.back().target_at) kept.push_back(std::move(line));
+    }
+    return kept;
+}
+
+std::vector<double> corners_between(const Model& model, const Chain& chain, double from, double to, bool all)
+{
+    std::vector<double> result;
+    const double length = chain.length();
+    for (int turn = 0; turn < 2; ++turn) {
+        for (std::size_t i = 0; i < chain.uses().size(); ++i) {
+            const double at = chain.start(i) + turn * length;
+            const double margin = 1e-9 * length;
+            if (at > from + margin && at < to - margin && (all || is_corner(model, chain.uses(), i))) result.push_back(at);
+        }
+    }
+    return result;
+}
+
+/// Pair the breaks of two stretches in order: the pairs that lie nearest to each other in relative length, none crossing;
+/// the rest stay alone. Dynamic programming; a break alone costs as much as a pair this far apart.
+std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a, const std::vector<double>& b)
+{
+    constexpr double kAlone = 0.1;
+    const std::size_t n = a.size(), m = b.size();
+    std::vector<std::vector<double>> cost(n + 1, std::vector<double>(m + 1, 0));
+    for (std::size_t i = 0; i <= n; ++i) {
+        for (std::size_t j = 0; j <= m; ++j) {
+            if (i == 0 && j == 0) continue;
+            double best = std::numeric_limits<double>::infinity();
+            if (i > 0) best = std::min(best, cost[i - 1][j] + kAlone);
+            if (j > 0) best = std::min(best, cost[i][j - 1] + kAlone);
+            // As many breaks on both sides go together whatever their place.
+            const double apart = i > 0 && j > 0 ? (n == m ? 0.0 : 1.0) * std::abs(a[i - 1] - b[j - 1]) : 0;
+            if (i > 0 && j > 0) best = std::min(best, cost[i - 1][j - 1] + apart);
+            cost[i][j] = best;
+        }
+    }
+    std::vector<std::pair<double, double>> result;
+    for (std::size_t i = n, j = m; i > 0 || j > 0;) {
+        const double apart = i > 0 && j > 0 ? (n == m ? 0.0 : 1.0) * std::abs(a[i - 1] - b[j - 1]) : 0;
+        if (i > 0 && j > 0 && cost[i][j] == cost[i - 1][j - 1] + apart) {
+            result.emplace_back(a[--i], b[--j]);
+        } else if (i > 0 && cost[i][j] == cost[i - 1][j] + kAlone) {
+            result.emplace_back(a[--i], -1);
+        } else {
+            result.emplace_back(-1, b[--j]);
+        }
+    }
+    std::reverse(result.begin(), result.end());
+    return result;
+}
+
+/// Fill in the other side of breaks that stand alone, at the same share of the way between the pairs around them.
+void complete(std::vector<std::pair<double, double>>& breaks)
+{
+    std::vector<std::pair<double, double>> anchors{{0, 0}};
+    for (const auto& pair : breaks) {
+        if (pair.first >= 0 && pair.second >= 0) anchors.push_back(pair);
+    }
+    anchors.emplace_back(1, 1);
+    std::size_t k = 0;
+    for (auto& [a, b] : breaks) {
+        if (a >= 0 && b >= 0) {
+            ++k;
+            continue;
+        }
+        const auto& [a0, b0] = anchors[k];
+        const auto& [a1, b1] = anchors[k + 1];
+        if (a < 0) a = a0 + (a1 - a0) * (b - b0) / (b1 - b0);
+        else b = b0 + (b1 - b0) * (a - a0) / (a1 - a0);
+    }
+}
+
+void add_stretches(const Model& model, Belt& belt, double s0, double s1, double t0, double t1)
+{
+    std::vector<double> a = corners_between(model, belt.source, s0, s1, true);
+    std::vector<double> b = corners_between(model, belt.target, t0, t1, false);
+    for (double& x : a) x = (x - s0) / (s1 - s0);
+    for (double& x : b) x = (x - t0) / (t1 - t0);
+    std::vector<std::pair<double, double>> breaks = paired_breaks(a, b);
+    complete(breaks);
+    std::sort(breaks.begin(), breaks.end());
+    breaks.emplace_back(1, 1);
+    double a0 = 0, b0 = 0;
+    for (const auto& [a1, b1] : breaks) {
+        Stretch stretch{s0 + a0 * (s1 - s0), s0 + a1 * (s1 - s0), t0 + b0 * (t1 - t0), t0 + b1 * (t1 - t0), 0};
+        stretch.use = belt.source.place((stretch.source_from + stretch.source_to) / 2).use;
+        belt.stretches.push_back(stretch);
+        a0 = a1;
+        b0 = b1;
+    }
+}
+
+Belt make_belt(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& source_rim, const Rim& target_rim,
+               const std::vector<matching::SideLine>& lines)
+{
+    const Model& model = volume.model;
+    std::vector<EdgeUse> source = source_rim.uses;
+    std::vector<EdgeUse> target = against(target_rim.uses);
+    std::vector<matching::SideLine> mine;
+    for (const matching::SideLine& line : lines) {
+        if (use_leaving(model, source, line.source) && use_leaving(model, target, line.target)) mine.push_back(line);
+    }
+    if (!mine.empty()) {
+        source = rotated(std::move(source), *use_leaving(model, source, mine.front().source));
+        target = rotated(std::move(target), *use_leaving(model, target, mine.front().target));
+    }
+    Belt belt{std::move(walls), Chain(model, source), Chain(model, target), {}, {}};
+    for (const matching::SideLine& line : mine) {
+        belt.lines.push_back({line, belt.source.start(*use_leaving(model, source, line.source)),
+                              belt.target.start(*use_leaving(model, target, line.target))});
+    }
+    std::sort(belt.lines.begin(), belt.lines.end(), [](const BeltLine& a, const BeltLine& b) { return a.source_at < b.source_at; });
+    belt.lines = in_order(std::move(belt.lines));
+
+    const double s_end = belt.source.length();
+    const double t_end = belt.target.length();
+    if (belt.lines.empty()) {
+        const double start = unguided_target_start(volume, belt);
+        add_stretches(model, belt, 0, s_end, start, start + t_end);
+    }
+    for (std::size_t i = 0; i < belt.lines.size(); ++i) {
+        const bool last = i + 1 == belt.lines.size();
+        add_stretches(model, belt, belt.lines[i].source_at, last ? s_end : belt.lines[i + 1].source_at, belt.lines[i].target_at,
+                      last ? t_end : belt.lines[i + 1].target_at);
+    }
+    return belt;
+}
+
+} // namespace
+
+std::vector<Belt> belts(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    const RimOf source = rims_of(volume, Role::source);
+    const RimOf target = rims_of(volume, Role::target);
+    if (source.rims.size() != target.rims.size()) {
+        throw NotSweepable("surface.loop_counts", "the source has " + std::to_string(source.rims.size()) + " loops and the target " +
+                                                      std::to_string(target.rims.size()) + "; a sweep needs as many on both ends: check the roles");
+    }
+    const std::vector<matching::SideLine> lines = matching::side_lines(volume);
+    std::vector<std::optional<Belt>> by_rim(source.rims.size());
+    for (std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
+        const std::size_t s = only_rim(model, part, source, "source");
+        const std::size_t t = only_rim(model, part, target, "target");
+        if (by_rim[s]) {
+            throw NotSweepable("surface.belt_twice", "the walls " + names(model, part) + " and " + names(model, by_rim[s]->walls) +
+                                                         " stand on the same source loop without touching; the loop's walls must join");
+        }
+        by_rim[s] = make_belt(volume, std::move(part), source.rims[s], target.rims[t], lines);
+    }
+    std::vector<Belt> result;
+    for (std::size_t s = 0; s < by_rim.size(); ++s) {
+        if (!by_rim[s]) {
+            throw NotSweepable("surface.no_belt", "source loop " + std::to_string(s + 1) + ", with " +
+                                                      name_of(model, source.rims[s].uses.front().edge) + ", has no walls; close the volume first");
+        }
+        result.push_back(std::move(*by_rim[s]));
+    }
+    return result;
+}
+
+} // namespace lacuna::surface

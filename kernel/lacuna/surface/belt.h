@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/matching/side_lines.h>
+#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <string>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// A stretch of the source rim and the stretch of the target rim it is swept to, in running lengths of the belt's
+/// chains. It lies within one source edge.
+struct Stretch {
+    double source_from = 0, source_to = 0;
+    double target_from = 0, target_to = 0;  ///< may run past the target chain's length: modulo it
+    std::size_t use = 0;                    ///< of the source chain
+};
+
+/// A side line as the belt sees it.
+struct BeltLine {
+    matching::SideLine line;
+    double source_at = 0, target_at = 0;    ///< running lengths of its ends
+};
+
+/// The walls between one source loop and one target loop: a ring of given and void faces.
+///
+/// `source` walks the source's rim with the source on its left; `target` walks the target's rim the same way round,
+/// so with the target on its right. Both start at the first side line, where there is one.
+struct Belt {
+    std::vector<FaceId> walls;
+    Chain source, target;
+    std::vector<BeltLine> lines;      ///< in walking order
+    std::vector<Stretch> stretches;   ///< in walking order, the first from source length 0
+};
+
+/// The belts of a sealed volume, one a loop of the source; in order of the source's loops.
+/// @throw NotSweepable  walls that join a source loop to none or several of the target's; names them.
+std::vector<Belt> belts(const topology::OpenVolume& volume);
+
+} // namespace lacuna::surface

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/edge_nodes.h>
+
+#include <lacuna/geometry/polyline.h>
+
+#include <algorithm>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+std::vector<Vec3> edge_points(const Model& model, EdgeId id, std::span<const double> fractions)
+{
+    const Edge& edge = model[id];
+    std::vector<Vec3> line;
+    line.reserve(edge.points.size());
+    for (const Index p : edge.points) line.push_back(model.at(p));
+    const std::vector<double> arc = geometry::arc_lengths(line);
+
+    std::vector<Vec3> result(fractions.size());
+    std::vector<double> params;
+    std::vector<std::size_t> inside;
+    for (std::size_t i = 0; i < fractions.size(); ++i) {
+        if (fractions[i] <= 0) {
+            result[i] = line.front();
+        } else if (fractions[i] >= 1) {
+            result[i] = line.back();
+        } else {
+            const geometry::PolylinePlace at = geometry::place_at(arc, fractions[i] * arc.back());
+            if (edge.curve == nullptr) {
+                result[i] = (1 - at.fraction) * line[at.segment] + at.fraction * line[at.segment + 1];
+            } else {
+                params.push_back((1 - at.fraction) * edge.params[at.segment] + at.fraction * edge.params[at.segment + 1]);
+                inside.push_back(i);
+            }
+        }
+    }
+    if (!inside.empty()) {
+        std::vector<Vec3> exact(inside.size());
+        edge.curve->evaluate(params, exact);
+        for (std::size_t k = 0; k < inside.size(); ++k) result[inside[k]] = exact[k];
+    }
+    return result;
+}
+
+Chain::Chain(const Model& model, std::vector<EdgeUse> uses) : model_(&model), uses_(std::move(uses)), start_{0}
+{
+    for (const EdgeUse& use : uses_) start_.push_back(start_.back() + edge_length(model, use.edge));
+}
+
+Chain::Place Chain::place(double s) const
+{
+    const auto after = std::upper_bound(start_.begin(), start_.end(), s);
+    const auto found = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - start_.begin() - 1, 0));
+    const std::size_t use = std::min(found, uses_.size() - 1);
+    const double along = std::clamp((s - start_[use]) / (start_[use + 1] - start_[use]), 0.0, 1.0);
+    return {use, uses_[use].reversed ? 1 - along : along};
+}
+
+std::vector<Vec3> Chain::points(std::span<const double> lengths) const
+{
+    std::vector<Vec3> result(lengths.size());
+    std::vector<Place> places;
+    places.reserve(lengths.size());
+    for (const double s : lengths) places.push_back(place(s));
+    for (std::size_t i = 0; i < places.size();) {
+        std::vector<double> fractions;
+        std::size_t j = i;
+        while (j < places.size() && places[j].use == places[i].use) fractions.push_back(places[j++].fraction);
+        const std::vector<Vec3> on_edge = edge_points(*model_, uses_[places[i].use].edge, fractions);
+        std::copy(on_edge.begin(), on_edge.end(), result.begin() + static_cast<std::ptrdiff_t>(i));
+        i = j;
+    }
+    return result;
+}
+
+} // namespace lacuna::surface

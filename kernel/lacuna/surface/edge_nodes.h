@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/topology/model.h>
+
+#include <span>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// Points of an edge at fractions of its length (0 at `from`, 1 at `to`), on the exact curve where there is one.
+/// The ends are the vertices' own points, bit for bit.
+std::vector<Vec3> edge_points(const topology::Model& model, EdgeId edge, std::span<const double> fractions);
+
+/// A chain of edge uses as one curve over its arc length.
+class Chain {
+public:
+    Chain(const topology::Model& model, std::vector<topology::EdgeUse> uses);
+
+    [[nodiscard]] double length() const { return start_.back(); }
+    [[nodiscard]] const std::vector<topology::EdgeUse>& uses() const { return uses_; }
+    /// Running length at the start of use i; one more for the end.
+    [[nodiscard]] double start(std::size_t i) const { return start_[i]; }
+
+    /// Where a running length lies: which use, and which fraction of its edge (as the edge runs, not the use).
+    struct Place {
+        std::size_t use = 0;
+        double fraction = 0;
+    };
+    [[nodiscard]] Place place(double s) const;
+    /// Points at running lengths, exact.
+    [[nodiscard]] std::vector<Vec3> points(std::span<const double> lengths) const;
+
+private:
+    const topology::Model* model_;
+    std::vector<topology::EdgeUse> uses_;
+    std::vector<double> start_;
+};
+
+} // namespace lacuna::surface

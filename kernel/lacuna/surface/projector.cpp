@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/projector.h>
+
+#include <lacuna/core/parallel.h>
+
+#include <map>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+std::vector<Vec3> points_at(const Model& model, FaceId face, std::span<const FacetPlace> places)
+{
+    const Face& f = model[face];
+    std::vector<Vec3> points(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const Triangle& t = f.triangles[static_cast<std::size_t>(places[i].triangle)];
+        const Vec3& w = places[i].barycentric;
+        points[i] = w[0] * model.at(t[0]) + w[1] * model.at(t[1]) + w[2] * model.at(t[2]);
+    }
+    if (f.surface == nullptr) return points;
+    std::vector<Vec2> uv(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const std::array<Vec2, 3>& c = f.uv[static_cast<std::size_t>(places[i].triangle)];
+        const Vec3& w = places[i].barycentric;
+        uv[i] = w[0] * c[0] + w[1] * c[1] + w[2] * c[2];
+    }
+    f.surface->project(points, uv);
+    return points;
+}
+
+Projector::Projector(const Model& model, std::vector<FaceId> faces) : model_(&model)
+{
+    std::vector<Triangle> triangles;
+    for (const FaceId face : faces) {
+        for (std::size_t t = 0; t < model[face].triangles.size(); ++t) {
+            triangles.push_back(model[face].triangles[t]);
+            face_of_.push_back(face);
+            triangle_of_.push_back(static_cast<Index>(t));
+        }
+    }
+    tree_ = geometry::FacetTree(model.points, triangles);
+}
+
+std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext& context) const
+{
+    std::vector<geometry::FacetTree::Hit> hits(points.size());
+    parallel_for(context, points.size(), 512, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) hits[i] = tree_.closest(points[i]);
+    });
+    std::map<FaceId, std::vector<std::size_t>> on_face;
+    std::vector<FaceId> faces(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto hit = static_cast<std::size_t>(hits[i].triangle);
+        faces[i] = face_of_[hit];
+        on_face[faces[i]].push_back(i);
+    }
+    // One call a face: exact surfaces work in bulk.
+    for (const auto& [face, members] : on_face) {
+        const Face& f = (*model_)[face];
+        if (f.surface == nullptr) {
+            for (const std::size_t i : members) points[i] = hits[i].point;
+            continue;
+        }
+        std::vector<Vec3> moved;
+        std::vector<Vec2> uv;
+        for (const std::size_t i : members) {
+            const auto& c = f.uv[static_cast<std::size_t>(triangle_of_[static_cast<std::size_t>(hits[i].triangle)])];
+            const Vec3& w = hits[i].barycentric;
+            moved.push_back(points[i]);
+            uv.emplace_back(w[0] * c[0] + w[1] * c[1] + w[2] * c[2]);
+        }
+        f.surface->project(moved, uv);
+        for (std::size_t k = 0; k < members.size(); ++k) points[members[k]] = moved[k];
+    }
+    return faces;
+}
+
+std::vector<FaceId> Projector::closest_face(std::span<const Vec3> points) const
+{
+    std::vector<FaceId> faces(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        faces[i] = face_of_[static_cast<std::size_t>(tree_.closest(points[i]).triangle)];
+    }
+    return faces;
+}
+
+} // namespace lacuna::surface

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/topology/model.h>
+
+#include <span>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// A place on the facets of a face.
+struct FacetPlace {
+    Index triangle = -1;              ///< of the face
+    Vec3 barycentric = Vec3::Zero();  ///< weights of the corners
+};
+
+/// Places on one face's facets, as points of its exact surface; on the facets themselves where there is none.
+std::vector<Vec3> points_at(const topology::Model& model, FaceId face, std::span<const FacetPlace> places);
+
+/// Closest points on a set of faces: the facets say which face and where, the exact surface says the point.
+class Projector {
+public:
+    Projector(const topology::Model& model, std::vector<FaceId> faces);
+
+    /// Move points to the closest place. @return the face of each.
+    std::vector<FaceId> project(std::span<Vec3> points, const RunContext& context = {}) const;
+    /// The face whose facets are closest to each point.
+    [[nodiscard]] std::vector<FaceId> closest_face(std::span<const Vec3> points) const;
+
+private:
+    const topology::Model* model_;
+    std::vector<FaceId> face_of_;        ///< of each triangle in the tree
+    std::vector<Index> triangle_of_;     ///< number of each triangle in its face
+    geometry::FacetTree tree_;
+};
+
+} // namespace lacuna::surface

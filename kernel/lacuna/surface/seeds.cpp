@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/seeds.h>
+
+#include <lacuna/core/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <set>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// Below this inner angle a vertex is a corner of a mapped face, above its opposite it is a reversal [degrees].
+constexpr double kCorner = 135;
+constexpr double kReversal = 225;
+/// A face with opposite sides more unlike than this is not mapped unless asked to: its quads would be as unlike.
+constexpr double kUnlike = 3;
+/// Points per piece at which the size is asked.
+constexpr int kSizeSamples = 8;
+
+/// Inner angle of a face where use i of its loop starts [degrees].
+double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_t i)
+{
+    const std::vector<Index> before = use_points(model, loop.uses[(i + loop.uses.size() - 1) % loop.uses.size()]);
+    const std::vector<Index> after = use_points(model, loop.uses[i]);
+    const Index at = after.front();
+    Vec3 normal = Vec3::Zero();
+    for (const Triangle& t : model[face].triangles) {
+        // Facets on the two sides that meet here: the corner's own, also where the face comes by twice (a seam).
+        const bool touches = std::find(t.begin(), t.end(), at) != t.end();
+        const bool on_side = std::find(t.begin(), t.end(), after[1]) != t.end() ||
+                             std::find(t.begin(), t.end(), before[before.size() - 2]) != t.end();
+        if (!touches || !on_side) continue;
+        normal += (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+    }
+    const Vec3 out = model.at(after[1]) - model.at(at);
+    const Vec3 back = model.at(before[before.size() - 2]) - model.at(at);
+    const double angle = std::atan2(normal.stableNormalized().dot(out.cross(back)), out.dot(back)) * 180 / std::numbers::pi;
+    return angle < 0 ? angle + 360 : angle;
+}
+
+/// The uses that start the four sides of a face; nothing when it has not four.
+std::optional<std::vector<std::size_t>> four_corners(const Model& model, FaceId face)
+{
+    const std::vector<Loop>& loops = model[face].loops;
+    if (loops.size() != 1) return std::nullopt;
+    std::vector<std::size_t> corners;
+    for (std::size_t i = 0; i < loops[0].uses.size(); ++i) {
+        const double angle = inner_angle(model, face, loops[0], i);
+        if (angle > kReversal) return std::nullopt;
+        if (angle < kCorner) corners.push_back(i);
+    }
+    return corners.size() == 4 ? std::optional(corners) : std::nullopt;
+}
+
+std::vector<EdgeId> side_edges(const Loop& loop, const std::vector<std::size_t>& corners, std::size_t side)
+{
+    std::vector<EdgeId> edges;
+    const std::size_t n = loop.uses.size();
+    for (std::size_t i = corners[side]; i != corners[(side + 1) % 4]; i = (i + 1) % n) edges.push_back(loop.uses[i].edge);
+    return edges;
+}
+
+double length_of(const Model& model, const std::vector<EdgeId>& edges)
+{
+    return std::accumulate(edges.begin(), edges.end(), 0.0, [&](double sum, EdgeId e) { return sum + edge_length(model, e); });
+}
+
+bool alike(const Model& model, const Loop& loop, const std::vector<std::size_t>& corners)
+{
+    for (std::size_t side = 0; side < 2; ++side) {
+        const double a = length_of(model, side_edges(loop, corners, side));
+        const double b = length_of(model, side_edges(loop, corners, side + 2));
+        if (std::max(a, b) > kUnlike * std::min(a, b)) return false;
+    }
+    return true;
+}
+
+class Seeder {
+public:
+    Seeder(const OpenVolume& volume, std::span<const Belt> belts, const SizeField& size, QuadStyle style)
+        : volume_(volume), model_(volume.model), size_(size), style_(style)
+    {
+        for (const Belt& belt : belts) add_rim(belt);
+        for (const FaceId face : volume.faces(Role::source)) {
+            for (const Loop& loop : model_[face].loops) {
+                for (const EdgeUse& use : loop.uses) {
+                    users_[use.edge].insert(face);
+                    if (!seeds_.pieces.contains(use.edge)) {
+                        seeds_.pieces[use.edge] = {{0, 1, edge_length(model_, use.edge), 1}};
+                    }
+                }
+            }
+        }
+        for (auto& [edge, pieces] : seeds_.pieces) {
+            for (SeedPiece& piece : pieces) piece.count = wanted(edge, piece);
+        }
+    }
+
+    Seeds run()
+    {
+        for (const FaceId face : volume_.faces(Role::source)) choose(face);
+        balance();
+        for (int round = 0; round < 2; ++round) {
+            make_even();
+            balance();
+        }
+        check_even();
+        return std::move(seeds_);
+    }
+
+private:
+    void add_rim(const Belt& belt)
+    {
+        for (const Stretch& stretch : belt.stretches) {
+            const EdgeUse use = belt.source.uses()[stretch.use];
+            const double start = belt.source.start(stretch.use);
+            const double length = belt.source.start(stretch.use + 1) - start;
+            double from = std::clamp((stretch.source_from - start) / length, 0.0, 1.0);
+            double to = std::clamp((stretch.source_to - start) / length, 0.0, 1.0);
+            if (use.reversed) {
+                std::swap(from, to);
+                from = 1 - from;
+                to = 1 - to;
+            }
+            seeds_.pieces[use.edge].push_back({from, to, stretch.source_to - stretch.source_from, 1});
+            rim_.insert(use.edge);
+        }
+        for (auto& [edge, pieces] : seeds_.pieces) {
+            std::sort(pieces.begin(), pieces.end(), [](const SeedPiece& a, const SeedPiece& b) { return a.from < b.from; });
+        }
+    }
+
+    [[nodiscard]] int wanted(EdgeId edge, const SeedPiece& piece) const
+    {
+        std::vector<double> at;
+        for (int i = 0; i < kSizeSamples; ++i) at.push_back(piece.from + (i + 0.5) / kSizeSamples * (piece.to - piece.from));
+        double sides = 0;
+        for (const Vec3& p : edge_points(model_, edge, at)) sides += piece.length / kSizeSamples / size_(p);
+        return std::max(1, static_cast<int>(std::lround(sides)));
+    }
+
+    void choose(FaceId face)
+    {
+        if (style_ == QuadStyle::free) return;
+        const auto corners = four_corners(model_, face);
+        if (style_ == QuadStyle::mapped && !corners) {
+            throw NotSweepable("surface.not_four_sided", name_of(model_, face) + " is to be mapped and has not four corners (vertices with an inner angle below 135°) "
+                                                         "on one loop; use quads = \"auto\"");
+        }
+        if (!corners || (style_ == QuadStyle::automatic && !alike(model_, model_[face].loops[0], *corners))) return;
+        seeds_.corners[face] = *corners;
+    }
+
+    /// One more side where the sides are longest.
+    void raise(const std::vector<EdgeId>& edges, int by)
+    {
+        for (; by > 0; --by) {
+            SeedPiece* longest = nullptr;
+            for (const EdgeId edge : edges) {
+                for (SeedPiece& piece : seeds_.pieces[edge]) {
+                    if (longest == nullptr || piece.length / piece.count > longest->length / longest->count) longest = &piece;
+                }
+            }
+            ++longest->count;
+        }
+    }
+
+    [[nodiscard]] int total(const std::vector<EdgeId>& edges) const
+    {
+        return std::accumulate(edges.begin(), edges.end(), 0, [&](int sum, EdgeId e) { return sum + seeds_.count(e); });
+    }
+
+    /// Equal counts on opposite sides of every mapped face. Counts only grow; where they would chase each other, the face is meshed freely.
+    void balance()
+    {
+        const std::size_t most = 4 * seeds_.pieces.size() + 16;
+        for (std::size_t round = 0;; ++round) {
+            bool changed = false;
+            for (auto it = seeds_.corners.begin(); it != seeds_.corners.end();) {
+                const Loop& loop = model_[it->first].loops[0];
+                bool raised = false;
+                for (std::size_t side = 0; side < 2; ++side) {
+                    const std::vector<EdgeId> a = side_edges(loop, it->second, side);
+                    const std::vector<EdgeId> b = side_edges(loop, it->second, side + 2);
+                    const int difference = total(a) - total(b);
+                    if (difference == 0) continue;
+                    raise(difference > 0 ? b : a, std::abs(difference));
+                    raised = true;
+                }
+                changed = changed || raised;
+                it = raised && round > most ? seeds_.corners.erase(it) : std::next(it);
+            }
+            if (!changed) return;
+        }
+    }
+
+    [[nodiscard]] bool odd(FaceId face) const
+    {
+        int sum = 0;
+        for (const Loop& loop : model_[face].loops) {
+            for (const EdgeUse& use : loop.uses) sum += seeds_.count(use.edge);
+        }
+        return sum % 2 != 0;
+    }
+
+    [[nodiscard]] bool is_free(FaceId face) const { return !seeds_.corners.contains(face); }
+
+    /// Free faces by how many edges lie between them and a rim edge of their own, farthest first: each hands its odd side on.
+    void make_even()
+    {
+        std::map<FaceId, EdgeId> way_out;
+        std::vector<FaceId> order;
+        const std::vector<FaceId> faces = volume_.faces(Role::source);
+        for (const FaceId face : faces) {
+            if (!is_free(face)) continue;
+            std::optional<EdgeId> longest;
+            for (const auto& [edge, users] : users_) {
+                if (!rim_.contains(edge) || !users.contains(face)) continue;
+                if (!longest || edge_length(model_, edge) > edge_length(model_, *longest)) longest = edge;
+            }
+            if (!longest) continue;
+            way_out[face] = *longest;
+            order.push_back(face);
+        }
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            for (const auto& [edge, users] : users_) {
+                if (!users.contains(order[i])) continue;
+                for (const FaceId other : users) {
+                    if (!is_free(other) || way_out.contains(other)) continue;
+                    way_out[other] = edge;
+                    order.push_back(other);
+                }
+            }
+        }
+        for (auto face = order.rbegin(); face != order.rend(); ++face) {
+            if (odd(*face)) raise({way_out.at(*face)}, 1);
+        }
+    }
+
+    void check_even() const
+    {
+        for (const FaceId face : volume_.faces(Role::source)) {
+            if (!is_free(face) || !odd(face)) continue;
+            throw NotSweepable("surface.odd_loop", "the loops of " + name_of(model_, face) + " have an odd number of sides in all, and no edge of it is free to take one more; "
+                                                   "change the size, or use quads = \"mapped\" for its neighbours");
+        }
+    }
+
+    const OpenVolume& volume_;
+    const Model& model_;
+    const SizeField& size_;
+    QuadStyle style_;
+    Seeds seeds_;
+    std::set<EdgeId> rim_;
+    std::map<EdgeId, std::set<FaceId>> users_;
+};
+
+} // namespace
+
+int Seeds::count(EdgeId edge) const
+{
+    int sum = 0;
+    for (const SeedPiece& piece : pieces.at(edge)) sum += piece.count;
+    return sum;
+}
+
+std::vector<double> Seeds::fractions(EdgeId edge) const
+{
+    std::vector<double> result;
+    for (const SeedPiece& piece : pieces.at(edge)) {
+        for (int i = 0; i < piece.count; ++i) result.push_back(piece.from + (piece.to - piece.from) * i / piece.count);
+    }
+    result.push_back(1);
+    return result;
+}
+
+Seeds seed_source(const OpenVolume& volume, std::span<const Belt> belts, const SizeField& size, QuadStyle style)
+{
+    return Seeder(volume, belts, size, style).run();
+}
+
+double rim_spacing(const OpenVolume& volume)
+{
+    double length = 0;
+    std::size_t sides = 0;
+    for (const Rim& rim : rims(volume.model, volume.faces(Role::source))) {
+        for (const EdgeUse& use : rim.uses) {
+            length += edge_length(volume.model, use.edge);
+            sides += volume.model[use.edge].points.size() - 1;
+        }
+    }
+    return sides > 0 ? length / static_cast<double>(sides) : volume.model.diagonal / 20;
+}
+
+} // namespace lacuna::surface

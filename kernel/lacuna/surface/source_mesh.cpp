@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/source_mesh.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/flatten.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/transfinite.h>
+#include <lacuna/surface/projector.h>
+
+#include <algorithm>
+#include <map>
+#include <unordered_map>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// A node on an edge of the face that is being laid flat.
+struct EdgeNode {
+    EdgeId edge;
+    double fraction;
+};
+
+class SourceMesher {
+public:
+    SourceMesher(const OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds, const SizeField& size, const PlanarQuadMesher& mesher,
+                 const RunContext& context)
+        : volume_(volume), model_(volume.model), seeds_(seeds), size_(size), mesher_(mesher), context_(context)
+    {
+        for (const Belt& belt : belts) add_belt(belt);
+        for (const FaceId face : volume.faces(Role::source)) {
+            for (const Loop& loop : model_[face].loops) {
+                for (const EdgeUse& use : loop.uses) add_edge(use.edge);
+            }
+        }
+    }
+
+    SourceMesh run()
+    {
+        for (const FaceId face : volume_.faces(Role::source)) {
+            const auto corners = seeds_.corners.find(face);
+            const std::size_t before = result_.quads.quads.size();
+            if (corners != seeds_.corners.end()) map(face, corners->second);
+            else fill(face);
+            result_.quads.face.resize(result_.quads.quads.size(), static_cast<Index>(face.index()));
+            result_.notes.push_back(name_of(model_, face) + (corners != seeds_.corners.end() ? ": mapped, " : ": free, ") +
+                                    std::to_string(result_.quads.quads.size() - before) + " quads");
+        }
+        // The faces look outward; the sweep wants the quads to look along it.
+        for (Quad& quad : result_.quads.quads) std::swap(quad[1], quad[3]);
+        return std::move(result_);
+    }
+
+private:
+    Index add_node(const Vec3& p)
+    {
+        result_.quads.nodes.push_back(p);
+        return static_cast<Index>(result_.quads.nodes.size()) - 1;
+    }
+
+    void add_belt(const Belt& belt)
+    {
+        std::vector<int> counts;
+        for (const Stretch& stretch : belt.stretches) {
+            const EdgeUse use = belt.source.uses()[stretch.use];
+            const double middle = belt.source.place((stretch.source_from + stretch.source_to) / 2).fraction;
+            for (const SeedPiece& piece : seeds_.pieces.at(use.edge)) {
+                if (middle > piece.from && middle < piece.to) counts.push_back(piece.count);
+            }
+        }
+        BeltNodes nodes = belt_nodes(belt, counts);
+        const auto first = static_cast<Index>(result_.quads.nodes.size());
+        const std::vector<Vec3> points = belt.source.points(nodes.source_at);
+        for (const Vec3& p : points) add_node(p);
+        std::vector<Index>& loop = result_.quads.loops.emplace_back();
+        for (std::size_t i = points.size(); i-- > 0;) loop.push_back(first + static_cast<Index>(i));
+
+        // The nodes of each edge, as the edge runs.
+        std::size_t i = 0;
+        for (std::size_t u = 0; u < belt.source.uses().size(); ++u) {
+            const EdgeUse use = belt.source.uses()[u];
+            std::vector<Index> chain;
+            for (int k = 0; k <= seeds_.count(use.edge); ++k) chain.push_back(first + static_cast<Index>((i + static_cast<std::size_t>(k)) % points.size()));
+            i += chain.size() - 1;
+            node_of_[use_from(model_, use)] = chain.front();
+            if (use.reversed) std::reverse(chain.begin(), chain.end());
+            nodes_on_[use.edge] = std::move(chain);
+        }
+        result_.belts.push_back(std::move(nodes));
+        result_.first.push_back(first);
+    }
+
+    void add_edge(EdgeId edge)
+    {
+        if (nodes_on_.contains(edge)) return;
+        const std::vector<Vec3> points = edge_points(model_, edge, seeds_.fractions(edge));
+        std::vector<Index> chain;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (i > 0 && i + 1 < points.size()) {
+                chain.push_back(add_node(points[i]));
+                continue;
+            }
+            const auto [found, fresh] = node_of_.try_emplace(i == 0 ? model_[edge].from : model_[edge].to, -1);
+            if (fresh) found->second = add_node(points[i]);
+            chain.push_back(found->second);
+        }
+        nodes_on_[edge] = std::move(chain);
+    }
+
+    [[nodiscard]] std::vector<Index> nodes_along(EdgeUse use) const
+    {
+        std::vector<Index> chain = nodes_on_.at(use.edge);
+        if (use.reversed) std::reverse(chain.begin(), chain.end());
+        return chain;
+    }
+
+    /// Mapped: a grid of quads over four sides.
+    void map(FaceId face, const std::vector<std::size_t>& corners)
+    {
+        const Loop& loop = model_[face].loops[0];
+        const std::size_t uses = loop.uses.size();
+        std::array<std::vector<Index>, 4> side;
+        for (std::size_t s = 0; s < 4; ++s) {
+            for (std::size_t i = corners[s]; i != corners[(s + 1) % 4]; i = (i + 1) % uses) {
+                const std::vector<Index> chain = nodes_along(loop.uses[i]);
+                side[s].insert(side[s].end(), chain.begin() + (side[s].empty() ? 0 : 1), chain.end());
+            }
+        }
+        std::reverse(side[2].begin(), side[2].end());
+        std::reverse(side[3].begin(), side[3].end());
+        const std::size_t n = side[0].size() - 1, m = side[1].size() - 1;
+        const auto places = [&](const std::vector<Index>& nodes) {
+            std::vector<Vec3> points;
+            for (const Index node : nodes) points.push_back(result_.quads.nodes[static_cast<std::size_t>(node)]);
+            return points;
+        };
+        const std::vector<Vec3> grid = geometry::transfinite(places(side[0]), places(side[1]), places(side[2]), places(side[3]));
+        std::vector<Vec3> inside;
+        for (std::size_t j = 1; j < m; ++j) inside.insert(inside.end(), grid.begin() + static_cast<std::ptrdiff_t>(j * (n + 1) + 1), grid.begin() + static_cast<std::ptrdiff_t>(j * (n + 1) + n));
+        if (model_[face].kind != "plane" && !inside.empty()) Projector(model_, {face}).project(inside, context_);
+        const auto first = static_cast<Index>(result_.quads.nodes.size());
+        result_.quads.nodes.insert(result_.quads.nodes.end(), inside.begin(), inside.end());
+        const auto node = [&](std::size_t i, std::size_t j) {
+            if (j == 0) return side[0][i];
+            if (j == m) return side[2][i];
+            if (i == 0) return side[3][j];
+            if (i == n) return side[1][j];
+            return first + static_cast<Index>((j - 1) * (n - 1) + i - 1);
+        };
+        for (std::size_t j = 0; j < m; ++j) {
+            for (std::size_t i = 0; i < n; ++i) result_.quads.quads.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
+        }
+    }
+
+    /// Free: laid flat, filled, lifted back.
+    void fill(FaceId face)
+    {
+        if (!mesher_) {
+            throw NotSweepable("surface.no_mesher", name_of(model_, face) + " is not four-sided and no mesher for such faces is at hand");
+        }
+        std::vector<Index> boundary;
+        std::vector<EdgeNode> on_edge;
+        std::vector<std::vector<Index>> loops;
+        for (const Loop& loop : model_[face].loops) {
+            std::vector<Index>& cycle = loops.emplace_back();
+            for (const EdgeUse& use : loop.uses) {
+                const std::vector<Index> chain = nodes_along(use);
+                std::vector<double> fractions = seeds_.fractions(use.edge);
+                if (use.reversed) std::reverse(fractions.begin(), fractions.end());
+                for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+                    cycle.push_back(static_cast<Index>(boundary.size()));
+                    boundary.push_back(chain[i]);
+                    on_edge.push_back({use.edge, fractions[i]});
+                }
+            }
+        }
+        const Vec3 normal = face_area_vector(model_, face).stableNormalized();
+        const Vec3 origin = face_centroid(model_, face);
+        double bulge = 0;
+        for (const Triangle& t : model_[face].triangles) {
+            for (const Index p : t) bulge = std::max(bulge, std::abs((model_.at(p) - origin).dot(normal)));
+        }
+        if (bulge <= model_.tolerance) fill_plane(boundary, loops, geometry::plane_across(origin, normal));
+        else fill_curved(face, boundary, on_edge, loops);
+    }
+
+    PlanarQuads fill_region(std::vector<Vec2> points, std::vector<std::vector<Index>> loops, std::function<double(const Vec2&)> size)
+    {
+        const auto area = [&](const std::vector<Index>& loop) {
+            double sum = 0;
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                const Vec2& a = points[static_cast<std::size_t>(loop[i])];
+                const Vec2& b = points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
+                sum += a.x() * b.y() - a.y() * b.x();
+            }
+            return sum;
+        };
+        std::stable_sort(loops.begin(), loops.end(), [&](const auto& a, const auto& b) { return area(a) > area(b); });
+        return mesher_({std::move(points), std::move(loops), std::move(size)}, context_);
+    }
+
+    template <class Lift>
+    void add_filling(const std::vector<Index>& boundary, const PlanarQuads& filling, const Lift& lift)
+    {
+        std::vector<Index> node = boundary;
+        const std::vector<Vec2> inside(filling.points.begin() + static_cast<std::ptrdiff_t>(boundary.size()), filling.points.end());
+        for (const Vec3& p : lift(inside)) node.push_back(add_node(p));
+        for (const Quad& q : filling.quads) {
+            Quad mapped{};
+            for (std::size_t i = 0; i < 4; ++i) mapped[i] = node[static_cast<std::size_t>(q[i])];
+            result_.quads.quads.push_back(mapped);
+        }
+    }
+
+    void fill_plane(const std::vector<Index>& boundary, const std::vector<std::vector<Index>>& loops, const geometry::Plane& plane)
+    {
+        std::vector<Vec2> flat;
+        for (const Index node : boundary) flat.push_back(geometry::to_plane(plane, result_.quads.nodes[static_cast<std::size_t>(node)]));
+        const PlanarQuads filling = fill_region(flat, loops, [&](const Vec2& p) { return size_(geometry::from_plane(plane, p)); });
+        add_filling(boundary, filling, [&](const std::vector<Vec2>& points) {
+            std::vector<Vec3> lifted;
+            for (const Vec2& p : points) lifted.push_back(geometry::from_plane(plane, p));
+            return lifted;
+        });
+    }
+
+    void fill_curved(FaceId face, const std::vector<Index>& boundary, const std::vector<EdgeNode>& on_edge, const std::vector<std::vector<Index>>& loops)
+    {
+        const geometry::Flattened flat = geometry::flatten(model_.points, model_[face].triangles);
+        if (flat.folded) {
+            throw NotSweepable("surface.not_flat", name_of(model_, face) + " cannot be laid flat without folding; split it into simpler faces");
+        }
+        std::unordered_map<Index, Vec2> position;
+        for (std::size_t i = 0; i < flat.used.size(); ++i) position[flat.used[i]] = flat.position[i];
+        std::vector<Vec2> rim;
+        for (const EdgeNode& node : on_edge) {
+            std::vector<Vec3> line;
+            for (const Index p : model_[node.edge].points) line.push_back(model_.at(p));
+            const std::vector<double> arc = geometry::arc_lengths(line);
+            const geometry::PolylinePlace at = geometry::place_at(arc, node.fraction * arc.back());
+            rim.emplace_back((1 - at.fraction) * position.at(model_[node.edge].points[at.segment]) +
+                             at.fraction * position.at(model_[node.edge].points[at.segment + 1]));
+        }
+        const geometry::PlanarLocator locator(flat);
+        const auto place = [&](const Vec2& p) {
+            const auto found = locator.locate(p);
+            return FacetPlace{found.triangle, found.barycentric};
+        };
+        const PlanarQuads filling = fill_region(rim, loops, [&](const Vec2& p) {
+            const std::vector<FacetPlace> at{place(p)};
+            const Triangle& t = model_[face].triangles[static_cast<std::size_t>(at[0].triangle)];
+            return size_(at[0].barycentric[0] * model_.at(t[0]) + at[0].barycentric[1] * model_.at(t[1]) + at[0].barycentric[2] * model_.at(t[2]));
+        });
+        add_filling(boundary, filling, [&](const std::vector<Vec2>& points) {
+            std::vector<FacetPlace> places;
+            for (const Vec2& p : points) places.push_back(place(p));
+            return points_at(model_, face, places);
+        });
+    }
+
+    const OpenVolume& volume_;
+    const Model& model_;
+    const Seeds& seeds_;
+    const SizeField& size_;
+    const PlanarQuadMesher& mesher_;
+    const RunContext& context_;
+    SourceMesh result_;
+    std::map<EdgeId, std::vector<Index>> nodes_on_;
+    std::map<VertexId, Index> node_of_;
+};
+
+} // namespace
+
+SourceMesh mesh_source(const OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds, const SizeField& size, const PlanarQuadMesher& mesher,
+                       const RunContext& context)
+{
+    return SourceMesher(volume, belts, seeds, size, mesher, context).run();
+}
+
+} // namespace lacuna::surface

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/surface/seeds.h>
+#include <lacuna/surface/walls.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// Quads on all source faces together.
+struct SourceMesh {
+    mesh::QuadMesh quads;           ///< normals into the volume; the rim nodes come first, belt by belt; `face` is the FaceId's index
+    std::vector<BeltNodes> belts;   ///< of each belt; node i of belt b is quad node first[b] + i
+    std::vector<Index> first;       ///< first quad node of each belt
+    std::vector<std::string> notes; ///< a line a face: how it was meshed
+};
+
+/// Mesh the source faces with quads by their seeds.
+///
+/// Mapped faces: transfinite in arc length, then onto the face. Free ones: the face is laid flat, filled by `mesher` and lifted back onto
+/// its exact surface. Nodes of edges and vertices are shared between faces.
+/// @throw NotSweepable  a face that needs `mesher` and there is none, or that cannot be laid flat; names it.
+SourceMesh mesh_source(const topology::OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds, const SizeField& size,
+                       const PlanarQuadMesher& mesher, const RunContext& context = {});
+
+} // namespace lacuna::surface

@@ -1,2 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include <lacuna/surface/quad_mesher.h>

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/wall_map.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/harmonic.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <limits>
+#include <map>
+#include <queue>
+#include <set>
+#include <unordered_map>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+std::uint64_t directed(Index a, Index b)
+{
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32) | static_cast<std::uint32_t>(b);
+}
+
+/// The belt's facets, all faces together.
+struct BeltFacets {
+    std::vector<Triangle> triangles;
+    std::vector<FaceId> face;
+    std::vector<Index> number;  ///< in its face
+    std::unordered_map<std::uint64_t, std::size_t> half;  ///< directed side → triangle
+};
+
+BeltFacets facets_of(const Model& model, const std::vector<FaceId>& walls)
+{
+    BeltFacets facets;
+    for (const FaceId wall : walls) {
+        const std::vector<Triangle>& triangles = model[wall].triangles;
+        for (std::size_t t = 0; t < triangles.size(); ++t) {
+            for (std::size_t i = 0; i < 3; ++i) facets.half[directed(triangles[t][i], triangles[t][(i + 1) % 3])] = facets.triangles.size();
+            facets.triangles.push_back(triangles[t]);
+            facets.face.push_back(wall);
+            facets.number.push_back(static_cast<Index>(t));
+        }
+    }
+    return facets;
+}
+
+/// Points of a closed chain with their running lengths; the first is not repeated.
+struct RimPoint {
+    Index point;
+    double at;
+};
+
+std::vector<RimPoint> rim_points(const Model& model, const Chain& chain)
+{
+    std::vector<RimPoint> result;
+    double at = 0;
+    for (const EdgeUse& use : chain.uses()) {
+        const std::vector<Index> points = use_points(model, use);
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            result.push_back({points[i], at});
+            at += (model.at(points[i + 1]) - model.at(points[i])).norm();
+        }
+    }
+    return result;
+}
+
+std::vector<Index> line_points(const Model& model, const matching::SideLine& line)
+{
+    std::vector<Index> result;
+    for (const EdgeUse& use : line.uses) {
+        const std::vector<Index> points = use_points(model, use);
+        result.insert(result.end(), points.begin() + (result.empty() ? 0 : 1), points.end());
+    }
+    return result;
+}
+
+/// Shortest way along facet sides from the source chain's start to the target rim, off the rims between its ends.
+std::vector<Index> shortest_way_up(const Model& model, const BeltFacets& facets, const Belt& belt)
+{
+    std::unordered_map<Index, std::vector<Index>> neighbours;
+    for (const Triangle& t : facets.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            neighbours[t[i]].push_back(t[(i + 1) % 3]);
+            neighbours[t[i]].push_back(t[(i + 2) % 3]);
+        }
+    }
+    std::set<Index> low, high;
+    for (const RimPoint& p : rim_points(model, belt.source)) low.insert(p.point);
+    for (const RimPoint& p : rim_points(model, belt.target)) high.insert(p.point);
+    const Index start = model[use_from(model, belt.source.uses().front())].point;
+
+    std::unordered_map<Index, double> cost{{start, 0}};
+    std::unordered_map<Index, Index> from;
+    using Item = std::pair<double, Index>;
+    std::priority_queue<Item, std::vector<Item>, std::greater<>> front;
+    front.emplace(0, start);
+    while (!front.empty()) {
+        const auto [c, p] = front.top();
+        front.pop();
+        if (c > cost[p]) continue;
+        if (high.contains(p)) {
+            std::vector<Index> path{p};
+            while (path.back() != start) path.push_back(from.at(path.back()));
+            std::reverse(path.begin(), path.end());
+            return path;
+        }
+        for (const Index q : neighbours[p]) {
+            if (low.contains(q)) continue;
+            const double next = c + (model.at(q) - model.at(p)).norm();
+            const auto known = cost.find(q);
+            if (known != cost.end() && known->second <= next) continue;
+            cost[q] = next;
+            from[q] = p;
+            front.emplace(next, q);
+        }
+    }
+    throw NotSweepable("surface.wall_broken", "the facets of " + name_of(model, belt.walls.front()) + " do not lead from the source's rim to the target's");
+}
+
+/// Turns of the corners along a cut, which leads upwards. Walking round as the belt does, s grows away from the cut's left (seen from
+/// outside): there corners on the cut keep their value, on its right they are seen one turn on.
+std::vector<std::array<int, 3>> turns_along(const BeltFacets& facets, const std::vector<Index>& cut)
+{
+    std::vector<std::array<int, 3>> turns(facets.triangles.size(), {0, 0, 0});
+    std::set<std::pair<Index, Index>> sides;
+    for (std::size_t i = 0; i + 1 < cut.size(); ++i) {
+        sides.emplace(cut[i], cut[i + 1]);
+        sides.emplace(cut[i + 1], cut[i]);
+    }
+    const auto corner_of = [&](std::size_t t, Index p) {
+        const Triangle& triangle = facets.triangles[t];
+        return static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), p) - triangle.begin());
+    };
+    // Round each point of the cut, flood the facets on its right, which hold the cut's sides against its direction.
+    for (std::size_t i = 0; i < cut.size(); ++i) {
+        std::vector<std::size_t> front;
+        const auto start_at = [&](Index a, Index b) {
+            const auto found = facets.half.find(directed(b, a));
+            if (found != facets.half.end()) front.push_back(found->second);
+        };
+        if (i + 1 < cut.size()) start_at(cut[i], cut[i + 1]);
+        if (i > 0) start_at(cut[i - 1], cut[i]);
+        while (!front.empty()) {
+            const std::size_t t = front.back();
+            front.pop_back();
+            const std::size_t c = corner_of(t, cut[i]);
+            if (turns[t][c] != 0) continue;
+            turns[t][c] = 1;
+            const Triangle& triangle = facets.triangles[t];
+            for (const Index q : {triangle[(c + 1) % 3], triangle[(c + 2) % 3]}) {
+                if (sides.contains({cut[i], q})) continue;
+                for (const std::uint64_t side : {directed(cut[i], q), directed(q, cut[i])}) {
+                    const auto found = facets.half.find(side);
+                    if (found != facets.half.end() && found->second != t) front.push_back(found->second);
+                }
+            }
+        }
+    }
+    return turns;
+}
+
+/// s of the belt with the target rim left free: how the walls themselves lead up. A row a model point.
+Eigen::MatrixXd natural_coordinate(const Model& model, const BeltFacets& facets, const Belt& belt, const std::vector<Index>& cut)
+{
+    geometry::HarmonicProblem problem;
+    problem.points = model.points;
+    problem.triangles = facets.triangles;
+    const std::vector<RimPoint> rim = rim_points(model, belt.source);
+    problem.fixed_values.resize(static_cast<Eigen::Index>(rim.size()), 1);
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+        problem.fixed.push_back(rim[i].point);
+        problem.fixed_values(static_cast<Eigen::Index>(i), 0) = rim[i].at / belt.source.length();
+    }
+    problem.corner_turns = turns_along(facets, cut);
+    problem.period = Eigen::RowVectorXd::Ones(1);
+    return geometry::solve_harmonic(problem);
+}
+
+} // namespace
+
+double unguided_target_start(const OpenVolume& volume, const Belt& belt)
+{
+    const Model& model = volume.model;
+    const BeltFacets facets = facets_of(model, belt.walls);
+    const Eigen::MatrixXd s = natural_coordinate(model, facets, belt, shortest_way_up(model, facets, belt));
+    // The mean difference, on the circle, between the lead-up coordinate and the share of the target's length.
+    const double length = belt.target.length();
+    Vec2 sum = Vec2::Zero();
+    for (const RimPoint& p : rim_points(model, belt.target)) {
+        const double off = 2 * std::numbers::pi * (p.at / length - s(p.point, 0));
+        sum += Vec2(std::cos(off), std::sin(off));
+    }
+    const double start = std::atan2(sum.y(), sum.x()) / (2 * std::numbers::pi);
+    return (start - std::floor(start)) * length;
+}
+
+double target_coordinate(const Belt& belt, double target_at)
+{
+    const double length = belt.target.length();
+    const double first = belt.stretches.front().target_from;
+    double at = target_at;
+    while (at < first - 1e-12 * length) at += length;
+    while (at > first + length * (1 + 1e-12)) at -= length;
+    for (const Stretch& stretch : belt.stretches) {
+        if (at > stretch.target_to && &stretch != &belt.stretches.back()) continue;
+        const double f = (at - stretch.target_from) / (stretch.target_to - stretch.target_from);
+        return (stretch.source_from + f * (stretch.source_to - stretch.source_from)) / belt.source.length();
+    }
+    return 1;
+}
+
+WallMap::WallMap(const OpenVolume& volume, const Belt& belt)
+{
+    const Model& model = volume.model;
+    const BeltFacets facets = facets_of(model, belt.walls);
+    std::map<Index, Vec2> fixed;
+    double end_branch = 0;
+    std::vector<Index> cut;
+    const std::vector<RimPoint> high = rim_points(model, belt.target);
+    if (belt.lines.empty()) {
+        cut = shortest_way_up(model, facets, belt);
+        const double natural = natural_coordinate(model, facets, belt, cut)(cut.back(), 0);
+        const auto end = std::find_if(high.begin(), high.end(), [&](const RimPoint& p) { return p.point == cut.back(); });
+        const double wanted = target_coordinate(belt, end->at);
+        end_branch = wanted + std::round(natural - wanted);
+    } else {
+        cut = line_points(model, belt.lines.front().line);
+    }
+    for (const RimPoint& p : rim_points(model, belt.source)) fixed[p.point] = Vec2(p.at / belt.source.length(), 0);
+    for (const RimPoint& p : high) {
+        const double s = target_coordinate(belt, p.at);
+        const double turned = s - std::floor(s - end_branch + 1e-12);
+        fixed[p.point] = Vec2(p.point == cut.back() ? end_branch : turned, 1);
+    }
+    for (const BeltLine& line : belt.lines) {
+        const std::vector<Index> points = line_points(model, line.line);
+        std::vector<double> at{0};
+        for (std::size_t i = 1; i < points.size(); ++i) at.push_back(at.back() + (model.at(points[i]) - model.at(points[i - 1])).norm());
+        for (std::size_t i = 0; i < points.size(); ++i) fixed[points[i]] = Vec2(line.source_at / belt.source.length(), at[i] / at.back());
+    }
+
+    geometry::HarmonicProblem problem;
+    problem.points = model.points;
+    problem.triangles = facets.triangles;
+    problem.fixed_values.resize(static_cast<Eigen::Index>(fixed.size()), 2);
+    for (const auto& [point, value] : fixed) {
+        problem.fixed_values.row(static_cast<Eigen::Index>(problem.fixed.size())) = value.transpose();
+        problem.fixed.push_back(point);
+    }
+    problem.corner_turns = turns_along(facets, cut);
+    problem.period = Eigen::RowVector2d(1, 0);
+    const Eigen::MatrixXd strip = geometry::solve_harmonic(problem);
+
+    // The strip's own proportions, so that the closest facet to a place off the strip by rounding is the right one.
+    width_ = (belt.source.length() + belt.target.length()) / 2;
+    double area = 0;
+    for (const FaceId wall : belt.walls) area += face_area(model, wall);
+    height_ = area / width_;
+
+    std::vector<std::array<Vec2, 3>> corners(facets.triangles.size());
+    std::vector<Vec3> flat;
+    std::vector<Triangle> flat_triangles;
+    for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
+        double least = std::numeric_limits<double>::infinity(), most = -least;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Index p = facets.triangles[t][i];
+            corners[t][i] = Vec2(strip(p, 0) + problem.corner_turns[t][i], strip(p, 1));
+            least = std::min(least, corners[t][i].x());
+            most = std::max(most, corners[t][i].x());
+        }
+        // As many copies as reach into [0, 1].
+        for (int shift = static_cast<int>(std::ceil(-most)); least + shift <= 1; ++shift) {
+            const auto base = static_cast<Index>(flat.size());
+            for (const Vec2& c : corners[t]) flat.emplace_back((c.x() + shift) * width_, c.y() * height_, 0);
+            flat_triangles.push_back({base, base + 1, base + 2});
+            original_.push_back(static_cast<Index>(t));
+        }
+    }
+    tree_ = geometry::FacetTree(flat, flat_triangles);
+    face_of_ = facets.face;
+    triangle_of_ = facets.number;
+    find_rings(volume, belt, corners);
+}
+
+WallMap::Place WallMap::locate(double s, double t) const
+{
+    const auto hit = tree_.closest(Vec3(s * width_, t * height_, 0));
+    const auto original = static_cast<std::size_t>(original_[static_cast<std::size_t>(hit.triangle)]);
+    return {face_of_[original], {triangle_of_[original], hit.barycentric}};
+}
+
+void WallMap::find_rings(const OpenVolume& volume, const Belt& belt, const std::vector<std::array<Vec2, 3>>& corners)
+{
+    const Model& model = volume.model;
+    const BeltFacets facets = facets_of(model, belt.walls);
+    std::set<EdgeId> taken;
+    for (const EdgeUse& use : belt.source.uses()) taken.insert(use.edge);
+    for (const EdgeUse& use : belt.target.uses()) taken.insert(use.edge);
+    for (const BeltLine& line : belt.lines) {
+        for (const EdgeUse& use : line.line.uses) taken.insert(use.edge);
+    }
+    std::vector<Ring> pieces;
+    for (const FaceId wall : belt.walls) {
+        for (const Loop& loop : model[wall].loops) {
+            for (const EdgeUse& use : loop.uses) {
+                if (!taken.insert(use.edge).second) continue;
+                Ring piece;
+                double along = 0, up = 0;
+                const std::vector<Index> points = use_points(model, use);
+                for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+                    const auto found = facets.half.find(directed(points[i], points[i + 1]));
+                    if (found == facets.half.end()) continue;
+                    const Triangle& t = facets.triangles[found->second];
+                    const auto c = static_cast<std::size_t>(std::find(t.begin(), t.end(), points[i]) - t.begin());
+                    const Vec2 a = corners[found->second][c];
+                    const Vec2 b = corners[found->second][(c + 1) % 3];
+                    piece.segments.push_back({a, b});
+                    piece.height += (a.y() + b.y()) / 2;
+                    along += std::abs(b.x() - a.x()) * width_;
+                    up += b.y() - a.y();
+                }
+                if (piece.segments.empty() || std::abs(up) * height_ > along) continue;
+                piece.height /= static_cast<double>(piece.segments.size());
+                piece.vertices = {use_from(model, use), use_to(model, use)};
+                pieces.push_back(std::move(piece));
+            }
+        }
+    }
+    // Pieces that meet in a vertex are one ring.
+    std::vector<bool> used(pieces.size(), false);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (used[i]) continue;
+        used[i] = true;
+        Ring ring = pieces[i];
+        double weight = static_cast<double>(ring.segments.size());
+        ring.height *= weight;
+        for (bool grown = true; grown;) {
+            grown = false;
+            for (std::size_t j = 0; j < pieces.size(); ++j) {
+                const bool meets = std::any_of(pieces[j].vertices.begin(), pieces[j].vertices.end(), [&](VertexId v) {
+                    return std::find(ring.vertices.begin(), ring.vertices.end(), v) != ring.vertices.end();
+                });
+                if (used[j] || !meets) continue;
+                used[j] = grown = true;
+                const auto more = static_cast<double>(pieces[j].segments.size());
+                ring.height += more * pieces[j].height;
+                weight += more;
+                ring.segments.insert(ring.segments.end(), pieces[j].segments.begin(), pieces[j].segments.end());
+                ring.vertices.insert(ring.vertices.end(), pieces[j].vertices.begin(), pieces[j].vertices.end());
+            }
+        }
+        ring.height /= weight;
+        rings_.push_back(std::move(ring));
+    }
+    std::stable_sort(rings_.begin(), rings_.end(), [](const Ring& a, const Ring& b) { return a.height < b.height; });
+}
+
+std::vector<double> WallMap::crossings(const Ring& ring, double s)
+{
+    // A column on the end of a piece still crosses it.
+    constexpr double kSlack = 1e-9;
+    std::vector<double> result;
+    for (const auto& [a, b] : ring.segments) {
+        const double low = std::min(a.x(), b.x()), high = std::max(a.x(), b.x());
+        for (double at = s + std::ceil(low - kSlack - s); at <= high + kSlack; at += 1) {
+            const double f = high - low > kSlack ? std::clamp((at - a.x()) / (b.x() - a.x()), 0.0, 1.0) : 0.5;
+            result.push_back(a.y() + f * (b.y() - a.y()));
+        }
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+} // namespace lacuna::surface

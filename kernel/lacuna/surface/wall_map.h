@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/surface/belt.h>
+#include <lacuna/surface/projector.h>
+
+#include <vector>
+
+namespace lacuna::surface {
+
+/// The walls of a belt laid out as a strip: s runs round the belt from 0 to 1 and closes on itself, t rises from 0 on the
+/// source rim to 1 on the target rim.
+///
+/// Harmonic in both (mean value weights), with the rims by their stretches and the side lines upright by their length; so one to
+/// one (Tutte) whatever faces the walls are made of: stacked, in rows, with seams that do not line up.
+class WallMap {
+public:
+    WallMap(const topology::OpenVolume& volume, const Belt& belt);
+
+    struct Place {
+        FaceId face;
+        FacetPlace at;
+    };
+    [[nodiscard]] Place locate(double s, double t) const;
+
+    /// Edges that run round the belt, between faces stacked on each other: where a layer should lie.
+    struct Ring {
+        double height = 0;                             ///< mean t
+        std::vector<std::array<Vec2, 2>> segments;     ///< (s, t) pieces
+        std::vector<VertexId> vertices;
+    };
+    [[nodiscard]] const std::vector<Ring>& rings() const { return rings_; }
+    /// t where a ring crosses the column at s, from lowest to highest; usually one.
+    [[nodiscard]] static std::vector<double> crossings(const Ring& ring, double s);
+
+private:
+    void find_rings(const topology::OpenVolume& volume, const Belt& belt, const std::vector<std::array<Vec2, 3>>& corners);
+
+    std::vector<FaceId> face_of_;
+    std::vector<Index> triangle_of_;
+    std::vector<Index> original_;  ///< triangle of the belt behind each triangle of the tree
+    double width_ = 1, height_ = 1;
+    geometry::FacetTree tree_;
+    std::vector<Ring> rings_;
+};
+
+/// Where on the target chain of a belt without side lines the source chain's start belongs, so that the strip is
+/// sheared least [running length].
+double unguided_target_start(const topology::OpenVolume& volume, const Belt& belt);
+
+/// s in [0, 1] of a running length of the target chain, by the belt's stretches.
+double target_coordinate(const Belt& belt, double target_at);
+
+} // namespace lacuna::surface

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/walls.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/transfinite.h>
+#include <lacuna/surface/wall_map.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// The faces of the stretch of walls after each side line.
+std::vector<std::vector<FaceId>> panel_faces(const Model& model, const Belt& belt)
+{
+    std::set<EdgeId> borders;
+    for (const BeltLine& line : belt.lines) {
+        for (const EdgeUse& use : line.line.uses) borders.insert(use.edge);
+    }
+    const auto uses = edge_uses(model);
+    const std::set<FaceId> walls(belt.walls.begin(), belt.walls.end());
+    std::vector<std::vector<FaceId>> panels;
+    for (const BeltLine& line : belt.lines) {
+        const EdgeUse foot = belt.source.uses()[belt.source.place(line.source_at + 1e-9 * belt.source.length()).use];
+        std::vector<FaceId> faces;
+        for (const FaceUse& use : uses[foot.edge.index()]) {
+            if (walls.contains(use.face)) faces.push_back(use.face);
+        }
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            for (const Loop& loop : model[faces[i]].loops) {
+                for (const EdgeUse& use : loop.uses) {
+                    if (borders.contains(use.edge)) continue;
+                    for (const FaceUse& other : uses[use.edge.index()]) {
+                        const bool known = std::find(faces.begin(), faces.end(), other.face) != faces.end();
+                        if (!known && walls.contains(other.face)) faces.push_back(other.face);
+                    }
+                }
+            }
+        }
+        panels.push_back(std::move(faces));
+    }
+    return panels;
+}
+
+/// One belt being meshed.
+class WallMesher {
+public:
+    WallMesher(const OpenVolume& volume, const Belt& belt, const BeltNodes& nodes, std::span<const double> heights, const RunContext& context)
+        : volume_(volume), model_(volume.model), belt_(belt), nodes_(nodes), heights_(heights.begin(), heights.end()), context_(context),
+          count_(nodes.source_at.size()), layers_(heights.size() - 1)
+    {
+        mesh_.points.resize(count_ * (layers_ + 1));
+        mesh_.face.resize(count_ * layers_);
+    }
+
+    WallMesh run()
+    {
+        set_row(0, belt_.source.points(nodes_.source_at));
+        set_row(layers_, belt_.target.points(wrapped(nodes_.target_at, belt_.target.length())));
+        const auto panels = panel_faces(model_, belt_);
+        const bool simple = !panels.empty() && std::all_of(panels.begin(), panels.end(), [&](const auto& faces) { return is_simple(faces); });
+        if (!simple) {
+            map_ = std::make_unique<WallMap>(volume_, belt_);
+            plan_rings();
+        }
+        mesh_lines();
+        if (panels.empty()) mesh_by_map(0, count_);
+        for (std::size_t i = 0; i < panels.size(); ++i) {
+            const std::size_t first = nodes_.line[i];
+            const std::size_t last = i + 1 < panels.size() ? nodes_.line[i + 1] : count_;
+            if (is_simple(panels[i]) && mesh_transfinite(panels[i].front(), first, last)) continue;
+            if (map_ == nullptr) map_ = std::make_unique<WallMap>(volume_, belt_);
+            mesh_by_map(first, last);
+        }
+        return std::move(mesh_);
+    }
+
+private:
+    static std::vector<double> wrapped(std::vector<double> at, double length)
+    {
+        for (double& x : at) x = x >= length ? x - length : x;
+        return at;
+    }
+
+    [[nodiscard]] Vec3& point(std::size_t layer, std::size_t node) { return mesh_.points[layer * count_ + node % count_]; }
+
+    void set_row(std::size_t layer, const std::vector<Vec3>& points)
+    {
+        for (std::size_t i = 0; i < count_; ++i) point(layer, i) = points[i];
+    }
+
+    [[nodiscard]] bool is_simple(const std::vector<FaceId>& faces) const
+    {
+        return faces.size() == 1 && model_[faces.front()].loops.size() == 1;
+    }
+
+    /// Give each ring the layer nearest to it; rings that want the same layer share it where they are one step of the walls, and
+    /// else the later ones are passed over.
+    void plan_rings()
+    {
+        int last = 0;
+        double last_height = -1;
+        const auto layers = static_cast<int>(layers_);
+        for (const WallMap::Ring& ring : map_->rings()) {
+            int nearest = 1;
+            for (int k = 1; k < layers; ++k) {
+                if (std::abs(heights_[static_cast<std::size_t>(k)] - ring.height) < std::abs(heights_[static_cast<std::size_t>(nearest)] - ring.height)) nearest = k;
+            }
+            const bool shared = last > 0 && ring.height - last_height < 0.5 / layers;
+            int layer = shared ? last : std::max(nearest, last + 1);
+            if (layers < 2 || layer >= layers) {
+                mesh_.notes.push_back("an edge between stacked walls at " + std::to_string(ring.height) + " of the height has no layer of its own; use more layers");
+                layer = 0;
+            } else {
+                last = layer;
+                last_height = ring.height;
+            }
+            ring_layer_.push_back(layer);
+        }
+    }
+
+    /// Heights of a column's nodes: the layers', drawn to the rings it crosses.
+    [[nodiscard]] std::vector<double> column_heights(const std::map<int, double>& at_layer) const
+    {
+        std::vector<std::pair<double, double>> knots{{0, 0}};
+        for (const auto& [layer, t] : at_layer) {
+            if (t > knots.back().second && t < 1) knots.emplace_back(heights_[static_cast<std::size_t>(layer)], t);
+        }
+        knots.emplace_back(1, 1);
+        std::vector<double> result;
+        std::size_t k = 0;
+        for (const double h : heights_) {
+            while (k + 2 < knots.size() && h > knots[k + 1].first) ++k;
+            const auto& [h0, t0] = knots[k];
+            const auto& [h1, t1] = knots[k + 1];
+            result.push_back(t0 + (h - h0) / (h1 - h0) * (t1 - t0));
+        }
+        return result;
+    }
+
+    [[nodiscard]] std::vector<double> heights_at(double s) const
+    {
+        std::map<int, double> at_layer;
+        for (std::size_t r = 0; r < ring_layer_.size(); ++r) {
+            if (ring_layer_[r] == 0) continue;
+            const WallMap::Ring& ring = map_->rings()[r];
+            for (const double t : WallMap::crossings(ring, s)) {
+                const auto [found, fresh] = at_layer.try_emplace(ring_layer_[r], t);
+                if (!fresh && std::abs(t - ring.height) < std::abs(found->second - ring.height)) found->second = t;
+            }
+        }
+        return column_heights(at_layer);
+    }
+
+    void mesh_lines()
+    {
+        for (std::size_t i = 0; i < belt_.lines.size(); ++i) {
+            const Chain chain(model_, belt_.lines[i].line.uses);
+            std::map<int, double> at_layer;
+            for (std::size_t u = 1; u < chain.uses().size(); ++u) {
+                const VertexId v = use_from(model_, chain.uses()[u]);
+                for (std::size_t r = 0; r < ring_layer_.size(); ++r) {
+                    const auto& vertices = map_->rings()[r].vertices;
+                    if (ring_layer_[r] > 0 && std::find(vertices.begin(), vertices.end(), v) != vertices.end()) {
+                        at_layer[ring_layer_[r]] = chain.start(u) / chain.length();
+                    }
+                }
+            }
+            std::vector<double> at = column_heights(at_layer);
+            for (double& t : at) t *= chain.length();
+            const std::vector<Vec3> points = chain.points(at);
+            for (std::size_t k = 1; k < layers_; ++k) point(k, nodes_.line[i]) = points[k];
+        }
+    }
+
+    bool mesh_transfinite(FaceId face, std::size_t first, std::size_t last)
+    {
+        const std::size_t n = last - first;
+        std::vector<Vec3> bottom, top, left, right;
+        for (std::size_t i = first; i <= last; ++i) {
+            bottom.push_back(point(0, i));
+            top.push_back(point(layers_, i));
+        }
+        for (std::size_t k = 0; k <= layers_; ++k) {
+            left.push_back(point(k, first));
+            right.push_back(point(k, last));
+        }
+        const std::vector<Vec3> grid = geometry::transfinite(bottom, right, top, left);
+        std::vector<Vec3> inside;
+        for (std::size_t k = 1; k < layers_; ++k) {
+            for (std::size_t i = 1; i < n; ++i) inside.push_back(grid[k * (n + 1) + i]);
+        }
+        const Face& f = model_[face];
+        if (f.origin == Origin::given && f.kind != "plane" && !inside.empty()) {
+            Projector(model_, {face}).project(inside, context_);
+        }
+        std::size_t next = 0;
+        for (std::size_t k = 1; k < layers_; ++k) {
+            for (std::size_t i = 1; i < n; ++i) point(k, first + i) = inside[next++];
+        }
+        for (std::size_t k = 0; k < layers_; ++k) {
+            for (std::size_t i = first; i < last; ++i) mesh_.face[k * count_ + i] = face;
+        }
+        return f.origin != Origin::given || !folds(first, last);
+    }
+
+    /// True when a quad between two columns has a corner turned over against the quad's own normal.
+    [[nodiscard]] bool folds(std::size_t first, std::size_t last)
+    {
+        for (std::size_t k = 0; k < layers_; ++k) {
+            for (std::size_t i = first; i < last; ++i) {
+                const std::array<Vec3, 4> c{point(k, i), point(k, i + 1), point(k + 1, i + 1), point(k + 1, i)};
+                const Vec3 normal = (c[2] - c[0]).cross(c[3] - c[1]);
+                for (std::size_t j = 0; j < 4; ++j) {
+                    if ((c[(j + 1) % 4] - c[j]).cross(c[(j + 3) % 4] - c[j]).dot(normal) <= 0) return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    void mesh_by_map(std::size_t first, std::size_t last)
+    {
+        std::map<FaceId, std::pair<std::vector<FacetPlace>, std::vector<std::size_t>>> on_face;
+        const auto s_of = [&](std::size_t i) { return i < count_ ? nodes_.source_at[i] / belt_.source.length() : 1.0; };
+        const std::set<std::size_t> lines(nodes_.line.begin(), nodes_.line.end());
+        std::vector<double> before;
+        for (std::size_t i = first; i <= last; ++i) {
+            const std::vector<double> at = heights_at(s_of(i));
+            for (std::size_t k = 1; k < layers_ && i < last && !lines.contains(i); ++k) {
+                const WallMap::Place place = map_->locate(s_of(i), at[k]);
+                on_face[place.face].first.push_back(place.at);
+                on_face[place.face].second.push_back(k * count_ + i);
+            }
+            for (std::size_t k = 0; k < layers_ && i > first; ++k) {
+                const double t = (at[k] + at[k + 1] + before[k] + before[k + 1]) / 4;
+                mesh_.face[k * count_ + i - 1] = map_->locate((s_of(i - 1) + s_of(i)) / 2, t).face;
+            }
+            before = at;
+        }
+        for (const auto& [face, work] : on_face) {
+            const std::vector<Vec3> points = points_at(model_, face, work.first);
+            for (std::size_t j = 0; j < points.size(); ++j) mesh_.points[work.second[j]] = points[j];
+        }
+    }
+
+    const OpenVolume& volume_;
+    const Model& model_;
+    const Belt& belt_;
+    const BeltNodes& nodes_;
+    std::vector<double> heights_;
+    const RunContext& context_;
+    std::size_t count_, layers_;
+    WallMesh mesh_;
+    std::unique_ptr<WallMap> map_;
+    std::vector<int> ring_layer_;  ///< of each ring of the map; 0: none
+};
+
+} // namespace
+
+BeltNodes belt_nodes(const Belt& belt, std::span<const int> counts)
+{
+    BeltNodes nodes;
+    std::size_t line = 0;
+    for (std::size_t i = 0; i < belt.stretches.size(); ++i) {
+        const Stretch& stretch = belt.stretches[i];
+        while (line < belt.lines.size() && belt.lines[line].source_at <= stretch.source_from + 1e-12 * belt.source.length()) {
+            nodes.line.push_back(nodes.source_at.size());
+            ++line;
+        }
+        for (int k = 0; k < counts[i]; ++k) {
+            const double f = static_cast<double>(k) / counts[i];
+            nodes.source_at.push_back(stretch.source_from + f * (stretch.source_to - stretch.source_from));
+            nodes.target_at.push_back(stretch.target_from + f * (stretch.target_to - stretch.target_from));
+        }
+    }
+    return nodes;
+}
+
+WallMesh mesh_walls(const OpenVolume& volume, const Belt& belt, const BeltNodes& nodes, std::span<const double> heights, const RunContext& context)
+{
+    return WallMesher(volume, belt, nodes, heights, context).run();
+}
+
+} // namespace lacuna::surface

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/surface/belt.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// Nodes round a belt, in walking order from the belt's start; the first is not repeated.
+struct BeltNodes {
+    std::vector<double> source_at;   ///< running length on the source chain
+    std::vector<double> target_at;   ///< running length on the target chain
+    std::vector<std::size_t> line;   ///< node at the foot of each side line
+};
+
+/// Spread `counts[i]` sides evenly over stretch i.
+BeltNodes belt_nodes(const Belt& belt, std::span<const int> counts);
+
+/// A structured quad mesh on the walls of a belt.
+struct WallMesh {
+    std::vector<Vec3> points;   ///< (layers + 1) × nodes, layer-major from the source
+    std::vector<FaceId> face;   ///< wall of each quad: layer · nodes + i, the quad from node i to node i + 1
+    std::vector<std::string> notes;
+};
+
+/// Mesh the walls of a belt: one row of quads a layer.
+///
+/// Between two side lines that one face spans: transfinite in arc length, then onto the face (paper sect. 7; for void faces
+/// Algorithms 5 and 6). Anything else, several faces stacked or in a row or no side line at all: by the belt's harmonic
+/// strip, where a ring edge between stacked faces draws the nearest layer to it.
+/// @param heights  layers + 1 numbers from 0 to 1.
+/// @post  nodes on given faces and edges lie on the exact geometry; rows 0 and last are points of the rims.
+WallMesh mesh_walls(const topology::OpenVolume& volume, const Belt& belt, const BeltNodes& nodes, std::span<const double> heights,
+                    const RunContext& context = {});
+
+} // namespace lacuna::surface

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/sweep.h>
+
+#include <lacuna/closure/close.h>
+#include <lacuna/core/error.h>
+#include <lacuna/quality/quality.h>
+#include <lacuna/surface/projector.h>
+#include <lacuna/surface/source_mesh.h>
+#include <lacuna/sweep/layers.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+surface::QuadStyle style_of(Quads quads)
+{
+    switch (quads) {
+    case Quads::automatic:
+        return surface::QuadStyle::automatic;
+    case Quads::mapped:
+        return surface::QuadStyle::mapped;
+    case Quads::gmsh:
+        return surface::QuadStyle::free;
+    case Quads::paved:
+        throw InvalidInput("sweep.quads", "quads = \"paved\" is not available yet; use \"auto\", \"mapped\" or \"gmsh\"");
+    case Quads::keep:
+        throw InvalidInput("sweep.quads", "quads = \"keep\" is not available yet; use \"auto\", \"mapped\" or \"gmsh\"");
+    }
+    return surface::QuadStyle::automatic;
+}
+
+/// Refuse what is no length before anything is divided by it.
+surface::SizeField checked_size(const OpenVolume& volume, const SweepOptions& options)
+{
+    if (!options.size) {
+        const double spacing = surface::rim_spacing(volume);
+        return [spacing](const Vec3&) { return spacing; };
+    }
+    return [size = options.size](const Vec3& p) {
+        const double h = size(p);
+        if (!(h > 0) || !std::isfinite(h)) {
+            throw InvalidInput("sweep.size", "the size at (" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ") is " +
+                                                 std::to_string(h) + "; it must be a positive length");
+        }
+        return h;
+    };
+}
+
+Columns columns_of(const OpenVolume& volume, const std::vector<surface::Belt>& belts, const surface::SourceMesh& source,
+                   const std::vector<double>& heights, std::vector<surface::WallMesh>& walls, const RunContext& context)
+{
+    Columns columns;
+    columns.layers = static_cast<int>(heights.size()) - 1;
+    for (std::size_t b = 0; b < belts.size(); ++b) {
+        walls.push_back(surface::mesh_walls(volume, belts[b], source.belts[b], heights, context));
+        for (std::size_t i = 0; i < source.belts[b].source_at.size(); ++i) columns.rim.push_back(source.first[b] + static_cast<Index>(i));
+    }
+    for (std::size_t layer = 0; layer < heights.size(); ++layer) {
+        for (std::size_t b = 0; b < belts.size(); ++b) {
+            const std::size_t n = source.belts[b].source_at.size();
+            const auto row = walls[b].points.begin() + static_cast<std::ptrdiff_t>(layer * n);
+            columns.points.insert(columns.points.end(), row, row + static_cast<std::ptrdiff_t>(n));
+        }
+    }
+    return columns;
+}
+
+/// Void walls alone, ruled between the ends: the paper's class I, whose node lines are straight.
+bool ruled(const OpenVolume& volume, const std::vector<surface::Belt>& belts)
+{
+    for (const FaceId wall : volume.faces(Role::wall)) {
+        if (volume.model[wall].origin == Origin::given) return false;
+    }
+    for (const surface::Belt& belt : belts) {
+        if (belt.lines.empty()) return false;
+    }
+    return true;
+}
+
+/// Patches of the skin, one a face, with the groups a person reads.
+class Patches {
+public:
+    Patches(const OpenVolume& volume, mesh::HexMesh& mesh) : volume_(volume), mesh_(mesh) {}
+
+    Index of(FaceId face)
+    {
+        const auto [found, fresh] = patch_.try_emplace(face, static_cast<Index>(mesh_.patches.size()));
+        if (fresh) {
+            const Face& f = volume_.model[face];
+            mesh::SkinPatch patch;
+            patch.tag = static_cast<int>(mesh_.patches.size()) + 1;
+            patch.groups.push_back(role_group(face));
+            if (f.origin == Origin::made_void && volume_.role[face.index()] != Role::wall) patch.groups.push_back("void:" + std::to_string(f.tag));
+            if (!f.name.empty() && f.name != patch.groups.front()) patch.groups.push_back(f.name);
+            mesh_.patches.push_back(std::move(patch));
+        }
+        return found->second;
+    }
+
+private:
+    [[nodiscard]] std::string role_group(FaceId face) const
+    {
+        const Face& f = volume_.model[face];
+        switch (volume_.role[face.index()]) {
+        case Role::source:
+            return volume_.turned_round ? "target" : "source";
+        case Role::target:
+            return volume_.turned_round ? "source" : "target";
+        case Role::wall:
+            break;
+        }
+        return (f.origin == Origin::made_void ? "void:" : "wall:") + std::to_string(f.tag);
+    }
+
+    const OpenVolume& volume_;
+    mesh::HexMesh& mesh_;
+    std::map<FaceId, Index> patch_;
+};
+
+std::vector<FaceId> faces_under_quads(const surface::Projector& projector, const std::vector<Quad>& quads, std::span<const Vec3> nodes)
+{
+    std::vector<Vec3> centres;
+    for (const Quad& q : quads) {
+        Vec3 sum = Vec3::Zero();
+        for (const Index n : q) sum += nodes[static_cast<std::size_t>(n)];
+        centres.emplace_back(sum / 4);
+    }
+    return projector.closest_face(centres);
+}
+
+void set_patches(const OpenVolume& volume, const surface::SourceMesh& source, const surface::Projector& target, const std::vector<surface::WallMesh>& walls,
+                 mesh::HexMesh& mesh)
+{
+    Patches patches(volume, mesh);
+    for (const Index face : source.quads.face) mesh.source_patch.push_back(patches.of(FaceId(face)));
+    const std::span<const Vec3> top{mesh.nodes.data() + static_cast<std::size_t>(mesh.layers) * static_cast<std::size_t>(mesh.nodes_per_layer),
+                                    static_cast<std::size_t>(mesh.nodes_per_layer)};
+    if (const std::vector<FaceId> faces = volume.faces(Role::target); faces.size() == 1) {
+        mesh.target_patch.assign(mesh.quads.size(), patches.of(faces.front()));
+    } else {
+        for (const FaceId face : faces_under_quads(target, mesh.quads, top)) mesh.target_patch.push_back(patches.of(face));
+    }
+
+    // A belt's sides run with the belt or against it; each side of the rim finds its place by the nodes it joins.
+    struct Place {
+        std::size_t belt, side;
+    };
+    std::map<std::pair<Index, Index>, Place> places;
+    for (std::size_t b = 0; b < walls.size(); ++b) {
+        const std::size_t n = source.belts[b].source_at.size();
+        for (std::size_t i = 0; i < n; ++i) {
+            const Index a = source.first[b] + static_cast<Index>(i);
+            const Index c = source.first[b] + static_cast<Index>((i + 1) % n);
+            places[{std::min(a, c), std::max(a, c)}] = {b, i};
+        }
+    }
+    for (int layer = 0; layer < mesh.layers; ++layer) {
+        for (const Segment& side : mesh.rim) {
+            const Place place = places.at({std::min(side[0], side[1]), std::max(side[0], side[1])});
+            const std::size_t n = source.belts[place.belt].source_at.size();
+            mesh.wall_patch.push_back(patches.of(walls[place.belt].face[static_cast<std::size_t>(layer) * n + place.side]));
+        }
+    }
+}
+
+} // namespace
+
+Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
+{
+    check_cancelled(context);
+    std::vector<double> heights = layer_heights(options.layers);
+    if (volume.turned_round) {
+        std::reverse(heights.begin(), heights.end());
+        for (double& h : heights) h = 1 - h;
+    }
+    if (!closure::is_watertight(volume)) {
+        throw NotSweepable("sweep.not_closed", "the volume is not sealed; close it first with volume:close()");
+    }
+    const surface::SizeField size = checked_size(volume, options);
+    Swept result;
+    const std::vector<surface::Belt> belts = surface::belts(volume);
+    const surface::Seeds seeds = surface::seed_source(volume, belts, size, style_of(options.quads));
+    surface::SourceMesh source = surface::mesh_source(volume, belts, seeds, size, options.quad_mesher, context);
+    for (std::string& note : source.notes) result.report.push_back("source " + note);
+
+    std::vector<surface::WallMesh> walls;
+    const Columns columns = columns_of(volume, belts, source, heights, walls, context);
+    for (const surface::WallMesh& wall : walls) {
+        for (const std::string& note : wall.notes) result.report.push_back("walls: " + note);
+    }
+    check_cancelled(context);
+
+    const surface::Projector target(volume.model, volume.faces(Role::target));
+    const Carried carried = carry(source.quads, columns, [&](std::span<Vec3> points) { target.project(points, context); }, context);
+    result.report.push_back("target: " + carried.report);
+    PlacementOptions placement;
+    placement.straight_lines = ruled(volume, belts);
+    placement.heights = heights;
+    LayerNodes layers = place_layers(source.quads, carried.nodes, columns, placement, context);
+    result.report.push_back("layers: " + layers.report);
+
+    mesh::HexMesh& mesh = result.mesh;
+    mesh.nodes_per_layer = static_cast<Index>(source.quads.nodes.size());
+    mesh.layers = columns.layers;
+    mesh.nodes = std::move(layers.nodes);
+    mesh.quads = source.quads.quads;
+    for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads)) mesh.rim.push_back({side.from, side.to});
+    set_patches(volume, source, target, walls, mesh);
+    const quality::Quality quality = quality::prove(mesh, options.min_scaled_jacobian, context);
+    result.report.push_back("cells: " + std::to_string(quality.hexes) + ", all certified, scaled Jacobian " + std::to_string(quality.min_scaled_jacobian) + " at least, " +
+                            std::to_string(quality.mean_scaled_jacobian) + " on average");
+    return result;
+}
+
+} // namespace lacuna::sweep
