@@ -14,7 +14,7 @@ local model = lacuna.synthetic.prism {
   sides = 5, radius = 1, height = 1.6, holes = 1, twist = 15, taper = 0.8,
   drop = { "wall_1", "wall_2" },
 }
-local void = model:open_volume()
+local void = model:open_volume { source = "source", target = "target", walls = "auto" }
 print(void:describe())
 assert(void.class == "II", void.class)
 
