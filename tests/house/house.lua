@@ -94,13 +94,15 @@ local function faults(folder, path, text)
       if base:match("^lua.*%.hp*$") or base:match("^lauxlib%.h") or base == "lualib.h" then
         fault(number, "only lua/ may include " .. include)
       end
-      if base == "iostream" then fault(number, "the kernel does not print: no <iostream>") end
+      if base == "iostream" and folder ~= "cad" then fault(number, "the kernel does not print: no <iostream>") end
     end
   end
 
   number = 0
   for line in (code_of(text) .. "\n"):gmatch("(.-)\n") do
     number = number + 1
+    -- Gmsh prints on its own; cad/ may turn the stream aside, which is not printing.
+    if folder == "cad" then line = line:gsub("cout%.rdbuf%f[^%w_]", "") end
     for before, word in line:gmatch("(.?)%f[%w_]([%a_][%w_]*)") do
       for _, bad in ipairs(forbidden) do
         if word == bad and before ~= "." then fault(number, "the kernel does not print or end the process: " .. word) end
@@ -125,6 +127,8 @@ local samples = {
   { "core", mit .. 'void f() { printf("x"); }\n', "printf" },
   { "core", mit .. "void f() { std::abort(); }\n", "abort" },
   { "core", mit .. "int big = 1'000'000; void f() { exit(1); }\n", "exit" },
+  { "cad", gpl .. "auto* old = std::cout.rdbuf(mine);\nvoid f() { std::cout << 1; }\n", "sample.cpp:3" },
+  { "cad", gpl .. "auto* old = std::cout.rdbuf(mine);\n" },
   { "sweep", mit .. "#include <lacuna/core/types.h>\n#include <lacuna/closure/close.h>\n" },
   { "cad", gpl .. "#include <gmsh.h>\n#include <lacuna/topology/model.h>\n" },
   { "core", mit .. '// exit, printf and abort in prose\nauto s = "printf \\" exit";\nstd::snprintf(b, 1, "abort");\n' },

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A host with facets of its own: a box with two walls missing, sealed and filled with hexahedra.
 #include <lacuna/closure/close.h>
+#include <lacuna/core/error.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/sweep.h>
 
