@@ -5,6 +5,7 @@
 #include <lacuna/geometry/harmonic.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/swept_patch.h>
 #include <lacuna/geometry/triangulate.h>
 
 #include <algorithm>
@@ -120,43 +121,28 @@ Filling fill_on_newell_plane(const Model& model, const NewellOutline& newell)
 
 // --- Algorithms 5 and 6: the transfinite patch ------------------------------------------------------
 
-/// A Coons patch over four sides in walking order, each a polyline over its arc length.
-struct CoonsPatch {
-    std::array<std::vector<Vec3>, 4> side;
-    std::array<std::vector<double>, 4> arc;
-
-    [[nodiscard]] Vec3 on(std::size_t i, double f) const
-    {
-        return geometry::point_at(side[i], arc[i], f * arc[i].back());
-    }
-    [[nodiscard]] Vec3 operator()(double s, double t) const
-    {
-        const Vec3 rows = (1 - t) * on(0, s) + t * on(2, 1 - s);
-        const Vec3 columns = (1 - s) * on(3, 1 - t) + s * on(1, t);
-        const Vec3 corners = (1 - t) * ((1 - s) * side[0].front() + s * side[1].front()) +
-                             t * ((1 - s) * side[3].front() + s * side[2].front());
-        return rows + columns - corners;
-    }
-};
-
 Filling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeUse>>& sides)
 {
-    CoonsPatch patch;
     std::array<std::vector<Index>, 4> chain;
+    std::array<std::vector<Vec3>, 4> side;
+    std::array<std::vector<double>, 4> arc;
     for (std::size_t i = 0; i < 4; ++i) {
         chain[i] = points_of(model, sides[i], false);
-        patch.side[i] = places(model, chain[i]);
-        patch.arc[i] = geometry::arc_lengths(patch.side[i]);
+        side[i] = places(model, chain[i]);
+        arc[i] = geometry::arc_lengths(side[i]);
     }
+    std::reverse(side[2].begin(), side[2].end());
+    std::reverse(side[3].begin(), side[3].end());
+    const geometry::SweptPatch patch(side[0], side[1], side[2], side[3]);
     // Triangulate a rectangle with the patch's own proportions, so that facets come out well shaped.
-    const double width = (patch.arc[0].back() + patch.arc[2].back()) / 2;
-    const double height = (patch.arc[1].back() + patch.arc[3].back()) / 2;
+    const double width = (arc[0].back() + arc[2].back()) / 2;
+    const double height = (arc[1].back() + arc[3].back()) / 2;
     const std::array<Vec2, 5> corner{Vec2(0, 0), Vec2(width, 0), Vec2(width, height), Vec2(0, height), Vec2(0, 0)};
     Outline outline;
     outline.loops.emplace_back();
     for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t k = 0; k + 1 < chain[i].size(); ++k) {
-            const double f = patch.arc[i][k] / patch.arc[i].back();
+            const double f = arc[i][k] / arc[i].back();
             outline.loops.front().push_back(static_cast<Index>(outline.flat.size()));
             outline.model_point.push_back(chain[i][k]);
             outline.flat.emplace_back((1 - f) * corner[i] + f * corner[i + 1]);

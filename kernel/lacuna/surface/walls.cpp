@@ -2,6 +2,7 @@
 #include <lacuna/surface/walls.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/swept_patch.h>
 #include <lacuna/geometry/transfinite.h>
 #include <lacuna/surface/wall_map.h>
 
@@ -193,7 +194,9 @@ private:
             left.push_back(point(k, first));
             right.push_back(point(k, last));
         }
-        const std::vector<Vec3> grid = geometry::transfinite(bottom, right, top, left);
+        // Flat panels stay with the plain patch, which keeps an affine block affine to rounding.
+        const bool flat = model_[face].kind == "plane" || model_[face].geometry == Geometry::newell;
+        const std::vector<Vec3> grid = flat ? geometry::transfinite(bottom, right, top, left) : geometry::swept_grid(bottom, right, top, left);
         std::vector<Vec3> inside;
         for (std::size_t k = 1; k < layers_; ++k) {
             for (std::size_t i = 1; i < n; ++i) inside.push_back(grid[k * (n + 1) + i]);

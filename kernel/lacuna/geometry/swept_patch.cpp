@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/geometry/swept_patch.h>
+
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/transfinite.h>
+
+#include <algorithm>
+
+namespace lacuna::geometry {
+
+namespace {
+
+/// A chord shorter than this share of the bottom's and top's length says little about how the patch lies.
+constexpr double kShortChord = 0.1;
+/// How far along a side its direction is looked for, as a share of its length.
+constexpr double kReach = 0.02;
+
+} // namespace
+
+Vec3 SweptPatch::Side::at(double f) const
+{
+    return point_at(points, arc, std::clamp(f, 0.0, 1.0) * arc.back());
+}
+
+Vec3 SweptPatch::Side::tangent(double f) const
+{
+    return at(f + kReach) - at(f - kReach);
+}
+
+SweptPatch::SweptPatch(std::span<const Vec3> bottom, std::span<const Vec3> right, std::span<const Vec3> top, std::span<const Vec3> left)
+{
+    const auto side = [](std::span<const Vec3> points) {
+        return Side{{points.begin(), points.end()}, arc_lengths(points)};
+    };
+    bottom_ = side(bottom);
+    right_ = side(right);
+    top_ = side(top);
+    left_ = side(left);
+    const double size = (bottom_.arc.back() + top_.arc.back()) / 2;
+    for (int i = 0; i <= 10; ++i) {
+        const Vec3 chord = right_.at(i / 10.0) - left_.at(i / 10.0);
+        const Vec3 up = (left_.tangent(i / 10.0) + right_.tangent(i / 10.0));
+        const bool clear = chord.norm() > kShortChord * size && chord.cross(up).norm() > kShortChord * chord.norm() * up.norm();
+        turns_ = turns_ && clear;
+    }
+    if (turns_) {
+        first_ = frame(0);
+        last_ = frame(1);
+    }
+}
+
+Eigen::Matrix3d SweptPatch::frame(double t) const
+{
+    const Vec3 along = (right_.at(t) - left_.at(t)).normalized();
+    const Vec3 up = left_.tangent(t).normalized() + right_.tangent(t).normalized();
+    const Vec3 across = along.cross(up).normalized();
+    Eigen::Matrix3d axes;
+    axes << along, across.cross(along), across;
+    return axes;
+}
+
+Vec3 SweptPatch::operator()(double s, double t) const
+{
+    const Vec3 l = left_.at(t), r = right_.at(t);
+    const Vec3 b = bottom_.at(s), e = top_.at(s);
+    const Vec3 b_chord = (1 - s) * bottom_.points.front() + s * bottom_.points.back();
+    const Vec3 e_chord = (1 - s) * top_.points.front() + s * top_.points.back();
+    const Vec3 chord = (1 - s) * l + s * r;
+    if (!turns_) return chord + (1 - t) * (b - b_chord) + t * (e - e_chord);
+    const double b_size = bottom_.arc.back(), e_size = top_.arc.back();
+    const Vec3 deviation = (1 - t) / b_size * (first_.transpose() * (b - b_chord)) + t / e_size * (last_.transpose() * (e - e_chord));
+    return chord + ((1 - t) * b_size + t * e_size) * (frame(t) * deviation);
+}
+
+std::vector<Vec3> swept_grid(std::span<const Vec3> bottom, std::span<const Vec3> right, std::span<const Vec3> top, std::span<const Vec3> left)
+{
+    const SweptPatch patch(bottom, right, top, left);
+    const std::size_t n = bottom.size() - 1, m = left.size() - 1;
+    std::vector<Vec3> grid = transfinite(bottom, right, top, left);
+    const auto shares = [](std::span<const Vec3> side) {
+        std::vector<double> result = arc_lengths(side);
+        const double total = result.back();
+        for (double& x : result) x = total > 0 ? x / total : 0;
+        return result;
+    };
+    const std::vector<double> s0 = shares(bottom), s1 = shares(top), t0 = shares(left), t1 = shares(right);
+    for (std::size_t j = 1; j < m; ++j) {
+        for (std::size_t i = 1; i < n; ++i) {
+            const double ds = s1[i] - s0[i], dt = t1[j] - t0[j];
+            const double s = (s0[i] + t0[j] * ds) / (1 - ds * dt);
+            const double t = (t0[j] + s0[i] * dt) / (1 - ds * dt);
+            grid[j * (n + 1) + i] = patch(s, t);
+        }
+    }
+    return grid;
+}
+
+} // namespace lacuna::geometry
