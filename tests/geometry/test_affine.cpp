@@ -70,7 +70,8 @@ TEST_CASE("an affine map of points that fill space is found again")
         const Points from = random_points(random, 4 + static_cast<std::size_t>(trial), {1, 2, 3});
         const Eigen::Matrix3d linear = Eigen::Matrix3d::Random();
         const Vec3 shift = Vec3::Random();
-        const auto fit = fit_affine(from, mapped(from, [&](const Vec3& p) { return Vec3(linear * p + shift); }));
+        const auto fit = fit_affine(from,
+                                    mapped(from, [&](const Vec3& p) { return Vec3(linear * p + shift); }));
         CHECK(fit.rank == 3);
         CHECK(fit.rms < 1e-13);
         CHECK((fit.linear - linear).norm() < 1e-11);
@@ -79,7 +80,8 @@ TEST_CASE("an affine map of points that fill space is found again")
     }
 }
 
-TEST_CASE("points on a plane under a similarity carry what lies off the plane, with and without pseudo-normals")
+TEST_CASE(
+    "points on a plane under a similarity carry what lies off the plane, with and without pseudo-normals")
 {
     std::mt19937 random(2);
     for (const double scale : {0.1, 1.0, 10.0}) {
@@ -113,7 +115,8 @@ TEST_CASE("a planar rim that is sheared stays right-handed and of full rank")
         const auto fit = fit_affine(from, to, area_of(from), area_of(to));
         CHECK(fit.max_residual < 1e-13);
         CHECK(fit.linear.determinant() > 1e-3);
-        CHECK(fit.linear.col(2).norm() == doctest::Approx(std::sqrt(area_of(to).norm() / area_of(from).norm())));
+        CHECK(fit.linear.col(2).norm() ==
+              doctest::Approx(std::sqrt(area_of(to).norm() / area_of(from).norm())));
     }
 }
 

@@ -16,7 +16,7 @@
 namespace lacuna::test {
 
 using Map = std::function<Vec3(const Vec3&)>;
-using Motion = std::function<Vec3(const Vec3&, double)>;  ///< point, height in [0, 1]
+using Motion = std::function<Vec3(const Vec3&, double)>; ///< point, height in [0, 1]
 
 /// Node cycles of the boundary, chained from the sides.
 inline void set_loops(mesh::QuadMesh& mesh)
@@ -86,10 +86,12 @@ inline mesh::QuadMesh disc(int core, int rings)
     mesh::QuadMesh mesh;
     const auto at = [&](int i, int j) { return static_cast<Index>(j * (core + 1) + i); };
     for (int j = 0; j <= core; ++j) {
-        for (int i = 0; i <= core; ++i) mesh.nodes.emplace_back(0.5 * (2.0 * i / core - 1), 0.5 * (2.0 * j / core - 1), 0);
+        for (int i = 0; i <= core; ++i)
+            mesh.nodes.emplace_back(0.5 * (2.0 * i / core - 1), 0.5 * (2.0 * j / core - 1), 0);
     }
     for (int j = 0; j < core; ++j) {
-        for (int i = 0; i < core; ++i) mesh.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+        for (int i = 0; i < core; ++i)
+            mesh.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
     }
     std::vector<Index> inner;
     for (int i = 0; i < core; ++i) inner.push_back(at(i, 0));
@@ -100,7 +102,8 @@ inline mesh::QuadMesh disc(int core, int rings)
     for (int r = 1; r <= rings; ++r) {
         std::vector<Index> outer;
         for (std::size_t k = 0; k < foot.size(); ++k) {
-            const double angle = 2 * std::numbers::pi * (static_cast<double>(k) / static_cast<double>(foot.size()) - 0.375);
+            const double angle = 2 * std::numbers::pi *
+                                 (static_cast<double>(k) / static_cast<double>(foot.size()) - 0.375);
             const Vec3 base = mesh.nodes[static_cast<std::size_t>(foot[k])];
             const double part = static_cast<double>(r) / rings;
             outer.push_back(static_cast<Index>(mesh.nodes.size()));
@@ -161,8 +164,12 @@ struct Family {
 
 inline std::vector<Family> planar_families()
 {
-    return {{"square", square(6)},       {"L", l_shape(8)},      {"holed plate", holed_plate(20)},
-            {"disc", disc(6, 4)},        {"annulus", annulus(24, 4)}, {"one quad", square(1)},
+    return {{"square", square(6)},
+            {"L", l_shape(8)},
+            {"holed plate", holed_plate(20)},
+            {"disc", disc(6, 4)},
+            {"annulus", annulus(24, 4)},
+            {"one quad", square(1)},
             {"a row", cells(5, [](int, int j) { return j == 0; })}};
 }
 
@@ -170,7 +177,7 @@ inline std::vector<Index> rim_nodes(const mesh::QuadMesh& mesh)
 {
     std::vector<Index> rim;
     for (const auto& loop : mesh.loops) rim.insert(rim.end(), loop.begin(), loop.end());
-    std::reverse(rim.begin(), rim.end());  // an order of its own, so that nothing leans on the loops'
+    std::reverse(rim.begin(), rim.end()); // an order of its own, so that nothing leans on the loops'
     return rim;
 }
 
@@ -212,7 +219,8 @@ inline double worst_hex(const mesh::QuadMesh& mesh, const std::vector<Vec3>& nod
             for (int top = 0; top < 2; ++top) {
                 for (std::size_t i = 0; i < 4; ++i) {
                     const auto at = [&](std::size_t corner, int up) {
-                        return nodes[static_cast<std::size_t>(l + up) * count + static_cast<std::size_t>(quad[corner])];
+                        return nodes[static_cast<std::size_t>(l + up) * count +
+                                     static_cast<std::size_t>(quad[corner])];
                     };
                     const Vec3 u = (at((i + 1) % 4, top) - at(i, top)).normalized();
                     const Vec3 v = (at((i + 3) % 4, top) - at(i, top)).normalized();

@@ -65,7 +65,8 @@ TEST_CASE("the bias is the ratio it says it is")
             const auto rising = layer_heights(spec_of(count, bias));
             CHECK(step(rising, count - 1) / step(rising, 0) == doctest::Approx(bias));
             for (int i = 2; i < count; ++i) {
-                CHECK(step(rising, i) / step(rising, i - 1) == doctest::Approx(step(rising, 1) / step(rising, 0)));
+                CHECK(step(rising, i) / step(rising, i - 1) ==
+                      doctest::Approx(step(rising, 1) / step(rising, 0)));
             }
             const auto bell = layer_heights(spec_of(count, bias, Spacing::bell));
             const auto ends = layer_heights(spec_of(count, bias, Spacing::both_ends));

@@ -6,6 +6,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 using namespace lacuna;
@@ -50,7 +52,8 @@ void check_kept(const mesh::QuadMesh& mesh, std::span<const Vec3> target, const 
     std::size_t astray = 0;
     for (int l = 0; l <= columns.layers; ++l) {
         for (std::size_t k = 0; k < columns.rim.size(); ++k) {
-            const Vec3& placed = result.nodes[static_cast<std::size_t>(l) * count + static_cast<std::size_t>(columns.rim[k])];
+            const Vec3& placed =
+                result.nodes[static_cast<std::size_t>(l) * count + static_cast<std::size_t>(columns.rim[k])];
             if (placed != columns.row(l)[k]) ++astray;
         }
     }
@@ -61,7 +64,8 @@ void check_kept(const mesh::QuadMesh& mesh, std::span<const Vec3> target, const 
     CHECK(astray == 0);
 }
 
-LayerNodes place(const mesh::QuadMesh& mesh, int layers, const Motion& motion, const sweep::PlacementOptions& options = {})
+LayerNodes place(const mesh::QuadMesh& mesh, int layers, const Motion& motion,
+                 const sweep::PlacementOptions& options = {})
 {
     const auto columns = columns_along(mesh, layers, motion);
     const auto target = moved(mesh, motion, 1);
@@ -93,8 +97,8 @@ TEST_CASE("an affine motion is reproduced inside, for every outline and layer co
                 CHECK(result.placement == Placement::affine);
                 for (int l = 0; l <= layers; ++l) {
                     const auto expected = moved(family.mesh, motion.motion, static_cast<double>(l) / layers);
-                    const std::span<const Vec3> placed(result.nodes.data() + static_cast<std::size_t>(l) * expected.size(),
-                                                       expected.size());
+                    const std::span<const Vec3> placed(
+                        result.nodes.data() + static_cast<std::size_t>(l) * expected.size(), expected.size());
                     CHECK(largest_gap(placed, expected) < 1e-12);
                 }
             }
@@ -116,8 +120,8 @@ TEST_CASE("a bowed source keeps its bulge through turns and tapers")
             CHECK(result.placement == Placement::affine);
             for (int l = 0; l <= 10; ++l) {
                 const auto expected = moved(dome, motion.motion, l / 10.0);
-                const std::span<const Vec3> placed(result.nodes.data() + static_cast<std::size_t>(l) * expected.size(),
-                                                   expected.size());
+                const std::span<const Vec3> placed(
+                    result.nodes.data() + static_cast<std::size_t>(l) * expected.size(), expected.size());
                 CHECK(largest_gap(placed, expected) < 1e-12);
             }
         }
@@ -172,14 +176,15 @@ TEST_CASE("a skin between two circles is swept radially, exactly")
         CHECK(result.placement == (straight ? Placement::straight : Placement::affine));
         for (int l = 0; l <= 4; ++l) {
             const auto expected = moved(skin, widened, l / 4.0);
-            const std::span<const Vec3> placed(result.nodes.data() + static_cast<std::size_t>(l) * expected.size(),
-                                               expected.size());
+            const std::span<const Vec3> placed(
+                result.nodes.data() + static_cast<std::size_t>(l) * expected.size(), expected.size());
             CHECK(largest_gap(placed, expected) < 1e-12);
         }
         CHECK(worst_hex(skin, result.nodes, 4) > 0.9);
     }
     // A frustum's rims enclose different areas: their pseudo-normals know nothing of the skin's length.
-    const auto frustum = mapped(skin, [](const Vec3& p) { return Vec3((1 + p[2]) * p[0], (1 + p[2]) * p[1], p[2]); });
+    const auto frustum = mapped(
+        skin, [](const Vec3& p) { return Vec3((1 + p[2]) * p[0], (1 + p[2]) * p[1], p[2]); });
     const auto result = place(frustum, 4, widened);
     CHECK(result.placement == Placement::affine);
     CHECK(largest_gap(std::span(result.nodes).subspan(2 * frustum.nodes.size(), frustum.nodes.size()),
@@ -202,7 +207,8 @@ TEST_CASE("straight lines are straight, at the heights asked for")
         const std::size_t count = family.mesh.nodes.size();
         for (std::size_t l = 0; l < 4; ++l) {
             for (std::size_t i = 0; i < count; ++i) {
-                const Vec3 expected = (1 - options.heights[l]) * family.mesh.nodes[i] + options.heights[l] * target[i];
+                const Vec3 expected = (1 - options.heights[l]) * family.mesh.nodes[i] +
+                                      options.heights[l] * target[i];
                 CHECK((result.nodes[l * count + i] - expected).norm() < 1e-14);
             }
         }
@@ -212,13 +218,62 @@ TEST_CASE("straight lines are straight, at the heights asked for")
 TEST_CASE("a rim no affine map follows is met exactly, and the inside follows it")
 {
     for (const Family& family : planar_families()) {
-        if (family.name == "holed plate") continue;  // its holes do not go with this motion
+        if (family.name == "holed plate") continue; // its holes do not go with this motion
         CAPTURE(family.name);
         const auto result = place(family.mesh, 8, swollen);
         CHECK(worst_hex(family.mesh, result.nodes, 8) > 0.05);
         CHECK(!result.report.empty());
     }
     CHECK(place(square(6), 8, swollen).placement == Placement::fitted);
+}
+
+TEST_CASE("mesh lines crowded at the rim are not folded by a waving rim")
+{
+    // Equal weights in the Laplacian pulled thin cells apart and inside out.
+    const auto crowded = [](double x) { return std::tanh(3 * x) / std::tanh(3.0); };
+    const Motion wave = [](const Vec3& p, double t) {
+        return Vec3(p[0] + 0.15 * t * std::sin(3 * p[1]), p[1] + 0.15 * t * std::cos(3 * p[0]), p[2] + 2 * t);
+    };
+    for (const Family& family : {Family{"square", square(12)}, Family{"L", l_shape(12)}}) {
+        CAPTURE(family.name);
+        const auto graded = mapped(family.mesh,
+                                   [&](const Vec3& p) { return Vec3(crowded(p[0]), crowded(p[1]), 0); });
+        const auto result = place(graded, 8, wave);
+        CHECK(result.placement == Placement::fitted);
+        CHECK(worst_hex(graded, result.nodes, 8) > 0.3);
+    }
+}
+
+TEST_CASE(
+    "a spread field stays within its rim's values, is exact for linear ones, and zero where nothing reaches")
+{
+    const auto graded = mapped(
+        square(9), [](const Vec3& p) { return Vec3(p[0] * p[0] * p[0], p[1] * std::abs(p[1]), 0); });
+    auto mesh = graded;
+    const auto rim = rim_nodes(mesh);
+    const auto apart = static_cast<Index>(mesh.nodes.size()); // a quad of its own, no node of it fixed
+    for (const Vec3& p : square(1).nodes) mesh.nodes.push_back(p + Vec3(9, 0, 0));
+    mesh.quads.push_back({apart, apart + 1, apart + 3, apart + 2});
+    const auto graph = sweep::node_graph(mesh.quads, mesh.nodes.size());
+    const sweep::HarmonicSpread spread(graph, sweep::side_weights(graph, mesh.quads, mesh.nodes), rim);
+
+    std::vector<Vec3> values;
+    for (const Index node : rim) {
+        const Vec3& p = mesh.nodes[static_cast<std::size_t>(node)];
+        values.emplace_back(1, 2 * p[0] - p[1], std::sin(5 * p[0]) * std::cos(4 * p[1]));
+    }
+    std::vector<Vec3> out(mesh.nodes.size(), Vec3::Zero());
+    spread.add(values, 1, out.data(), out.size());
+    for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+        if (std::find(rim.begin(), rim.end(), static_cast<Index>(i)) != rim.end()) continue;
+        if (static_cast<Index>(i) >= apart) {
+            CHECK(out[i] == Vec3(0, 0, 0));
+            continue;
+        }
+        CHECK(std::abs(out[i][0] - 1) < 1e-12);
+        CHECK(std::abs(out[i][1] - (2 * mesh.nodes[i][0] - mesh.nodes[i][1])) < 1e-12);
+        CHECK(std::abs(out[i][2]) < 1);
+    }
 }
 
 TEST_CASE("the same nodes to the bit for any number of threads, and layer by layer")
@@ -240,7 +295,8 @@ TEST_CASE("the same nodes to the bit for any number of threads, and layer by lay
         for (int l = 0; l <= 11; ++l) {
             placer.place(l, l + 1, layer);
             CHECK(std::equal(layer.begin(), layer.end(),
-                             first.nodes.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(l) * layer.size())));
+                             first.nodes.begin() +
+                                 static_cast<std::ptrdiff_t>(static_cast<std::size_t>(l) * layer.size())));
         }
     }
 }
@@ -270,7 +326,9 @@ TEST_CASE("moving everything rigidly moves the result, source and target swapped
     sweep::Columns down = columns;
     for (int l = 0; l <= 6; ++l) {
         const auto row = columns.row(6 - l);
-        std::copy(row.begin(), row.end(), down.points.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(l) * row.size()));
+        std::copy(row.begin(), row.end(),
+                  down.points.begin() +
+                      static_cast<std::ptrdiff_t>(static_cast<std::size_t>(l) * row.size()));
     }
     const auto swapped = place_layers(back, mesh.nodes, down);
     const std::size_t count = mesh.nodes.size();

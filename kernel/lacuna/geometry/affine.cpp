@@ -54,7 +54,8 @@ AffineFitter::AffineFitter(std::span<const Vec3> from, const Vec3& from_area)
     const double share = std::sqrt(static_cast<double>(std::max<std::size_t>(from.size(), 1)));
     Eigen::Matrix<double, Eigen::Dynamic, 3> rows(std::max<Eigen::Index>(count + 1, 3), 3);
     rows.setZero();
-    for (Eigen::Index i = 0; i < count; ++i) rows.row(i) = (from[static_cast<std::size_t>(i)] - centre_) / share;
+    for (Eigen::Index i = 0; i < count; ++i)
+        rows.row(i) = (from[static_cast<std::size_t>(i)] - centre_) / share;
     rows.row(count) = pseudo_normal(from_area);
 
     const Eigen::HouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 3>> qr(rows);
@@ -82,7 +83,7 @@ AffineFit AffineFitter::fit(std::span<const Vec3> to, const Vec3& to_area) const
     result.rank = rank_;
 
     const double share = std::sqrt(static_cast<double>(std::max<std::size_t>(to.size(), 1)));
-    Eigen::Matrix3d image = Eigen::Matrix3d::Zero();  // of the axes, in the axes' own frame
+    Eigen::Matrix3d image = Eigen::Matrix3d::Zero(); // of the axes, in the axes' own frame
     for (std::size_t i = 0; i < to.size(); ++i) {
         image += ((to[i] - result.to_centre) / share) * basis_.row(static_cast<Eigen::Index>(i));
     }

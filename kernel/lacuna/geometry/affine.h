@@ -14,9 +14,9 @@ struct AffineFit {
     Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
     Vec3 from_centre{0, 0, 0};
     Vec3 to_centre{0, 0, 0};
-    double rms = 0;           ///< root mean square distance of the images from their places [model length]
-    double max_residual = 0;  ///< largest such distance [model length]
-    int rank = 3;             ///< directions the data decided, 0…3; the rest were completed
+    double rms = 0;          ///< root mean square distance of the images from their places [model length]
+    double max_residual = 0; ///< largest such distance [model length]
+    int rank = 3;            ///< directions the data decided, 0…3; the rest were completed
 
     [[nodiscard]] Vec3 operator()(const Vec3& p) const { return to_centre + linear * (p - from_centre); }
 };
@@ -53,20 +53,20 @@ private:
     bool has_normal_ = false;
     int rank_ = 0;
     Vec3 spread_{0, 0, 0};
-    Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  ///< principal directions, columns, right-handed
-    Eigen::Matrix<double, Eigen::Dynamic, 3> basis_;      ///< orthonormal columns: (row − centre) · axes / spread
+    Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity(); ///< principal directions, columns, right-handed
+    Eigen::Matrix<double, Eigen::Dynamic, 3> basis_; ///< orthonormal columns: (row − centre) · axes / spread
 };
 
 /// One fit of a fitter. An area vector of zero gives no pseudo-normal.
-AffineFit fit_affine(std::span<const Vec3> from, std::span<const Vec3> to, const Vec3& from_area = Vec3::Zero(),
-                     const Vec3& to_area = Vec3::Zero());
+AffineFit fit_affine(std::span<const Vec3> from, std::span<const Vec3> to,
+                     const Vec3& from_area = Vec3::Zero(), const Vec3& to_area = Vec3::Zero());
 
 /// A rotation, a uniform scale and a translation: p ↦ scale · rotation · p + translation.
 struct RigidFit {
-    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< proper: determinant 1
+    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity(); ///< proper: determinant 1
     double scale = 1;
     Vec3 translation{0, 0, 0};
-    double rms = 0;  ///< root mean square distance of the images from their places [model length]
+    double rms = 0; ///< root mean square distance of the images from their places [model length]
 
     [[nodiscard]] Vec3 operator()(const Vec3& p) const { return scale * (rotation * p) + translation; }
 };

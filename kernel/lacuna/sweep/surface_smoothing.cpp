@@ -15,6 +15,8 @@ namespace {
 // Enough for the relaxation's preconditioned steps to settle; the best mesh on the way is what is kept.
 constexpr int kRelaxations = 20;
 constexpr int kPolishes = 20;
+constexpr int kDirections = 8;
+constexpr int kLengths = 3;
 
 const Vec3& at(std::span<const Vec3> points, Index i) { return points[static_cast<std::size_t>(i)]; }
 
@@ -192,10 +194,10 @@ double SurfaceSmoother::worst_around(std::size_t node, std::span<const Vec3> nod
     return worst;
 }
 
-/// One round of trials for the nodes of poor quads. @return whether any moved.
-bool SurfaceSmoother::polish_once(std::vector<Vec3>& nodes, double good_enough) const
+/// Free nodes of the quads that are not good enough, rising.
+std::vector<std::size_t> SurfaceSmoother::poor_nodes(std::span<const Vec3> nodes,
+                                                     std::span<const Vec3> normals, double good_enough) const
 {
-    const std::vector<Vec3> normals = node_normals(model_.quads, nodes);
     std::vector<std::size_t> poor;
     for (const Quad& quad : model_.quads) {
         if (quad_quality(quad, nodes, normals) >= good_enough) continue;
@@ -205,43 +207,51 @@ bool SurfaceSmoother::polish_once(std::vector<Vec3>& nodes, double good_enough) 
     }
     std::sort(poor.begin(), poor.end());
     poor.erase(std::unique(poor.begin(), poor.end()), poor.end());
+    return poor;
+}
+
+/// Where a node might go: the first trial is its neighbours' mean, the others step along the surface.
+Vec3 SurfaceSmoother::trial_place(std::size_t node, int trial, std::span<const Vec3> nodes,
+                                  const Vec3& normal) const
+{
+    const std::span<const Index> neighbours = graph_.of(node);
+    Vec3 mean = Vec3::Zero();
+    double side = 0;
+    for (const Index n : neighbours) {
+        mean += at(nodes, n) / static_cast<double>(neighbours.size());
+        side += (at(nodes, n) - nodes[node]).norm() / static_cast<double>(neighbours.size());
+    }
+    if (trial == 0 || !(normal.norm() > 0)) return mean;
+    // A quarter, a sixteenth and a sixty-fourth of the mean side, eight ways round.
+    const double length = side * std::pow(0.25, 1 + (trial - 1) / kDirections);
+    const double angle = (trial - 1) % kDirections * std::atan(1.0);
+    const Vec3 u = normal.unitOrthogonal();
+    const Vec3 v = normal.normalized().cross(u);
+    return nodes[node] + length * (std::cos(angle) * u + std::sin(angle) * v);
+}
+
+/// One round of trials for the nodes of poor quads. @return whether any moved.
+bool SurfaceSmoother::polish_once(std::vector<Vec3>& nodes, double good_enough) const
+{
+    const std::vector<Vec3> normals = node_normals(model_.quads, nodes);
+    const std::vector<std::size_t> poor = poor_nodes(nodes, normals, good_enough);
     if (poor.empty()) return false;
 
     bool moved = false;
-    std::vector<Vec3> trial(poor.size());
-    constexpr int kDirections = 8;
-    constexpr int kLengths = 3;
-    for (int kind = 0; kind <= kDirections * kLengths; ++kind) {
+    std::vector<Vec3> places(poor.size());
+    for (int trial = 0; trial <= kDirections * kLengths; ++trial) {
         for (std::size_t k = 0; k < poor.size(); ++k) {
-            const Vec3& node = nodes[poor[k]];
-            const Vec3& normal = normals[poor[k]];
-            Vec3 mean = Vec3::Zero();
-            double side = 0;
-            for (const Index n : graph_.of(poor[k])) {
-                mean += at(nodes, n);
-                side += (at(nodes, n) - node).norm();
-            }
-            const double count = static_cast<double>(graph_.of(poor[k]).size());
-            if (kind == 0 || !(normal.norm() > 0)) {
-                trial[k] = mean / count;
-                continue;
-            }
-            // A quarter, a sixteenth and a sixty-fourth of the mean side, eight ways round.
-            const double length = side / count * std::pow(0.25, 1 + (kind - 1) / kDirections);
-            const double angle = (kind - 1) % kDirections * std::atan(1.0);
-            const Vec3 u = normal.unitOrthogonal();
-            const Vec3 v = normal.normalized().cross(u);
-            trial[k] = node + length * (std::cos(angle) * u + std::sin(angle) * v);
+            places[k] = trial_place(poor[k], trial, nodes, normals[poor[k]]);
         }
-        project_(trial);
+        project_(places);
         for (std::size_t k = 0; k < poor.size(); ++k) {
             Vec3& node = nodes[poor[k]];
             const double before = worst_around(poor[k], nodes, normals);
-            std::swap(node, trial[k]);
+            std::swap(node, places[k]);
             if (worst_around(poor[k], nodes, normals) > before) {
                 moved = true;
             } else {
-                std::swap(node, trial[k]);
+                std::swap(node, places[k]);
             }
         }
     }

@@ -48,6 +48,11 @@ private:
     [[nodiscard]] std::span<const Index> quads_of(std::size_t node) const;
     [[nodiscard]] double worst_around(std::size_t node, std::span<const Vec3> nodes,
                                       std::span<const Vec3> normals) const;
+    [[nodiscard]] std::vector<std::size_t> poor_nodes(std::span<const Vec3> nodes,
+                                                      std::span<const Vec3> normals,
+                                                      double good_enough) const;
+    [[nodiscard]] Vec3 trial_place(std::size_t node, int trial, std::span<const Vec3> nodes,
+                                   const Vec3& normal) const;
     bool polish_once(std::vector<Vec3>& nodes, double good_enough) const;
 
     const mesh::QuadMesh& model_;
