@@ -112,6 +112,7 @@ void orient_consistently(Model& model);
 struct SplitOptions {
     double feature_angle = 40; ///< facets that meet at a sharper turn belong to two faces [degrees]
     double tolerance = 0;      ///< points closer than this are one [model length]; 0: 1e-6 × the diagonal
+    bool whole_labels = false; ///< a label's facets stay one face however they turn; the angle is for vertices alone
 };
 
 /// Facets as a file holds them.

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "bindings/classes.h"
+#include "bindings/options.h"
+
+#include <utility>
+
+namespace lacuna::lua {
+
+namespace {
+
+using matching::MatchOptions;
+
+const Word<matching::Method> kMethods[] = {{"aligned", matching::Method::aligned},
+                                           {"nearest", matching::Method::nearest}};
+
+void read_method(lua_State* L, int index, const Where& where, MatchOptions& options)
+{
+    options.method = read_word(L, index, where, kMethods);
+}
+
+/// Pairs of whole numbers from `smallest`, each less by `offset`.
+template <auto Member, int Offset>
+void read_pairs(lua_State* L, int index, const Where& where, MatchOptions& options)
+{
+    const char* const expected = "an array of pairs { source, target }";
+    auto& pairs = options.*Member;
+    const std::size_t count = lua_type(L, index) == LUA_TTABLE ? lua_rawlen(L, index) : 0;
+    guard(L, [&] { pairs.resize(count); });
+    std::size_t next = 0;
+    read_array(L, index, where, expected, [&](int element, const Where& at) {
+        if (lua_type(L, element) != LUA_TTABLE || lua_rawlen(L, element) != 2)
+            fail_value(L, at, "a pair { source, target }", element);
+        lua_rawgeti(L, element, 1);
+        lua_rawgeti(L, element, 2);
+        const int source = read_whole(L, -2, at, 1), target = read_whole(L, -1, at, 1);
+        pairs[next++] = {source - Offset, target - Offset};
+    });
+}
+
+void read_flip(lua_State* L, int index, const Where& where, MatchOptions& options)
+{
+    const std::size_t count = lua_type(L, index) == LUA_TTABLE ? lua_rawlen(L, index) : 0;
+    guard(L, [&] { options.flip.resize(count); });
+    std::size_t next = 0;
+    read_array(L, index, where, "an array of numbers of source loops", [&](int element, const Where& at) {
+        options.flip[next++] = static_cast<int>(from_lua(read_whole(L, element, at, 1)));
+    });
+}
+
+// Vertices go by tag, loops by number: loops count from 1 here and from 0 in the kernel.
+const Option<MatchOptions> kMatchOptions[] = {
+    {"method", read_method},
+    {"vertices", read_pairs<&MatchOptions::vertices, 0>},
+    {"loops", read_pairs<&MatchOptions::loops, 1>},
+    {"flip", read_flip},
+};
+
+void push_match(lua_State* L, const topology::Model& model, const matching::Match& match)
+{
+    lua_createtable(L, 0, 5);
+    lua_createtable(L, static_cast<int>(match.loops.size()), 0);
+    for (std::size_t i = 0; i < match.loops.size(); ++i) {
+        lua_createtable(L, 0, 3);
+        lua_pushinteger(L, to_lua(static_cast<Index>(match.loops[i].source)));
+        lua_setfield(L, -2, "source");
+        lua_pushinteger(L, to_lua(static_cast<Index>(match.loops[i].target)));
+        lua_setfield(L, -2, "target");
+        set_boolean(L, "flipped", match.loops[i].flipped);
+        lua_rawseti(L, -2, to_lua(i));
+    }
+    lua_setfield(L, -2, "loops");
+    lua_createtable(L, static_cast<int>(match.vertices.size()), 0);
+    for (std::size_t i = 0; i < match.vertices.size(); ++i) {
+        lua_createtable(L, 2, 0);
+        lua_pushinteger(L, model[match.vertices[i].first].tag);
+        lua_rawseti(L, -2, 1);
+        lua_pushinteger(L, model[match.vertices[i].second].tag);
+        lua_rawseti(L, -2, 2);
+        lua_rawseti(L, -2, to_lua(i));
+    }
+    lua_setfield(L, -2, "vertices");
+    set_string(L, "method", match.method.c_str());
+    set_number(L, "confidence", match.confidence);
+    set_strings(L, "notes", match.notes);
+}
+
+/// { loops=, vertices=, method=, confidence= } = volume:match([options])
+int match(lua_State* L)
+{
+    lua_settop(L, 2);
+    auto& state = check<VolumeState>(L, 1);
+    const bool asked = has_options(L, 2, "match");
+    if (state.closure && (asked || !state.match))
+        fail(L, "match: the volume is sealed already; match it before close()");
+    auto& options = temporary<MatchOptions>(L);
+    read_options(L, 2, "match", kMatchOptions, options);
+    guard(L, [&] {
+        std::optional<matching::Match> before = std::exchange(state.match, std::nullopt);
+        if (!asked && before) {
+            state.match = std::move(before);
+            return;
+        }
+        try {
+            match_volume(state, options);
+        } catch (...) {
+            state.match = std::move(before);
+            throw;
+        }
+    });
+    push_match(L, state.volume.model, *state.match);
+    return 1;
+}
+
+const luaL_Reg kVolumeMethods[] = {{"match", match}, {nullptr, nullptr}};
+
+} // namespace
+
+void bind_matching(lua_State* L) { add_methods(L, kClassName<VolumeState>, kVolumeMethods); }
+
+} // namespace lacuna::lua

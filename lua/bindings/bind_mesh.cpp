@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// Mesh: counts, nodes, cells, groups.
+#include "bindings/classes.h"
+#include "bindings/options.h"
+
+#include <map>
+
+namespace lacuna::lua {
+
+namespace {
+
+int mesh_nodes(lua_State* L)
+{
+    lua_pushinteger(L, static_cast<lua_Integer>(check<MeshState>(L, 1).swept.mesh.nodes.size()));
+    return 1;
+}
+
+int mesh_hexes(lua_State* L)
+{
+    lua_pushinteger(L, static_cast<lua_Integer>(check<MeshState>(L, 1).swept.mesh.hex_count()));
+    return 1;
+}
+
+int mesh_layers(lua_State* L)
+{
+    lua_pushinteger(L, check<MeshState>(L, 1).swept.mesh.layers);
+    return 1;
+}
+
+int mesh_report(lua_State* L)
+{
+    const auto& report = check<MeshState>(L, 1).swept.report;
+    lua_createtable(L, static_cast<int>(report.size()), 0);
+    for (std::size_t i = 0; i < report.size(); ++i) {
+        lua_pushlstring(L, report[i].data(), report[i].size());
+        lua_rawseti(L, -2, to_lua(i));
+    }
+    return 1;
+}
+
+/// The number at index 2, from 1 to `count`, as an index from 0.
+std::size_t check_number(lua_State* L, const char* call, std::size_t count)
+{
+    int whole = 0;
+    const lua_Integer number = lua_type(L, 2) == LUA_TNUMBER ? lua_tointegerx(L, 2, &whole) : 0;
+    if (!whole || number < 1 || static_cast<std::size_t>(number) > count) {
+        const char* found = push_found(L, 2);
+        fail(L, "%s: the number must be from 1 to %I, found %s", call, static_cast<lua_Integer>(count),
+             found);
+    }
+    return from_lua(number);
+}
+
+/// x, y, z = mesh:node(i)
+int node(lua_State* L)
+{
+    lua_settop(L, 2);
+    const mesh::HexMesh& mesh = check<MeshState>(L, 1).swept.mesh;
+    const Vec3& place = mesh.nodes[check_number(L, "node", mesh.nodes.size())];
+    for (const double coordinate : place) lua_pushnumber(L, coordinate);
+    return 3;
+}
+
+/// n1, ..., n8 = mesh:hex(i)
+int hex(lua_State* L)
+{
+    lua_settop(L, 2);
+    const mesh::HexMesh& mesh = check<MeshState>(L, 1).swept.mesh;
+    for (const Index corner : mesh.hex(check_number(L, "hex", mesh.hex_count())))
+        lua_pushinteger(L, to_lua(corner));
+    return 8;
+}
+
+struct Groups {
+    std::vector<std::string> order; ///< as first met
+    std::map<std::string, std::size_t> cells;
+};
+
+Groups skin_groups(const mesh::HexMesh& mesh)
+{
+    std::vector<std::size_t> of_patch(mesh.patches.size(), 0);
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i)
+        ++of_patch[static_cast<std::size_t>(mesh::skin_quad(mesh, i).patch)];
+    Groups groups;
+    for (std::size_t p = 0; p < mesh.patches.size(); ++p)
+        for (const std::string& name : mesh.patches[p].groups) {
+            const auto [entry, fresh] = groups.cells.try_emplace(name, 0);
+            entry->second += of_patch[p];
+            if (fresh) groups.order.push_back(name);
+        }
+    return groups;
+}
+
+void push_group(lua_State* L, const std::string& name, int dim, std::size_t cells)
+{
+    lua_createtable(L, 0, 3);
+    set_string(L, "name", name.c_str());
+    set_count(L, "dim", static_cast<std::size_t>(dim));
+    set_count(L, "cells", cells);
+}
+
+/// { {name=, dim=, cells=}, ... } = mesh:groups()
+int groups(lua_State* L)
+{
+    const mesh::HexMesh& mesh = check<MeshState>(L, 1).swept.mesh;
+    auto& skin = temporary<Groups>(L);
+    guard(L, [&] { skin = skin_groups(mesh); });
+    lua_newtable(L);
+    lua_Integer next = 1;
+    for (const std::string& name : skin.order) {
+        push_group(L, name, 2, skin.cells.find(name)->second);
+        lua_rawseti(L, -2, next++);
+    }
+    for (const std::string& name : mesh.volume_groups) {
+        push_group(L, name, 3, mesh.hex_count());
+        lua_rawseti(L, -2, next++);
+    }
+    return 1;
+}
+
+int mesh_to_string(lua_State* L)
+{
+    const mesh::HexMesh& mesh = check<MeshState>(L, 1).swept.mesh;
+    lua_pushfstring(L, "Mesh of %I hexes, %I nodes, %d layers", static_cast<lua_Integer>(mesh.hex_count()),
+                    static_cast<lua_Integer>(mesh.nodes.size()), mesh.layers);
+    return 1;
+}
+
+const luaL_Reg kMethods[] = {{"node", node}, {"hex", hex}, {"groups", groups}, {nullptr, nullptr}};
+const luaL_Reg kMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
+const Field kFields[] = {
+    {"nodes", mesh_nodes},   {"hexes", mesh_hexes}, {"layers", mesh_layers},
+    {"report", mesh_report}, {nullptr, nullptr},
+};
+
+} // namespace
+
+void bind_mesh(lua_State* L)
+{
+    make_class<MeshState>(L, kFields, kMeta);
+    add_methods(L, kClassName<MeshState>, kMethods);
+}
+
+} // namespace lacuna::lua

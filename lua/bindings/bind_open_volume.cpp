@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// Volume: what topology/open_volume.h knows of it. Matching, closing and sweeping add their methods to the class.
+#include "bindings/faces.h"
+
+#include <cstring>
+
+namespace lacuna::lua {
+
+namespace {
+
+using topology::VolumeClass;
+
+const Word<VolumeClass> kClasses[] = {
+    {"I", VolumeClass::I},   {"II", VolumeClass::II}, {"III", VolumeClass::III},
+    {"IV", VolumeClass::IV}, {"V", VolumeClass::V},   {"closed", VolumeClass::closed},
+};
+
+// --- roles ----------------------------------------------------------------------------------------------
+
+struct RoleArguments {
+    const Box<ModelState>* model = nullptr;
+    topology::Roles roles;
+    std::vector<FaceId> faces;
+    bool auto_walls = false;
+    bool roles_named = false;
+    std::optional<VolumeClass> override_class;
+};
+
+template <auto List>
+void read_role(lua_State* L, int index, const Where& where, RoleArguments& arguments)
+{
+    read_faces(L, index, where, *arguments.model, arguments.roles.*List);
+    arguments.roles_named = true;
+}
+
+void read_walls(lua_State* L, int index, const Where& where, RoleArguments& arguments)
+{
+    if (lua_type(L, index) == LUA_TSTRING && std::strcmp(lua_tostring(L, index), "auto") == 0) {
+        arguments.auto_walls = arguments.roles_named = true;
+    } else {
+        read_role<&topology::Roles::walls>(L, index, where, arguments);
+    }
+}
+
+void read_volume_faces(lua_State* L, int index, const Where& where, RoleArguments& arguments)
+{
+    read_faces(L, index, where, *arguments.model, arguments.faces);
+}
+
+void read_class(lua_State* L, int index, const Where& where, RoleArguments& arguments)
+{
+    arguments.override_class = read_word(L, index, where, kClasses);
+}
+
+const Option<RoleArguments> kRoleOptions[] = {
+    {"source", read_role<&topology::Roles::source>},
+    {"target", read_role<&topology::Roles::target>},
+    {"walls", read_walls},
+    {"faces", read_volume_faces},
+    {"class", read_class},
+};
+
+VolumeState make_volume(const topology::Model& model, RoleArguments& arguments)
+{
+    topology::Roles& roles = arguments.roles;
+    if (arguments.auto_walls) {
+        if (roles.source.empty())
+            throw InvalidInput("lua.walls_without_source",
+                               "open_volume: walls = \"auto\" finds the walls from the rim of "
+                               "the source; name the source");
+        roles.walls = topology::faces_reachable_from(model, roles.source, roles.target);
+    }
+    VolumeState state;
+    state.volume = topology::open_volume(model, roles);
+    state.volume.override_class = arguments.override_class;
+    state.classification = topology::classify(state.volume);
+    return state;
+}
+
+/// volume = model:open_volume { source=, target=, walls= [, class=] }
+int open_volume(lua_State* L)
+{
+    lua_settop(L, 2);
+    Box<ModelState>& model = check_box<ModelState>(L, 1);
+    guard(L, [&] { refresh(*model); });
+    auto& arguments = temporary<RoleArguments>(L);
+    arguments.model = &model;
+    read_options(L, 2, "open_volume", kRoleOptions, arguments);
+    if (arguments.roles_named && !arguments.faces.empty())
+        fail(L, "open_volume: name either the roles (source, target, walls) or 'faces', whose roles are then "
+                "found; not both");
+    if (!arguments.roles_named)
+        fail(L, "open_volume: finding the roles of faces is not available yet; name them, as in "
+                "open_volume { source = 12, target = 31, walls = { 4, 5, 6 } }; model:describe() lists the "
+                "faces");
+    auto& box = new_box<VolumeState>(L);
+    guard(L, [&] { box = std::make_shared<VolumeState>(make_volume(model->model, arguments)); });
+    return 1;
+}
+
+// --- Volume ---------------------------------------------------------------------------------------------
+
+int volume_class(lua_State* L)
+{
+    const std::string_view name = topology::to_string(check<VolumeState>(L, 1).classification.value);
+    lua_pushlstring(L, name.data(), name.size());
+    return 1;
+}
+
+void set_vertex_tags(lua_State* L, const char* key, const topology::Model& model,
+                     const std::vector<VertexId>& vertices)
+{
+    lua_createtable(L, static_cast<int>(vertices.size()), 0);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        lua_pushinteger(L, model[vertices[i]].tag);
+        lua_rawseti(L, -2, to_lua(i));
+    }
+    lua_setfield(L, -2, key);
+}
+
+/// { class=, free_loops=, wall_free_source=, wall_free_target=, reasons= } = volume:classify()
+int classify(lua_State* L)
+{
+    const auto& state = check<VolumeState>(L, 1);
+    const topology::Classification& found = state.classification;
+    lua_createtable(L, 0, 5);
+    volume_class(L);
+    lua_setfield(L, -2, "class");
+    set_count(L, "free_loops", found.free_loops.size());
+    set_vertex_tags(L, "wall_free_source", state.volume.model, found.wall_free_source);
+    set_vertex_tags(L, "wall_free_target", state.volume.model, found.wall_free_target);
+    set_strings(L, "reasons", found.reasons);
+    return 1;
+}
+
+/// volume = volume:override_class(name)
+int override_class(lua_State* L)
+{
+    lua_settop(L, 2);
+    auto& state = check<VolumeState>(L, 1);
+    const VolumeClass wanted = read_word(L, 2, {"override_class", nullptr}, kClasses);
+    if (state.closure)
+        fail(L, "override_class: the volume is sealed already; override its class before close()");
+    guard(L, [&] {
+        const std::optional<VolumeClass> before = state.volume.override_class;
+        state.volume.override_class = wanted;
+        try {
+            state.classification = topology::classify(state.volume);
+        } catch (...) {
+            state.volume.override_class = before;
+            throw;
+        }
+    });
+    lua_settop(L, 1);
+    return 1;
+}
+
+/// { {tag=, from=, to=, length=}, ... } = volume:free_edges()
+int free_edges(lua_State* L)
+{
+    const auto& state = check<VolumeState>(L, 1);
+    const topology::Model& model = state.volume.model;
+    auto& edges = temporary<std::vector<EdgeId>>(L);
+    guard(L, [&] { edges = topology::free_edges(state.volume); });
+    lua_createtable(L, static_cast<int>(edges.size()), 0);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const topology::Edge& edge = model[edges[i]];
+        lua_createtable(L, 0, 4);
+        set_count(L, "tag", static_cast<std::size_t>(edge.tag));
+        set_count(L, "from", static_cast<std::size_t>(model[edge.from].tag));
+        set_count(L, "to", static_cast<std::size_t>(model[edge.to].tag));
+        set_number(L, "length", topology::edge_length(model, edges[i]));
+        lua_rawseti(L, -2, to_lua(i));
+    }
+    return 1;
+}
+
+/// text = volume:tree()
+int volume_tree(lua_State* L)
+{
+    const auto& state = check<VolumeState>(L, 1);
+    push_text(L, [&] { return tree(state.volume); });
+    return 1;
+}
+
+/// text = volume:describe()
+int describe_volume(lua_State* L)
+{
+    const auto& state = check<VolumeState>(L, 1);
+    push_text(L, [&] { return describe(state); });
+    return 1;
+}
+
+int volume_to_string(lua_State* L)
+{
+    const auto& state = check<VolumeState>(L, 1);
+    volume_class(L);
+    lua_pushfstring(L, "Volume of class %s, %d faces, %s", lua_tostring(L, -1),
+                    static_cast<int>(state.volume.model.faces.size()), state.closure ? "sealed" : "open");
+    return 1;
+}
+
+const luaL_Reg kModelMethods[] = {{"open_volume", open_volume}, {nullptr, nullptr}};
+const luaL_Reg kVolumeMethods[] = {
+    {"classify", classify}, {"override_class", override_class}, {"free_edges", free_edges},
+    {"tree", volume_tree},  {"describe", describe_volume},      {nullptr, nullptr},
+};
+const luaL_Reg kVolumeMeta[] = {{"__tostring", volume_to_string}, {nullptr, nullptr}};
+const Field kVolumeFields[] = {{"class", volume_class}, {nullptr, nullptr}};
+
+} // namespace
+
+void bind_open_volume(lua_State* L)
+{
+    make_class<VolumeState>(L, kVolumeFields, kVolumeMeta);
+    add_methods(L, kClassName<VolumeState>, kVolumeMethods);
+    add_methods(L, kClassName<ModelState>, kModelMethods);
+}
+
+} // namespace lacuna::lua

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include "bindings/classes.h"
+#include "bindings/io_paths.h"
+#include "bindings/options.h"
+
+#ifdef LACUNA_WITH_CAD
+#include <lacuna/cad/load.h>
+#endif
+
+#include <cmath>
+#include <thread>
+
+namespace lacuna::lua {
+
+namespace {
+
+using sweep::Quads;
+using sweep::Spacing;
+
+struct SweepArguments {
+    sweep::SweepOptions options;
+    int threads = 0;
+    int size_function = 0; ///< stack index of a Lua function, 0 for none
+    int order = 1;
+    bool serendipity = false;
+};
+
+// --- layers ---------------------------------------------------------------------------------------------
+
+const Word<Spacing> kSpacings[] = {
+    {"geometric", Spacing::geometric},
+    {"bell", Spacing::bell},
+    {"both_ends", Spacing::both_ends},
+};
+
+void read_spacing(lua_State* L, int index, const Where& where, sweep::LayerSpec& spec)
+{
+    spec.spacing = read_word(L, index, where, kSpacings);
+}
+
+const Option<sweep::LayerSpec> kLayerOptions[] = {
+    {"count", count<&sweep::LayerSpec::count>},
+    {"bias", positive<&sweep::LayerSpec::bias>},
+    {"mode", read_spacing},
+};
+
+void read_heights(lua_State* L, int index, const Where& where, sweep::LayerSpec& spec)
+{
+    const std::size_t size = lua_rawlen(L, index);
+    guard(L, [&] { spec.heights.resize(size); });
+    double below = 0;
+    std::size_t next = 0;
+    read_array(L, index, where, "", [&](int element, const Where& at) {
+        const double height = read_number(L, element, at);
+        if (!(height > below && height <= 1))
+            fail_value(L, at, "a height that rises from the last one, in (0, 1]", element);
+        spec.heights[next++] = below = height;
+    });
+    if (below != 1)
+        fail_option(L, where, "must end with the height 1, found %f as the last of %d", below,
+                    static_cast<int>(size));
+}
+
+void read_layers(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    sweep::LayerSpec& spec = arguments.options.layers;
+    int whole = 0;
+    if (lua_type(L, index) == LUA_TNUMBER && lua_tointegerx(L, index, &whole) > 0 && whole) {
+        spec.count = read_whole(L, index, where, 1);
+    } else if (lua_type(L, index) == LUA_TTABLE && lua_rawlen(L, index) > 0) {
+        read_heights(L, index, where, spec);
+    } else if (lua_type(L, index) == LUA_TTABLE) {
+        read_options(L, index, "sweep: layers", kLayerOptions, spec);
+        if (spec.count == 0) fail_option(L, where, "has no 'count': { count =, bias =, mode = }");
+    } else {
+        fail_value(L, where,
+                   "a positive whole number, an array of rising heights in (0, 1] or a table "
+                   "{ count =, bias =, mode = }",
+                   index);
+    }
+}
+
+// --- size -----------------------------------------------------------------------------------------------
+
+void read_size(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    if (lua_type(L, index) == LUA_TFUNCTION) {
+        arguments.size_function = 1; // where it stands is settled by sweep()
+    } else if (lua_type(L, index) == LUA_TNUMBER) {
+        const double size = read_positive(L, index, where);
+        guard(L, [&] { arguments.options.size = [size](const Vec3&) { return size; }; });
+    } else {
+        fail_value(L, where, "a positive number or a function(x, y, z) that returns one", index);
+    }
+}
+
+/// Calls back a recipe's function. The kernel samples sizes on the thread that called it; were it ever to ask
+/// from another, Lua, which knows no threads, would be lost: so that is refused.
+struct LuaSize {
+    lua_State* L;
+    int function;
+    std::thread::id thread;
+
+    double operator()(const Vec3& place) const
+    {
+        if (std::this_thread::get_id() != thread || !lua_checkstack(L, 8))
+            throw Error("lua.size_function",
+                        "the size function cannot be called here; give size as a number");
+        lua_pushvalue(L, function);
+        for (const double coordinate : place) lua_pushnumber(L, coordinate);
+        if (lua_pcall(L, 3, 1, 0) != LUA_OK) {
+            keep_callback_error(L);
+            throw CallbackFailed{};
+        }
+        const double size = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : std::nan("");
+        lua_pop(L, 1);
+        if (!(std::isfinite(size) && size > 0))
+            throw InvalidInput("lua.size_function",
+                               "sweep: option 'size': the function must return a positive number "
+                               "everywhere; at (" +
+                                   std::to_string(place.x()) + ", " + std::to_string(place.y()) + ", " +
+                                   std::to_string(place.z()) + ") it did not");
+        return size;
+    }
+};
+
+// --- the rest -------------------------------------------------------------------------------------------
+
+const Word<Quads> kQuads[] = {
+    {"auto", Quads::automatic}, {"paved", Quads::paved}, {"mapped", Quads::mapped},
+    {"gmsh", Quads::gmsh},      {"keep", Quads::keep},
+};
+
+void read_quads(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.quads = read_word(L, index, where, kQuads);
+}
+
+void read_order(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.order = read_whole(L, index, where, 1);
+    if (arguments.order > 2) fail_value(L, where, "1 or 2", index);
+}
+
+void read_min_scaled_jacobian(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    const double least = read_number(L, index, where);
+    if (least < 0 || least > 1) fail_value(L, where, "a number in [0, 1]", index);
+    arguments.options.min_scaled_jacobian = least;
+}
+
+void read_improve(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    if (lua_type(L, index) == LUA_TTABLE)
+        fail_option(L, where, "takes true or false; { iterations =, seconds = } is not available yet");
+    arguments.options.improve = read_boolean(L, index, where);
+}
+
+const Option<SweepArguments> kSweepOptions[] = {
+    {"layers", read_layers},
+    {"size", read_size},
+    {"quads", read_quads},
+    {"order", read_order},
+    {"serendipity", boolean<&SweepArguments::serendipity>},
+    {"min_scaled_jacobian", read_min_scaled_jacobian},
+    {"improve", read_improve},
+    {"threads", count<&SweepArguments::threads>},
+};
+
+/// Read the options at `index`; leaves what they need on the stack.
+SweepArguments& push_arguments(lua_State* L, int index, const char* call)
+{
+    auto& arguments = temporary<SweepArguments>(L);
+    read_options(L, index, call, kSweepOptions, arguments);
+    if (arguments.order == 2 || arguments.serendipity)
+        fail(L, "%s: cells of order 2 are not available yet; leave 'order' and 'serendipity' out", call);
+    if (arguments.size_function) {
+        lua_getfield(L, index, "size");
+        arguments.size_function = lua_gettop(L);
+        guard(L, [&] {
+            arguments.options.size = LuaSize{L, arguments.size_function, std::this_thread::get_id()};
+        });
+    }
+#ifdef LACUNA_WITH_CAD
+    guard(L, [&] { arguments.options.quad_mesher = cad::recombine; });
+#endif
+    return arguments;
+}
+
+/// mesh = volume:sweep(options)
+int sweep_volume(lua_State* L)
+{
+    lua_settop(L, 2);
+    auto& state = check<VolumeState>(L, 1);
+    SweepArguments& arguments = push_arguments(L, 2, "sweep");
+    RunContext& context = push_context(L);
+    context.threads = arguments.threads;
+    lua_gc(L, LUA_GCCOLLECT); // to Lua a mesh is a few bytes: it would let old ones pile up
+    auto& box = new_box<MeshState>(L);
+    guard(L, [&] {
+        close_volume(state, {}, context);
+        box = std::make_shared<MeshState>();
+        box->swept = sweep::sweep(state.volume, arguments.options, context);
+    });
+    return 1;
+}
+
+/// report = volume:sweep_to(path, options)
+int sweep_to(lua_State* L)
+{
+    lua_settop(L, 3);
+    check<VolumeState>(L, 1);
+    push_output_path(L, 2, "sweep_to");
+    push_arguments(L, 3, "sweep_to");
+    fail(L, "sweep_to is not available yet; use volume:sweep(options):write(path)");
+}
+
+const luaL_Reg kVolumeMethods[] = {{"sweep", sweep_volume}, {"sweep_to", sweep_to}, {nullptr, nullptr}};
+
+} // namespace
+
+void bind_sweep(lua_State* L) { add_methods(L, kClassName<VolumeState>, kVolumeMethods); }
+
+} // namespace lacuna::lua

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+// Model and Face.
+#include "bindings/faces.h"
+
+#include <algorithm>
+#include <array>
+
+namespace lacuna::lua {
+
+namespace {
+
+// --- adding faces -------------------------------------------------------------------------------------
+
+struct AddedFace {
+    std::string name;
+    std::vector<Vec3> points;
+    std::vector<std::array<int, 4>> cells; ///< numbers of points from 1; the fourth 0 in a triangle
+    bool keep_mesh = false;
+};
+
+void read_name(lua_State* L, int index, const Where& where, AddedFace& face)
+{
+    const char* name = read_string(L, index, where);
+    guard(L, [&] { face.name = name; });
+}
+
+void read_points(lua_State* L, int index, const Where& where, AddedFace& face)
+{
+    const char* const expected = "an array of at least three points { x, y, z }";
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) < 3) fail_value(L, where, expected, index);
+    const std::size_t count = lua_rawlen(L, index);
+    guard(L, [&] { face.points.resize(count); });
+    std::size_t next = 0;
+    read_array(L, index, where, expected,
+               [&](int element, const Where& at) { face.points[next++] = read_vector(L, element, at); });
+}
+
+void read_cells(lua_State* L, int index, const Where& where, AddedFace& face)
+{
+    const char* const expected = "an array of triangles { i, j, k } and quads { i, j, k, l }";
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) == 0) fail_value(L, where, expected, index);
+    const std::size_t count = lua_rawlen(L, index);
+    guard(L, [&] { face.cells.resize(count); });
+    std::size_t next = 0;
+    read_array(L, index, where, expected, [&](int element, const Where& at) {
+        const auto corners = lua_type(L, element) == LUA_TTABLE ? lua_rawlen(L, element) : 0;
+        if (corners != 3 && corners != 4) fail_value(L, at, "three or four numbers of points", element);
+        std::array<int, 4>& cell = face.cells[next++];
+        for (std::size_t corner = 0; corner < corners; ++corner) {
+            lua_rawgeti(L, element, to_lua(corner));
+            cell[corner] = read_whole(L, -1, at, 1);
+            if (std::find(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(corner), cell[corner]) !=
+                cell.begin() + static_cast<std::ptrdiff_t>(corner))
+                fail_option(L, at, "names point %d twice", cell[corner]);
+            lua_pop(L, 1);
+        }
+    });
+}
+
+const Option<AddedFace> kAddFaceOptions[] = {
+    {"name", read_name},
+    {"points", read_points},
+    {"cells", read_cells},
+    {"keep_mesh", boolean<&AddedFace::keep_mesh>},
+};
+
+/// The two triangles of a quad, along the diagonal that folds it less, then the shorter one.
+std::array<Triangle, 2> halves(const Quad& q, const std::vector<Vec3>& points)
+{
+    const auto at = [&](int i) { return points[static_cast<std::size_t>(q[static_cast<std::size_t>(i)])]; };
+    const auto fold = [&](int a, int b, int c, int d) { // cosine between the halves on the diagonal a-c
+        const Vec3 one = (at(b) - at(a)).cross(at(c) - at(a)), two = (at(c) - at(a)).cross(at(d) - at(a));
+        return one.dot(two) <= 0;
+    };
+    const bool first_folds = fold(0, 1, 2, 3), second_folds = fold(1, 2, 3, 0);
+    const bool first = first_folds == second_folds ? (at(2) - at(0)).norm() <= (at(3) - at(1)).norm()
+                                                   : !first_folds;
+    if (first) return {Triangle{q[0], q[1], q[2]}, Triangle{q[0], q[2], q[3]}};
+    return {Triangle{q[0], q[1], q[3]}, Triangle{q[1], q[2], q[3]}};
+}
+
+void add(ModelState& state, const AddedFace& face)
+{
+    topology::FacetSoup& soup = state.added;
+    const int label = state.added_faces++;
+    const auto offset = static_cast<Index>(soup.points.size());
+    soup.points.insert(soup.points.end(), face.points.begin(), face.points.end());
+    soup.label_name.push_back(face.name);
+    const auto add_triangle = [&](const Triangle& triangle) {
+        soup.triangles.push_back(triangle);
+        soup.triangle_label.push_back(label);
+    };
+    for (const std::array<int, 4>& cell : face.cells) {
+        const Quad q{offset + cell[0] - 1, offset + cell[1] - 1, offset + cell[2] - 1, offset + cell[3] - 1};
+        if (cell[3] == 0) {
+            add_triangle({q[0], q[1], q[2]});
+        } else if (face.keep_mesh) {
+            soup.quads.push_back(q);
+            soup.quad_label.push_back(label);
+        } else {
+            for (const Triangle& triangle : halves(q, soup.points)) add_triangle(triangle);
+        }
+    }
+    state.stale = true;
+}
+
+// --- Model ----------------------------------------------------------------------------------------------
+
+/// The Model at `index`, brought up to date.
+Box<ModelState>& check_model(lua_State* L, int index)
+{
+    Box<ModelState>& state = check_box<ModelState>(L, index);
+    guard(L, [&] { refresh(*state); });
+    return state;
+}
+
+/// model = lacuna.model()
+int new_model(lua_State* L)
+{
+    if (!lua_isnoneornil(L, 1))
+        fail_value(L, {"model", nullptr}, "nothing: add_face adds to an empty model", 1);
+    auto& box = new_box<ModelState>(L);
+    guard(L, [&] {
+        box = std::make_shared<ModelState>();
+        box->hand_made = true;
+    });
+    return 1;
+}
+
+/// face = model:add_face { name=, points=, cells= [, keep_mesh=] }
+int add_face(lua_State* L)
+{
+    lua_settop(L, 2);
+    Box<ModelState>& state = check_box<ModelState>(L, 1);
+    if (!state->hand_made)
+        fail(L, "add_face: faces are added to a model made by lacuna.model(); this one was read from %s",
+             state->model.source.c_str());
+    if (!has_options(L, 2, "add_face"))
+        fail_value(L, {"add_face", nullptr}, "a table { name =, points =, cells = }", 2);
+    auto& face = temporary<AddedFace>(L);
+    read_options(L, 2, "add_face", kAddFaceOptions, face);
+    if (face.points.empty()) fail(L, "add_face: option 'points' is missing: an array of points { x, y, z }");
+    if (face.cells.empty())
+        fail(L, "add_face: option 'cells' is missing: an array of { i, j, k } or { i, j, k, l }");
+    const auto count = static_cast<int>(face.points.size());
+    for (std::size_t c = 0; c < face.cells.size(); ++c)
+        for (const int number : face.cells[c])
+            if (number > count)
+                fail(L, "add_face: option 'cells[%I]' names point %d; there are %d points", to_lua(c), number,
+                     count);
+    guard(L, [&] { add(*state, face); });
+    push_face(L, state, FaceId(static_cast<Index>(state->added_faces - 1)));
+    return 1;
+}
+
+/// faces = model:faces([selector])
+int faces(lua_State* L)
+{
+    lua_settop(L, 2);
+    Box<ModelState>& state = check_model(L, 1);
+    auto& selector = temporary<Selector>(L);
+    read_selector(L, 2, "faces", selector);
+    auto& found = temporary<std::vector<FaceId>>(L);
+    guard(L, [&] { found = select(state->model, selector); });
+    lua_createtable(L, static_cast<int>(found.size()), 0);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        push_face(L, state, found[i]);
+        lua_rawseti(L, -2, to_lua(i));
+    }
+    return 1;
+}
+
+/// face = model:face(tag | name | selector)
+int face(lua_State* L)
+{
+    lua_settop(L, 2);
+    Box<ModelState>& state = check_model(L, 1);
+    auto& found = temporary<std::vector<FaceId>>(L);
+    read_faces(L, 2, {"face", nullptr}, state, found);
+    if (found.size() != 1)
+        fail(L, "face: one face is wanted, and %d fit: %s; say more, or take model:faces(...)",
+             static_cast<int>(found.size()), push_names(L, state->model, found));
+    push_face(L, state, found.front());
+    return 1;
+}
+
+/// text = model:describe()
+int describe_model(lua_State* L)
+{
+    Box<ModelState>& state = check_model(L, 1);
+    push_text(L, [&] { return topology::describe(state->model); });
+    return 1;
+}
+
+int model_to_string(lua_State* L)
+{
+    const auto& state = check<ModelState>(L, 1);
+    if (state.hand_made) {
+        lua_pushfstring(L, "Model of %d faces of the recipe", state.added_faces);
+    } else {
+        lua_pushfstring(L, "Model of %d faces from %s", static_cast<int>(state.model.faces.size()),
+                        state.model.source.c_str());
+    }
+    return 1;
+}
+
+template <double topology::Model::*Member>
+int model_length(lua_State* L)
+{
+    lua_pushnumber(L, check_model(L, 1)->model.*Member);
+    return 1;
+}
+
+const luaL_Reg kModelMethods[] = {
+    {"faces", faces},   {"face", face}, {"add_face", add_face}, {"describe", describe_model},
+    {nullptr, nullptr},
+};
+const luaL_Reg kModelMeta[] = {{"__tostring", model_to_string}, {nullptr, nullptr}};
+const Field kModelFields[] = {
+    {"tolerance", model_length<&topology::Model::tolerance>},
+    {"diagonal", model_length<&topology::Model::diagonal>},
+    {nullptr, nullptr},
+};
+
+// --- Face -----------------------------------------------------------------------------------------------
+
+/// The face at index 1, its model up to date; indices of faces never change.
+const topology::Face& this_face(lua_State* L)
+{
+    auto& handle = check<FaceHandle>(L, 1);
+    guard(L, [&] { refresh(*handle.model); });
+    return handle.model->model[handle.face];
+}
+
+int face_tag(lua_State* L)
+{
+    lua_pushinteger(L, this_face(L).tag);
+    return 1;
+}
+
+int face_name(lua_State* L)
+{
+    const std::string& name = this_face(L).name;
+    lua_pushlstring(L, name.data(), name.size());
+    return 1;
+}
+
+int face_kind(lua_State* L)
+{
+    const std::string& kind = this_face(L).kind;
+    lua_pushlstring(L, kind.data(), kind.size());
+    return 1;
+}
+
+int face_area(lua_State* L)
+{
+    this_face(L);
+    const auto& handle = check<FaceHandle>(L, 1);
+    lua_pushnumber(L, topology::face_area(handle.model->model, handle.face));
+    return 1;
+}
+
+int face_normal(lua_State* L)
+{
+    this_face(L);
+    const auto& handle = check<FaceHandle>(L, 1);
+    push_vector(L, mean_normal(handle.model->model, handle.face));
+    return 1;
+}
+
+int face_centroid(lua_State* L)
+{
+    this_face(L);
+    const auto& handle = check<FaceHandle>(L, 1);
+    push_vector(L, topology::face_centroid(handle.model->model, handle.face));
+    return 1;
+}
+
+int face_loops(lua_State* L)
+{
+    lua_pushinteger(L, static_cast<lua_Integer>(this_face(L).loops.size()));
+    return 1;
+}
+
+int face_edges(lua_State* L)
+{
+    std::size_t uses = 0;
+    for (const topology::Loop& loop : this_face(L).loops) uses += loop.uses.size();
+    lua_pushinteger(L, static_cast<lua_Integer>(uses));
+    return 1;
+}
+
+int face_has_mesh(lua_State* L)
+{
+    lua_pushboolean(L, !this_face(L).given_quads.empty());
+    return 1;
+}
+
+int face_to_string(lua_State* L)
+{
+    this_face(L);
+    const auto& handle = check<FaceHandle>(L, 1);
+    push_text(L, [&] { return topology::name_of(handle.model->model, handle.face); });
+    return 1;
+}
+
+int face_equal(lua_State* L)
+{
+    const Box<FaceHandle>* a = test_box<FaceHandle>(L, 1);
+    const Box<FaceHandle>* b = test_box<FaceHandle>(L, 2);
+    lua_pushboolean(L, a && b && *a && *b && (*a)->model == (*b)->model && (*a)->face == (*b)->face);
+    return 1;
+}
+
+const Field kFaceFields[] = {
+    {"tag", face_tag},           {"name", face_name},         {"kind", face_kind},   {"area", face_area},
+    {"normal", face_normal},     {"centroid", face_centroid}, {"loops", face_loops}, {"edges", face_edges},
+    {"has_mesh", face_has_mesh}, {nullptr, nullptr},
+};
+const luaL_Reg kFaceMeta[] = {{"__tostring", face_to_string}, {"__eq", face_equal}, {nullptr, nullptr}};
+
+const luaL_Reg kFunctions[] = {{"model", new_model}, {nullptr, nullptr}};
+
+} // namespace
+
+void bind_topology(lua_State* L)
+{
+    make_class<ModelState>(L, kModelFields, kModelMeta);
+    add_methods(L, kClassName<ModelState>, kModelMethods);
+    make_class<FaceHandle>(L, kFaceFields, kFaceMeta);
+    luaL_setfuncs(L, kFunctions, 0);
+}
+
+} // namespace lacuna::lua

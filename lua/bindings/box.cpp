@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "bindings/box.h"
+
+#include "bindings/lacuna_lua.h"
+#include "bindings/options.h"
+
+#include <cmath>
+#include <cstdarg>
+#include <cstring>
+
+namespace lacuna::lua {
+
+namespace {
+
+const char kCallbackErrorKey = 0; // its address is the registry's key
+
+/// "recipe.lua:7: " of the innermost frame that is the person's own Lua, "" where there is none.
+void push_where(lua_State* L)
+{
+    lua_Debug frame;
+    for (int level = 1; lua_getstack(L, level, &frame); ++level) {
+        lua_getinfo(L, "Sl", &frame);
+        if (frame.currentline > 0 && std::strcmp(frame.source, kEmbeddedSource) != 0) {
+            lua_pushfstring(L, "%s:%d: ", frame.short_src, frame.currentline);
+            return;
+        }
+    }
+    lua_pushliteral(L, "");
+}
+
+/// Upvalues: 1 the class name, 2 its methods, 3 its fields.
+int index_class(lua_State* L)
+{
+    lua_pushvalue(L, 2);
+    if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;
+    lua_pop(L, 1);
+    lua_pushvalue(L, 2);
+    if (lua_rawget(L, lua_upvalueindex(3)) != LUA_TNIL) {
+        lua_pushvalue(L, 1);
+        lua_call(L, 1, 1);
+        return 1;
+    }
+    lua_settop(L, 2);
+    if (lua_type(L, 2) != LUA_TSTRING)
+        return luaL_error(L, "a %s is not an array", lua_tostring(L, lua_upvalueindex(1)));
+    // Names of both lists, for the nearest one.
+    lua_newtable(L);
+    for (int list : {lua_upvalueindex(2), lua_upvalueindex(3)}) {
+        for (lua_pushnil(L); lua_next(L, list); lua_pop(L, 1)) {
+            lua_pushvalue(L, -2);
+            lua_rawseti(L, 3, static_cast<lua_Integer>(lua_rawlen(L, 3)) + 1);
+        }
+    }
+    const char* nearest = nearest_in_table(L, 3, lua_tostring(L, 2));
+    fail(L, "a %s has no field or method '%s'; the nearest is '%s'", lua_tostring(L, lua_upvalueindex(1)),
+         lua_tostring(L, 2), nearest);
+}
+
+} // namespace
+
+void raise(lua_State* L)
+{
+    push_where(L);
+    lua_insert(L, -2);
+    lua_concat(L, 2);
+    lua_error(L);
+    __builtin_unreachable();
+}
+
+void fail(lua_State* L, const char* format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    lua_pushvfstring(L, format, arguments);
+    va_end(arguments);
+    raise(L);
+}
+
+const char* push_found(lua_State* L, int index)
+{
+    index = lua_absindex(L, index);
+    switch (lua_type(L, index)) {
+    case LUA_TNONE:
+    case LUA_TNIL:
+        return lua_pushliteral(L, "nothing");
+    case LUA_TNUMBER: {
+        const lua_Number value = lua_tonumber(L, index);
+        if (std::isnan(value)) return lua_pushliteral(L, "not-a-number (0/0)");
+        if (std::isinf(value)) return lua_pushliteral(L, "an infinite number");
+        lua_pushvalue(L, index); // a copy: lua_tostring turns the value itself into a string
+        return lua_tostring(L, -1);
+    }
+    case LUA_TBOOLEAN:
+        return lua_pushstring(L, lua_toboolean(L, index) ? "true" : "false");
+    case LUA_TSTRING:
+        return lua_pushfstring(L, "\"%s\"", lua_tostring(L, index));
+    case LUA_TTABLE:
+        return lua_pushstring(L, lua_rawlen(L, index) > 0 ? "an array" : "a table");
+    default:
+        break;
+    }
+    if (luaL_getmetafield(L, index, "__name") == LUA_TSTRING) {
+        lua_pushfstring(L, "a %s", lua_tostring(L, -1));
+        lua_remove(L, -2);
+        return lua_tostring(L, -1);
+    }
+    return lua_pushfstring(L, "a %s", luaL_typename(L, index));
+}
+
+void Failure::note(const Error& error)
+{
+    // The code last, in brackets as compilers name their warnings, so that programs can tell failures apart.
+    message = std::string(error.what()) + " [" + error.code() + "]";
+}
+
+void Failure::note(const char* what) { message = what; }
+
+void raise(lua_State* L, const Failure& failure)
+{
+    if (failure.from_callback) {
+        lua_rawgetp(L, LUA_REGISTRYINDEX, &kCallbackErrorKey);
+        lua_pushnil(L);
+        lua_rawsetp(L, LUA_REGISTRYINDEX, &kCallbackErrorKey);
+        lua_error(L);
+    }
+    lua_pushlstring(L, failure.message.data(), failure.message.size());
+    raise(L);
+}
+
+void keep_callback_error(lua_State* L)
+{
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &kCallbackErrorKey); // the slot was made by make_class: no allocation
+}
+
+void make_class(lua_State* L, const char* name, const Field* fields, const luaL_Reg* meta,
+                lua_CFunction release)
+{
+    lua_pushboolean(L, 0);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &kCallbackErrorKey);
+
+    luaL_newmetatable(L, name);
+    if (meta) luaL_setfuncs(L, meta, 0);
+    lua_pushcfunction(L, release);
+    lua_setfield(L, -2, "__gc");
+    lua_pushcfunction(L, release);
+    lua_setfield(L, -2, "__close");
+    lua_pushliteral(L, "a class of lacuna");
+    lua_setfield(L, -2, "__metatable");
+
+    lua_pushstring(L, name);
+    lua_newtable(L);
+    lua_pushvalue(L, -1);
+    lua_setfield(L, -4, "methods");
+    lua_newtable(L);
+    for (const Field* field = fields; field && field->name; ++field) {
+        lua_pushcfunction(L, field->get);
+        lua_setfield(L, -2, field->name);
+    }
+    lua_pushcclosure(L, index_class, 3);
+    lua_setfield(L, -2, "__index");
+    lua_pop(L, 1);
+}
+
+void add_methods(lua_State* L, const char* class_name, const luaL_Reg* methods)
+{
+    luaL_getmetatable(L, class_name);
+    lua_getfield(L, -1, "methods");
+    luaL_setfuncs(L, methods, 0);
+    lua_pop(L, 2);
+}
+
+void fail_self(lua_State* L, int index, const char* class_name, bool released)
+{
+    if (released) fail(L, "this %s has been released (its <close> variable went out of scope)", class_name);
+    const char* found = push_found(L, index);
+    if (index == 1)
+        fail(L, "a method of %s was called on %s; call it with a colon, as object:method(...)", class_name,
+             found);
+    fail(L, "expected a %s, found %s", class_name, found);
+}
+
+} // namespace lacuna::lua

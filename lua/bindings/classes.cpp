@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "bindings/classes.h"
+
+#include "bindings/lacuna_lua.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace lacuna::lua {
+
+using topology::Origin;
+using topology::Role;
+
+namespace {
+
+const char* word(topology::Geometry geometry)
+{
+    switch (geometry) {
+    case topology::Geometry::given:
+        return "given";
+    case topology::Geometry::newell:
+        return "Newell";
+    case topology::Geometry::transfinite:
+        return "transfinite";
+    case topology::Geometry::annular:
+        return "annular strip";
+    case topology::Geometry::minimal:
+        return "minimal area";
+    }
+    return "unknown";
+}
+
+const char* word(Role role)
+{
+    return role == Role::source ? "source" : role == Role::target ? "target" : "wall";
+}
+
+bool has_both_ends(const topology::OpenVolume& volume)
+{
+    return !volume.faces(Role::source).empty() && !volume.faces(Role::target).empty();
+}
+
+void list_faces(std::ostream& out, const char* title, const topology::OpenVolume& volume, Role role,
+                Origin origin)
+{
+    std::string names;
+    for (const FaceId face : volume.faces(role))
+        if (volume.model[face].origin == origin)
+            names += (names.empty() ? "" : ", ") + topology::name_of(volume.model, face);
+    if (origin == Origin::given || !names.empty()) out << title << (names.empty() ? "none" : names) << '\n';
+}
+
+/// The splitter meets triangles before quads; give each face the number of its label.
+/// @pre a face a label.
+void put_in_order_of_adding(topology::Model& model, const topology::FacetSoup& soup)
+{
+    std::vector<topology::Face> faces(model.faces.size());
+    std::vector<bool> met(model.faces.size(), false);
+    std::size_t next = 0;
+    for (const std::vector<int>* labels : {&soup.triangle_label, &soup.quad_label})
+        for (const int label : *labels) {
+            const auto place = static_cast<std::size_t>(label);
+            if (met[place]) continue;
+            met[place] = true;
+            faces[place] = std::move(model.faces[next++]);
+            faces[place].tag = label + 1;
+        }
+    model.faces = std::move(faces);
+}
+
+} // namespace
+
+void refresh(ModelState& state)
+{
+    if (!state.stale) return;
+    topology::SplitOptions options;
+    options.whole_labels = true;
+    topology::Model model = topology::split_facets(state.added, options);
+    if (model.faces.size() != static_cast<std::size_t>(state.added_faces))
+        throw InvalidInput("lua.face_in_parts", "the " + std::to_string(state.added_faces) +
+                                                    " faces added became " +
+                                                    std::to_string(model.faces.size()) +
+                                                    ": the cells of one do not hang together; "
+                                                    "add each part as a face of its own");
+    put_in_order_of_adding(model, state.added);
+    model.source = "faces of the recipe";
+    state.model = std::move(model);
+    state.stale = false;
+}
+
+void match_volume(VolumeState& state, const matching::MatchOptions& options)
+{
+    if (!state.match) state.match = matching::match(state.volume, options);
+}
+
+void close_volume(VolumeState& state, const closure::CloseOptions& options, const RunContext& context)
+{
+    if (state.closure) return;
+    if (has_both_ends(state.volume)) match_volume(state);
+    topology::OpenVolume sealed = state.volume;
+    state.closure = closure::close(sealed, state.match.value_or(matching::Match{}), options, context);
+    state.volume = std::move(sealed);
+}
+
+RunContext& push_context(lua_State* L)
+{
+    const Host& lent = host(L);
+    auto& context = temporary<RunContext>(L);
+    context.cancel = lent.cancel;
+    if (lent.log)
+        context.log = [&lent](std::string_view line) { lent.log(line); }; // one pointer: no allocation
+    return context;
+}
+
+std::string tree(const topology::OpenVolume& volume)
+{
+    const topology::Model& model = volume.model;
+    std::ostringstream out;
+    out << "volume: " << model.faces.size() << " faces, " << model.edges.size() << " edges, "
+        << model.vertices.size() << " vertices\n";
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        const topology::Face& face = model.faces[f];
+        out << "  " << topology::name_of(model, FaceId(f)) << ", " << word(volume.role[f]) << ": "
+            << (face.origin == Origin::given ? face.kind : word(face.geometry)) << ", "
+            << face.triangles.size() << " facets" << (face.surface ? ", exact surface" : "")
+            << (face.given_quads.empty() ? "" : ", given mesh") << '\n';
+        for (const topology::Loop& loop : face.loops) {
+            out << "    loop of " << loop.uses.size() << '\n';
+            for (const topology::EdgeUse use : loop.uses) {
+                const topology::Edge& edge = model[use.edge];
+                out << "      " << topology::name_of(model, use.edge) << (use.reversed ? ", reversed" : "")
+                    << ": " << (edge.curve ? "exact curve" : "polyline") << " of " << edge.points.size() - 1
+                    << ", from " << topology::name_of(model, edge.from) << " to "
+                    << topology::name_of(model, edge.to) << '\n';
+            }
+        }
+    }
+    return out.str();
+}
+
+std::string describe(const VolumeState& state)
+{
+    std::ostringstream out;
+    list_faces(out, "source: ", state.volume, Role::source, Origin::given);
+    list_faces(out, "target: ", state.volume, Role::target, Origin::given);
+    list_faces(out, "walls:  ", state.volume, Role::wall, Origin::given);
+    out << "class:  " << topology::to_string(state.classification.value) << '\n';
+    for (const std::string& reason : state.classification.reasons) out << "  " << reason << '\n';
+    if (state.match) {
+        out << "match:  " << state.match->method << ", " << state.match->loops.size() << " loops, "
+            << state.match->vertices.size() << " vertices, confidence " << state.match->confidence << '\n';
+        for (const std::string& note : state.match->notes) out << "  " << note << '\n';
+    }
+    if (state.closure) {
+        list_faces(out, "void source: ", state.volume, Role::source, Origin::made_void);
+        list_faces(out, "void target: ", state.volume, Role::target, Origin::made_void);
+        list_faces(out, "void walls:  ", state.volume, Role::wall, Origin::made_void);
+        out << "sealed: " << state.closure->void_edges.size() << " void edges, "
+            << state.closure->void_faces.size() << " void faces, "
+            << (state.closure->watertight ? "watertight" : "not watertight") << '\n';
+        for (const std::string& algorithm : state.closure->algorithms) out << "  " << algorithm << '\n';
+    } else {
+        out << "open:   " << topology::free_edges(state.volume).size() << " free edges in "
+            << state.classification.free_loops.size() << " loops; close() seals them\n";
+    }
+    return out.str();
+}
+
+void push_vector(lua_State* L, const Vec3& vector)
+{
+    lua_createtable(L, 3, 0);
+    for (int i = 0; i < 3; ++i) {
+        lua_pushnumber(L, vector[i]);
+        lua_rawseti(L, -2, i + 1);
+    }
+}
+
+void set_number(lua_State* L, const char* key, double value)
+{
+    lua_pushnumber(L, value);
+    lua_setfield(L, -2, key);
+}
+
+void set_count(lua_State* L, const char* key, std::size_t value)
+{
+    lua_pushinteger(L, static_cast<lua_Integer>(value));
+    lua_setfield(L, -2, key);
+}
+
+void set_boolean(lua_State* L, const char* key, bool value)
+{
+    lua_pushboolean(L, value);
+    lua_setfield(L, -2, key);
+}
+
+void set_string(lua_State* L, const char* key, const char* value)
+{
+    lua_pushstring(L, value);
+    lua_setfield(L, -2, key);
+}
+
+void set_strings(lua_State* L, const char* key, const std::vector<std::string>& values)
+{
+    lua_createtable(L, static_cast<int>(values.size()), 0);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        lua_pushlstring(L, values[i].data(), values[i].size());
+        lua_rawseti(L, -2, to_lua(i));
+    }
+    lua_setfield(L, -2, key);
+}
+
+void push_face(lua_State* L, const Box<ModelState>& model, FaceId face)
+{
+    auto& box = new_box<FaceHandle>(L);
+    guard(L, [&] { box = std::make_shared<FaceHandle>(FaceHandle{model, face}); });
+}
+
+} // namespace lacuna::lua

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What Lua's objects hold, and the small C++ between them and the kernel. Nothing here knows of Lua but the names.
+
+#include "bindings/box.h"
+
+#include <lacuna/closure/close.h>
+#include <lacuna/core/run_context.h>
+#include <lacuna/matching/match.h>
+#include <lacuna/quality/quality.h>
+#include <lacuna/sweep/sweep.h>
+#include <lacuna/topology/model.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <optional>
+#include <string>
+
+namespace lacuna::lua {
+
+/// A model that was read, or one whose faces a recipe adds: then facets are gathered first and the
+/// topology is made when it is asked for.
+struct ModelState {
+    topology::Model model;
+    bool hand_made = false;
+    topology::FacetSoup added; ///< with `hand_made`: a label a face, in the order of adding
+    int added_faces = 0;
+    bool stale = false; ///< `model` lacks faces of `added`
+};
+
+/// Bring `model` up to date with what was added.
+/// @throw InvalidInput  an added face falls apart into several; names it.
+void refresh(ModelState& state);
+
+struct FaceHandle {
+    std::shared_ptr<ModelState> model;
+    FaceId face;
+};
+
+struct VolumeState {
+    topology::OpenVolume volume;
+    topology::Classification classification; ///< as the volume was given
+    std::optional<matching::Match> match;
+    std::optional<closure::Closure> closure;
+};
+
+/// Match the ends unless that is done.
+void match_volume(VolumeState& state, const matching::MatchOptions& options = {});
+/// Seal the volume unless that is done; as it was before where it fails.
+void close_volume(VolumeState& state, const closure::CloseOptions& options, const RunContext& context);
+
+struct MeshState {
+    sweep::Swept swept;
+    std::optional<quality::Quality> quality;
+};
+
+template <>
+inline constexpr const char* kClassName<ModelState> = "Model";
+template <>
+inline constexpr const char* kClassName<FaceHandle> = "Face";
+template <>
+inline constexpr const char* kClassName<VolumeState> = "Volume";
+template <>
+inline constexpr const char* kClassName<MeshState> = "Mesh";
+
+/// A context with the host's cancel flag and log, as a temporary on the stack.
+RunContext& push_context(lua_State* L);
+
+// --- texts a person reads -----------------------------------------------------------------------------
+
+/// Volume, faces, edges, vertices, void ones marked, with the geometry of each.
+std::string tree(const topology::OpenVolume& volume);
+/// Roles, class and why, what is void, what matched.
+std::string describe(const VolumeState& state);
+
+// --- pushing ------------------------------------------------------------------------------------------
+
+void push_vector(lua_State* L, const Vec3& vector);           ///< {x, y, z}
+void set_number(lua_State* L, const char* key, double value); ///< into the table on top
+void set_count(lua_State* L, const char* key, std::size_t value);
+void set_boolean(lua_State* L, const char* key, bool value);
+void set_string(lua_State* L, const char* key, const char* value);
+void set_strings(lua_State* L, const char* key, const std::vector<std::string>& values);
+void push_face(lua_State* L, const Box<ModelState>& model, FaceId face);
+
+/// Numbers of Lua count from 1, the kernel's from 0: the one place that knows.
+inline lua_Integer to_lua(std::size_t index) { return static_cast<lua_Integer>(index) + 1; }
+inline lua_Integer to_lua(Index index) { return static_cast<lua_Integer>(index) + 1; }
+inline std::size_t from_lua(lua_Integer number) { return static_cast<std::size_t>(number - 1); }
+
+// --- one a kernel folder: adds its functions to the module's table, which is on top of the stack ------
+
+void bind_topology(lua_State* L);
+void bind_open_volume(lua_State* L);
+void bind_matching(lua_State* L);
+void bind_closure(lua_State* L);
+void bind_sweep(lua_State* L);
+void bind_mesh(lua_State* L);
+void bind_quality(lua_State* L);
+void bind_io(lua_State* L);
+void bind_cad(lua_State* L);
+
+} // namespace lacuna::lua

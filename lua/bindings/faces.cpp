@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include "bindings/faces.h"
+
+#include <lacuna/geometry/facet_tree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lacuna::lua {
+
+namespace {
+
+const char* const kKinds[] = {"plane", "cylinder", "cone",    "sphere",
+                              "torus", "bspline",  "surface", "discrete"};
+
+void read_tags(lua_State* L, int index, const Where& where, Selector& selector)
+{
+    const auto count = lua_type(L, index) == LUA_TTABLE ? lua_rawlen(L, index) : 1;
+    guard(L, [&] { selector.tags.emplace(count); });
+    if (lua_type(L, index) != LUA_TTABLE) {
+        selector.tags->front() = read_whole(L, index, where, 0);
+        return;
+    }
+    std::size_t next = 0;
+    read_array(L, index, where, "a tag or an array of tags", [&](int element, const Where& at) {
+        (*selector.tags)[next++] = read_whole(L, element, at, 0);
+    });
+}
+
+template <auto Member>
+void read_text(lua_State* L, int index, const Where& where, Selector& selector)
+{
+    const char* text = read_string(L, index, where);
+    guard(L, [&] { selector.*Member = text; });
+}
+
+void read_kind(lua_State* L, int index, const Where& where, Selector& selector)
+{
+    const std::size_t kind = read_word(L, index, where, kKinds, std::size(kKinds));
+    guard(L, [&] { selector.kind = kKinds[kind]; });
+}
+
+void read_facing(lua_State* L, int index, const Where& where, Selector& selector)
+{
+    const Vec3 facing = read_vector(L, index, where);
+    if (!(facing.norm() > 0)) fail_option(L, where, "must be a direction, found { 0, 0, 0 }");
+    selector.facing = facing.normalized();
+}
+
+void read_near(lua_State* L, int index, const Where& where, Selector& selector)
+{
+    selector.near = read_vector(L, index, where);
+}
+
+void read_area(lua_State* L, int index, const Where& where, Selector& selector)
+{
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2)
+        fail_value(L, where, "the smallest and the largest area, { min, max }", index);
+    for (int i = 0; i < 2; ++i) {
+        lua_rawgeti(L, index, i + 1); // math.huge is a fine largest area
+        if (lua_type(L, -1) != LUA_TNUMBER || std::isnan(lua_tonumber(L, -1)))
+            fail_value(L, where, "two numbers", -1);
+        selector.area[static_cast<std::size_t>(i)] = lua_tonumber(L, -1);
+        lua_pop(L, 1);
+    }
+    if (selector.area[0] > selector.area[1])
+        fail_option(L, where, "must rise, found { %f, %f }", selector.area[0], selector.area[1]);
+}
+
+const Option<Selector> kSelectorOptions[] = {
+    {"tags", read_tags}, {"name", read_text<&Selector::name>},
+    {"kind", read_kind}, {"facing", read_facing},
+    {"near", read_near}, {"area", read_area},
+};
+
+/// Distance from a place to the facets of a face.
+double distance(const topology::Model& model, FaceId face, const Vec3& place)
+{
+    double least = std::numeric_limits<double>::infinity();
+    for (const Triangle& t : model[face].triangles) {
+        const auto hit = geometry::closest_on_triangle(place,
+                                                       {model.at(t[0]), model.at(t[1]), model.at(t[2])});
+        least = std::min(least, hit.distance2);
+    }
+    return least;
+}
+
+bool matches(const topology::Model& model, FaceId id, const Selector& selector)
+{
+    const topology::Face& face = model[id];
+    if (selector.tags && std::ranges::find(*selector.tags, face.tag) == selector.tags->end()) return false;
+    if (!selector.name.empty() && face.name != selector.name) return false;
+    if (!selector.kind.empty() && face.kind != selector.kind) return false;
+    if (selector.facing) {
+        const double within = std::cos(30 * std::numbers::pi /
+                                       180); // what the recipe language calls "facing"
+        if (!(mean_normal(model, id).dot(*selector.facing) >= within)) return false;
+    }
+    const double area = topology::face_area(model, id);
+    return area >= selector.area[0] && area <= selector.area[1];
+}
+
+std::vector<FaceId> all_faces(const topology::Model& model)
+{
+    std::vector<FaceId> faces;
+    for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
+    return faces;
+}
+
+/// Append what `pick` returns; raises `none_found` with the model's faces where that is nothing.
+template <class Pick>
+void append(lua_State* L, const Where& where, const topology::Model& model, std::vector<FaceId>& faces,
+            const char* none_found, Pick&& pick)
+{
+    const std::size_t before = faces.size();
+    guard(L, [&] {
+        const std::vector<FaceId> found = pick();
+        faces.insert(faces.end(), found.begin(), found.end());
+    });
+    if (faces.size() > before) return;
+    auto& all = temporary<std::vector<FaceId>>(L);
+    guard(L, [&] { all = all_faces(model); });
+    fail_option(L, where, "%s; the model has %s", none_found, push_names(L, model, all));
+}
+
+void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelState>& state,
+                   std::vector<FaceId>& faces)
+{
+    const topology::Model& model = state->model;
+    if (const Box<FaceHandle>* handle = test_box<FaceHandle>(L, index)) {
+        if (!*handle || (*handle)->model != state) fail_option(L, where, "is a face of another model");
+        const FaceId face = (*handle)->face;
+        guard(L, [&] { faces.push_back(face); });
+        return;
+    }
+    auto& wanted = temporary<Selector>(L);
+    const char* none = nullptr;
+    switch (lua_type(L, index)) {
+    case LUA_TNUMBER: {
+        const int tag = read_whole(L, index, where, 0);
+        guard(L, [&] { wanted.tags = {tag}; });
+        none = lua_pushfstring(L, "names face %d, which is not there", tag);
+        break;
+    }
+    case LUA_TSTRING: {
+        const char* name = read_string(L, index, where);
+        guard(L, [&] { wanted.name = name; });
+        none = lua_pushfstring(L, "names \"%s\", and no face is called that", name);
+        break;
+    }
+    case LUA_TTABLE:
+        read_selector(L, index, where.key ? lua_pushfstring(L, "%s: %s", where.call, where.key) : where.call,
+                      wanted);
+        none = "selects no face";
+        break;
+    default:
+        fail_value(L, where, "a Face, a tag, a name, a selector or an array of those", index);
+    }
+    append(L, where, model, faces, none, [&] { return select(model, wanted); });
+}
+
+} // namespace
+
+void read_selector(lua_State* L, int index, const char* call, Selector& selector)
+{
+    read_options(L, index, call, kSelectorOptions, selector);
+}
+
+std::vector<FaceId> select(const topology::Model& model, const Selector& selector)
+{
+    std::vector<FaceId> faces;
+    for (const FaceId face : all_faces(model))
+        if (matches(model, face, selector)) faces.push_back(face);
+    if (!selector.near || faces.empty()) return faces;
+    const auto further = [&](FaceId a, FaceId b) {
+        return distance(model, a, *selector.near) < distance(model, b, *selector.near);
+    };
+    return {*std::ranges::min_element(faces, further)};
+}
+
+void read_faces(lua_State* L, int index, const Where& where, const Box<ModelState>& model,
+                std::vector<FaceId>& faces)
+{
+    index = lua_absindex(L, index);
+    if (lua_type(L, index) == LUA_TTABLE) {
+        lua_pushnil(L);
+        const bool empty = lua_next(L, index) == 0;
+        const bool array = empty || lua_type(L, -2) == LUA_TNUMBER;
+        if (!empty) lua_pop(L, 2);
+        if (array) {
+            read_array(L, index, where, "", [&](int element, const Where& at) {
+                if (lua_type(L, element) == LUA_TTABLE && lua_rawlen(L, element) > 0)
+                    fail_value(L, at, "a Face, a tag, a name or a selector", element);
+                read_one_face(L, element, at, model, faces);
+            });
+            return;
+        }
+    }
+    read_one_face(L, index, where, model, faces);
+}
+
+Vec3 mean_normal(const topology::Model& model, FaceId face)
+{
+    constexpr double kRounding = 1e-9; // of the area: what is left of a sum that cancels
+    const Vec3 vector = topology::face_area_vector(model, face);
+    return vector.norm() > kRounding * topology::face_area(model, face) ? Vec3(vector.normalized())
+                                                                        : Vec3(Vec3::Zero());
+}
+
+const char* push_names(lua_State* L, const topology::Model& model, const std::vector<FaceId>& faces)
+{
+    constexpr std::size_t kMost = 20; // what still reads as a list
+    push_text(L, [&] {
+        std::string names = faces.empty() ? "no faces" : "";
+        for (std::size_t i = 0; i < std::min(kMost, faces.size()); ++i)
+            names += (i ? ", " : "") + topology::name_of(model, faces[i]);
+        if (faces.size() > kMost) names += " and " + std::to_string(faces.size() - kMost) + " more";
+        return names;
+    });
+    return lua_tostring(L, -1);
+}
+
+} // namespace lacuna::lua

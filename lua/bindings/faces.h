@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How a recipe names faces: a Face, a tag, a name, a selector, or an array of those.
+
+#include "bindings/classes.h"
+#include "bindings/options.h"
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace lacuna::lua {
+
+/// What `{ tags=, name=, kind=, facing=, near=, area= }` asks for; all that is set must hold.
+struct Selector {
+    std::optional<std::vector<int>> tags;
+    std::string name, kind;
+    std::optional<Vec3> facing, near;
+    std::array<double, 2> area{0, std::numeric_limits<double>::infinity()};
+};
+
+void read_selector(lua_State* L, int index, const char* call, Selector& selector);
+
+/// Faces a selector picks, in the model's order.
+std::vector<FaceId> select(const topology::Model& model, const Selector& selector);
+
+/// Append the faces the value at `index` means. Raises where it means none.
+/// @pre the model is up to date.
+void read_faces(lua_State* L, int index, const Where& where, const Box<ModelState>& model,
+                std::vector<FaceId>& faces);
+
+/// Unit mean normal of the facets; zero where they have none, as all round a tube.
+Vec3 mean_normal(const topology::Model& model, FaceId face);
+
+/// Push the names of faces, at most twenty, as a list for messages.
+const char* push_names(lua_State* L, const topology::Model& model, const std::vector<FaceId>& faces);
+
+} // namespace lacuna::lua

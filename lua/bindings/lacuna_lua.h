@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lua.hpp>
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <string_view>
+
+/// What `require "lacuna"` calls; leaves the module's table on the stack.
+extern "C" __attribute__((visibility("default"))) int luaopen_lacuna(lua_State* L);
+
+namespace lacuna::lua {
+
+/// What the program around the interpreter lends to the bindings. A stock interpreter lends nothing.
+struct Host {
+    const std::atomic<bool>* cancel = nullptr; ///< set by the host to stop kernel work
+    std::function<void(std::string_view)> log; ///< notes of the kernel, a line each
+    bool sandboxed = false;                    ///< files are written below `output_dir` alone
+    std::string output_dir;                    ///< empty with `sandboxed`: nothing is written
+};
+
+/// Lend `host` to the state; the host keeps it alive as long as the state. Call before luaopen_lacuna.
+void set_host(lua_State* L, const Host* host);
+/// The host lent, or one that lends nothing.
+const Host& host(lua_State* L);
+
+/// Registry field that is true once the recipe has called lacuna.params().
+inline constexpr const char* kUsedParams = "lacuna.used_params";
+
+/// Chunk name of the Lua sources inside the binary; frames of it are not the recipe's.
+inline constexpr const char* kEmbeddedSource = "=lacuna";
+
+} // namespace lacuna::lua

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The one way options are read: a table per call that names each key and the reader of its value. What is not
+// in the table is an error that names the nearest key that is; what is of the wrong kind is an error that says
+// which option of which call, what it must be and what was found.
+
+#include "bindings/box.h"
+
+#include <lacuna/core/types.h>
+
+#include <cstddef>
+#include <string>
+
+namespace lacuna::lua {
+
+/// Where a value was handed over: the call, and the option's name (null for an argument by itself).
+struct Where {
+    const char* call;
+    const char* key;
+};
+
+/// "sweep: option 'layers' must be a positive whole number, found -3".
+[[noreturn]] void fail_value(lua_State* L, const Where& where, const char* expected, int index);
+/// "sweep: option 'layers' <what>"; `format` as by lua_pushfstring.
+[[noreturn]] void fail_option(lua_State* L, const Where& where, const char* format, ...);
+
+// --- readers of one value ---------------------------------------------------------------------------
+
+double read_number(lua_State* L, int index, const Where& where);           ///< finite
+double read_positive(lua_State* L, int index, const Where& where);         ///< finite and > 0
+int read_whole(lua_State* L, int index, const Where& where, int smallest); ///< a whole number >= smallest
+bool read_boolean(lua_State* L, int index, const Where& where);
+const char* read_string(lua_State* L, int index, const Where& where); ///< not empty; Lua's own copy
+Vec3 read_vector(lua_State* L, int index, const Where& where);        ///< {x, y, z}
+
+template <class Value>
+struct Word {
+    const char* word;
+    Value value;
+};
+
+/// Index of the word at `index` among `words`; raises with the nearest one.
+std::size_t read_word(lua_State* L, int index, const Where& where, const char* const* words,
+                      std::size_t count);
+
+template <class Value, std::size_t N>
+Value read_word(lua_State* L, int index, const Where& where, const Word<Value> (&words)[N])
+{
+    const char* names[N];
+    for (std::size_t i = 0; i < N; ++i) names[i] = words[i].word;
+    return words[read_word(L, index, where, names, N)].value;
+}
+
+/// Call `read(element index on the stack, element's Where)` for each element of the array at `index`.
+template <class Read>
+void read_array(lua_State* L, int index, const Where& where, const char* expected, Read&& read)
+{
+    if (lua_type(L, index) != LUA_TTABLE) fail_value(L, where, expected, index);
+    index = lua_absindex(L, index);
+    const auto count = static_cast<lua_Integer>(lua_rawlen(L, index));
+    for (lua_Integer i = 1; i <= count; ++i) {
+        luaL_checkstack(L, 8, "array nested too deep");
+        const int top = lua_gettop(L);
+        const char* key = lua_pushfstring(L, "%s[%I]", where.key, i);
+        lua_rawgeti(L, index, i);
+        read(top + 2, Where{where.call, key});
+        lua_settop(L, top);
+    }
+}
+
+// --- tables of options ------------------------------------------------------------------------------
+
+template <class Options>
+struct Option {
+    const char* key;
+    void (*read)(lua_State* L, int index, const Where& where, Options& options);
+};
+
+/// @pre the value at `index` is a table. Raises for a key that is not one of `keys`.
+void check_keys(lua_State* L, int index, const char* call, const char* const* keys, std::size_t count);
+/// False where there are no options; raises where there is something that is no table.
+bool has_options(lua_State* L, int index, const char* call);
+
+template <class Options, std::size_t N>
+void read_options(lua_State* L, int index, const char* call, const Option<Options> (&table)[N],
+                  Options& options)
+{
+    if (!has_options(L, index, call)) return;
+    index = lua_absindex(L, index);
+    const char* keys[N];
+    for (std::size_t i = 0; i < N; ++i) keys[i] = table[i].key;
+    check_keys(L, index, call, keys, N);
+    for (const Option<Options>& option : table) {
+        const int top = lua_gettop(L);
+        if (lua_getfield(L, index, option.key) != LUA_TNIL)
+            option.read(L, top + 1, {call, option.key}, options);
+        lua_settop(L, top);
+    }
+}
+
+// Readers straight into a member: `{"scale", positive<&LoadOptions::scale>}`.
+template <auto Member, class Options>
+void number(lua_State* L, int i, const Where& where, Options& o)
+{
+    o.*Member = read_number(L, i, where);
+}
+template <auto Member, class Options>
+void positive(lua_State* L, int i, const Where& where, Options& o)
+{
+    o.*Member = read_positive(L, i, where);
+}
+template <auto Member, class Options>
+void count(lua_State* L, int i, const Where& where, Options& o)
+{
+    o.*Member = read_whole(L, i, where, 1);
+}
+template <auto Member, class Options>
+void boolean(lua_State* L, int i, const Where& where, Options& o)
+{
+    o.*Member = read_boolean(L, i, where);
+}
+
+// --- nearest names ----------------------------------------------------------------------------------
+
+/// Number of letters to add, drop or change to make one word of the other.
+std::size_t edit_distance(const char* a, const char* b);
+/// Position of the key nearest to `word`. @pre count > 0.
+std::size_t nearest(const char* word, const char* const* keys, std::size_t count);
+/// The string nearest to `word` in the array at `index`; equally near ones by alphabet.
+const char* nearest_in_table(lua_State* L, int index, const char* word);
+
+} // namespace lacuna::lua

@@ -1,0 +1,425 @@
+-- SPDX-License-Identifier: MIT
+-- lacuna.synthetic: open volumes of any class and size, for trials and benchmarks.
+--
+-- Each one is a section, which is a list of closed loops in the plane (the outer one counter-clockwise, holes
+-- clockwise), carried along an axis by a map (x, y, t) -> point with t in [0, 1]. Faces that meet take their common
+-- points from the same call with the same numbers, so they agree to the bit.
+local lacuna, internal = ...
+local synthetic = {}
+lacuna.synthetic = synthetic
+
+local pi, sin, cos = math.pi, math.sin, math.cos
+
+-- --- options ---------------------------------------------------------------------------------------------------
+
+-- What a value must be: a test and its words.
+local kinds = {
+  number = { function(v) return v == v and v ~= math.huge and v ~= -math.huge end, "a number" },
+  positive = { function(v) return v > 0 and v < math.huge end, "a positive number" },
+  not_negative = { function(v) return v >= 0 and v < math.huge end, "a number of at least 0" },
+  count = { function(v) return v >= 1 and math.tointeger(v) end, "a positive whole number" },
+  whole = { function(v) return v >= 0 and math.tointeger(v) end, "a whole number of at least 0" },
+  sides = { function(v) return v >= 3 and math.tointeger(v) end, "a whole number of at least 3" },
+}
+
+local function fail(call, ...) internal.fail("synthetic." .. call .. ": " .. string.format(...)) end
+
+-- Options laid over their defaults. spec: key -> { default, kind }.
+local function read_options(call, spec, given)
+  if given == nil then given = {} end
+  if type(given) ~= "table" then
+    fail(call, "the options must be a table { key = value, ... }, found %s", internal.found(given))
+  end
+  local keys = { "drop", "facets" }
+  for key in pairs(spec) do keys[#keys + 1] = key end
+  table.sort(keys)
+  local known = {}
+  for _, key in ipairs(keys) do known[key] = true end
+  for key, value in pairs(given) do
+    if type(key) ~= "string" then
+      fail(call, "%s stands among the options without a name; write key = value", internal.found(value))
+    elseif not known[key] then
+      fail(call, "unknown option '%s'; the nearest is '%s'. The keys are: %s", key, internal.nearest(key, keys),
+           table.concat(keys, ", "))
+    end
+  end
+  local read = {}
+  spec.facets = spec.facets or { false, "count" }
+  for key, rule in pairs(spec) do
+    local value = given[key]
+    if value == nil then
+      value = rule[1]
+    else
+      local test, expected = table.unpack(kinds[rule[2]])
+      if type(value) ~= "number" or not test(value) then
+        fail(call, "option '%s' must be %s, found %s", key, expected, internal.found(value))
+      end
+      value = math.tointeger(value) or value
+    end
+    read[key] = value
+  end
+  return read, given.drop
+end
+
+-- The faces to leave out, as a set; "walls" stands for every wall.
+local function read_drop(call, drop, names)
+  local left_out = {}
+  if drop == nil then return left_out end
+  if type(drop) == "string" then drop = { drop } end
+  if type(drop) ~= "table" then
+    fail(call, "option 'drop' must be an array of names of faces, found %s", internal.found(drop))
+  end
+  local known = { walls = true }
+  for _, name in ipairs(names) do known[name] = true end
+  for i, name in ipairs(drop) do
+    if type(name) ~= "string" then fail(call, "option 'drop[%d]' must be the name of a face, found %s", i, internal.found(name)) end
+    if not known[name] then
+      fail(call, "option 'drop' names \"%s\", which is no face of this volume; the nearest is \"%s\". The faces are: %s",
+           name, internal.nearest(name, names), table.concat(names, ", "))
+    end
+    left_out[name] = true
+  end
+  if left_out.walls then
+    for _, name in ipairs(names) do
+      if name:match("^wall_") then left_out[name] = true end
+    end
+  end
+  return left_out
+end
+
+-- --- sections ----------------------------------------------------------------------------------------------------
+
+-- A loop: points {x, y}, and the numbers of those that are corners; between corners runs one wall. A loop without
+-- corners is one closed wall.
+local function reversed(loop)
+  local points, corners, n = {}, {}, #loop.points
+  for i = 1, n do points[i] = loop.points[(n + 1 - i) % n + 1] end  -- starts at the same point
+  for i = #loop.corners, 1, -1 do
+    corners[#corners + 1] = (n + 1 - loop.corners[i]) % n + 1
+  end
+  table.sort(corners)
+  return { points = points, corners = corners }
+end
+
+-- A regular polygon, or a polygon through `corners`, with each side cut into `cuts`.
+local function polygon(corners, cuts)
+  local loop = { points = {}, corners = {} }
+  for i, a in ipairs(corners) do
+    local b = corners[i % #corners + 1]
+    loop.corners[i] = #loop.points + 1
+    for k = 0, cuts - 1 do
+      local s = k / cuts
+      loop.points[#loop.points + 1] = { a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2]) }
+    end
+  end
+  return loop
+end
+
+local function regular(sides, radius, x, y, cuts)
+  local corners = {}
+  for i = 1, sides do
+    local angle = 2 * pi * (i - 1) / sides
+    corners[i] = { x + radius * cos(angle), y + radius * sin(angle) }
+  end
+  return polygon(corners, cuts)
+end
+
+local function circle(radius, x, y, facets)
+  local loop = regular(facets, radius, x, y, 1)
+  loop.corners = {}
+  return loop
+end
+
+-- --- triangles of a section ----------------------------------------------------------------------------------------
+
+local function cross(a, b, c) return (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]) end
+
+-- Is p in the triangle, or nearer to it than `flat` says is nothing?
+local function inside(a, b, c, p, flat)
+  return cross(a, b, p) >= -flat and cross(b, c, p) >= -flat and cross(c, a, p) >= -flat
+end
+
+-- Do the open segments ab and cd meet?
+local function crosses(a, b, c, d)
+  return cross(a, b, c) * cross(a, b, d) < 0 and cross(c, d, a) * cross(c, d, b) < 0
+end
+
+-- The loops joined into one by bridges: numbers of points, bridge ends twice.
+local function bridged(points, loops)
+  local chain = {}
+  for i = 1, #loops[1] do chain[i] = loops[1][i] end
+  local rest = table.move(loops, 2, #loops, 1, {})
+  while #rest > 0 do
+    -- The shortest line from a hole to the chain that crosses nothing.
+    local best
+    for h, hole in ipairs(rest) do
+      for j, q in ipairs(hole) do
+        for i, p in ipairs(chain) do
+          local dx, dy = points[p][1] - points[q][1], points[p][2] - points[q][2]
+          local length = dx * dx + dy * dy
+          if not best or length < best.length then
+            local clear = true
+            for k, a in ipairs(chain) do
+              if crosses(points[p], points[q], points[a], points[chain[k % #chain + 1]]) then clear = false break end
+            end
+            if clear then best = { length = length, hole = h, j = j, i = i } end
+          end
+        end
+      end
+    end
+    local hole = table.remove(rest, best.hole)
+    local joined = table.move(chain, 1, best.i, 1, {})
+    for k = 0, #hole do joined[#joined + 1] = hole[(best.j - 1 + k) % #hole + 1] end
+    table.move(chain, best.i, #chain, #joined + 1, joined)
+    chain = joined
+  end
+  return chain
+end
+
+-- How good an ear is: twice its area over its longest side squared; nil where it is none.
+local function ear_quality(points, chain, previous, next, i)
+  local a, b, c = points[chain[previous[i]]], points[chain[i]], points[chain[next[i]]]
+  local area = cross(a, b, c)
+  local longest = 0
+  for _, s in ipairs { { a, b }, { b, c }, { c, a } } do
+    longest = math.max(longest, (s[1][1] - s[2][1]) ^ 2 + (s[1][2] - s[2][2]) ^ 2)
+  end
+  local flat = 1e-9 * longest  -- twice the area of what is flat to rounding
+  if area <= flat then return nil end
+  local j = next[next[i]]
+  while j ~= previous[i] do
+    local p = points[chain[j]]
+    if p ~= a and p ~= b and p ~= c and inside(a, b, c, p, flat) then return nil end
+    j = next[j]
+  end
+  return area / longest
+end
+
+-- Triangles of the region between the loops, by cutting off the best ear.
+local function triangulate(points, loops)
+  local chain = bridged(points, loops)
+  local n = #chain
+  local previous, next, quality, cells = {}, {}, {}, {}
+  for i = 1, n do
+    previous[i] = (i - 2) % n + 1
+    next[i] = i % n + 1
+  end
+  local alive = {}
+  for i = 1, n do
+    alive[i] = true
+    quality[i] = ear_quality(points, chain, previous, next, i)
+  end
+  for left = n, 3, -1 do
+    local best
+    for i = 1, n do
+      if alive[i] and quality[i] and (not best or quality[i] > quality[best]) then best = i end
+    end
+    if not best then break end  -- nothing but a flat rest
+    local before, after = previous[best], next[best]
+    cells[#cells + 1] = { chain[before], chain[best], chain[after] }
+    alive[best] = false
+    next[before], previous[after] = after, before
+    if left > 3 then
+      quality[before] = ear_quality(points, chain, previous, next, before)
+      quality[after] = ear_quality(points, chain, previous, next, after)
+    end
+  end
+  return cells
+end
+
+-- --- carrying a section along ----------------------------------------------------------------------------------------
+
+-- Source and target: the section at t = 0 seen from below, at t = 1 from above.
+local function end_face(section, map, t)
+  local flat, loops = {}, {}
+  for l, loop in ipairs(section) do
+    loops[l] = {}
+    for i, p in ipairs(loop.points) do
+      flat[#flat + 1] = p
+      loops[l][i] = #flat
+    end
+  end
+  local points = {}
+  for i, p in ipairs(flat) do points[i] = { map(p[1], p[2], t) } end
+  local cells = triangulate(flat, loops)
+  if t == 0 then
+    for _, cell in ipairs(cells) do cell[2], cell[3] = cell[3], cell[2] end
+  end
+  return points, cells
+end
+
+-- The wall over points `from`..`to` of a loop (`to` may run past the end; the whole loop makes a closed wall).
+local function wall_face(loop, from, to, map, levels)
+  local points, cells, n = {}, {}, #loop.points
+  local closed = to - from == n
+  local columns = closed and n or to - from + 1
+  for level = 0, levels do
+    for i = 0, columns - 1 do
+      local p = loop.points[(from - 1 + i) % n + 1]
+      points[#points + 1] = { map(p[1], p[2], level / levels) }
+    end
+  end
+  for level = 0, levels - 1 do
+    for i = 0, to - from - 1 do
+      local a = level * columns + i + 1
+      local b = level * columns + (i + 1) % columns + 1
+      cells[#cells + 1] = { a, b, b + columns }
+      cells[#cells + 1] = { a, b + columns, a + columns }
+    end
+  end
+  return points, cells
+end
+
+-- The walls of a section: { loop, from, to }, the outer loop's first.
+local function walls_of(section)
+  local walls = {}
+  for _, loop in ipairs(section) do
+    if #loop.corners == 0 then walls[#walls + 1] = { loop, 1, #loop.points + 1 } end
+    for i, corner in ipairs(loop.corners) do
+      local last = loop.corners[i + 1] or loop.corners[1] + #loop.points
+      walls[#walls + 1] = { loop, corner, last }
+    end
+  end
+  return walls
+end
+
+local function carry(call, section, map, levels, drop)
+  local walls = walls_of(section)
+  local names = { "source", "target" }
+  for i = 1, #walls do names[#names + 1] = "wall_" .. i end
+  local left_out = read_drop(call, drop, names)
+  local model = lacuna.model()
+  local function add(name, points, cells) model:add_face { name = name, points = points, cells = cells } end
+  if not left_out.source then add("source", end_face(section, map, 0)) end
+  if not left_out.target then add("target", end_face(section, map, 1)) end
+  for i, wall in ipairs(walls) do
+    local name = "wall_" .. i
+    if not left_out[name] then add(name, wall_face(wall[1], wall[2], wall[3], map, levels)) end
+  end
+  return model
+end
+
+-- A straight axis along z, or one bent towards +x by `bend` degrees with the same length.
+local function axis(height, bend)
+  local angle = math.rad(bend)
+  if angle == 0 then return function(x, y, t) return x, y, height * t end end
+  local r = height / angle
+  return function(x, y, t)
+    return r - (r - x) * cos(angle * t), y, (r - x) * sin(angle * t)
+  end
+end
+
+-- Rows of facets along a curved axis: as long as the section's own, and no turn above five degrees.
+local function levels_for(length, segment, turn)
+  return math.max(1, math.ceil(length / segment), math.ceil(math.abs(turn) / 5))
+end
+
+-- --- the volumes -------------------------------------------------------------------------------------------------------
+
+-- Regular holes in a regular prism: one in the middle, several on a circle.
+local function prism_holes(call, o, cuts)
+  local holes = {}
+  if o.holes == 0 then return holes end
+  local inner = o.radius * cos(pi / o.sides)  -- of the circle that touches the sides
+  local centre = o.holes == 1 and 0 or 0.55 * inner
+  local room = o.holes == 1 and inner or math.min(centre * sin(pi / o.holes), inner - centre)
+  local radius = o.hole_radius or 0.6 * room
+  if radius >= room then
+    fail(call, "option 'hole_radius' must be below %.6g for %d holes to fit, found %.6g", room, o.holes, radius)
+  end
+  for h = 1, o.holes do
+    local angle = 2 * pi * (h - 1) / o.holes
+    holes[h] = reversed(regular(o.sides, radius, centre * cos(angle), centre * sin(angle), cuts))
+  end
+  return holes
+end
+
+--- prism { sides, radius, height, holes, hole_radius, twist, taper, bend [degrees], facets, drop }
+function synthetic.prism(given)
+  local o, drop = read_options("prism", {
+    sides = { 6, "sides" }, radius = { 1, "positive" }, height = { 2, "positive" }, holes = { 0, "whole" },
+    hole_radius = { false, "positive" }, twist = { 0, "number" }, taper = { 1, "positive" }, bend = { 0, "number" },
+  }, given)
+  if o.bend ~= 0 and math.abs(o.height / math.rad(o.bend)) <= o.radius * math.max(1, o.taper) then
+    fail("prism", "option 'bend' of %.6g degrees over height %.6g folds a prism of radius %.6g; bend less or make it higher",
+         o.bend, o.height, o.radius * math.max(1, o.taper))
+  end
+  local side = 2 * o.radius * sin(pi / o.sides)
+  local cuts = o.facets or (o.twist ~= 0 and 6 or 2)
+  local section = { regular(o.sides, o.radius, 0, 0, cuts), table.unpack(prism_holes("prism", o, cuts)) }
+  local straight, twist = axis(o.height, o.bend), math.rad(o.twist)
+  local function map(x, y, t)
+    local scale, c, s = 1 + (o.taper - 1) * t, cos(twist * t), sin(twist * t)
+    return straight(scale * (c * x - s * y), scale * (s * x + c * y), t)
+  end
+  local curved = o.twist ~= 0 or o.bend ~= 0
+  local levels = curved and levels_for(o.height, side / cuts, math.abs(o.twist) + math.abs(o.bend)) or 1
+  return carry("prism", section, map, levels, drop)
+end
+
+--- annulus { inner, outer, height, facets, drop }: wall_1 is the outer cylinder, wall_2 the inner one
+function synthetic.annulus(given)
+  local o, drop = read_options("annulus", {
+    inner = { 0.5, "positive" }, outer = { 1, "positive" }, height = { 1, "positive" },
+  }, given)
+  if o.inner >= o.outer then fail("annulus", "option 'inner' must be below 'outer', found %.6g and %.6g", o.inner, o.outer) end
+  local facets = math.max(3, o.facets or 48)
+  local section = { circle(o.outer, 0, 0, facets), reversed(circle(o.inner, 0, 0, facets)) }
+  return carry("annulus", section, axis(o.height, 0), 1, drop)
+end
+
+--- elbow { radius, inner, bend_radius, angle [degrees], facets, drop }: a bent pipe; wall_2 is the bore, if `inner` > 0
+function synthetic.elbow(given)
+  local o, drop = read_options("elbow", {
+    radius = { 1, "positive" }, inner = { 0, "not_negative" }, bend_radius = { 3, "positive" }, angle = { 90, "positive" },
+  }, given)
+  if o.bend_radius <= o.radius then
+    fail("elbow", "option 'bend_radius' must be above 'radius', found %.6g and %.6g", o.bend_radius, o.radius)
+  end
+  if o.inner >= o.radius then fail("elbow", "option 'inner' must be below 'radius', found %.6g and %.6g", o.inner, o.radius) end
+  if o.angle >= 360 then fail("elbow", "option 'angle' must be below 360 degrees, found %.6g", o.angle) end
+  local facets = math.max(3, o.facets or 32)
+  local section = { circle(o.radius, 0, 0, facets) }
+  if o.inner > 0 then section[2] = reversed(circle(o.inner, 0, 0, facets)) end
+  local length = o.bend_radius * math.rad(o.angle)
+  local levels = levels_for(length, 2 * pi * o.radius / facets, o.angle)
+  return carry("elbow", section, axis(length, o.angle), levels, drop)
+end
+
+--- barrel { radius, height, bulge, facets, drop }: radius (1 + bulge) half way up
+function synthetic.barrel(given)
+  local o, drop = read_options("barrel", {
+    radius = { 1, "positive" }, height = { 2, "positive" }, bulge = { 0.3, "number" },
+  }, given)
+  if o.bulge <= -1 then fail("barrel", "option 'bulge' must be above -1, found %.6g", o.bulge) end
+  local facets = math.max(3, o.facets or 48)
+  local function map(x, y, t)
+    local scale = 1 + o.bulge * 4 * t * (1 - t)
+    return scale * x, scale * y, o.height * t
+  end
+  local levels = math.max(12, levels_for(o.height, 2 * pi * o.radius / facets, 0))
+  return carry("barrel", { circle(o.radius, 0, 0, facets) }, map, levels, drop)
+end
+
+--- plate { length, width, height, holes, hole_radius, facets, drop }: round holes in rows; walls 1 to 4 are the sides
+function synthetic.plate(given)
+  local o, drop = read_options("plate", {
+    length = { 4, "positive" }, width = { 4, "positive" }, height = { 0.5, "positive" }, holes = { 4, "whole" },
+    hole_radius = { false, "positive" },
+  }, given)
+  local x, y = o.length / 2, o.width / 2
+  local section = { polygon({ { -x, -y }, { x, -y }, { x, y }, { -x, y } }, 4) }
+  local columns = math.max(1, math.ceil(math.sqrt(o.holes * o.length / o.width)))
+  local rows = math.max(1, math.ceil(o.holes / columns))
+  local dx, dy = o.length / columns, o.width / rows
+  local room = math.min(dx, dy) / 2
+  local radius = o.hole_radius or 0.5 * room
+  if o.holes > 0 and radius >= room then
+    fail("plate", "option 'hole_radius' must be below %.6g for %d holes to fit, found %.6g", room, o.holes, radius)
+  end
+  for h = 0, o.holes - 1 do
+    local cx, cy = -x + (h % columns + 0.5) * dx, -y + (h // columns + 0.5) * dy
+    section[#section + 1] = reversed(circle(radius, cx, cy, math.max(3, o.facets or 24)))
+  end
+  return carry("plate", section, axis(o.height, 0), 1, drop)
+end

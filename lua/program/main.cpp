@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "program/command_line.h"
+#include "program/interpreter.h"
+
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace lacuna::program;
+
+const char* const kVersion = R"lua(
+local lacuna = require "lacuna"
+print(("lacuna %s (%s, Gmsh %s)"):format(lacuna.version, _VERSION, lacuna.gmsh_version))
+)lua";
+
+const char* const kInfo = R"lua(
+local lacuna = require "lacuna"
+print(lacuna.load((...)):describe())
+)lua";
+
+const char* const kCheck = R"lua(
+local lacuna = require "lacuna"
+local quality = lacuna.check((...))
+print(quality)
+if not quality.certified then
+  error(("%s: %d of %d cells are invalid"):format(..., quality.uncertified, quality.hexes), 0)
+end
+)lua";
+
+Exit run(const CommandLine& line)
+{
+    Interpreter interpreter(line);
+    switch (line.action) {
+    case Action::run:
+        return interpreter.run_file(line.file, line.words);
+    case Action::prompt:
+        return run_prompt(interpreter);
+    case Action::info:
+        return interpreter.run_text(kInfo, line.file);
+    case Action::check:
+        return interpreter.run_text(kCheck, line.file);
+    case Action::version:
+        return interpreter.run_text(kVersion, "");
+    case Action::help:
+        break;
+    }
+    std::fputs(kHelp, stdout);
+    return Exit::done;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    try {
+        return static_cast<int>(run(parse(std::vector<std::string>(argv + 1, argv + argc))));
+    } catch (const BadUsage& error) {
+        std::fprintf(stderr, "lacuna: %s\n`lacuna --help` says what there is\n", error.what());
+        return static_cast<int>(Exit::bad_usage);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "lacuna: %s\n", error.what());
+        return static_cast<int>(Exit::failed);
+    }
+}

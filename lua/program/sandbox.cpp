@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Proof against accidents, not a wall: it keeps a recipe from files, processes and endless work, and does not
+// claim to hold whoever looks for faults in Lua, Gmsh or the C library.
+#include "program/interpreter.h"
+
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <sys/resource.h>
+#include <sys/time.h>
+
+namespace lacuna::program {
+
+namespace {
+
+const luaL_Reg kLibraries[] = {
+    {LUA_GNAME, luaopen_base},        {LUA_TABLIBNAME, luaopen_table},
+    {LUA_STRLIBNAME, luaopen_string}, {LUA_MATHLIBNAME, luaopen_math},
+    {LUA_UTF8LIBNAME, luaopen_utf8},  {LUA_COLIBNAME, luaopen_coroutine},
+    {"lacuna", luaopen_lacuna},       {nullptr, nullptr},
+};
+
+/// load() of text: upvalue 1 is Lua's own, and the mode is always "t".
+int load_text(lua_State* L)
+{
+    lua_settop(L, 4);
+    const bool has_environment = !lua_isnil(L, 4);
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_pushvalue(L, 1);
+    lua_pushvalue(L, 2);
+    lua_pushliteral(L, "t");
+    if (has_environment) lua_pushvalue(L, 4);
+    lua_call(L, has_environment ? 4 : 3, LUA_MULTRET);
+    return lua_gettop(L) - 4;
+}
+
+/// require() of what is there already, which is `lacuna`.
+int require_known(lua_State* L)
+{
+    const char* name = luaL_checkstring(L, 1);
+    luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+    if (std::strcmp(name, "lacuna") != 0)
+        return luaL_error(L, "the sandbox has no module '%s', only 'lacuna'", name);
+    lua_getfield(L, -1, name);
+    return 1;
+}
+
+/// What os, io and the like say instead of "a nil value".
+int refuse(lua_State* L)
+{
+    return luaL_error(L, "the sandbox has no '%s'", lua_tostring(L, lua_upvalueindex(1)));
+}
+
+void put_refusals(lua_State* L)
+{
+    for (const char* name : {"os", "io", "debug", "package"}) {
+        lua_newtable(L);
+        lua_createtable(L, 0, 1);
+        lua_pushstring(L, name);
+        lua_pushcclosure(L, refuse, 1);
+        lua_setfield(L, -2, "__index");
+        lua_pushliteral(L, "sandbox");
+        lua_setfield(L, -2, "__metatable");
+        lua_setmetatable(L, -2);
+        lua_setglobal(L, name);
+    }
+    for (const char* name : {"dofile", "loadfile"}) {
+        lua_pushstring(L, name);
+        lua_pushcclosure(L, refuse, 1);
+        lua_setglobal(L, name);
+    }
+}
+
+std::size_t data_in_use()
+{
+    // The sixth number of /proc/self/statm: data and stack, in pages; what RLIMIT_DATA counts.
+    unsigned long pages = 0;
+    if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
+        if (std::fscanf(file, "%*u %*u %*u %*u %*u %lu", &pages) != 1) pages = 0;
+        std::fclose(file);
+    }
+    return pages * 4096;
+}
+
+} // namespace
+
+void open_sandbox_libraries(lua_State* L)
+{
+    for (const luaL_Reg* library = kLibraries; library->func; ++library) {
+        const bool global = std::strcmp(library->name, "lacuna") != 0;
+        luaL_requiref(L, library->name, library->func, global);
+        lua_pop(L, 1);
+    }
+    lua_getglobal(L, "load");
+    lua_pushcclosure(L, load_text, 1);
+    lua_setglobal(L, "load");
+    lua_pushcfunction(L, require_known);
+    lua_setglobal(L, "require");
+    lua_getglobal(L, LUA_STRLIBNAME);
+    lua_pushnil(L);
+    lua_setfield(L, -2, "dump");
+    lua_pop(L, 1);
+    put_refusals(L);
+}
+
+void limit_process(double megabytes, double seconds)
+{
+#ifndef __SANITIZE_ADDRESS__ // whose shadow memory is far beyond any limit
+    rlimit data = {};
+    getrlimit(RLIMIT_DATA, &data);
+    const auto wanted = static_cast<rlim_t>(megabytes * 1024 * 1024) + data_in_use();
+    if (data.rlim_max == RLIM_INFINITY || wanted < data.rlim_max) data.rlim_cur = wanted;
+    setrlimit(RLIMIT_DATA, &data);
+#endif
+    constexpr double kGrace = 5; // from the request to stop until the process is ended [s]
+    const auto split = [](double s) {
+        return timeval{static_cast<time_t>(s),
+                       static_cast<suseconds_t>(std::fmod(s, 1.0) * 1e6) + (s < 1e-6 ? 1 : 0)};
+    };
+    const itimerval timer{split(kGrace), split(seconds)};
+    setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+} // namespace lacuna::program
