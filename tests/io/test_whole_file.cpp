@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "folder.h"
+#include "support/blocks.h"
+
+#include <lacuna/io/msh.h>
+#include <lacuna/io/whole_file.h>
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <csignal>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace lacuna;
+
+TEST_CASE("a file appears when it is whole and not before")
+{
+    const test::Folder folder;
+    const std::string path = folder.file("a.txt");
+    {
+        io::WholeFile file(path);
+        file.append("one ");
+        file.append("two");
+        CHECK_FALSE(std::filesystem::exists(path));
+        file.commit();
+        CHECK(test::bytes_of(path) == "one two");
+    }
+    CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("a file that is given up leaves nothing, and what was there before stays")
+{
+    const test::Folder folder;
+    const std::string path = folder.file("a.txt");
+    test::put_bytes(path, "before");
+    {
+        io::WholeFile file(path);
+        file.append("half");
+    }
+    CHECK(test::bytes_of(path) == "before");
+    CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("places that cannot be written to are told apart")
+{
+    const test::Folder folder;
+    const auto code = [](const std::string& path) { return test::error_code([&] { io::WholeFile file(path); }); };
+    CHECK(code("") == "io.no_path");
+    CHECK(code(folder.file("missing/a.msh")) == "io.no_folder");
+    CHECK(code(folder.file("")) == "io.not_a_file");
+    CHECK(code(folder.file(".")) == "io.not_a_file");
+    CHECK(code("/dev/null") == "io.not_a_file");
+    test::put_bytes(folder.file("plain"), "x");
+    CHECK(code(folder.file("plain/a.msh")) == "io.no_folder");
+    CHECK(code(folder.file(std::string(300, 'n'))) == "io.write_failed");
+
+    std::string message;
+    try {
+        io::write_msh(test::block({}), folder.file("missing/a.msh"));
+    } catch (const InvalidInput& error) {
+        message = error.what();
+    }
+    CHECK(message.find(folder.file("missing")) != std::string::npos);
+}
+
+TEST_CASE("a link to a file stays a link, and the file behind it is replaced")
+{
+    const test::Folder folder;
+    test::put_bytes(folder.file("target"), "before");
+    std::filesystem::create_symlink("target", folder.file("link"));
+    io::WholeFile file(folder.file("link"));
+    file.append("after");
+    file.commit();
+    CHECK(std::filesystem::is_symlink(folder.file("link")));
+    CHECK(test::bytes_of(folder.file("target")) == "after");
+}
+
+TEST_CASE("a disk that is full ends the writing with an error and leaves nothing behind")
+{
+    // A limit on the size of files, in a process of its own, stands for the disk.
+    const auto mesh = test::block({.columns = 40, .rows = 40, .layers = 20});
+    for (const bool binary : {true, false}) {
+        const test::Folder folder;
+        const pid_t child = ::fork();
+        REQUIRE(child >= 0);
+        if (child == 0) {
+            std::signal(SIGXFSZ, SIG_IGN);
+            const rlimit limit{1 << 20, 1 << 20};
+            ::setrlimit(RLIMIT_FSIZE, &limit);
+            int status = 1;
+            try {
+                io::write_msh(mesh, folder.file("a.msh"), {.binary = binary});
+            } catch (const BackendError& error) {
+                status = error.code() == "io.write_failed" ? 0 : 2;
+            } catch (...) {
+                status = 3;
+            }
+            ::_exit(status);
+        }
+        int status = -1;
+        REQUIRE(::waitpid(child, &status, 0) == child);
+        CHECK(WIFEXITED(status));
+        CHECK(WEXITSTATUS(status) == 0);
+        CHECK(folder.entries() == 0);
+    }
+}
+
+TEST_CASE("a cancelled writing leaves what was there before and nothing else")
+{
+    const test::Folder folder;
+    test::put_bytes(folder.file("a.msh"), "before");
+    const std::atomic<bool> cancel{true};
+    RunContext context;
+    context.cancel = &cancel;
+    for (const bool binary : {true, false}) {
+        CHECK_THROWS_AS(io::write_msh(test::block({}), folder.file("a.msh"), {.binary = binary}, context), Cancelled);
+        CHECK(test::bytes_of(folder.file("a.msh")) == "before");
+        CHECK(folder.entries() == 1);
+    }
+}
