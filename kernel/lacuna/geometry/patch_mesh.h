@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace lacuna::geometry {
+
+/// A triangulated surface with boundary, in space, that can be flipped, refined and faired.
+///
+/// Side i of a triangle lies opposite corner i and runs from corner i + 1 to corner i + 2. The boundary,
+/// and points on it, are never touched.
+class PatchMesh {
+public:
+    /// @param next  the triangle across each side, -1 on the boundary.
+    PatchMesh(std::vector<Vec3> points, std::vector<Triangle> triangles, std::vector<Triangle> next);
+
+    /// Flip sides that join the same two points as another side does, until none is left.
+    /// @return false where that cannot be.
+    bool resolve_doubled();
+
+    /// Flip inner sides whose opposite angles sum to more than π, where that neither doubles a side nor folds.
+    /// Every flip raises the least angles; ends after few rounds.
+    void make_delaunay();
+
+    /// Halve inner sides until all have the length wanted at their points: the mean length of the boundary
+    /// sides there, growing inward by `grading`. Sides are flipped and points evened out in between.
+    void refine(double grading, std::size_t max_points);
+
+    /// Move inner points towards the middle of their neighbours along the surface, where their triangles
+    /// become no worse for it.
+    void relax();
+
+    /// Place inner points so that the surface is harmonic for the present triangles, with cotangent weights.
+    void place_harmonic();
+
+    [[nodiscard]] double area() const;
+    [[nodiscard]] const std::vector<Vec3>& points() const { return points_; }
+    [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
+
+private:
+    [[nodiscard]] const Vec3& at(Index point) const { return points_[static_cast<std::size_t>(point)]; }
+    [[nodiscard]] Index corner(Index triangle, int i) const
+    {
+        return triangles_[static_cast<std::size_t>(triangle)][static_cast<std::size_t>(i % 3)];
+    }
+    [[nodiscard]] Index across(Index triangle, int side) const
+    {
+        return next_[static_cast<std::size_t>(triangle)][static_cast<std::size_t>(side)];
+    }
+    [[nodiscard]] int side_towards(Index triangle, Index neighbour, Index from) const;
+    [[nodiscard]] Vec3 area_vector(const Triangle& triangle) const;
+    [[nodiscard]] double cotangent(Index triangle, int i) const;
+    [[nodiscard]] std::size_t joined(Index a, Index b) const;
+    [[nodiscard]] bool may_flip(Index triangle, int side) const;
+    void count_side(Index a, Index b, int change);
+    void flip(Index triangle, int side);
+    void relink(Index triangle, Index before, Index after, Index from);
+    void split(Index triangle, int side, double wanted);
+    [[nodiscard]] double shape(const Triangle& triangle, const Vec3& normal) const;
+    [[nodiscard]] double wanted_between(Index a, Index b, double grading) const;
+    std::vector<double> rim_sizes() const;
+
+    std::vector<Vec3> points_;
+    std::vector<Triangle> triangles_;
+    std::vector<Triangle> next_;
+    std::vector<bool> fixed_; ///< points of the boundary, and given points
+    std::vector<double> size_;
+    std::unordered_map<std::uint64_t, int> sides_; ///< how many sides join two points
+};
+
+} // namespace lacuna::geometry
