@@ -23,9 +23,9 @@ find_package_handle_standard_args(Lua54
   REASON_FAILURE_MESSAGE "on Debian it is the package liblua5.4-dev (or build with LACUNA_WITH_LUA=OFF)")
 
 if(Lua54_FOUND AND NOT TARGET Lua54::lib)
-  add_library(Lua54::headers INTERFACE IMPORTED)
+  add_library(Lua54::headers INTERFACE IMPORTED GLOBAL)
   target_include_directories(Lua54::headers INTERFACE "${LUA54_INCLUDE_DIR}")
-  add_library(Lua54::lib UNKNOWN IMPORTED)
+  add_library(Lua54::lib UNKNOWN IMPORTED GLOBAL)
   set_target_properties(Lua54::lib PROPERTIES IMPORTED_LOCATION "${LUA54_LIBRARY}")
   target_link_libraries(Lua54::lib INTERFACE Lua54::headers)
 endif()

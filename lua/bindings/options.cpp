@@ -152,7 +152,7 @@ void check_keys(lua_State* L, int index, const char* call, const char* const* ke
 
 std::size_t edit_distance(const char* a, const char* b)
 {
-    // Levenshtein with two rows; option names are short, and what lies beyond the row counts as that much more.
+    // Levenshtein over one row. Option names are short: of letters beyond the row only their number counts.
     constexpr std::size_t kLongest = 63;
     const std::size_t m = std::min(std::strlen(a), kLongest), n = std::min(std::strlen(b), kLongest);
     std::array<std::size_t, kLongest + 1> row{};
@@ -166,7 +166,8 @@ std::size_t edit_distance(const char* a, const char* b)
             row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
         }
     }
-    return row[n] + (std::strlen(a) - m) + (std::strlen(b) - n);
+    const std::size_t rest_a = std::strlen(a) - m, rest_b = std::strlen(b) - n;
+    return row[n] + std::max(rest_a, rest_b) - std::min(rest_a, rest_b);
 }
 
 std::size_t nearest(const char* word, const char* const* keys, std::size_t count)

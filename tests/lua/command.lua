@@ -1,0 +1,130 @@
+-- SPDX-License-Identifier: MIT
+-- The command line: exit codes, what goes to which stream, parameters.
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local lacuna = require "lacuna"
+local params = lacuna.params { lacuna = "", scratch = "" }
+local folder = check.empty_folder(params.scratch)
+
+local function run(words, input) return check.run(params.lacuna, folder, words, input) end
+
+-- Expect an exit code, and words on the streams; an empty list means the stream is silent.
+local function expect(words, code, out_words, err_words, input)
+  local found, out, err = run(words, input)
+  local told = ("lacuna %s\nstandard output: %s\nstandard error: %s"):format(table.concat(words, " "), out, err)
+  check.equal(found, code, told)
+  for _, pair in ipairs { { out_words, out }, { err_words, err } } do
+    local wanted, text = table.unpack(pair)
+    if #wanted == 0 then check.equal(text, "", told) end
+    for _, word in ipairs(wanted) do check.that(text:find(word, 1, true), ("'%s' is not said:\n%s"):format(word, told)) end
+  end
+end
+
+expect({ "--version" }, 0, { "lacuna " .. lacuna.version, "Lua 5.4", lacuna.gmsh_version }, {})
+expect({ "--help" }, 0, { "usage: lacuna", "exit codes" }, {})
+
+-- Bad usage is 2.
+expect({}, 2, {}, { "lacuna: ", "--help" })
+expect({ "--sandbocks", "x.lua" }, 2, {}, { "--sandbocks", "--sandbox" })
+expect({ "x.lua", "layers" }, 2, {}, { "layers", "key=value" })
+expect({ "x.lua", "2layers=1" }, 2, {}, { "key=value" })
+expect({ "info" }, 2, {}, { "info", "file" })
+expect({ "check", "a.msh", "b.msh" }, 2, {}, { "b.msh" })
+expect({ "--memory", "100", "x.lua" }, 2, {}, { "--sandbox" })
+expect({ "--sandbox", "--seconds", "-1", "x.lua" }, 2, {}, { "--seconds", "-1" })
+expect({ "--sandbox", "--output-dir" }, 2, {}, { "--output-dir" })
+
+-- A recipe that fails is 1, and says file and line.
+expect({ "nowhere.lua" }, 1, {}, { "lacuna: ", "nowhere.lua" })
+check.write(folder .. "/syntax.lua", "local x = = 1\n")
+expect({ "syntax.lua" }, 1, {}, { "lacuna: syntax.lua:1:" })
+check.write(folder .. "/fails.lua", "print 'before'\nlocal x = nil\nprint(x.y)\n")
+expect({ "fails.lua" }, 1, { "before" }, { "lacuna: fails.lua:3:" })
+check.write(folder .. "/object.lua", "error(setmetatable({}, { __tostring = function() return 'told by an object' end }))\n")
+expect({ "object.lua" }, 1, {}, { "lacuna: told by an object" })
+expect({ "--verbose", "fails.lua" }, 1, { "before" }, { "traceback" })
+
+-- Parameters.
+check.write(folder .. "/params.lua", [[
+local lacuna = require "lacuna"
+local p = lacuna.params { layers = 12, size = 2.0, name = "a", fast = false, list = { 1 } }
+print(p.layers, math.type(p.layers), p.size, p.name, p.fast)
+print(arg[0], #arg, select("#", ...))
+]])
+expect({ "params.lua" }, 0, { "12\tinteger\t2.0\ta\tfalse", "params.lua\t0\t0" }, {})
+expect({ "params.lua", "layers=20", "size=1.5", "name=b c=d", "fast=true" }, 0, { "20\tinteger\t1.5\tb c=d\ttrue" }, {})
+expect({ "params.lua", "layres=20" }, 1, {}, { "params.lua:2:", "'layres'", "the nearest is 'layers'" })
+expect({ "params.lua", "layers=many" }, 1, {}, { "'layers'", "number", '"many"' })
+expect({ "params.lua", "fast=1" }, 1, {}, { "'fast'", "boolean" })
+expect({ "params.lua", "list=1" }, 1, {}, { "'list'", "table" })
+check.write(folder .. "/plain.lua", "print 'no parameters'\n")
+expect({ "plain.lua", "layers=2" }, 0, { "no parameters" }, { "layers=2", "does not call lacuna.params" })
+
+-- Standard input.
+expect({ "-", "a=1" }, 0, { "1" }, {}, "print(require 'lacuna'.params { a = 0 }.a)")
+expect({ "-" }, 1, {}, { "lacuna: stdin:2:" }, "\nerror 'here'")
+
+-- The prompt, fed by a pipe: values are printed, statements may span lines, errors do not end it.
+expect({ "-i" }, 0, { "3\n", "yes", lacuna.version }, { "prompt:1:" },
+       "1 + 2\ndo\nprint 'yes'\nend\nerror 'no'\nlacuna.version\n")
+
+-- info and check.
+check.write(folder .. "/make.lua", [[
+local lacuna = require "lacuna"
+local p = lacuna.params { output = "" }
+local void = lacuna.synthetic.prism({ sides = 4, drop = "walls" }):open_volume { source = "source", target = "target" }
+void:sweep({ layers = 2, size = 0.5 }):write(p.output)
+]])
+expect({ "make.lua", "output=good.msh" }, 0, {}, {})
+expect({ "check", "good.msh" }, 0, { "caled" }, {})
+check.that(check.files(folder)[2] ~= nil)
+expect({ "check", "nowhere.msh" }, 1, {}, { "lacuna: ", "nowhere.msh" })
+check.write(folder .. "/empty.msh", "")
+expect({ "check", "empty.msh" }, 1, {}, { "empty.msh" })
+check.write(folder .. "/inverted.msh", [[
+$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+8
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 0 0 -1
+6 1 0 -1
+7 1 1 -1
+8 0 1 -1
+$EndNodes
+$Elements
+1
+1 5 2 1 1 1 2 3 4 5 6 7 8
+$EndElements
+]])
+expect({ "check", "inverted.msh" }, 1, { "caled" }, { "inverted.msh", "1 of 1 cells" })
+if lacuna.gmsh_version ~= "none" then
+  check.write(folder .. "/square.geo", 'SetFactory("OpenCASCADE"); Rectangle(7) = {0, 0, 0, 3, 2};\n')
+  expect({ "info", "square.geo" }, 0, { "area", "7  plane", "6" }, {})
+  expect({ "info", "nowhere.step" }, 1, {}, { "nowhere.step" })
+end
+
+-- Ctrl-C: loops, coroutines and pcall cannot hold it up; nor can the kernel.
+local endless = {
+  "while true do end",
+  "while true do pcall(function() while true do end end) end",
+  "local f = coroutine.wrap(function() while true do coroutine.yield() end end) while true do f() end",
+  "while true do pcall(error) end",
+  [[local lacuna = require 'lacuna'
+    local p = lacuna.synthetic.plate { drop = 'walls' }
+    while true do
+      pcall(function() p:open_volume({ source = 'source', target = 'target' }):sweep { layers = 40, size = 0.02 } end)
+    end]],
+}
+for i, source in ipairs(endless) do
+  local recipe = ("%s/endless_%d.lua"):format(folder, i)
+  check.write(recipe, source)
+  local pipe = assert(io.popen(("timeout -k 20 -s INT 1 '%s' '%s' 2>&1; echo $?"):format(params.lacuna, recipe)))
+  local told = pipe:read("a")
+  pipe:close()
+  check.that(told:find("lacuna: interrupted", 1, true), recipe .. ": " .. told)
+end
+check.done()

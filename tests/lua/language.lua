@@ -1,0 +1,190 @@
+-- SPDX-License-Identifier: MIT
+-- The recipe language as RECIPES.md has it: names, kinds of results, what stays what.
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local lacuna = require "lacuna"
+
+-- The module.
+check.equal(math.type(tonumber(lacuna.version:match("^%d+"))), "integer")
+check.equal(type(lacuna.gmsh_version), "string")
+
+-- Faces of a hand-made model: a unit cube without its lid.
+local corners = {
+  { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 },
+}
+local function cube(names)
+  local sides = {
+    bottom = { 4, 3, 2, 1 }, south = { 1, 2, 6, 5 }, east = { 2, 3, 7, 6 }, north = { 3, 4, 8, 7 }, west = { 4, 1, 5, 8 },
+    top = { 5, 6, 7, 8 },
+  }
+  local model, faces = lacuna.model(), {}
+  for i, name in ipairs(names) do
+    faces[i] = model:add_face { name = name, points = corners, cells = { sides[name] } }
+  end
+  return model, faces
+end
+local names = { "bottom", "south", "east", "north", "west" }
+local model, added = cube(names)
+
+for i, face in ipairs(added) do
+  check.equal(face.tag, i, "tags count in the order of adding")
+  check.equal(face.name, names[i])
+  check.equal(face.kind, "plane")
+  check.near(face.area, 1, 1e-14)
+  check.equal(face.loops, 1)
+  check.equal(face.edges, 4)
+  check.equal(face.has_mesh, false)
+  check.equal(#face.normal, 3)
+  check.equal(#face.centroid, 3)
+end
+check.near(added[1].normal[3], -1, 1e-14)
+check.near(added[1].centroid[1], 0.5, 1e-14)
+check.equal(tostring(added[2]), 'face 2 "south"')
+
+-- Faces by all that selects them; conditions are combined with "and".
+check.equal(#model:faces(), 5)
+check.equal(#model:faces {}, 5)
+check.equal(#model:faces { tags = { 1, 3 } }, 2)
+check.equal(#model:faces { tags = { 1, 3 }, name = "east" }, 1)
+check.equal(#model:faces { name = "nobody" }, 0)
+check.equal(#model:faces { kind = "plane" }, 5)
+check.equal(#model:faces { facing = { 0, -2, 0.1 } }, 1)
+check.equal(#model:faces { facing = { 1, 1, 0 } }, 0, "45 degrees are more than 30")
+check.equal(#model:faces { area = { 0.5, math.huge } }, 5)
+check.equal(#model:faces { area = { 2, 3 } }, 0)
+check.equal(model:face { near = { 1.2, 0.5, 0.5 } }, added[3])
+check.equal(model:face(4), added[4])
+check.equal(model:face "west", added[5])
+check.equal(model:face(added[5]), added[5])
+check.that(added[1] ~= added[2])
+check.fails(function() model:face(99) end, "99", '1 "bottom"')
+check.fails(function() model:face { kind = "plane" } end, "5 fit", '"bottom"', '"west"')
+
+-- Roles by every way to name a face, and what becomes of them.
+local function class_of(roles) return model:open_volume(roles).class end
+check.equal(class_of { source = 1, walls = { 2, 3, 4, 5 } }, "IV")
+check.equal(class_of { source = "bottom", walls = "auto" }, "IV")
+check.equal(class_of { source = added[1], walls = { added[2], "east", 4, { tags = 5 } } }, "IV")
+check.equal(class_of { source = { facing = { 0, 0, -1 } }, walls = { tags = { 2, 3, 4, 5 } } }, "IV")
+check.equal(class_of { target = 1, walls = "auto", source = {} } , "IV")
+check.equal(class_of { walls = { 2, 3, 4, 5 } }, "V")
+
+-- A volume, open and sealed.
+local void = model:open_volume { source = 1, walls = "auto" }
+local found = void:classify()
+check.equal(found.class, "IV")
+check.equal(found.free_loops, 1)
+check.equal(#found.wall_free_source, 0)
+check.equal(#found.wall_free_target, 0)
+check.that(#found.reasons > 0)
+check.equal(void:is_watertight(), false)
+check.equal(#void:free_edges(), 4)
+for _, edge in ipairs(void:free_edges()) do
+  check.near(edge.length, 1, 1e-14)
+  check.that(edge.tag > 0 and edge.from > 0 and edge.to > 0)
+end
+check.equal(void:override_class "IV", void)
+check.fails(function() void:override_class "I" end, "I")
+check.fails(function() void:override_class "VI" end, '"VI"', "closed")
+check.that(void:tree():find('face 1 "bottom"', 1, true))
+check.that(void:describe():find("class:  IV", 1, true))
+
+local closure = void:close()
+check.equal(closure.void_edges, 0)
+check.equal(closure.void_faces, 1)
+check.equal(closure.watertight, true)
+check.that(#closure.algorithms > 0)
+check.equal(void:close().void_faces, 1, "sealed once")
+check.equal(void.class, "IV", "a volume keeps the class it was given with")
+check.equal(void:is_watertight(), true)
+check.equal(#void:free_edges(), 0)
+check.fails(function() void:override_class "V" end, "before close()")
+check.fails(function() void:close { edge_shape = "straight" } end, "sealed already")
+
+-- A mesh: the count law, numbers from 1, groups that cover skin and volume.
+local mesh = void:sweep { layers = 3, size = 0.5 }
+check.equal(mesh.layers, 3)
+check.equal(mesh.hexes % 3, 0)
+check.equal(mesh.nodes % 4, 0)
+check.that(mesh.hexes >= 12)
+local low, high = math.huge, -math.huge
+for i = 1, mesh.hexes do
+  local cell = { mesh:hex(i) }
+  check.equal(#cell, 8)
+  low, high = math.min(low, table.unpack(cell)), math.max(high, table.unpack(cell))
+end
+check.equal(low, 1)
+check.equal(high, mesh.nodes)
+check.equal(select("#", mesh:node(mesh.nodes)), 3)
+check.fails(function() mesh:node(0) end, "from 1 to", "found 0")
+check.fails(function() mesh:hex(mesh.hexes + 1) end, "from 1 to")
+local cells = {}
+for _, group in ipairs(mesh:groups()) do
+  cells[group.name] = group.cells
+  check.that(group.dim == 2 or group.dim == 3)
+end
+check.equal(cells.volume, mesh.hexes)
+check.equal(cells.source * 3, mesh.hexes)
+check.equal(cells.target, cells.source)
+check.that(cells.bottom == cells.source, "names the faces had are kept")
+local quality = mesh:quality()
+check.equal(quality.inverted, 0)
+check.equal(quality.certified, true)
+check.that(quality.min_scaled_jacobian > 0 and quality.min_scaled_jacobian <= quality.mean_scaled_jacobian)
+check.near(quality.volume, 1, 1e-12)
+local binned = 0
+for _, cells_in_bin in ipairs(quality.histogram) do binned = binned + cells_in_bin end
+check.equal(binned, mesh.hexes)
+check.that(#quality.worst > 0 and quality.worst[1].scaled_jacobian == quality.min_scaled_jacobian)
+check.equal(quality.metrics[1].min, quality.min_scaled_jacobian)
+check.that(tostring(quality):find("\n"), "quality prints as a table")
+
+-- Written and read again.
+local path = os.tmpname()
+os.remove(path)
+path = path .. ".msh"
+for _, options in ipairs { {}, { binary = false }, { version = 2.2 } } do
+  mesh:write(path, options)
+  local again = lacuna.check(path)
+  check.equal(again.hexes, mesh.hexes)
+  check.near(again.min_scaled_jacobian, quality.min_scaled_jacobian, 1e-12)
+  os.remove(path)
+end
+
+-- Every way to give layers and sizes makes the layers asked for.
+local function swept(options) return cube(names):open_volume({ source = 1, walls = "auto" }):sweep(options) end
+check.equal(swept({ layers = 2, size = 0.5 }).layers, 2)
+check.equal(swept({ layers = { 0.2, 0.5, 1 }, size = 0.5 }).layers, 3)
+for _, mode in ipairs { "geometric", "bell", "both_ends" } do
+  check.equal(swept({ layers = { count = 4, bias = 2, mode = mode }, size = 0.5 }).layers, 4)
+end
+local calls = 0
+local graded = swept { layers = 1, size = function(x, y, z)
+  check.that(x > -1 and x < 2 and y > -1 and y < 2 and z > -1 and z < 2)
+  calls = calls + 1
+  return 0.25
+end }
+check.that(calls > 0)
+check.that(graded.hexes >= 12)
+
+-- A size function that fails, with its own message, or gives nonsense.
+check.fails(function() swept { layers = 1, size = function() error("no size here") end } end, "no size here")
+local thrown = {}
+local fine, caught = pcall(swept, { layers = 1, size = function() error(thrown) end })
+check.that(not fine and rawequal(caught, thrown), "any Lua value can be thrown through the kernel")
+for _, nonsense in ipairs { 0, -1, 0 / 0, math.huge, "1", {} } do
+  check.fails(function() swept { layers = 1, size = function() return nonsense end } end, "option 'size'", "positive number")
+end
+check.fails(function() swept { layers = 1, size = function() coroutine.yield() end } end, "yield")
+
+-- Objects may be released early, and say so.
+local kept
+do
+  local early <close> = cube(names)
+  kept = early
+end
+check.fails(function() kept:faces() end, "released")
+check.fails(function() model.faces {} end, "colon")
+check.fails(function() return model.open_volum end, "nearest is 'open_volume'")
+check.fails(function() cube(names):face(added[1]) end, "another model")
+
+check.done()
