@@ -187,4 +187,24 @@ check.fails(function() model.faces {} end, "colon")
 check.fails(function() return model.open_volum end, "nearest is 'open_volume'")
 check.fails(function() cube(names):face(added[1]) end, "another model")
 
+-- The language server's stub names every function there is, and no other.
+local stub <close> = assert(io.open(arg[0]:match("^(.*/)") .. "../../lua/lacuna.d.lua"))
+local stubbed = { Model = {}, Volume = {}, Mesh = {}, lacuna = {}, synthetic = {} }
+for line in stub:lines() do
+  local owner, name = line:match("^function ([%w]+)[.:]([%w_]+)%(")
+  if owner then stubbed[owner][name] = true end
+end
+local real = {
+  Model = debug.getmetatable(model).methods, Volume = debug.getmetatable(void).methods,
+  Mesh = debug.getmetatable(mesh).methods, lacuna = lacuna, synthetic = lacuna.synthetic,
+}
+for owner, functions in pairs(real) do
+  for name, value in pairs(functions) do
+    if type(value) == "function" then check.that(stubbed[owner][name], owner .. "." .. name .. " is not in the stub") end
+  end
+  for name in pairs(stubbed[owner]) do
+    check.equal(type(functions[name]), "function", owner .. "." .. name .. " of the stub")
+  end
+end
+
 check.done()

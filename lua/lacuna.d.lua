@@ -1,0 +1,255 @@
+---@meta lacuna
+-- SPDX-License-Identifier: MIT
+-- The recipe language for the Lua language server: completion, hover and checking of recipes. Never run.
+-- In .luarc.json: { "workspace.library": ["<where this file lies>"] }.
+
+---@alias lacuna.Vector { [1]: number, [2]: number, [3]: number } x, y, z [model length]
+---@alias lacuna.Class "I"|"II"|"III"|"IV"|"V"|"closed"
+
+--- A face, its tag, its name, a selector, or an array of those.
+---@alias lacuna.FaceRef lacuna.Face|integer|string|lacuna.Selector
+---@alias lacuna.FaceRefs lacuna.FaceRef|lacuna.FaceRef[]
+
+--- All that is set must hold.
+---@class lacuna.Selector
+---@field tags? integer|integer[]
+---@field name? string a physical group, a part (`pid:7`), an element set
+---@field kind? "plane"|"cylinder"|"cone"|"sphere"|"torus"|"bspline"|"surface"|"discrete"
+---@field facing? lacuna.Vector the mean normal within 30 degrees of it
+---@field near? lacuna.Vector the one closest face
+---@field area? { [1]: number, [2]: number } smallest and largest [model length²]
+
+---@class lacuna.LoadOptions
+---@field tolerance? number gaps below it are sewn [model length]; default 1e-6 × the diagonal
+---@field feature_angle? number where facets are cut into faces [degrees]; default 40
+---@field keep_mesh? boolean given quads and nodes stay as they are; default true
+---@field scale? number every coordinate times this; default 1
+
+---@class lacuna.NewFace
+---@field name? string
+---@field points lacuna.Vector[]
+---@field cells integer[][] triangles and quads: numbers of points from 1
+---@field keep_mesh? boolean quads are a mesh to be kept, not mere facets; default false
+
+---@class lacuna.Roles
+---@field source? lacuna.FaceRefs
+---@field target? lacuna.FaceRefs
+---@field walls? lacuna.FaceRefs|"auto" "auto": every face reachable from the source's rim that is not the target
+---@field faces? lacuna.FaceRefs instead of roles: these faces make the volume, and their roles are found
+---@field class? lacuna.Class override
+
+---@class lacuna.MatchOptions
+---@field vertices? { [1]: integer, [2]: integer }[] tags: source, target
+---@field loops? { [1]: integer, [2]: integer }[] numbers: source, target
+---@field flip? integer[] source loops whose direction on the target is turned round
+---@field method? "aligned"|"nearest" default "aligned"
+
+---@class lacuna.CloseOptions
+---@field edge_shape? "auto"|"straight"|"follow" how a void edge runs; default "auto"
+
+---@class lacuna.Layers
+---@field count integer
+---@field bias? number last over first layer height (geometric), middle over end (bell), end over middle (both_ends)
+---@field mode? "geometric"|"bell"|"both_ends" default "geometric"
+
+---@class lacuna.SweepOptions
+---@field layers? integer|number[]|lacuna.Layers a count, rising heights in (0, 1] or a spacing
+---@field size? number|fun(x: number, y: number, z: number): number edge length on the source; default: the rim's spacing
+---@field quads? "auto"|"paved"|"mapped"|"gmsh"|"keep" default "auto"
+---@field order? 1|2 default 1
+---@field serendipity? boolean
+---@field min_scaled_jacobian? number below it the mesh is refused; default 0
+---@field improve? boolean|{ iterations?: integer, seconds?: number } default true
+---@field threads? integer default: all cores
+
+---@class lacuna.WriteOptions
+---@field version? 4.1|2.2
+---@field binary? boolean
+
+---@class lacuna.Classification
+---@field class lacuna.Class
+---@field free_loops integer
+---@field wall_free_source integer[] tags of vertices on no wall
+---@field wall_free_target integer[]
+---@field reasons string[]
+
+---@class lacuna.Match
+---@field loops { source: integer, target: integer, flipped: boolean }[]
+---@field vertices { [1]: integer, [2]: integer }[] tags: source, target
+---@field method string
+---@field confidence number 0 to 1
+---@field notes string[]
+
+---@class lacuna.Closure
+---@field void_edges integer how many were made
+---@field void_faces integer
+---@field void_edge_tags integer[]
+---@field void_face_tags integer[]
+---@field watertight boolean
+---@field algorithms string[] of the paper, in the order used
+
+---@class lacuna.FreeEdge
+---@field tag integer
+---@field from integer tag of a vertex
+---@field to integer
+---@field length number [model length]
+
+---@class lacuna.WorstCell
+---@field cell integer
+---@field layer? integer
+---@field centre lacuna.Vector
+---@field scaled_jacobian number
+
+--- Prints as a table.
+---@class lacuna.Quality
+---@field hexes integer
+---@field min_scaled_jacobian number
+---@field mean_scaled_jacobian number
+---@field inverted integer cells with a corner that is not positive
+---@field uncertified integer cells whose Jacobian was not shown positive everywhere
+---@field certified boolean every cell is
+---@field worst lacuna.WorstCell[] at most ten, worst first
+---@field histogram integer[] of the scaled Jacobian, twenty bins over [-1, 1]
+---@field metrics { name: string, min: number, mean: number }[]
+---@field volume number [model length³]
+
+---@class lacuna.Face
+---@field tag integer the one Gmsh shows for the same file
+---@field name string
+---@field kind string
+---@field area number [model length²]
+---@field normal lacuna.Vector mean unit normal; zero all round a tube
+---@field centroid lacuna.Vector
+---@field loops integer
+---@field edges integer
+---@field has_mesh boolean
+
+---@class lacuna.Model
+---@field tolerance number [model length]
+---@field diagonal number [model length]
+local Model = {}
+---@param selector? lacuna.Selector
+---@return lacuna.Face[]
+function Model:faces(selector) end
+--- Exactly one; none or several is an error that lists the candidates.
+---@param which lacuna.FaceRef
+---@return lacuna.Face
+function Model:face(which) end
+---@param face lacuna.NewFace
+---@return lacuna.Face
+function Model:add_face(face) end
+---@param roles? lacuna.Roles
+---@return lacuna.Volume
+function Model:open_volume(roles) end
+---@return string
+function Model:describe() end
+
+---@class lacuna.Volume
+---@field class lacuna.Class as the volume was given
+local Volume = {}
+---@return lacuna.Classification
+function Volume:classify() end
+---@param class lacuna.Class
+---@return lacuna.Volume self
+function Volume:override_class(class) end
+---@param options? lacuna.MatchOptions
+---@return lacuna.Match
+function Volume:match(options) end
+---@param options? lacuna.CloseOptions
+---@return lacuna.Closure
+function Volume:close(options) end
+---@return boolean
+function Volume:is_watertight() end
+---@return lacuna.FreeEdge[]
+function Volume:free_edges() end
+---@return string
+function Volume:tree() end
+---@return string
+function Volume:describe() end
+--- Closes first where the recipe did not.
+---@param options lacuna.SweepOptions
+---@return lacuna.Mesh
+function Volume:sweep(options) end
+---@param path string a .msh
+---@param options lacuna.SweepOptions
+---@return table report
+function Volume:sweep_to(path, options) end
+---@param path string .stl, .msh or .obj
+function Volume:write_facets(path) end
+---@param path string .step or .brep
+function Volume:write_cad(path) end
+
+---@class lacuna.Mesh
+---@field nodes integer
+---@field hexes integer
+---@field layers integer
+---@field report string[] a line a stage of the sweep
+local Mesh = {}
+---@return lacuna.Quality
+function Mesh:quality() end
+---@return { name: string, dim: integer, cells: integer }[]
+function Mesh:groups() end
+---@param i integer
+---@return number x
+---@return number y
+---@return number z
+function Mesh:node(i) end
+--- Eight node numbers, Gmsh order.
+---@param i integer
+---@return integer ...
+function Mesh:hex(i) end
+---@param path string
+---@param options? lacuna.WriteOptions
+function Mesh:write(path, options) end
+---@param path string .html
+function Mesh:view(path) end
+
+---@class lacuna.Synthetic
+local synthetic = {}
+
+--- Names of faces to leave out: "source", "target", "wall_1"…; "walls" is all walls.
+---@alias lacuna.Drop string|string[]
+
+--- A regular prism with regular holes, twisted, tapered, bent.
+---@param options? { sides?: integer, radius?: number, height?: number, holes?: integer, hole_radius?: number, twist?: number, taper?: number, bend?: number, facets?: integer, drop?: lacuna.Drop }
+---@return lacuna.Model
+function synthetic.prism(options) end
+--- A ring; wall_1 is the outer cylinder, wall_2 the inner one.
+---@param options? { inner?: number, outer?: number, height?: number, facets?: integer, drop?: lacuna.Drop }
+---@return lacuna.Model
+function synthetic.annulus(options) end
+--- A bent pipe; wall_2 is the bore, where `inner` is above 0.
+---@param options? { radius?: number, inner?: number, bend_radius?: number, angle?: number, facets?: integer, drop?: lacuna.Drop }
+---@return lacuna.Model
+function synthetic.elbow(options) end
+--- A cylinder that bulges to radius (1 + bulge) half way up.
+---@param options? { radius?: number, height?: number, bulge?: number, facets?: integer, drop?: lacuna.Drop }
+---@return lacuna.Model
+function synthetic.barrel(options) end
+--- A plate with round holes in rows; walls 1 to 4 are its sides.
+---@param options? { length?: number, width?: number, height?: number, holes?: integer, hole_radius?: number, facets?: integer, drop?: lacuna.Drop }
+---@return lacuna.Model
+function synthetic.plate(options) end
+
+---@class lacuna
+---@field version string
+---@field gmsh_version string
+---@field synthetic lacuna.Synthetic
+local lacuna = {}
+---@param path string|string[]
+---@param options? lacuna.LoadOptions
+---@return lacuna.Model
+function lacuna.load(path, options) end
+---@return lacuna.Model
+function lacuna.model() end
+--- The table, with the key=value words of the command line laid over it.
+---@generic T: table
+---@param defaults T
+---@return T
+function lacuna.params(defaults) end
+--- Quality of the hexahedra in a .msh file.
+---@param path string
+---@return lacuna.Quality
+function lacuna.check(path) end
+
+return lacuna
