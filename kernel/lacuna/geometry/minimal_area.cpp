@@ -88,6 +88,7 @@ std::vector<Bridge> bridges_between(std::span<const Vec3> points, const std::vec
         if (apart) chosen.push_back(i);
     }
     std::vector<Bridge> result;
+    result.reserve(chosen.size());
     for (const std::size_t i : chosen) result.push_back(nearest[i]);
     return result;
 }

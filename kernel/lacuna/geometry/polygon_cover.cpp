@@ -154,6 +154,7 @@ bool cover_part(const CoverPolygon& polygon, const CoverOptions& options,
     }
     const std::vector<std::size_t> coarse = coarse_corners(polygon, corners, options.exact_limit);
     std::vector<std::size_t> coarse_corner;
+    coarse_corner.reserve(coarse.size());
     for (const std::size_t i : coarse) coarse_corner.push_back(corners[i]);
     const ChainTable table(polygon, options, coarse_corner);
     if (!table.solved()) return false;

@@ -395,7 +395,11 @@ public:
         is_vertex_.resize(model.points.size());
         for (std::size_t p = 0; p < model.points.size(); ++p)
             is_vertex_[p] = ends_chains(static_cast<Index>(p));
-        // In the order faces are met, each edge with the face that met it on its left.
+    }
+
+    /// Add the edges to the model in the order faces are met, each with the face that met it on its left.
+    void add_edges(const Flood& flood)
+    {
         std::vector<Index> order(flood.face.size());
         for (std::size_t f = 0; f < order.size(); ++f) order[f] = static_cast<Index>(f);
         std::stable_sort(order.begin(), order.end(),
@@ -547,7 +551,7 @@ Model split_facets(const FacetSoup& soup, const SplitOptions& options)
     model.tolerance = facets.tolerance;
     model.diagonal = facets.diagonal;
     add_faces(model, facets, flood, soup);
-    Chains(model, sides, flood, feature);
+    Chains(model, sides, flood, feature).add_edges(flood);
     build_loops(model);
     return model;
 }
