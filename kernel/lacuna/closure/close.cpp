@@ -2,6 +2,7 @@
 #include <lacuna/closure/close.h>
 
 #include <lacuna/closure/class_five.h>
+#include <lacuna/closure/follow.h>
 #include <lacuna/closure/sealing.h>
 #include <lacuna/closure/void_edges.h>
 #include <lacuna/closure/void_faces.h>
@@ -9,6 +10,7 @@
 #include <lacuna/core/error.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 namespace lacuna::closure {
@@ -23,10 +25,11 @@ void note(Closure& closure, const std::string& algorithm)
     if (std::find(list.begin(), list.end(), algorithm) == list.end()) list.push_back(algorithm);
 }
 
-void add_face(OpenVolume& volume, Closure& closure, const std::vector<Loop>& loops, Role role)
+void add_face(OpenVolume& volume, Closure& closure, const std::vector<Loop>& loops, Role role,
+              const Follower* follower = nullptr)
 {
     const std::string name = "void face " + std::to_string(closure.void_faces.size() + 1);
-    Filling filling = fill(volume, loops, name);
+    Filling filling = fill(volume, loops, follower, name);
     note(closure, filling.algorithm);
     closure.void_faces.push_back(add_void_face(volume, std::move(filling), role));
 }
@@ -41,27 +44,28 @@ void turn_target_to_source(OpenVolume& volume, const matching::Match& match)
 }
 
 /// Eq. (2): V = ∪(Fs, Ft) + ∪ Fi + ∪ Fvi, one wall v-TopoFace a free loop.
-void add_void_walls(OpenVolume& volume, Closure& closure)
+void add_void_walls(OpenVolume& volume, const Follower* follower, Closure& closure)
 {
     for (const Loop& loop : void_loops(volume, closure.void_edges))
-        add_face(volume, closure, {loop}, Role::wall);
+        add_face(volume, closure, {loop}, Role::wall, follower);
     note(closure, "Algorithm 3");
 }
 
 /// Class I has no algorithm of its own in the paper; its walls are those of class II with no wall given.
-void close_class_one_or_two(OpenVolume& volume, const matching::Match& match, EdgeShape shape, Closure& closure)
+void close_class_one_or_two(OpenVolume& volume, const matching::Match& match, const Follower* follower,
+                            Closure& closure)
 {
     if (closure.value == VolumeClass::II) note(closure, "Algorithm 8");
     turn_target_to_source(volume, match);
-    closure.void_edges = make_void_edges(volume, match, shape);
+    closure.void_edges = make_void_edges(volume, match, follower);
     note(closure, "Algorithm 2");
-    add_void_walls(volume, closure);
+    add_void_walls(volume, follower, closure);
 }
 
-void close_class_three(OpenVolume& volume, Closure& closure)
+void close_class_three(OpenVolume& volume, const Follower* follower, Closure& closure)
 {
     note(closure, "Algorithm 9");
-    add_void_walls(volume, closure);
+    add_void_walls(volume, follower, closure);
 }
 
 Loop reversed(const Rim& rim)
@@ -112,7 +116,8 @@ void close_class_five(OpenVolume& volume, Closure& closure)
     add_face(volume, closure, ends.target, Role::target);
 }
 
-Closure close_as(OpenVolume& volume, const matching::Match& match, VolumeClass value, EdgeShape shape)
+Closure close_as(OpenVolume& volume, const matching::Match& match, VolumeClass value,
+                 const Follower* follower)
 {
     Closure closure;
     closure.value = value;
@@ -121,10 +126,10 @@ Closure close_as(OpenVolume& volume, const matching::Match& match, VolumeClass v
         break;
     case VolumeClass::I:
     case VolumeClass::II:
-        close_class_one_or_two(volume, match, shape, closure);
+        close_class_one_or_two(volume, match, follower, closure);
         break;
     case VolumeClass::III:
-        close_class_three(volume, closure);
+        close_class_three(volume, follower, closure);
         break;
     case VolumeClass::IV:
         close_class_four(volume, closure);
@@ -164,15 +169,23 @@ Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptio
 {
     check_cancelled(context);
     const VolumeClass value = classify(volume).value;
-    const bool tries = options.edge_shape == EdgeShape::automatic && value == VolumeClass::II;
-    const EdgeShape first = options.edge_shape == EdgeShape::follow ? EdgeShape::follow : EdgeShape::straight;
+    const bool has_walls = value == VolumeClass::II || value == VolumeClass::III;
+    std::optional<Follower> follower;
+    if (has_walls && options.edge_shape != EdgeShape::straight) follower.emplace(volume);
+    const bool can_follow = follower && follower->leads();
+    const bool follow_at_once = options.edge_shape == EdgeShape::follow;
+    if (follow_at_once && !can_follow) {
+        throw NotClosed("closure.nothing_to_follow", "edge_shape = \"follow\" needs a given wall that joins source and "
+                                                     "target, and there is none; use \"straight\"");
+    }
 
     OpenVolume sealed = volume;
-    Closure closure = close_as(sealed, match, value, first);
+    Closure closure = close_as(sealed, match, value, follow_at_once ? &*follower : nullptr);
     auto crossing = first_crossing(sealed);
-    if (crossing && tries) {
+    if (crossing && can_follow && !follow_at_once) {
+        // Straight closing cuts through what is given: bend with it.
         OpenVolume bent = volume;
-        Closure followed = close_as(bent, match, value, EdgeShape::follow);
+        Closure followed = close_as(bent, match, value, &*follower);
         if (!first_crossing(bent)) {
             crossing.reset();
             sealed = std::move(bent);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 namespace lacuna::closure {
@@ -121,39 +122,80 @@ Filling fill_on_newell_plane(const Model& model, const NewellOutline& newell)
 
 // --- Algorithms 5 and 6: the transfinite patch ------------------------------------------------------
 
-Filling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeUse>>& sides)
+/// A side of a patch: its points, and at which share of the side each stands.
+struct PatchSide {
+    std::vector<Index> chain;
+    std::vector<Vec3> points;
+    std::vector<double> share;
+
+    [[nodiscard]] Vec3 at(double f) const { return geometry::point_at(points, share, f); }
+};
+
+PatchSide patch_side(const Model& model, const std::vector<EdgeUse>& uses)
 {
-    std::array<std::vector<Index>, 4> chain;
-    std::array<std::vector<Vec3>, 4> side;
-    std::array<std::vector<double>, 4> arc;
-    for (std::size_t i = 0; i < 4; ++i) {
-        chain[i] = points_of(model, sides[i], false);
-        side[i] = places(model, chain[i]);
-        arc[i] = geometry::arc_lengths(side[i]);
+    PatchSide side;
+    side.chain = points_of(model, uses, false);
+    side.points = places(model, side.chain);
+    side.share = geometry::arc_lengths(side.points);
+    const double total = side.share.back();
+    for (double& s : side.share) s /= total;
+    return side;
+}
+
+/// Stand the points of a rising side at their height on the walls, the way the follower counts it; a void edge was made at even heights.
+void by_height(PatchSide& side, const Follower& follower, bool rising)
+{
+    const std::size_t n = side.chain.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const double even = static_cast<double>(i) / static_cast<double>(n - 1);
+        const double height = follower.height(side.chain[i]);
+        side.share[i] = std::isnan(height) ? even : rising ? height : 1 - height;
     }
-    std::reverse(side[2].begin(), side[2].end());
-    std::reverse(side[3].begin(), side[3].end());
-    const geometry::SweptPatch patch(side[0], side[1], side[2], side[3]);
-    // Triangulate a rectangle with the patch's own proportions, so that facets come out well shaped.
-    const double width = (arc[0].back() + arc[2].back()) / 2;
-    const double height = (arc[1].back() + arc[3].back()) / 2;
+    side.share.front() = 0;
+    side.share.back() = 1;
+}
+
+Filling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeUse>>& sides, const Follower* follower)
+{
+    std::array<PatchSide, 4> side;
+    for (std::size_t i = 0; i < 4; ++i) side[i] = patch_side(model, sides[i]);
+    if (follower != nullptr) {
+        by_height(side[1], *follower, true);
+        by_height(side[3], *follower, false);
+    }
+    // Triangulate a rectangle that counts the sides' own segments: facets are then as long each way as the sides, which were cut by
+    // their curvature, are that way.
+    const auto segments = [&](std::size_t i, std::size_t j) {
+        return static_cast<double>(std::max(side[i].chain.size(), side[j].chain.size()) - 1);
+    };
+    const double width = segments(0, 2);
+    const double height = segments(1, 3);
     const std::array<Vec2, 5> corner{Vec2(0, 0), Vec2(width, 0), Vec2(width, height), Vec2(0, height), Vec2(0, 0)};
     Outline outline;
     outline.loops.emplace_back();
     for (std::size_t i = 0; i < 4; ++i) {
-        for (std::size_t k = 0; k + 1 < chain[i].size(); ++k) {
-            const double f = arc[i][k] / arc[i].back();
+        for (std::size_t k = 0; k + 1 < side[i].chain.size(); ++k) {
+            const double f = side[i].share[k];
             outline.loops.front().push_back(static_cast<Index>(outline.flat.size()));
-            outline.model_point.push_back(chain[i][k]);
+            outline.model_point.push_back(side[i].chain[k]);
             outline.flat.emplace_back((1 - f) * corner[i] + f * corner[i + 1]);
         }
     }
     const geometry::Triangulation flat = geometry::triangulate(outline.flat, outline.loops);
-    Filling result = filling_of(model, outline, flat, [&](std::size_t i) {
-        return patch(flat.points[i].x() / width, flat.points[i].y() / height);
+    const auto backward = [](std::vector<Vec3> points) {
+        std::reverse(points.begin(), points.end());
+        return points;
+    };
+    const geometry::SweptPatch patch(side[0].points, side[1].points, backward(side[2].points), backward(side[3].points));
+    Filling result = filling_of(model, outline, flat, [&](std::size_t i) -> Vec3 {
+        const double s = flat.points[i].x() / width, t = flat.points[i].y() / height;
+        if (follower == nullptr) return patch(s, t);
+        const Vec3 left = side[3].at(1 - t) - follower->carry(side[0].points.front(), side[2].points.back(), t);
+        const Vec3 right = side[1].at(t) - follower->carry(side[0].points.back(), side[2].points.front(), t);
+        return follower->carry(side[0].at(s), side[2].at(1 - s), t) + (1 - s) * left + s * right;
     });
     const bool seam = sides[1].size() == sides[3].size() && sides[1].front().edge == sides[3].back().edge;
-    result.geometry = seam ? Geometry::annular : Geometry::transfinite;
+    result.geometry = follower != nullptr ? Geometry::followed : seam ? Geometry::annular : Geometry::transfinite;
     result.algorithm = seam ? "Algorithm 5" : "Algorithm 6";
     return result;
 }
@@ -206,7 +248,7 @@ std::vector<std::vector<EdgeUse>> logical_sides(const OpenVolume& volume, const 
     return sides;
 }
 
-Filling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const std::string& name)
+Filling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const Follower* follower, const std::string& name)
 {
     const Model& model = volume.model;
     const NewellOutline newell = newell_outline(model, loops);
@@ -215,7 +257,7 @@ Filling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const std
     const auto sides = loops.size() == 1 ? logical_sides(volume, loops.front()) : std::vector<std::vector<EdgeUse>>{};
     Filling result;
     if (!sides.empty() && (!flat || crossing)) {
-        result = fill_transfinite(model, sides);
+        result = fill_transfinite(model, sides, follower);
     } else if (!crossing) {
         result = fill_on_newell_plane(model, newell);
     } else {

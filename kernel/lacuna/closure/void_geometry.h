@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/closure/close.h>
+#include <lacuna/closure/follow.h>
 
 #include <string>
 #include <vector>
@@ -27,9 +28,12 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 /// there, interior lifted by the harmonic interpolation of the rim's heights. A bent face with four logical sides: Algorithm 6
 /// (Algorithm 5 where two of them are closed edges), a bilinear Coons patch over arc length. Departure from the paper: a bent four-sided
 /// face is transfinite at once, so that its facets and its mesh are the same surface. What remains, minimal area.
+/// @param follower  null, or what a bent four-sided face follows instead: the source side as the given walls carry it up and the
+///                  target side as they carry it down, blended, and moved to meet the sides.
 /// @param name  of the face, for messages.
 /// @throw NotClosed  names the face and the edges that cross.
-Filling fill(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops, const std::string& name);
+Filling fill(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops, const Follower* follower,
+             const std::string& name);
 
 /// Put a filled face into the volume.
 FaceId add_void_face(topology::OpenVolume& volume, Filling filling, topology::Role role);

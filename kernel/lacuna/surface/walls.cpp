@@ -100,7 +100,9 @@ private:
 
     [[nodiscard]] bool is_simple(const std::vector<FaceId>& faces) const
     {
-        return faces.size() == 1 && model_[faces.front()].loops.size() == 1;
+        // A face that follows the walls is what its facets are; its four sides alone do not tell its shape.
+        return faces.size() == 1 && model_[faces.front()].loops.size() == 1 &&
+               model_[faces.front()].geometry != Geometry::followed;
     }
 
     /// Give each ring the layer nearest to it; rings that want the same layer share it where they are one step of the walls, and

@@ -16,7 +16,14 @@ namespace lacuna::topology {
 enum class Origin { given, made_void };
 
 /// How the facets of a face came to be (the paper's v-Geometry).
-enum class Geometry { given, newell, transfinite, annular, minimal };
+enum class Geometry {
+    given,
+    newell,       ///< Algorithm 4: triangulated in its Newell plane
+    transfinite,  ///< Algorithm 6
+    annular,      ///< Algorithm 5: between two closed edges
+    followed,     ///< transfinite, bent as the given walls lead
+    minimal,      ///< least area over its loops
+};
 
 struct Vertex {
     Index point = -1; ///< in Model::points

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+#include <lacuna/geometry/affine.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <limits>
+#include <vector>
+
+namespace lacuna::closure {
+
+/// How the given walls carry the source's section up to the target's: what void edges and faces follow.
+///
+/// The walls are cut at even heights, and an affine map is fitted from the source's section and from the target's to each (as the sweep
+/// itself places the inside of a layer, Roca and Sarrate 2010).
+class Follower {
+public:
+    explicit Follower(const topology::OpenVolume& volume);
+
+    /// False where no given wall joins source and target: there is nothing to follow.
+    [[nodiscard]] bool leads() const { return !from_source_.empty(); }
+
+    /// Where the point that starts at `source` and ends at `target` is at height t in [0, 1]. @pre leads()
+    [[nodiscard]] Vec3 carry(const Vec3& source, const Vec3& target, double t) const;
+
+    /// Height of a model point on a given wall; NaN elsewhere.
+    [[nodiscard]] double height(Index point) const
+    {
+        const auto p = static_cast<std::size_t>(point);
+        return p < heights_.size() ? heights_[p] : std::numeric_limits<double>::quiet_NaN();
+    }
+
+private:
+    std::vector<geometry::AffineFit> from_source_, from_target_;  ///< one a level
+    std::vector<double> heights_;
+};
+
+} // namespace lacuna::closure

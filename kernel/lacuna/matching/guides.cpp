@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/matching/guides.h>
+
+#include <lacuna/geometry/affine.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/matching/side_lines.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace lacuna::matching {
+
+using namespace topology;
+
+namespace {
+
+/// Points between two side lines that a section is sampled at, and round a closed section without any.
+constexpr int kSamplesBetween = 8;
+constexpr int kSamplesRound = 48;
+/// How close to the rims the first and the last section are cut.
+constexpr double kRim = 1e-12;
+
+using Side = std::pair<Index, Index>;
+
+Side side(Index a, Index b)
+{
+    return {std::min(a, b), std::max(a, b)};
+}
+
+/// A level line over the facets of one wall part.
+struct LevelLine {
+    std::vector<Vec3> points;
+    std::vector<std::pair<std::size_t, std::size_t>> anchors;  ///< (point, side line) in walking order
+    bool closed = false;
+};
+
+/// The only level line at height t; nothing where there are several or none.
+std::optional<LevelLine> level_line(const Model& model, const std::vector<Triangle>& triangles, const std::vector<double>& heights, double t,
+                                    const std::map<Side, std::size_t>& on_line)
+{
+    const auto above = [&](Index p) { return heights[static_cast<std::size_t>(p)] >= t; };
+    std::map<Side, Side> next;
+    std::map<Side, bool> entered;
+    for (const Triangle& triangle : triangles) {
+        Side from{-1, -1}, to{-1, -1};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Index a = triangle[i], b = triangle[(i + 1) % 3];
+            if (std::isnan(heights[static_cast<std::size_t>(a)])) return std::nullopt;
+            if (above(a) && !above(b)) from = side(a, b);
+            if (!above(a) && above(b)) to = side(a, b);
+        }
+        if (from.first < 0 || to.first < 0) continue;
+        next[from] = to;
+        entered[to] = true;
+    }
+    if (next.empty()) return std::nullopt;
+    LevelLine line;
+    line.closed = true;
+    Side start = next.begin()->first;
+    for (const auto& [from, to] : next) {
+        if (!entered.contains(from)) {
+            start = from;
+            line.closed = false;
+            break;
+        }
+        if (on_line.contains(from)) start = from;
+    }
+    std::size_t steps = 0;
+    for (Side at = start;; ++steps) {
+        const double ha = heights[static_cast<std::size_t>(at.first)], hb = heights[static_cast<std::size_t>(at.second)];
+        const double f = (t - ha) / (hb - ha);
+        if (const auto found = on_line.find(at); found != on_line.end()) line.anchors.emplace_back(line.points.size(), found->second);
+        line.points.push_back((1 - f) * model.at(at.first) + f * model.at(at.second));
+        const auto onward = next.find(at);
+        if (onward == next.end()) break;
+        at = onward->second;
+        if (at == start) {
+            ++steps;
+            line.points.push_back(line.points.front());
+            break;
+        }
+    }
+    if (steps != next.size()) return std::nullopt;
+    return line;
+}
+
+/// Begin a closed line at its anchor with the lowest side line.
+void start_at_first_anchor(LevelLine& line)
+{
+    if (!line.closed || line.anchors.empty()) return;
+    const auto first = std::min_element(line.anchors.begin(), line.anchors.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    const std::size_t shift = first->first;
+    line.points.pop_back();
+    const std::size_t n = line.points.size();
+    std::rotate(line.points.begin(), line.points.begin() + static_cast<std::ptrdiff_t>(shift), line.points.end());
+    line.points.push_back(line.points.front());
+    for (auto& [point, number] : line.anchors) point = (point + n - shift) % n;
+    std::sort(line.anchors.begin(), line.anchors.end());
+}
+
+std::vector<std::size_t> anchor_lines(const LevelLine& line)
+{
+    std::vector<std::size_t> numbers;
+    for (const auto& [point, number] : line.anchors) numbers.push_back(number);
+    return numbers;
+}
+
+std::vector<Vec3> sampled(const LevelLine& line)
+{
+    const std::vector<double> arc = geometry::arc_lengths(line.points);
+    std::vector<double> stops{0};
+    for (const auto& [point, number] : line.anchors) {
+        if (point > 0 && point + 1 < line.points.size()) stops.push_back(arc[point]);
+    }
+    stops.push_back(arc.back());
+    const int each = line.closed && line.anchors.empty() ? kSamplesRound : kSamplesBetween;
+    std::vector<Vec3> samples;
+    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+        for (int k = 0; k < each; ++k) samples.push_back(geometry::point_at(line.points, arc, stops[i] + (stops[i + 1] - stops[i]) * k / each));
+    }
+    if (!line.closed) samples.push_back(line.points.back());
+    return samples;
+}
+
+/// Start a closed section so that it lies on the one below with the least turn.
+void align(std::vector<Vec3>& section, const std::vector<Vec3>& below)
+{
+    const Vec3 shift = geometry::mean_point(section) - geometry::mean_point(below);
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < section.size(); ++k) {
+        double sum = 0;
+        for (std::size_t i = 0; i < section.size(); ++i) sum += (section[(i + k) % section.size()] - below[i] - shift).squaredNorm();
+        if (sum < least) {
+            least = sum;
+            best = k;
+        }
+    }
+    std::rotate(section.begin(), section.begin() + static_cast<std::ptrdiff_t>(best), section.end());
+}
+
+/// Sections of one wall part; empty when some level is not one line like the others.
+std::vector<std::vector<Vec3>> sections_of(const OpenVolume& volume, const std::vector<FaceId>& part, const std::vector<double>& heights,
+                                           const std::map<Side, std::size_t>& on_line, int count)
+{
+    std::vector<Triangle> triangles;
+    for (const FaceId face : part) {
+        const std::vector<Triangle>& more = volume.model[face].triangles;
+        triangles.insert(triangles.end(), more.begin(), more.end());
+    }
+    std::vector<std::vector<Vec3>> sections;
+    std::vector<std::size_t> anchors;
+    for (int k = 0; k <= count; ++k) {
+        const double t = std::clamp(static_cast<double>(k) / count, kRim, 1 - kRim);
+        std::optional<LevelLine> line = level_line(volume.model, triangles, heights, t, on_line);
+        if (!line) return {};
+        start_at_first_anchor(*line);
+        if (k == 0) anchors = anchor_lines(*line);
+        if (anchor_lines(*line) != anchors) return {};
+        sections.push_back(sampled(*line));
+        if (line->closed && line->anchors.empty() && k > 0) align(sections.back(), sections[sections.size() - 2]);
+        if (sections.back().size() != sections.front().size()) return {};
+    }
+    return sections;
+}
+
+} // namespace
+
+Sections cut_sections(const OpenVolume& volume, int count)
+{
+    const Model& model = volume.model;
+    Sections result;
+    result.heights = wall_heights(volume);
+    result.levels.resize(static_cast<std::size_t>(count) + 1);
+    std::map<Side, std::size_t> on_line;
+    const std::vector<SideLine> lines = side_lines(volume);
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        for (const EdgeUse& use : lines[l].uses) {
+            const std::vector<Index>& points = model[use.edge].points;
+            for (std::size_t i = 0; i + 1 < points.size(); ++i) on_line[side(points[i], points[i + 1])] = l;
+        }
+    }
+    for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
+        const auto sections = sections_of(volume, part, result.heights, on_line, count);
+        if (result.areas.empty()) result.areas.assign(result.levels.size(), Vec3::Zero());
+        for (std::size_t k = 0; k < sections.size(); ++k) {
+            result.areas[k] += geometry::newell_vector(sections[k]);
+            result.levels[k].insert(result.levels[k].end(), sections[k].begin(), sections[k].end());
+        }
+    }
+    return result;
+}
+
+} // namespace lacuna::matching

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/topology/open_volume.h>
+
+#include <vector>
+
+namespace lacuna::matching {
+
+/// Sections through the given walls at even heights, as corresponding points.
+struct Sections {
+    std::vector<double> heights;             ///< all points of the model: `wall_heights()`
+    std::vector<Vec3> areas;                 ///< of each level: area vector of its lines, an open one closed by its chord
+    std::vector<std::vector<Vec3>> levels;   ///< level by level from the source rim to the target rim; point i of each corresponds
+};
+
+/// Cut the given walls at `count` + 1 levels of their height.
+///
+/// The height is harmonic, so its level lines cut a bent tube about square to its run. A level line is walked with the rise on its
+/// left and sampled evenly between the side lines it crosses; a closed one that crosses none is started where it lies best on the level below.
+/// Wall parts that a level cuts in several lines (holes), or that do not join both rims, are left out.
+Sections cut_sections(const topology::OpenVolume& volume, int count);
+
+} // namespace lacuna::matching
