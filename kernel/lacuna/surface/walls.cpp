@@ -2,6 +2,8 @@
 #include <lacuna/surface/walls.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/affine.h>
+#include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/swept_patch.h>
 #include <lacuna/geometry/transfinite.h>
 #include <lacuna/surface/wall_map.h>
@@ -51,6 +53,11 @@ std::vector<std::vector<FaceId>> panel_faces(const Model& model, const Belt& bel
     return panels;
 }
 
+/// Nodes first … last of a belt that stand on a void face which follows the given walls.
+struct FollowedPanel {
+    std::size_t belt, first, last;
+};
+
 /// One belt being meshed.
 class WallMesher {
 public:
@@ -77,12 +84,19 @@ public:
         for (std::size_t i = 0; i < panels.size(); ++i) {
             const std::size_t first = nodes_.line[i];
             const std::size_t last = i + 1 < panels.size() ? nodes_.line[i + 1] : count_;
+            if (follows(panels[i])) {
+                followed_.push_back({0, first, last});
+                set_faces(panels[i].front(), first, last);
+                continue;
+            }
             if (is_simple(panels[i]) && mesh_transfinite(panels[i].front(), first, last)) continue;
             if (map_ == nullptr) map_ = std::make_unique<WallMap>(volume_, belt_);
             mesh_by_map(first, last);
         }
         return std::move(mesh_);
     }
+
+    [[nodiscard]] const std::vector<FollowedPanel>& followed() const { return followed_; }
 
 private:
     static std::vector<double> wrapped(std::vector<double> at, double length)
@@ -98,11 +112,21 @@ private:
         for (std::size_t i = 0; i < count_; ++i) point(layer, i) = points[i];
     }
 
+    [[nodiscard]] bool follows(const std::vector<FaceId>& faces) const
+    {
+        return is_simple(faces) && model_[faces.front()].geometry == Geometry::followed;
+    }
+
+    void set_faces(FaceId face, std::size_t first, std::size_t last)
+    {
+        for (std::size_t k = 0; k < layers_; ++k) {
+            for (std::size_t i = first; i < last; ++i) mesh_.face[k * count_ + i] = face;
+        }
+    }
+
     [[nodiscard]] bool is_simple(const std::vector<FaceId>& faces) const
     {
-        // A face that follows the walls is what its facets are; its four sides alone do not tell its shape.
-        return faces.size() == 1 && model_[faces.front()].loops.size() == 1 &&
-               model_[faces.front()].geometry != Geometry::followed;
+        return faces.size() == 1 && model_[faces.front()].loops.size() == 1;
     }
 
     /// Give each ring the layer nearest to it; rings that want the same layer share it where they are one step of the walls, and
@@ -211,9 +235,7 @@ private:
         for (std::size_t k = 1; k < layers_; ++k) {
             for (std::size_t i = 1; i < n; ++i) point(k, first + i) = inside[next++];
         }
-        for (std::size_t k = 0; k < layers_; ++k) {
-            for (std::size_t i = first; i < last; ++i) mesh_.face[k * count_ + i] = face;
-        }
+        set_faces(face, first, last);
         return f.origin != Origin::given || !folds(first, last);
     }
 
@@ -266,8 +288,65 @@ private:
     std::size_t count_, layers_;
     WallMesh mesh_;
     std::unique_ptr<WallMap> map_;
+    std::vector<FollowedPanel> followed_;
     std::vector<int> ring_layer_;  ///< of each ring of the map; 0: none
 };
+
+/// The rows of the walls that are there, as a section each.
+struct Rows {
+    std::vector<std::vector<Vec3>> points;  ///< of each row, those of all known columns
+    std::vector<Vec3> areas;                ///< Newell vectors of each row's belts
+};
+
+Rows known_rows(const std::vector<WallMesh>& meshes, std::span<const BeltNodes> nodes, const std::vector<FollowedPanel>& followed,
+                std::size_t layers)
+{
+    Rows rows;
+    rows.points.resize(layers + 1);
+    rows.areas.assign(layers + 1, Vec3::Zero());
+    for (std::size_t b = 0; b < meshes.size(); ++b) {
+        const std::size_t n = nodes[b].source_at.size();
+        std::vector<bool> known(n, true);
+        for (const FollowedPanel& panel : followed) {
+            for (std::size_t i = panel.first + 1; panel.belt == b && i < panel.last; ++i) known[i] = false;
+        }
+        for (std::size_t k = 0; k <= layers; ++k) {
+            std::vector<Vec3> loop;
+            for (std::size_t i = 0; i < n; ++i) {
+                if (known[i]) loop.push_back(meshes[b].points[k * n + i]);
+            }
+            rows.areas[k] += geometry::newell_vector(loop);
+            rows.points[k].insert(rows.points[k].end(), loop.begin(), loop.end());
+        }
+    }
+    return rows;
+}
+
+/// Put the nodes of followed panels where each row's known columns carry the source rim and the target rim, blended by height and moved
+/// to meet the panel's sides.
+void follow_rows(std::vector<WallMesh>& meshes, std::span<const BeltNodes> nodes, const std::vector<FollowedPanel>& followed,
+                 std::size_t layers)
+{
+    const Rows rows = known_rows(meshes, nodes, followed, layers);
+    for (std::size_t k = 1; k < layers; ++k) {
+        const double t = static_cast<double>(k) / static_cast<double>(layers);
+        const geometry::AffineFit up = geometry::fit_affine(rows.points.front(), rows.points[k], rows.areas.front(), rows.areas[k]);
+        const geometry::AffineFit down = geometry::fit_affine(rows.points.back(), rows.points[k], rows.areas.back(), rows.areas[k]);
+        for (const FollowedPanel& panel : followed) {
+            std::vector<Vec3>& points = meshes[panel.belt].points;
+            const std::size_t n = nodes[panel.belt].source_at.size();
+            const auto carried = [&](std::size_t i) {
+                return Vec3((1 - t) * up(points[i % n]) + t * down(points[layers * n + i % n]));
+            };
+            const Vec3 left = points[k * n + panel.first % n] - carried(panel.first);
+            const Vec3 right = points[k * n + panel.last % n] - carried(panel.last);
+            for (std::size_t i = panel.first + 1; i < panel.last; ++i) {
+                const double s = static_cast<double>(i - panel.first) / static_cast<double>(panel.last - panel.first);
+                points[k * n + i] = carried(i) + (1 - s) * left + s * right;
+            }
+        }
+    }
+}
 
 } // namespace
 
@@ -290,9 +369,22 @@ BeltNodes belt_nodes(const Belt& belt, std::span<const int> counts)
     return nodes;
 }
 
-WallMesh mesh_walls(const OpenVolume& volume, const Belt& belt, const BeltNodes& nodes, std::span<const double> heights, const RunContext& context)
+std::vector<WallMesh> mesh_walls(const OpenVolume& volume, std::span<const Belt> belts,
+                                 std::span<const BeltNodes> nodes, std::span<const double> heights,
+                                 const RunContext& context)
 {
-    return WallMesher(volume, belt, nodes, heights, context).run();
+    std::vector<WallMesh> meshes;
+    std::vector<FollowedPanel> followed;
+    for (std::size_t b = 0; b < belts.size(); ++b) {
+        WallMesher mesher(volume, belts[b], nodes[b], heights, context);
+        meshes.push_back(mesher.run());
+        for (FollowedPanel panel : mesher.followed()) {
+            panel.belt = b;
+            followed.push_back(panel);
+        }
+    }
+    if (!followed.empty()) follow_rows(meshes, nodes, followed, heights.size() - 1);
+    return meshes;
 }
 
 } // namespace lacuna::surface

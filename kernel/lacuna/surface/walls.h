@@ -27,14 +27,16 @@ struct WallMesh {
     std::vector<std::string> notes;
 };
 
-/// Mesh the walls of a belt: one row of quads a layer.
+/// Mesh the walls of all belts: one row of quads a layer.
 ///
 /// Between two side lines that one face spans: transfinite in arc length, then onto the face (paper sect. 7; for void faces
 /// Algorithms 5 and 6). Anything else, several faces stacked or in a row or no side line at all: by the belt's harmonic
-/// strip, where a ring edge between stacked faces draws the nearest layer to it.
+/// strip, where a ring edge between stacked faces draws the nearest layer to it. Void faces that follow the given walls come last: their
+/// nodes go where the rows of the other walls lead them (two-sided affine fit a row), so that rows stay level round the volume.
+/// @param nodes    of each belt.
 /// @param heights  layers + 1 numbers from 0 to 1.
 /// @post  nodes on given faces and edges lie on the exact geometry; rows 0 and last are points of the rims.
-WallMesh mesh_walls(const topology::OpenVolume& volume, const Belt& belt, const BeltNodes& nodes, std::span<const double> heights,
-                    const RunContext& context = {});
+std::vector<WallMesh> mesh_walls(const topology::OpenVolume& volume, std::span<const Belt> belts, std::span<const BeltNodes> nodes,
+                                 std::span<const double> heights, const RunContext& context = {});
 
 } // namespace lacuna::surface

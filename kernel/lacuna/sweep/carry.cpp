@@ -81,6 +81,21 @@ Guess guess_from_rims(const mesh::QuadMesh& source, const Columns& columns, Spre
     return guess;
 }
 
+/// The source itself, moved as its rim is: what a skin far from its rims (a bent tube swept through its thickness) asks for, where
+/// an affine map fitted to the rims alone says nothing.
+std::vector<Vec3> displaced(const mesh::QuadMesh& source, const Columns& columns, Spreader& spreader,
+                            const RunContext& context)
+{
+    std::vector<Vec3> nodes = source.nodes;
+    const std::span<const Vec3> low = columns.row(0);
+    const std::span<const Vec3> high = columns.row(columns.layers);
+    std::vector<Vec3> moves(high.begin(), high.end());
+    for (std::size_t k = 0; k < low.size(); ++k) moves[k] -= low[k];
+    spreader.spread().add(moves, 1, nodes.data(), nodes.size(), context);
+    for (std::size_t k = 0; k < high.size(); ++k) nodes[static_cast<std::size_t>(columns.rim[k])] = high[k];
+    return nodes;
+}
+
 std::vector<Index> nodes_off_rim(const mesh::QuadMesh& source, const Columns& columns)
 {
     std::vector<char> on_rim(source.nodes.size(), 0);
@@ -164,8 +179,8 @@ Carried carry(const mesh::QuadMesh& source, const Columns& columns, const Surfac
 
     Carried result;
     result.worst_source = worst_quad(source.quads, source.nodes);
-    result.report = guess.affine ? "target: affine image of the source"
-                                 : "target: fitted image of the source";
+    result.report = guess.affine ? "affine image of the source"
+                                 : "fitted image of the source";
     Candidate found{guess.nodes, worst_quad(source.quads, guess.nodes)};
     // What an affine map takes from the source's quads is the rims' doing; the rest is there to be mended.
     const double model = guess.affine ? std::min(result.worst_source, found.worst) : result.worst_source;
@@ -182,8 +197,20 @@ Carried carry(const mesh::QuadMesh& source, const Columns& columns, const Surfac
         }
         const double before = found.worst;
         const double good_enough = model - kSameQuality;
-        if (before < good_enough) {
-            found = smoothed(source, columns, guess.nodes, spreader, free_nodes, project, good_enough,
+        std::vector<Vec3> start = guess.nodes;
+        if (before < good_enough && !guess.affine) {
+            Candidate moved{displaced(source, columns, spreader, context), -1};
+            std::vector<Vec3> unprojected = moved.nodes;
+            project_nodes(moved.nodes, free_nodes, project);
+            moved.worst = worst_quad(source.quads, moved.nodes);
+            if (moved.worst > found.worst) {
+                found = std::move(moved);
+                start = std::move(unprojected);
+                result.report += ", from the source moved with its rim";
+            }
+        }
+        if (found.worst < good_enough) {
+            found = smoothed(source, columns, start, spreader, free_nodes, project, good_enough,
                              std::move(found), context);
         }
         if (found.worst > before) result.report += ", smoothed from a worst quad of " + in_short(before);

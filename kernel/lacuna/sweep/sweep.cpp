@@ -57,9 +57,10 @@ Columns columns_of(const OpenVolume& volume, const std::vector<surface::Belt>& b
 {
     Columns columns;
     columns.layers = static_cast<int>(heights.size()) - 1;
+    walls = surface::mesh_walls(volume, belts, source.belts, heights, context);
     for (std::size_t b = 0; b < belts.size(); ++b) {
-        walls.push_back(surface::mesh_walls(volume, belts[b], source.belts[b], heights, context));
-        for (std::size_t i = 0; i < source.belts[b].source_at.size(); ++i) columns.rim.push_back(source.first[b] + static_cast<Index>(i));
+        for (std::size_t i = 0; i < source.belts[b].source_at.size(); ++i)
+            columns.rim.push_back(source.first[b] + static_cast<Index>(i));
     }
     for (std::size_t layer = 0; layer < heights.size(); ++layer) {
         for (std::size_t b = 0; b < belts.size(); ++b) {
