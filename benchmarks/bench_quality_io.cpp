@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// usage: bench_quality_io [quads a side = 200] [layers = 25] [folder = the system's for temporary files]
+#include "bench.h"
+
+#include <lacuna/io/msh.h>
+#include <lacuna/io/msh_reader.h>
+#include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/quality/quality.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+using namespace lacuna;
+
+namespace {
+
+/// A block with curved sides, so that no two cells are alike.
+mesh::HexMesh wavy_block(int side, int layers)
+{
+    mesh::HexMesh mesh;
+    mesh.nodes_per_layer = (side + 1) * (side + 1);
+    mesh.layers = layers;
+    for (int l = 0; l <= layers; ++l) {
+        for (int j = 0; j <= side; ++j) {
+            for (int i = 0; i <= side; ++i) {
+                const double x = double(i) / side;
+                const double y = double(j) / side;
+                const double z = double(l) / layers;
+                mesh.nodes.emplace_back(x + 0.1 * std::sin(3 * y + z), y + 0.1 * std::sin(3 * x - z),
+                                        z + 0.05 * std::sin(4 * x * y));
+            }
+        }
+    }
+    for (Index j = 0; j < side; ++j) {
+        for (Index i = 0; i < side; ++i) {
+            const Index a = j * (side + 1) + i;
+            mesh.quads.push_back({a, a + 1, a + side + 2, a + side + 1});
+        }
+    }
+    for (const auto& edge : mesh::boundary_sides(mesh.quads)) mesh.rim.push_back({edge.from, edge.to});
+    mesh.patches = {{1, {"source"}}, {2, {"target"}}, {3, {"wall:3"}}};
+    mesh.source_patch.assign(mesh.quads.size(), 0);
+    mesh.target_patch.assign(mesh.quads.size(), 1);
+    mesh.wall_patch.assign(mesh.rim.size() * static_cast<std::size_t>(layers), 2);
+    return mesh;
+}
+
+constexpr int kRuns = 5;
+
+void measure_quality(const mesh::HexMesh& mesh, const std::string& size)
+{
+    for (const int threads : {1, thread_count({})}) {
+        RunContext context;
+        context.threads = threads;
+        quality::Quality quality;
+        const auto nothing = [] {};
+        auto timing = bench::time_of(kRuns, nothing, [&] { quality = quality::measure(mesh, context); });
+        bench::report("quality/measure/" + size, threads, timing, quality.min_scaled_jacobian);
+        timing = bench::time_of(kRuns, nothing, [&] { quality = quality::prove(mesh, 0, context); });
+        bench::report("quality/prove/" + size, threads, timing, quality.min_scaled_jacobian);
+    }
+}
+
+void measure_files(const mesh::HexMesh& mesh, const std::string& size, const std::filesystem::path& folder)
+{
+    const double least = quality::measure(mesh).min_scaled_jacobian;
+    const std::string path = (folder / "lacuna_bench.msh").string();
+    // A new file each time: replacing one makes the file system write the old one out first.
+    const auto remove = [&] { std::filesystem::remove(path); };
+    const auto write = [&](const char* name, const io::MshOptions& options, int threads) {
+        RunContext context;
+        context.threads = threads;
+        const auto timing = bench::time_of(kRuns, remove, [&] { io::write_msh(mesh, path, options, context); });
+        bench::report(std::string("io/") + name + "/" + size, threads, timing, least);
+    };
+    const int all = thread_count({});
+    write("msh_binary", {true, 4.1}, 1);
+    write("msh_binary", {true, 4.1}, all);
+    write("msh22_binary", {true, 2.2}, all);
+    write("msh_text", {false, 4.1}, all);
+
+    remove();
+    io::write_msh(mesh, path);
+    io::HexCells cells;
+    auto timing = bench::time_of(kRuns, [] {}, [&] { cells = io::read_msh_hexes(path); });
+    bench::report("io/read_msh_binary/" + size, 1, timing, least);
+    timing = bench::time_of(kRuns, [] {}, [&] { quality::prove_cells(cells.nodes, cells.hexes, cells.quads); });
+    bench::report("quality/prove_cells/" + size, all, timing, least);
+    remove();
+}
+
+} // namespace
+
+int main(int count, char** words)
+{
+    const int side = count > 1 ? std::atoi(words[1]) : 200;
+    const int layers = count > 2 ? std::atoi(words[2]) : 25;
+    const std::filesystem::path folder = count > 3 ? words[3] : std::filesystem::temp_directory_path();
+    if (side < 1 || layers < 1) {
+        std::fprintf(stderr, "usage: bench_quality_io [quads a side] [layers] [folder]\n");
+        return 2;
+    }
+    const mesh::HexMesh mesh = wavy_block(side, layers);
+    const std::string size = "hexes=" + std::to_string(mesh.hex_count());
+    measure_quality(mesh, size);
+    measure_files(mesh, size, folder);
+}
