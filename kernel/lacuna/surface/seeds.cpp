@@ -21,8 +21,25 @@ constexpr double kCorner = 135;
 constexpr double kReversal = 225;
 /// A face with opposite sides more unlike than this is not mapped unless asked to: its quads would be as unlike.
 constexpr double kUnlike = 3;
+/// However large the size asked for, a side of a quad stands for no more than this much of a bend [degrees]: a circle keeps eight.
+constexpr double kTurnPerSide = 45;
 /// Points per piece at which the size is asked.
 constexpr int kSizeSamples = 8;
+
+/// How much an edge turns from end to end, all bends added [degrees]; a closed one also where it closes.
+double turning(const Model& model, EdgeId id)
+{
+    const std::vector<Index>& points = model[id].points;
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const bool last = i + 2 == points.size();
+        if (last && points.front() != points.back()) break;
+        const Vec3 in = model.at(points[i + 1]) - model.at(points[i]);
+        const Vec3 out = last ? Vec3(model.at(points[1]) - model.at(points[0])) : Vec3(model.at(points[i + 2]) - model.at(points[i + 1]));
+        sum += std::atan2(in.cross(out).norm(), in.dot(out)) * 180 / std::numbers::pi;
+    }
+    return sum;
+}
 
 /// Inner angle of a face where use i of its loop starts [degrees].
 double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_t i)
@@ -143,7 +160,8 @@ private:
         for (int i = 0; i < kSizeSamples; ++i) at.push_back(piece.from + (i + 0.5) / kSizeSamples * (piece.to - piece.from));
         double sides = 0;
         for (const Vec3& p : edge_points(model_, edge, at)) sides += piece.length / kSizeSamples / size_(p);
-        return std::max(1, static_cast<int>(std::lround(sides)));
+        const double bend = turning(model_, edge) * (piece.to - piece.from) / kTurnPerSide;
+        return std::max({1, static_cast<int>(std::lround(sides)), static_cast<int>(std::ceil(bend - 1e-6))});
     }
 
     void choose(FaceId face)

@@ -36,7 +36,7 @@ struct Seeds {
     [[nodiscard]] std::vector<double> fractions(EdgeId edge) const;
 };
 
-/// Numbers of sides for the edges of the source, by size where there are no constraints.
+/// Numbers of sides for the edges of the source, by size where there are no constraints; a bend of 45° has a side at least.
 ///
 /// Opposite sides of mapped faces are raised to the larger count, a face at a time until nothing changes; then each free face with an
 /// odd total gets one more side on a rim edge of its own, or on an edge towards one.
