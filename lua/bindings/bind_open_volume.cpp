@@ -65,9 +65,10 @@ VolumeState make_volume(const topology::Model& model, RoleArguments& arguments)
     topology::Roles& roles = arguments.roles;
     if (arguments.auto_walls) {
         if (roles.source.empty() && roles.target.empty())
-            throw InvalidInput("lua.walls_without_ends",
-                               "open_volume: walls = \"auto\" finds the walls from the rim of the source or the "
-                               "target; name one of them");
+            throw InvalidInput(
+                "lua.walls_without_ends",
+                "open_volume: walls = \"auto\" finds the walls from the rim of the source or the "
+                "target; name one of them");
         const bool from_source = !roles.source.empty();
         roles.walls = topology::faces_reachable_from(model, from_source ? roles.source : roles.target,
                                                      from_source ? roles.target : roles.source);

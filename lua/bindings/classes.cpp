@@ -24,7 +24,8 @@ const char* word(topology::Geometry geometry)
         return "transfinite";
     case topology::Geometry::annular:
         return "annular strip";
-    case topology::Geometry::followed: return "followed sides";
+    case topology::Geometry::followed:
+        return "followed sides";
     case topology::Geometry::minimal:
         return "minimal area";
     }
