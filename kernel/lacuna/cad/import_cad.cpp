@@ -82,14 +82,12 @@ void import_file(Session& session, const std::string& path)
 {
     const std::string ending = ending_of(path);
     check_head(path, ending);
-    if (ending == ".geo" || ending == ".geo_unrolled") {
-        session.run([&] { gmsh::merge(path); });
-        return;
-    }
+    const bool script = ending == ".geo" || ending == ".geo_unrolled";
     const std::string format = ending == ".brep" ? "brep" : ending.starts_with(".st") ? "step" : "iges";
     const CapturedOutput output;
     try {
         session.run([&] {
+            if (script) return gmsh::merge(path);
             gmsh::vectorpair all;
             gmsh::model::occ::importShapes(path, all, false, format);
             gmsh::model::occ::synchronize();

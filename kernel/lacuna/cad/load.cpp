@@ -2,17 +2,19 @@
 #include <lacuna/cad/load.h>
 
 #include <lacuna/cad/import_cad.h>
+#include <lacuna/cad/import_facets.h>
 #include <lacuna/core/error.h>
 
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 
 namespace lacuna::cad {
 
 namespace {
 
 constexpr std::string_view kKnownEndings =
-    ".step .stp .iges .igs .brep .geo .geo_unrolled";
+    ".step .stp .iges .igs .brep .geo .geo_unrolled .stl .obj .msh .bdf .nas .unv .vtk .mesh";
 
 void check_file(const std::string& path)
 {
@@ -24,7 +26,7 @@ void check_file(const std::string& path)
     if (fs::is_directory(path, ignored)) {
         throw InvalidInput("cad.is_directory", path + " is a folder; name a file in it");
     }
-    if (!is_cad_ending(ending_of(path))) {
+    if (!is_cad_ending(ending_of(path)) && !is_facet_ending(ending_of(path))) {
         throw InvalidInput("cad.unknown_ending", path + ": the ending \"" + ending_of(path) +
                                                      "\" is unknown; files are read that end in " + std::string(kKnownEndings));
     }
@@ -43,6 +45,53 @@ void check_options(const LoadOptions& options)
     }
 }
 
+/// Put the entities of `more` after those of `model`; face, edge and vertex tags count on.
+void append(topology::Model& model, topology::Model more)
+{
+    const auto highest = [](const auto& entities) {
+        int tag = 0;
+        for (const auto& entity : entities) tag = std::max(tag, entity.tag);
+        return tag;
+    };
+    const auto points = static_cast<Index>(model.points.size());
+    const std::size_t vertices = model.vertices.size();
+    const int vertex_tag = highest(model.vertices);
+    const int edge_tag = highest(model.edges);
+    const int face_tag = highest(model.faces);
+    for (topology::Vertex& vertex : more.vertices) {
+        vertex.point += points;
+        vertex.tag += vertex_tag;
+    }
+    for (topology::Edge& edge : more.edges) {
+        edge.tag += edge_tag;
+        edge.from = VertexId(edge.from.index() + vertices);
+        edge.to = VertexId(edge.to.index() + vertices);
+        for (Index& p : edge.points) p += points;
+    }
+    for (topology::Face& face : more.faces) {
+        face.tag += face_tag;
+        face.loops.clear();
+        for (Triangle& t : face.triangles) {
+            for (Index& p : t) p += points;
+        }
+        for (Quad& q : face.given_quads) {
+            for (Index& p : q) p += points;
+        }
+    }
+    const auto move_in = [](auto& to, auto& from) {
+        to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+    };
+    move_in(model.points, more.points);
+    move_in(model.vertices, more.vertices);
+    move_in(model.edges, more.edges);
+    move_in(model.faces, more.faces);
+    Eigen::AlignedBox3d bounds;
+    for (const Vec3& p : model.points) bounds.extend(p);
+    model.diagonal = bounds.diagonal().norm();
+    model.tolerance = std::max(model.tolerance, more.tolerance);
+    model.source += ", " + more.source;
+}
+
 } // namespace
 
 topology::Model load(const std::vector<std::string>& paths, const LoadOptions& options, const RunContext& context)
@@ -50,7 +99,12 @@ topology::Model load(const std::vector<std::string>& paths, const LoadOptions& o
     check_options(options);
     if (paths.empty()) throw InvalidInput("cad.no_file", "no file was named; name at least one");
     for (const std::string& path : paths) check_file(path);
-    topology::Model model = import_cad(paths, options, context);
+    std::vector<std::string> cad, facets;
+    for (const std::string& path : paths) (is_cad_ending(ending_of(path)) ? cad : facets).push_back(path);
+    topology::Model model;
+    if (!cad.empty()) model = import_cad(cad, options, context);
+    if (!facets.empty() && cad.empty()) model = import_facets(facets, options, context);
+    else if (!facets.empty()) append(model, import_facets(facets, options, context));
     topology::build_loops(model);
     return model;
 }
