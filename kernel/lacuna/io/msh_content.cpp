@@ -68,7 +68,9 @@ private:
     std::vector<PhysicalName> names_;
 };
 
-void check_patches(const mesh::HexMesh& mesh)
+} // namespace
+
+void check_skin(const mesh::HexMesh& mesh)
 {
     const auto layers = static_cast<std::size_t>(std::max(mesh.layers, 0));
     const auto valid = [&](Index patch) { return patch >= 0 && static_cast<std::size_t>(patch) < mesh.patches.size(); };
@@ -85,11 +87,9 @@ void check_patches(const mesh::HexMesh& mesh)
                                                    " must have a positive tag of its own");
 }
 
-} // namespace
-
 MshContent msh_content(const mesh::HexMesh& mesh)
 {
-    check_patches(mesh);
+    check_skin(mesh);
     MshContent content;
     const std::size_t count = mesh.skin_count();
     std::vector<std::size_t> start(mesh.patches.size() + 1, 0);

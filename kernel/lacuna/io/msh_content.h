@@ -37,6 +37,9 @@ struct MshContent {
 inline constexpr int kVolumeTag = 1;
 
 /// @throw InvalidInput  a skin quad belongs to no patch, or two patches share a tag.
+void check_skin(const mesh::HexMesh& mesh);
+
+/// @throw InvalidInput  as `check_skin()`.
 MshContent msh_content(const mesh::HexMesh& mesh);
 
 } // namespace lacuna::io

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/vtk.h>
+
+#include <lacuna/io/msh_content.h>
+#include <lacuna/io/sections.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace lacuna::io {
+namespace {
+
+constexpr int kVtkQuad = 9;
+constexpr int kVtkHex = 12;
+
+using Fill = std::function<char*(std::size_t, std::size_t, char*)>;
+
+/// One record after the other by `put_one(i, out)`.
+template <class PutOne>
+Fill each(PutOne put_one)
+{
+    return [put_one](std::size_t begin, std::size_t end, char* out) {
+        for (std::size_t i = begin; i < end; ++i) out = put_one(i, out);
+        return out;
+    };
+}
+
+int entity(const mesh::HexMesh& mesh, std::size_t skin)
+{
+    return mesh.patches[static_cast<std::size_t>(skin_quad(mesh, skin).patch)].tag;
+}
+
+// ---- XML
+
+struct Array {
+    std::string attributes;
+    std::size_t bytes;
+    std::vector<Section> sections;
+};
+
+/// Numbers in the order of this machine's bytes, which the head names.
+std::vector<Array> vtu_arrays(const mesh::HexMesh& mesh)
+{
+    const std::size_t hexes = mesh.hex_count();
+    const std::size_t skin = mesh.skin_count();
+    const auto section = [](std::size_t count, std::size_t bytes, Fill fill) {
+        return Section{{}, count, bytes, std::move(fill)};
+    };
+    const auto put_hex = [&mesh](std::size_t i, char* out) { return put(out, mesh.hex(i)); };
+    const auto put_quad = [&mesh](std::size_t i, char* out) { return put(out, skin_quad(mesh, i).nodes); };
+    const auto put_offset = [hexes](std::size_t i, char* out) {
+        return put(out, static_cast<std::int64_t>(i < hexes ? 8 * (i + 1) : 8 * hexes + 4 * (i + 1 - hexes)));
+    };
+    const auto put_type = [hexes](std::size_t i, char* out) {
+        return put(out, static_cast<std::uint8_t>(i < hexes ? kVtkHex : kVtkQuad));
+    };
+    const auto put_entity = [&mesh, hexes](std::size_t i, char* out) {
+        return put(out, static_cast<std::int32_t>(i < hexes ? 0 : entity(mesh, i - hexes)));
+    };
+    const auto put_point = [&mesh](std::size_t i, char* out) {
+        std::memcpy(out, mesh.nodes[i].data(), sizeof(Vec3));
+        return out + sizeof(Vec3);
+    };
+    return {{"type=\"Float64\" NumberOfComponents=\"3\"", mesh.nodes.size() * sizeof(Vec3),
+             {section(mesh.nodes.size(), sizeof(Vec3), each(put_point))}},
+            {"type=\"Int32\" Name=\"connectivity\"", hexes * sizeof(Hex) + skin * sizeof(Quad),
+             {section(hexes, sizeof(Hex), each(put_hex)), section(skin, sizeof(Quad), each(put_quad))}},
+            {"type=\"Int64\" Name=\"offsets\"", (hexes + skin) * 8, {section(hexes + skin, 8, each(put_offset))}},
+            {"type=\"UInt8\" Name=\"types\"", hexes + skin, {section(hexes + skin, 1, each(put_type))}},
+            {"type=\"Int32\" Name=\"entity\"", (hexes + skin) * 4, {section(hexes + skin, 4, each(put_entity))}}};
+}
+
+std::string vtu_head(const mesh::HexMesh& mesh, const std::vector<Array>& arrays)
+{
+    const char* order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
+    text.append(order).append("\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"");
+    text.append(std::to_string(mesh.nodes.size())).append("\" NumberOfCells=\"");
+    text.append(std::to_string(mesh.hex_count() + mesh.skin_count())).append("\">\n");
+    std::size_t offset = 0;
+    const auto array = [&](std::size_t i) {
+        text.append("<DataArray ").append(arrays[i].attributes).append(" format=\"appended\" offset=\"");
+        text.append(std::to_string(offset)).append("\"/>\n");
+        offset += sizeof(std::uint64_t) + arrays[i].bytes;
+    };
+    text += "<Points>\n";
+    array(0);
+    text += "</Points>\n<Cells>\n";
+    for (const std::size_t i : {1, 2, 3}) array(i);
+    text += "</Cells>\n<CellData Scalars=\"entity\">\n";
+    array(4);
+    return text + "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+}
+
+// ---- Legacy
+
+/// Legacy files hold the highest byte first.
+template <class Value>
+char* put_big(char* out, Value value)
+{
+    char* end = put(out, value);
+    if (std::endian::native == std::endian::little) std::reverse(out, end);
+    return end;
+}
+
+char* put_number(char* out, double value, bool binary)
+{
+    if (binary) return put_big(out, value);
+    out = put_text(out, value);
+    *out++ = ' ';
+    return out;
+}
+
+char* put_number(char* out, std::int32_t value, bool binary)
+{
+    if (binary) return put_big(out, value);
+    out = put_text(out, static_cast<long long>(value));
+    *out++ = ' ';
+    return out;
+}
+
+char* end_line(char* out, bool binary)
+{
+    if (!binary) *out++ = '\n';
+    return out;
+}
+
+template <std::size_t N>
+char* put_cell(char* out, const std::array<Index, N>& nodes, bool binary)
+{
+    out = put_number(out, static_cast<std::int32_t>(N), binary);
+    for (const Index node : nodes) out = put_number(out, node, binary);
+    return end_line(out, binary);
+}
+
+std::vector<Section> vtk_sections(const mesh::HexMesh& mesh, bool binary)
+{
+    const std::size_t hexes = mesh.hex_count();
+    const std::size_t skin = mesh.skin_count();
+    const std::string cells = std::to_string(hexes + skin);
+    const auto bytes = [binary](std::size_t numbers, std::size_t each_bytes) {
+        return binary ? numbers * each_bytes : numbers * kNumberBytes + 1;
+    };
+    const auto put_point = [&mesh, binary](std::size_t i, char* out) {
+        for (const double value : mesh.nodes[i]) out = put_number(out, value, binary);
+        return end_line(out, binary);
+    };
+    const auto put_type = [hexes, binary](std::size_t i, char* out) {
+        return end_line(put_number(out, static_cast<std::int32_t>(i < hexes ? kVtkHex : kVtkQuad), binary), binary);
+    };
+    const auto put_entity = [&mesh, hexes, binary](std::size_t i, char* out) {
+        const int tag = i < hexes ? 0 : entity(mesh, i - hexes);
+        return end_line(put_number(out, static_cast<std::int32_t>(tag), binary), binary);
+    };
+    std::string head = "# vtk DataFile Version 3.0\nhexahedra\n";
+    head.append(binary ? "BINARY" : "ASCII").append("\nDATASET UNSTRUCTURED_GRID\nPOINTS ");
+    head.append(std::to_string(mesh.nodes.size())).append(" double\n");
+    const std::string sizes = std::string(1, ' ').append(std::to_string(9 * hexes + 5 * skin)).append("\n");
+    return {{head, mesh.nodes.size(), bytes(3, 8), each(put_point)},
+            {"\nCELLS " + cells + sizes, hexes, bytes(9, 4),
+             each([&mesh, binary](std::size_t i, char* out) { return put_cell(out, mesh.hex(i), binary); })},
+            {{}, skin, bytes(5, 4),
+             each([&mesh, binary](std::size_t i, char* out) { return put_cell(out, skin_quad(mesh, i).nodes, binary); })},
+            {"\nCELL_TYPES " + cells + "\n", hexes + skin, bytes(1, 4), each(put_type)},
+            {"\nCELL_DATA " + cells + "\nSCALARS entity int 1\nLOOKUP_TABLE default\n", hexes + skin, bytes(1, 4),
+             each(put_entity)},
+            {"\n", 0, 0, {}}};
+}
+
+} // namespace
+
+void write_vtu(const mesh::HexMesh& mesh, const std::string& path, const RunContext& context)
+{
+    check_skin(mesh);
+    std::vector<Array> arrays = vtu_arrays(mesh);
+    std::vector<Section> sections{{vtu_head(mesh, arrays), 0, 0, {}}};
+    for (Array& array : arrays) {
+        put(array.sections.front().text, static_cast<std::uint64_t>(array.bytes));
+        for (Section& section : array.sections) sections.push_back(std::move(section));
+    }
+    sections.push_back({"\n</AppendedData>\n</VTKFile>\n", 0, 0, {}});
+    WholeFile file(path);
+    write_sections(file, sections, Sizes::exact, context);
+    file.commit();
+}
+
+void write_vtk(const mesh::HexMesh& mesh, const std::string& path, const VtkOptions& options, const RunContext& context)
+{
+    check_skin(mesh);
+    WholeFile file(path);
+    write_sections(file, vtk_sections(mesh, options.binary), options.binary ? Sizes::exact : Sizes::varying, context);
+    file.commit();
+}
+
+} // namespace lacuna::io

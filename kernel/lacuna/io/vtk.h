@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/mesh/hex_mesh.h>
+
+#include <string>
+
+namespace lacuna::io {
+
+/// Write hexahedra, then skin quads, for ParaView: XML, numbers raw behind it. The cell array "entity" holds the
+/// tag of the skin patch, 0 for hexahedra. Whole or not at all.
+/// @throw InvalidInput  the folder does not exist, a skin quad belongs to no patch.
+/// @throw BackendError  the disk is full or the file cannot be written; nothing is left behind.
+void write_vtu(const mesh::HexMesh& mesh, const std::string& path, const RunContext& context = {});
+
+struct VtkOptions {
+    bool binary = true;
+};
+
+/// The same in VTK's legacy format.
+void write_vtk(const mesh::HexMesh& mesh, const std::string& path, const VtkOptions& options = {},
+               const RunContext& context = {});
+
+} // namespace lacuna::io
