@@ -11,16 +11,13 @@
 namespace lacuna::bench {
 
 struct Timing {
-    double median = 0;    ///< [s]
-    double best = 0;      ///< [s]
-    double peak_mib = 0;  ///< most memory the process held at once meanwhile, what was there before included
+    double median = 0;   ///< [s]
+    double best = 0;     ///< [s]
+    double peak_mib = 0; ///< most memory the process held at once meanwhile, what was there before included
 };
 
 /// Peak memory is counted anew from here.
-inline void forget_peak()
-{
-    std::ofstream("/proc/self/clear_refs") << "5";
-}
+inline void forget_peak() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 inline double peak_mib()
 {
@@ -51,9 +48,10 @@ Timing time_of(int runs, const Prepare& prepare, const Work& work)
 /// One JSON line on standard output.
 inline void report(const std::string& name, int threads, const Timing& timing, double min_scaled_jacobian)
 {
-    std::printf("{\"name\": \"%s\", \"threads\": %d, \"median_s\": %.4f, \"best_s\": %.4f, \"peak_mib\": %.0f, "
-                "\"min_scaled_jacobian\": %.4f}\n",
-                name.c_str(), threads, timing.median, timing.best, timing.peak_mib, min_scaled_jacobian);
+    std::printf(
+        "{\"name\": \"%s\", \"threads\": %d, \"median_s\": %.4f, \"best_s\": %.4f, \"peak_mib\": %.0f, "
+        "\"min_scaled_jacobian\": %.4f}\n",
+        name.c_str(), threads, timing.median, timing.best, timing.peak_mib, min_scaled_jacobian);
     std::fflush(stdout);
 }
 

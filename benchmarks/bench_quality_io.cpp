@@ -71,7 +71,8 @@ void measure_files(const mesh::HexMesh& mesh, const std::string& size, const std
     const auto write = [&](const char* name, const io::MshOptions& options, int threads) {
         RunContext context;
         context.threads = threads;
-        const auto timing = bench::time_of(kRuns, remove, [&] { io::write_msh(mesh, path, options, context); });
+        const auto timing = bench::time_of(kRuns, remove,
+                                           [&] { io::write_msh(mesh, path, options, context); });
         bench::report(std::string("io/") + name + "/" + size, threads, timing, least);
     };
     const int all = thread_count({});
@@ -83,9 +84,11 @@ void measure_files(const mesh::HexMesh& mesh, const std::string& size, const std
     remove();
     io::write_msh(mesh, path);
     io::HexCells cells;
-    auto timing = bench::time_of(kRuns, [] {}, [&] { cells = io::read_msh_hexes(path); });
+    auto timing = bench::time_of(
+        kRuns, [] {}, [&] { cells = io::read_msh_hexes(path); });
     bench::report("io/read_msh_binary/" + size, 1, timing, least);
-    timing = bench::time_of(kRuns, [] {}, [&] { quality::prove_cells(cells.nodes, cells.hexes, cells.quads); });
+    timing = bench::time_of(
+        kRuns, [] {}, [&] { quality::prove_cells(cells.nodes, cells.hexes, cells.quads); });
     bench::report("quality/prove_cells/" + size, all, timing, least);
     remove();
 }

@@ -33,7 +33,8 @@ io::HexCells written_and_read(const mesh::HexMesh& mesh, const io::MshOptions& o
 
 const io::MshGroup* find_group(const io::HexCells& cells, const std::string& name)
 {
-    const auto found = std::find_if(cells.groups.begin(), cells.groups.end(), [&](const auto& g) { return g.name == name; });
+    const auto found = std::find_if(cells.groups.begin(), cells.groups.end(),
+                                    [&](const auto& g) { return g.name == name; });
     return found == cells.groups.end() ? nullptr : &*found;
 }
 
@@ -42,8 +43,9 @@ const io::MshGroup* find_group(const io::HexCells& cells, const std::string& nam
 TEST_CASE("nodes, cells and skin come back from every format bit for bit, in their order")
 {
     for (const auto& options : kFormats) {
-        for (const auto& mesh : {test::block({.columns = 3, .rows = 2, .layers = 4, .map = crooked}), test::ring(40, 30),
-                                 test::block({.columns = 60, .rows = 50, .layers = 9, .map = crooked})}) {
+        for (const auto& mesh :
+             {test::block({.columns = 3, .rows = 2, .layers = 4, .map = crooked}), test::ring(40, 30),
+              test::block({.columns = 60, .rows = 50, .layers = 9, .map = crooked})}) {
             CAPTURE(options.version);
             CAPTURE(options.binary);
             const io::HexCells cells = written_and_read(mesh, options);
@@ -61,7 +63,8 @@ TEST_CASE("nodes, cells and skin come back from every format bit for bit, in the
                 expected[mesh.patches[std::size_t(quad.patch)].tag].push_back(quad.nodes);
             }
             std::map<int, std::vector<Quad>> found;
-            for (std::size_t i = 0; i < cells.quads.size(); ++i) found[cells.quad_entity[i]].push_back(cells.quads[i]);
+            for (std::size_t i = 0; i < cells.quads.size(); ++i)
+                found[cells.quad_entity[i]].push_back(cells.quads[i]);
             CHECK(found == expected);
         }
     }
@@ -105,7 +108,8 @@ TEST_CASE("names the format cannot hold are changed, and stay different from eac
 {
     auto mesh = test::block({});
     const std::string umlauts = std::string(126, 'x') + "\xc3\xa4";
-    mesh.patches[0].groups = {"say \"so\"", "two\nlines", std::string(300, 'a') + "1", std::string(300, 'a') + "2", umlauts};
+    mesh.patches[0].groups = {"say \"so\"", "two\nlines", std::string(300, 'a') + "1",
+                              std::string(300, 'a') + "2", umlauts};
     for (const bool binary : {true, false}) {
         const io::HexCells cells = written_and_read(mesh, {.binary = binary});
         CHECK(find_group(cells, "say 'so'") != nullptr);
@@ -158,7 +162,8 @@ TEST_CASE("unknown versions and skins without patches are refused before anythin
 {
     const test::Folder folder;
     auto mesh = test::block({});
-    CHECK(test::error_code([&] { io::write_msh(mesh, folder.file("a.msh"), {.version = 3}); }) == "io.unknown_version");
+    CHECK(test::error_code([&] { io::write_msh(mesh, folder.file("a.msh"), {.version = 3}); }) ==
+          "io.unknown_version");
     mesh.source_patch[2] = 3;
     CHECK(test::error_code([&] { io::write_msh(mesh, folder.file("a.msh")); }) == "io.no_patch");
     mesh.source_patch[2] = 0;

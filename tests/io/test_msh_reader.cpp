@@ -54,7 +54,8 @@ TEST_CASE("files with bytes changed at random are read or refused, and never end
         const std::string whole = sample(folder, options);
         for (int trial = 0; trial < 400; ++trial) {
             std::string bytes = whole;
-            for (unsigned k = 0; k < 1 + random() % 4; ++k) bytes[random() % bytes.size()] = static_cast<char>(random());
+            for (unsigned k = 0; k < 1 + random() % 4; ++k)
+                bytes[random() % bytes.size()] = static_cast<char>(random());
             const std::string code = code_of(folder, bytes);
             CHECK((code.empty() || code == "io.bad_mesh"));
             if (!code.empty()) ++refused;
@@ -71,7 +72,8 @@ TEST_CASE("counts that lie cost no memory")
     CHECK(code_of(folder, format + "$Nodes\n1 " + huge + " 1 " + huge + "\n$EndNodes\n") == "io.bad_mesh");
     CHECK(code_of(folder, format + "$Nodes\n" + huge + " 1 1 1\n$EndNodes\n") == "io.bad_mesh");
     CHECK(code_of(folder, format + "$Entities\n0 0 " + huge + " 0\n$EndEntities\n") == "io.bad_mesh");
-    CHECK(code_of(folder, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + huge + "\n$EndNodes\n") == "io.bad_mesh");
+    CHECK(code_of(folder, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + huge + "\n$EndNodes\n") ==
+          "io.bad_mesh");
 
     std::string binary = sample(folder, {true, 4.1});
     const std::size_t at = binary.find("$Nodes\n") + 7;
@@ -100,15 +102,17 @@ TEST_CASE("tags need be neither dense nor in order, other cells are counted, cur
     const test::Folder folder;
     std::string text = "$Comments\nby hand\n$EndComments\n$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
                        "$PhysicalNames\n1\n3 9 \"a b\"\n$EndPhysicalNames\n$Nodes\n20\n";
-    const double corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    const double corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                 {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
     for (int i = 19; i >= 0; --i) {
         const auto& p = corner[i % 8];
-        text += std::to_string(1000000 * (i + 1)) + " " + std::to_string(p[0]) + " " + std::to_string(p[1]) + " " +
-                std::to_string(p[2] + (i < 8 ? 0 : 10 + i)) + "\n";
+        text += std::to_string(1000000 * (i + 1)) + " " + std::to_string(p[0]) + " " + std::to_string(p[1]) +
+                " " + std::to_string(p[2] + (i < 8 ? 0 : 10 + i)) + "\n";
     }
     text += "$EndNodes\n$Elements\n4\n1 15 2 5 1 1000000\n2 17 3 9 4 0";
     for (int i = 0; i < 20; ++i) text += " " + std::to_string(1000000 * (i + 1));
-    text += "\n3 4 2 0 4 1000000 2000000 3000000 4000000\n4 3 2 8 6 1000000 2000000 3000000 4000000\n$EndElements\n";
+    text += "\n3 4 2 0 4 1000000 2000000 3000000 4000000\n4 3 2 8 6 1000000 2000000 3000000 "
+            "4000000\n$EndElements\n";
     test::put_bytes(folder.file("x.msh"), text);
     const io::HexCells cells = io::read_msh_hexes(folder.file("x.msh"));
     REQUIRE(cells.hexes.size() == 1);
@@ -123,20 +127,24 @@ TEST_CASE("tags need be neither dense nor in order, other cells are counted, cur
     CHECK(cells.others[1].count == 1);
     bool found = false;
     for (const auto& group : cells.groups)
-        found = found || (group.dimension == 3 && group.tag == 9 && group.name == "a b" && group.entities == std::vector<int>{4});
+        found = found || (group.dimension == 3 && group.tag == 9 && group.name == "a b" &&
+                          group.entities == std::vector<int>{4});
     CHECK(found);
 }
 
 TEST_CASE("a node twice, a cell on a node that is not there, and a cell of unknown type are refused")
 {
     const test::Folder folder;
-    const std::string nodes = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n2\n1 0 0 0\n2 1 0 0\n$EndNodes\n";
+    const std::string nodes =
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n2\n1 0 0 0\n2 1 0 0\n$EndNodes\n";
     CHECK(code_of(folder, nodes + "$Elements\n1\n1 3 0 1 2 1 2\n$EndElements\n").empty());
     CHECK(code_of(folder, nodes + "$Elements\n1\n1 3 0 1 2 1 3\n$EndElements\n") == "io.bad_mesh");
     CHECK(code_of(folder, nodes + "$Elements\n1\n1 3 0 1 2 1 -2\n$EndElements\n") == "io.bad_mesh");
     CHECK(code_of(folder, nodes + "$Elements\n1\n1 777 0 1\n$EndElements\n") == "io.bad_mesh");
     CHECK(code_of(folder, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n2\n1 0 0 0\n1 1 0 0\n$EndNodes\n") ==
           "io.bad_mesh");
-    CHECK(code_of(folder, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 1e999 0\n$EndNodes\n") == "io.bad_mesh");
-    CHECK(code_of(folder, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 +1 1e-999 0\n$EndNodes\n").empty());
+    CHECK(code_of(folder, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 1e999 0\n$EndNodes\n") ==
+          "io.bad_mesh");
+    CHECK(code_of(folder, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 +1 1e-999 0\n$EndNodes\n")
+              .empty());
 }

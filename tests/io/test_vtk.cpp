@@ -61,7 +61,8 @@ std::vector<std::size_t> array_places(const std::string& bytes)
     for (std::size_t p = bytes.find("offset=\""); p < data; p = bytes.find("offset=\"", p + 1))
         places.push_back(data + std::stoul(bytes.substr(p + 8)));
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const std::size_t end = i + 1 < places.size() ? places[i + 1] : bytes.find("\n</AppendedData>", places[i]);
+        const std::size_t end = i + 1 < places.size() ? places[i + 1]
+                                                      : bytes.find("\n</AppendedData>", places[i]);
         CHECK(places[i] + 8 + at<std::uint64_t>(bytes, places[i]) == end);
         places[i] += 8;
     }

@@ -47,7 +47,9 @@ TEST_CASE("a file that is given up leaves nothing, and what was there before sta
 TEST_CASE("places that cannot be written to are told apart")
 {
     const test::Folder folder;
-    const auto code = [](const std::string& path) { return test::error_code([&] { io::WholeFile file(path); }); };
+    const auto code = [](const std::string& path) {
+        return test::error_code([&] { io::WholeFile file(path); });
+    };
     CHECK(code("") == "io.no_path");
     CHECK(code(folder.file("missing/a.msh")) == "io.no_folder");
     CHECK(code(folder.file("")) == "io.not_a_file");
@@ -116,7 +118,8 @@ TEST_CASE("a cancelled writing leaves what was there before and nothing else")
     RunContext context;
     context.cancel = &cancel;
     for (const bool binary : {true, false}) {
-        CHECK_THROWS_AS(io::write_msh(test::block({}), folder.file("a.msh"), {.binary = binary}, context), Cancelled);
+        CHECK_THROWS_AS(io::write_msh(test::block({}), folder.file("a.msh"), {.binary = binary}, context),
+                        Cancelled);
         CHECK(test::bytes_of(folder.file("a.msh")) == "before");
         CHECK(folder.entries() == 1);
     }

@@ -26,8 +26,10 @@ TEST_CASE("blocks of any size, with and without holes, are valid by the plainest
         CAPTURE(layers);
         test::check_valid(test::block({.columns = 4, .rows = 3, .layers = layers, .map = wavy}));
         test::check_valid(test::block({.columns = 1, .rows = 1, .layers = layers}));
-        test::check_valid(test::block({.columns = 5, .rows = 5, .layers = layers, .map = wavy,
-                                       .leave_out = [](int i, int j) { return i == 2 && j == 2; }}));
+        test::check_valid(test::block(
+            {.columns = 5, .rows = 5, .layers = layers, .map = wavy, .leave_out = [](int i, int j) {
+                 return i == 2 && j == 2;
+             }}));
         test::check_valid(test::ring(12, layers));
     }
 }
@@ -79,7 +81,9 @@ TEST_CASE("the plain check sees what is done to a mesh")
     }
     SUBCASE("two parts that touch along a column of nodes alone")
     {
-        CHECK_FALSE(test::faults(test::block({.columns = 2, .rows = 2,
-                                              .leave_out = [](int i, int j) { return i == j; }})).empty());
+        CHECK_FALSE(
+            test::faults(
+                test::block({.columns = 2, .rows = 2, .leave_out = [](int i, int j) { return i == j; }}))
+                .empty());
     }
 }

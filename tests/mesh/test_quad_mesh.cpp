@@ -20,12 +20,14 @@ std::array<Index, 2> ends(const std::vector<Quad>& quads, std::size_t side)
 
 } // namespace
 
-TEST_CASE("partners of sides are each other's, run the same two nodes the other way, and the rest is the boundary")
+TEST_CASE(
+    "partners of sides are each other's, run the same two nodes the other way, and the rest is the boundary")
 {
     for (unsigned seed = 0; seed < 20; ++seed) {
         CAPTURE(seed);
         std::mt19937 random(seed);
-        const auto mesh = test::block({.columns = 6, .rows = 5, .leave_out = [&](int, int) { return random() % 5 == 0; }});
+        const auto mesh = test::block(
+            {.columns = 6, .rows = 5, .leave_out = [&](int, int) { return random() % 5 == 0; }});
         const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads, mesh.nodes_per_layer);
         REQUIRE(opposite.size() == 4 * mesh.quads.size());
         std::set<std::array<Index, 2>> lone;
@@ -41,7 +43,8 @@ TEST_CASE("partners of sides are each other's, run the same two nodes the other 
             CHECK(ends(mesh.quads, other)[1] == ends(mesh.quads, side)[0]);
         }
         std::set<std::array<Index, 2>> boundary;
-        for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads)) boundary.insert({side.from, side.to});
+        for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
+            boundary.insert({side.from, side.to});
         CHECK(lone == boundary);
     }
 }

@@ -52,7 +52,8 @@ double least_sampled(const Corners& corners, int steps)
     for (int i = 0; i <= steps; ++i)
         for (int j = 0; j <= steps; ++j)
             for (int k = 0; k <= steps; ++k)
-                least = std::min(least, jacobian(corners, double(i) / steps, double(j) / steps, double(k) / steps));
+                least = std::min(least,
+                                 jacobian(corners, double(i) / steps, double(j) / steps, double(k) / steps));
     return least;
 }
 
@@ -61,7 +62,7 @@ Corners twisted()
 {
     std::mt19937 random(7);
     for (;;) {
-        const Corners corners = shaken(random, 0.5);
+        Corners corners = shaken(random, 0.5);
         if (quality::scaled_jacobian(corners) > 0.01 && least_sampled(corners, 8) < -0.02) return corners;
     }
 }
@@ -117,12 +118,13 @@ TEST_CASE("the certificate finds a cell that is invalid between corners that are
     CHECK_FALSE(quality::certified_positive(corners));
 }
 
-TEST_CASE("over random cells, certified means no sample is negative, and a negative sample means not certified")
+TEST_CASE(
+    "over random cells, certified means no sample is negative, and a negative sample means not certified")
 {
     std::mt19937 random(1);
     int certified = 0;
-    int hidden = 0;   // invalid, though every corner is positive
-    int deep = 0;     // valid, though only found so by cutting the cell
+    int hidden = 0; // invalid, though every corner is positive
+    int deep = 0;   // valid, though only found so by cutting the cell
     for (int trial = 0; trial < 6000; ++trial) {
         const Corners corners = shaken(random, 0.2 + 0.4 * (trial % 7) / 7);
         const bool valid = quality::certified_positive(corners);

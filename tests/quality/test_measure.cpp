@@ -20,8 +20,9 @@ mesh::HexMesh shaken_block(int n, int layers, double amount)
 {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> shift(-amount / n, amount / n);
-    return test::block({.columns = n, .rows = n, .layers = layers,
-                        .map = [&](const Vec3& p) -> Vec3 { return p + Vec3(shift(random), shift(random), shift(random)); }});
+    return test::block({.columns = n, .rows = n, .layers = layers, .map = [&](const Vec3& p) -> Vec3 {
+                            return p + Vec3(shift(random), shift(random), shift(random));
+                        }});
 }
 
 std::vector<Hex> all_hexes(const mesh::HexMesh& mesh)
@@ -51,11 +52,14 @@ TEST_CASE("a measured mesh has the least, the mean, the counts and the worst cel
             const auto quality = quality::measure(mesh);
             CHECK(quality.hexes == scaled.size());
             CHECK(quality.min_scaled_jacobian == *std::min_element(scaled.begin(), scaled.end()));
-            CHECK(quality.mean_scaled_jacobian ==
-                  doctest::Approx(std::accumulate(scaled.begin(), scaled.end(), 0.0) / double(scaled.size())));
+            CHECK(
+                quality.mean_scaled_jacobian ==
+                doctest::Approx(std::accumulate(scaled.begin(), scaled.end(), 0.0) / double(scaled.size())));
             CHECK(quality.uncertified == uncertified);
-            CHECK(quality.inverted == std::size_t(std::count_if(scaled.begin(), scaled.end(), [](double s) { return s <= 0; })));
-            CHECK(std::accumulate(quality.histogram.begin(), quality.histogram.end(), std::size_t(0)) == scaled.size());
+            CHECK(quality.inverted ==
+                  std::size_t(std::count_if(scaled.begin(), scaled.end(), [](double s) { return s <= 0; })));
+            CHECK(std::accumulate(quality.histogram.begin(), quality.histogram.end(), std::size_t(0)) ==
+                  scaled.size());
             REQUIRE(quality.worst.size() == 10);
             std::vector<double> sorted = scaled;
             std::sort(sorted.begin(), sorted.end());

@@ -50,9 +50,11 @@ std::vector<Quad> all_skin(const mesh::HexMesh& mesh)
 TEST_CASE("sound meshes are proved, swept or as a list with their skin, and measured on the way")
 {
     for (const int layers : {1, 4}) {
-        for (const auto& mesh : {test::block({.columns = 5, .rows = 4, .layers = layers}), test::ring(9, layers),
-                                 test::block({.columns = 5, .rows = 5, .layers = layers,
-                                              .leave_out = [](int i, int j) { return i == j && i % 2 == 1; }})}) {
+        for (const auto& mesh :
+             {test::block({.columns = 5, .rows = 4, .layers = layers}), test::ring(9, layers),
+              test::block({.columns = 5, .rows = 5, .layers = layers, .leave_out = [](int i, int j) {
+                               return i == j && i % 2 == 1;
+                           }})}) {
             CHECK(quality::prove(mesh).volume == quality::measure(mesh).volume);
             const auto hexes = all_hexes(mesh);
             CHECK(quality::prove_cells(mesh.nodes, hexes).hexes == hexes.size());
@@ -112,8 +114,9 @@ TEST_CASE("what is wrong with a swept mesh is found and called by its name")
     }
     SUBCASE("parts that touch in a node")
     {
-        CHECK(code_of(test::block({.columns = 2, .rows = 2, .leave_out = [](int i, int j) { return i == j; }})) ==
-              "quality.pinched");
+        CHECK(code_of(test::block({.columns = 2, .rows = 2, .leave_out = [](int i, int j) {
+                                       return i == j;
+                                   }})) == "quality.pinched");
     }
     SUBCASE("a rim side missing, doubled, or run the wrong way")
     {
@@ -171,7 +174,9 @@ TEST_CASE("nodes of two parts in one place are found, to within 1e-9 of the diag
             nodes.resize(size + static_cast<std::size_t>(count));
             for (std::size_t n = 0; n < twin.size(); ++n) {
                 nodes[size + n] = mesh.nodes[first + n];
-                if (twin[n] >= 0) nodes[size + static_cast<std::size_t>(twin[n])] = mesh.nodes[first + n] + Vec3(width, 0, 0);
+                if (twin[n] >= 0)
+                    nodes[size + static_cast<std::size_t>(twin[n])] = mesh.nodes[first + n] +
+                                                                      Vec3(width, 0, 0);
             }
         }
         mesh.nodes = nodes;
@@ -182,10 +187,12 @@ TEST_CASE("nodes of two parts in one place are found, to within 1e-9 of the diag
         return mesh;
     };
     const double diagonal = std::sqrt(3.0);
-    for (const double width : {0.0, 1e-12, 0.9e-9 * diagonal}) CHECK(code_of(slit(width)) == "quality.coincident_nodes");
+    for (const double width : {0.0, 1e-12, 0.9e-9 * diagonal})
+        CHECK(code_of(slit(width)) == "quality.coincident_nodes");
     for (const double width : {1.1e-9 * diagonal, 1e-7, 1e-3}) CHECK(code_of(slit(width)).empty());
     const auto listed = slit(0);
-    CHECK(code_of([&] { quality::prove_cells(listed.nodes, all_hexes(listed)); }) == "quality.coincident_nodes");
+    CHECK(code_of([&] { quality::prove_cells(listed.nodes, all_hexes(listed)); }) ==
+          "quality.coincident_nodes");
 }
 
 TEST_CASE("a cell that is invalid between valid corners is refused")
@@ -194,9 +201,10 @@ TEST_CASE("a cell that is invalid between valid corners is refused")
     std::uniform_real_distribution<double> shift(-0.5, 0.5);
     int refused = 0;
     for (int trial = 0; trial < 20000 && refused < 5; ++trial) {
-        const auto mesh = test::block({.columns = 1, .rows = 1, .layers = 1, .map = [&](const Vec3& p) -> Vec3 {
-                                           return p + Vec3(shift(random), shift(random), shift(random));
-                                       }});
+        const auto mesh = test::block(
+            {.columns = 1, .rows = 1, .layers = 1, .map = [&](const Vec3& p) -> Vec3 {
+                 return p + Vec3(shift(random), shift(random), shift(random));
+             }});
         const auto quality = quality::measure(mesh);
         if (quality.inverted > 0 || quality.uncertified == 0) continue;
         ++refused;
@@ -208,7 +216,7 @@ TEST_CASE("a cell that is invalid between valid corners is refused")
 TEST_CASE("a refusal names the worst cells, their layer and their place")
 {
     auto mesh = test::block({.columns = 3, .rows = 3, .layers = 3});
-    mesh.nodes[16 + 5].z() += 0.7;  // inner node of the second level
+    mesh.nodes[16 + 5].z() += 0.7; // inner node of the second level
     std::string message;
     try {
         quality::prove(mesh);
@@ -263,8 +271,10 @@ TEST_CASE("what is wrong with a list of cells is found and called by its name")
     }
     SUBCASE("cells that touch along an edge alone")
     {
-        const auto pinched = test::block({.columns = 2, .rows = 2, .leave_out = [](int i, int j) { return i == j; }});
-        CHECK(code_of([&] { quality::prove_cells(pinched.nodes, all_hexes(pinched)); }) == "quality.open_skin");
+        const auto pinched = test::block(
+            {.columns = 2, .rows = 2, .leave_out = [](int i, int j) { return i == j; }});
+        CHECK(code_of([&] { quality::prove_cells(pinched.nodes, all_hexes(pinched)); }) ==
+              "quality.open_skin");
     }
     SUBCASE("a hanging node")
     {

@@ -30,7 +30,8 @@ mesh::HexMesh stacked(const std::vector<Vec3>& points, const std::vector<Quad>& 
     mesh.nodes_per_layer = static_cast<Index>(source.size());
     for (int layer = 0; layer <= layers; ++layer)
         for (const Vec3& point : source) mesh.nodes.push_back(point + Vec3(0, 0, double(layer) / layers));
-    for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads)) mesh.rim.push_back({side.from, side.to});
+    for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
+        mesh.rim.push_back({side.from, side.to});
     mesh.patches = {{1, {"source"}}, {2, {"target"}}, {3, {"wall:3"}}};
     mesh.source_patch.assign(mesh.quads.size(), 0);
     mesh.target_patch.assign(mesh.quads.size(), 1);
@@ -73,7 +74,8 @@ mesh::HexMesh ring(int around, int layers)
     for (Index j = 0; j < 2; ++j) {
         for (Index i = 0; i < around; ++i) {
             const Index next = (i + 1) % around;
-            quads.push_back({j * around + i, (j + 1) * around + i, (j + 1) * around + next, j * around + next});
+            quads.push_back(
+                {j * around + i, (j + 1) * around + i, (j + 1) * around + next, j * around + next});
         }
     }
     return stacked(points, quads, layers);

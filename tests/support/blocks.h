@@ -9,11 +9,11 @@ namespace lacuna::test {
 
 /// A swept mesh of the unit cube, for tests of what comes after meshing.
 struct BlockOptions {
-    int columns = 3;  ///< quads along x
-    int rows = 3;     ///< quads along y
+    int columns = 3; ///< quads along x
+    int rows = 3;    ///< quads along y
     int layers = 3;
-    std::function<Vec3(const Vec3&)> map = nullptr;                    ///< moves every node; none: the cube itself
-    std::function<bool(int column, int row)> leave_out = nullptr;      ///< quads that are not there
+    std::function<Vec3(const Vec3&)> map = nullptr;               ///< moves every node; none: the cube itself
+    std::function<bool(int column, int row)> leave_out = nullptr; ///< quads that are not there
 };
 
 /// Patches: 0 the source (tag 1), 1 the target (tag 2), 2 the walls (tag 3).

@@ -32,12 +32,14 @@ bool good_sizes(const mesh::HexMesh& mesh, Faults& faults)
 {
     const auto layers = static_cast<std::size_t>(mesh.layers);
     expect(faults, mesh.hex_count() > 0, "no cells");
-    expect(faults, mesh.nodes.size() == (layers + 1) * static_cast<std::size_t>(mesh.nodes_per_layer), "node count");
+    expect(faults, mesh.nodes.size() == (layers + 1) * static_cast<std::size_t>(mesh.nodes_per_layer),
+           "node count");
     expect(faults, mesh.source_patch.size() == mesh.quads.size(), "source patch count");
     expect(faults, mesh.target_patch.size() == mesh.quads.size(), "target patch count");
     expect(faults, mesh.wall_patch.size() == mesh.rim.size() * layers, "wall patch count");
     for (const Quad& quad : mesh.quads)
-        for (const Index node : quad) expect(faults, node >= 0 && node < mesh.nodes_per_layer, "node out of range");
+        for (const Index node : quad)
+            expect(faults, node >= 0 && node < mesh.nodes_per_layer, "node out of range");
     return faults.empty();
 }
 
@@ -62,7 +64,8 @@ void find_conformity_faults(const mesh::HexMesh& mesh, Faults& faults)
     for (const auto& [nodes, uses] : all_sides(mesh)) {
         expect(faults, nodes.size() == 4, "a side uses a node twice");
         expect(faults, uses.size() <= 2, "a side is used by more than two cells");
-        if (uses.size() == 2) expect(faults, uses[0] == reversed(uses[1]), "a side is run the same way by its two cells");
+        if (uses.size() == 2)
+            expect(faults, uses[0] == reversed(uses[1]), "a side is run the same way by its two cells");
         if (uses.size() == 1) lone.insert(uses[0]);
     }
     std::multiset<Quad> skin;
@@ -77,7 +80,8 @@ void find_conformity_faults(const mesh::HexMesh& mesh, Faults& faults)
     expect(faults, skin == lone, "the skin's quads are not the sides of one cell alone, outward");
     for (const auto& [edge, uses] : edges) {
         const auto back = edges.find({edge[1], edge[0]});
-        expect(faults, uses == 1 && back != edges.end() && back->second == 1, "an edge of the skin does not join two quads");
+        expect(faults, uses == 1 && back != edges.end() && back->second == 1,
+               "an edge of the skin does not join two quads");
     }
 }
 
@@ -101,7 +105,8 @@ void find_node_faults(const mesh::HexMesh& mesh, Faults& faults)
             expect(faults, (sorted[i] - sorted[j]).norm() > tolerance, "two nodes in one place");
 }
 
-constexpr double kCorner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+constexpr double kCorner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                  {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 
 /// Jacobian of the trilinear map, from the derivatives of the shape functions.
 double jacobian(const std::array<Vec3, 8>& corners, const Vec3& at)
@@ -112,8 +117,10 @@ double jacobian(const std::array<Vec3, 8>& corners, const Vec3& at)
             double slope = 1;
             for (int e = 0; e < 3; ++e) {
                 const bool upper = kCorner[c][e] > 0;
-                if (e == d) slope *= upper ? 1 : -1;
-                else slope *= upper ? at[e] : 1 - at[e];
+                if (e == d)
+                    slope *= upper ? 1 : -1;
+                else
+                    slope *= upper ? at[e] : 1 - at[e];
             }
             columns.col(d) += slope * corners[c];
         }
@@ -134,7 +141,8 @@ double naive_scaled_jacobian(const std::array<Vec3, 8>& corners)
             return Vec3(0, 0, 0);
         };
         Eigen::Matrix3d edges;
-        for (int d = 0; d < 3; ++d) edges.col(d) = ((find(d) - find(-1)) * (corner[d] > 0 ? -1 : 1)).normalized();
+        for (int d = 0; d < 3; ++d)
+            edges.col(d) = ((find(d) - find(-1)) * (corner[d] > 0 ? -1 : 1)).normalized();
         least = std::min(least, edges.determinant());
     }
     return least;
@@ -158,12 +166,15 @@ double skin_volume(const mesh::HexMesh& mesh)
     const Vec3 origin = mesh.nodes.front();
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         const Quad quad = mesh::skin_quad(mesh, i).nodes;
-        const auto at = [&](std::size_t k) -> Vec3 { return mesh.nodes[static_cast<std::size_t>(quad[k])] - origin; };
+        const auto at = [&](std::size_t k) -> Vec3 {
+            return mesh.nodes[static_cast<std::size_t>(quad[k])] - origin;
+        };
         for (const double u : kGauss) {
             for (const double v : kGauss) {
                 const Vec3 along_u = (1 - v) * (at(1) - at(0)) + v * (at(2) - at(3));
                 const Vec3 along_v = (1 - u) * (at(3) - at(0)) + u * (at(2) - at(1));
-                const Vec3 point = (1 - u) * ((1 - v) * at(0) + v * at(3)) + u * ((1 - v) * at(1) + v * at(2));
+                const Vec3 point = (1 - u) * ((1 - v) * at(0) + v * at(3)) +
+                                   u * ((1 - v) * at(1) + v * at(2));
                 sum += point.dot(along_u.cross(along_v)) / 12;
             }
         }
@@ -178,16 +189,20 @@ void find_shape_faults(const mesh::HexMesh& mesh, Faults& faults)
     double volume = 0;
     for (std::size_t cell = 0; cell < mesh.hex_count(); ++cell) {
         std::array<Vec3, 8> corners;
-        for (std::size_t c = 0; c < 8; ++c) corners[c] = mesh.nodes[static_cast<std::size_t>(mesh.hex(cell)[c])];
-        for (int s = 0; s < 64; ++s)
-            expect(faults, jacobian(corners, Vec3(s % 4, s / 4 % 4, s / 16) / 3) > 0, "a Jacobian is not positive");
+        for (std::size_t c = 0; c < 8; ++c)
+            corners[c] = mesh.nodes[static_cast<std::size_t>(mesh.hex(cell)[c])];
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < 4; ++j)
+                for (int k = 0; k < 4; ++k)
+                    expect(faults, jacobian(corners, Vec3(i, j, k) / 3) > 0, "a Jacobian is not positive");
         const double scaled = naive_scaled_jacobian(corners);
         least = std::min(least, scaled);
         sum += scaled;
         volume += cell_volume(corners);
     }
     const double within = skin_volume(mesh);
-    expect(faults, std::abs(volume - within) <= 1e-9 * std::abs(volume), "the skin does not hold the volume of the cells");
+    expect(faults, std::abs(volume - within) <= 1e-9 * std::abs(volume),
+           "the skin does not hold the volume of the cells");
 
     const quality::Quality quality = quality::measure(mesh);
     const double mean = sum / static_cast<double>(mesh.hex_count());

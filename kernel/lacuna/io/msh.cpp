@@ -24,7 +24,7 @@ std::string opening(const MshContent& content, const char* version, bool binary)
 {
     std::string text = std::string("$MeshFormat\n") + version + (binary ? " 1 8\n" : " 0 8\n");
     if (binary) {
-        put(text, int{1});  // tells the reader the order of bytes
+        put(text, int{1}); // tells the reader the order of bytes
         text += "\n";
     }
     text += "$EndMeshFormat\n$PhysicalNames\n" + std::to_string(content.names.size()) + "\n";
@@ -96,7 +96,8 @@ std::string block_head(int dimension, int tag, int third, std::size_t count)
 std::string counts_of(std::size_t blocks, std::size_t count)
 {
     std::string text;
-    for (const std::size_t value : {blocks, count, std::size_t(1), count}) put(text, static_cast<std::uint64_t>(value));
+    for (const std::size_t value : {blocks, count, std::size_t(1), count})
+        put(text, static_cast<std::uint64_t>(value));
     return text;
 }
 
@@ -104,17 +105,19 @@ Section coordinates(const mesh::HexMesh& mesh)
 {
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
     return {{}, mesh.nodes.size(), sizeof(Vec3), [&mesh](std::size_t begin, std::size_t end, char* out) {
-                std::memcpy(out, mesh.nodes.data() + begin, (end - begin) * sizeof(Vec3));
+                std::memcpy(out, mesh.nodes[begin].data(), (end - begin) * sizeof(Vec3));
                 return out + (end - begin) * sizeof(Vec3);
             }};
 }
 
 void add_binary_elements(std::vector<Section>& sections, const mesh::HexMesh& mesh, const MshContent& content)
 {
-    std::string head = "$Elements\n" + counts_of(content.surfaces.size() + 1, mesh.skin_count() + mesh.hex_count());
+    std::string head = "$Elements\n" +
+                       counts_of(content.surfaces.size() + 1, mesh.skin_count() + mesh.hex_count());
     for (const MshSurface& surface : content.surfaces) {
         const std::size_t count = surface.end - surface.begin;
-        sections.push_back({head + block_head(2, surface.tag, kQuadType, count), count, 5 * sizeof(std::uint64_t),
+        sections.push_back({head + block_head(2, surface.tag, kQuadType, count), count,
+                            5 * sizeof(std::uint64_t),
                             [&mesh, &content, &surface](std::size_t begin, std::size_t end, char* out) {
                                 for (std::size_t i = surface.begin + begin; i < surface.begin + end; ++i)
                                     out = put_element(out, i + 1, skin_quad(mesh, content.skin[i]).nodes);
@@ -125,7 +128,8 @@ void add_binary_elements(std::vector<Section>& sections, const mesh::HexMesh& me
     sections.push_back({head + block_head(3, kVolumeTag, kHexType, mesh.hex_count()), mesh.hex_count(),
                         9 * sizeof(std::uint64_t), [&mesh](std::size_t begin, std::size_t end, char* out) {
                             const std::size_t first = mesh.skin_count() + 1;
-                            for (std::size_t i = begin; i < end; ++i) out = put_element(out, first + i, mesh.hex(i));
+                            for (std::size_t i = begin; i < end; ++i)
+                                out = put_element(out, first + i, mesh.hex(i));
                             return out;
                         }});
     sections.push_back({"\n$EndElements\n", 0, 0, {}});
@@ -135,10 +139,11 @@ std::vector<Section> binary_41(const mesh::HexMesh& mesh, const MshContent& cont
 {
     const std::size_t nodes = mesh.nodes.size();
     std::vector<Section> sections;
-    sections.push_back({opening(content, "4.1", true) + binary_entities(content) + "$Nodes\n" + counts_of(1, nodes) +
-                            block_head(3, kVolumeTag, 0, nodes),
+    sections.push_back({opening(content, "4.1", true) + binary_entities(content) + "$Nodes\n" +
+                            counts_of(1, nodes) + block_head(3, kVolumeTag, 0, nodes),
                         nodes, sizeof(std::uint64_t), [](std::size_t begin, std::size_t end, char* out) {
-                            for (std::size_t i = begin; i < end; ++i) out = put(out, static_cast<std::uint64_t>(i + 1));
+                            for (std::size_t i = begin; i < end; ++i)
+                                out = put(out, static_cast<std::uint64_t>(i + 1));
                             return out;
                         }});
     sections.push_back(coordinates(mesh));
@@ -204,10 +209,7 @@ char* put_point(char* out, const Vec3& point)
     return out;
 }
 
-std::string words(std::initializer_list<std::size_t> numbers)
-{
-    return spaced(numbers).substr(1) + "\n";
-}
+std::string words(std::initializer_list<std::size_t> numbers) { return spaced(numbers).substr(1) + "\n"; }
 
 /// Elements as lines: number, `middle(surface)` or `middle(nullptr)` for hexahedra, nodes.
 template <class Head, class Middle>
@@ -218,19 +220,21 @@ void add_text_elements(std::vector<Section>& sections, const mesh::HexMesh& mesh
     for (const MshSurface& surface : content.surfaces) {
         const std::size_t count = surface.end - surface.begin;
         const std::string between = middle(&surface);
-        sections.push_back({text + head(&surface, count), count, 5 * kNumberBytes + between.size() + 2,
-                            [&mesh, &content, &surface, between](std::size_t begin, std::size_t end, char* out) {
-                                for (std::size_t i = surface.begin + begin; i < surface.begin + end; ++i) {
-                                    out = put_text(out, static_cast<long long>(i) + 1);
-                                    out = between.copy(out, between.size()) + out;
-                                    out = put_nodes(out, skin_quad(mesh, content.skin[i]).nodes);
-                                }
-                                return out;
-                            }});
+        sections.push_back(
+            {text + head(&surface, count), count, 5 * kNumberBytes + between.size() + 2,
+             [&mesh, &content, &surface, between](std::size_t begin, std::size_t end, char* out) {
+                 for (std::size_t i = surface.begin + begin; i < surface.begin + end; ++i) {
+                     out = put_text(out, static_cast<long long>(i) + 1);
+                     out = between.copy(out, between.size()) + out;
+                     out = put_nodes(out, skin_quad(mesh, content.skin[i]).nodes);
+                 }
+                 return out;
+             }});
         text.clear();
     }
     const std::string between = middle(nullptr);
-    sections.push_back({text + head(nullptr, mesh.hex_count()), mesh.hex_count(), 9 * kNumberBytes + between.size() + 2,
+    sections.push_back({text + head(nullptr, mesh.hex_count()), mesh.hex_count(),
+                        9 * kNumberBytes + between.size() + 2,
                         [&mesh, between](std::size_t begin, std::size_t end, char* out) {
                             const std::size_t first = mesh.skin_count() + 1;
                             for (std::size_t i = begin; i < end; ++i) {
@@ -266,8 +270,8 @@ std::vector<Section> text_41(const mesh::HexMesh& mesh, const MshContent& conten
                                   : words({3, kVolumeTag, kHexType, count});
     };
     add_text_elements(sections, mesh, content,
-                      "$EndNodes\n$Elements\n" + words({content.surfaces.size() + 1, elements, 1, elements}), head,
-                      [](const MshSurface*) { return std::string(); });
+                      "$EndNodes\n$Elements\n" + words({content.surfaces.size() + 1, elements, 1, elements}),
+                      head, [](const MshSurface*) { return std::string(); });
     return sections;
 }
 
@@ -276,8 +280,9 @@ std::vector<Section> text_41(const mesh::HexMesh& mesh, const MshContent& conten
 std::vector<Section> text_22(const mesh::HexMesh& mesh, const MshContent& content)
 {
     std::vector<Section> sections;
-    sections.push_back({opening(content, "2.2", false) + "$Nodes\n" + words({mesh.nodes.size()}), mesh.nodes.size(),
-                        4 * kNumberBytes, [&mesh](std::size_t begin, std::size_t end, char* out) {
+    sections.push_back({opening(content, "2.2", false) + "$Nodes\n" + words({mesh.nodes.size()}),
+                        mesh.nodes.size(), 4 * kNumberBytes,
+                        [&mesh](std::size_t begin, std::size_t end, char* out) {
                             for (std::size_t i = begin; i < end; ++i) {
                                 out = put_text(out, static_cast<long long>(i) + 1);
                                 *out++ = ' ';
@@ -292,14 +297,15 @@ std::vector<Section> text_22(const mesh::HexMesh& mesh, const MshContent& conten
         const auto unsign = [](int value) { return static_cast<std::size_t>(value); };
         return spaced({unsign(type), 2, unsign(physical), unsign(entity)});
     };
-    add_text_elements(sections, mesh, content,
-                      "$EndNodes\n$Elements\n" + words({mesh.skin_count() + mesh.hex_count()}),
-                      [](const MshSurface*, std::size_t) { return std::string(); }, middle);
+    add_text_elements(
+        sections, mesh, content, "$EndNodes\n$Elements\n" + words({mesh.skin_count() + mesh.hex_count()}),
+        [](const MshSurface*, std::size_t) { return std::string(); }, middle);
     return sections;
 }
 
 template <std::size_t N>
-char* put_element_22(char* out, std::size_t number, int physical, int entity, const std::array<Index, N>& nodes)
+char* put_element_22(char* out, std::size_t number, int physical, int entity,
+                     const std::array<Index, N>& nodes)
 {
     std::array<int, N + 3> record{static_cast<int>(number), physical, entity};
     for (std::size_t i = 0; i < N; ++i) record[i + 3] = nodes[i] + 1;
@@ -318,8 +324,9 @@ std::string head_22(int type, std::size_t count)
 std::vector<Section> binary_22(const mesh::HexMesh& mesh, const MshContent& content)
 {
     std::vector<Section> sections;
-    sections.push_back({opening(content, "2.2", true) + "$Nodes\n" + words({mesh.nodes.size()}), mesh.nodes.size(),
-                        sizeof(int) + sizeof(Vec3), [&mesh](std::size_t begin, std::size_t end, char* out) {
+    sections.push_back({opening(content, "2.2", true) + "$Nodes\n" + words({mesh.nodes.size()}),
+                        mesh.nodes.size(), sizeof(int) + sizeof(Vec3),
+                        [&mesh](std::size_t begin, std::size_t end, char* out) {
                             for (std::size_t i = begin; i < end; ++i) {
                                 out = put(out, static_cast<int>(i) + 1);
                                 for (const double value : mesh.nodes[i]) out = put(out, value);
@@ -342,8 +349,8 @@ std::vector<Section> binary_22(const mesh::HexMesh& mesh, const MshContent& cont
                         [&mesh, &content](std::size_t begin, std::size_t end, char* out) {
                             const std::size_t first = mesh.skin_count() + 1;
                             for (std::size_t i = begin; i < end; ++i)
-                                out = put_element_22(out, first + i, content.volume_physical.front(), kVolumeTag,
-                                                     mesh.hex(i));
+                                out = put_element_22(out, first + i, content.volume_physical.front(),
+                                                     kVolumeTag, mesh.hex(i));
                             return out;
                         }});
     sections.push_back({"\n$EndElements\n", 0, 0, {}});
@@ -367,13 +374,14 @@ void write_msh(const mesh::HexMesh& mesh, const std::string& path, const MshOpti
 {
     const bool old = options.version == 2.2;
     if (!old && options.version != 4.1)
-        throw InvalidInput("io.unknown_version",
-                           "MSH version " + text_of(options.version) + " cannot be written; known are 4.1 and 2.2");
+        throw InvalidInput("io.unknown_version", "MSH version " + text_of(options.version) +
+                                                     " cannot be written; known are 4.1 and 2.2");
     const MshContent content = msh_content(mesh);
     if (old) tell_lost_groups(content, context);
     WholeFile file(path);
     if (options.binary)
-        write_sections(file, old ? binary_22(mesh, content) : binary_41(mesh, content), Sizes::exact, context);
+        write_sections(file, old ? binary_22(mesh, content) : binary_41(mesh, content), Sizes::exact,
+                       context);
     else
         write_sections(file, old ? text_22(mesh, content) : text_41(mesh, content), Sizes::varying, context);
     file.commit();

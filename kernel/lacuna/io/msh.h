@@ -10,7 +10,7 @@ namespace lacuna::io {
 
 struct MshOptions {
     bool binary = true;
-    double version = 4.1;  ///< 4.1, or 2.2 for readers that know no other
+    double version = 4.1; ///< 4.1, or 2.2 for readers that know no other
 };
 
 /// Write hexahedra and skin with a named physical group for every entity, whole or not at all: the file is

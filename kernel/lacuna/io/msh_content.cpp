@@ -10,16 +10,19 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kLongestName = 127;  // what Gmsh reads
+constexpr std::size_t kLongestName = 127; // what Gmsh reads
 
 /// A name the format can hold: it knows no escape for a quote, and a name ends with its line.
 std::string printable(const std::string& name)
 {
     std::string result;
     for (const char c : name) {
-        if (c == '"') result += '\'';
-        else if (static_cast<unsigned char>(c) < 32 || c == 127) result += ' ';
-        else result += c;
+        if (c == '"')
+            result += '\'';
+        else if (static_cast<unsigned char>(c) < 32 || c == 127)
+            result += ' ';
+        else
+            result += c;
     }
     return result;
 }
@@ -41,7 +44,8 @@ public:
         if (fresh) names_.push_back({dimension, at->second, unique_name(dimension, group)});
         return at->second;
     }
-    std::vector<int> tags_of(int dimension, const std::vector<std::string>& groups, const std::string& otherwise)
+    std::vector<int> tags_of(int dimension, const std::vector<std::string>& groups,
+                             const std::string& otherwise)
     {
         std::set<int> tags;
         for (const std::string& group : groups) tags.insert(tag_of(dimension, group));
@@ -73,13 +77,17 @@ private:
 void check_skin(const mesh::HexMesh& mesh)
 {
     const auto layers = static_cast<std::size_t>(std::max(mesh.layers, 0));
-    const auto valid = [&](Index patch) { return patch >= 0 && static_cast<std::size_t>(patch) < mesh.patches.size(); };
-    const bool sizes = mesh.source_patch.size() == mesh.quads.size() && mesh.target_patch.size() == mesh.quads.size() &&
+    const auto valid = [&](Index patch) {
+        return patch >= 0 && static_cast<std::size_t>(patch) < mesh.patches.size();
+    };
+    const bool sizes = mesh.source_patch.size() == mesh.quads.size() &&
+                       mesh.target_patch.size() == mesh.quads.size() &&
                        mesh.wall_patch.size() == layers * mesh.rim.size();
     if (!sizes || !std::all_of(mesh.source_patch.begin(), mesh.source_patch.end(), valid) ||
         !std::all_of(mesh.target_patch.begin(), mesh.target_patch.end(), valid) ||
         !std::all_of(mesh.wall_patch.begin(), mesh.wall_patch.end(), valid))
-        throw InvalidInput("io.no_patch", "a quad of the skin belongs to no patch; every one needs one to be written");
+        throw InvalidInput("io.no_patch",
+                           "a quad of the skin belongs to no patch; every one needs one to be written");
     std::set<int> tags;
     for (const mesh::SkinPatch& patch : mesh.patches)
         if (patch.tag <= 0 || !tags.insert(patch.tag).second)
@@ -107,14 +115,15 @@ MshContent msh_content(const mesh::HexMesh& mesh)
 
     GroupTags groups;
     for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
-        if (start[p] == start[p + 1]) continue;  // nothing to see of it
+        if (start[p] == start[p + 1]) continue; // nothing to see of it
         MshSurface surface;
         surface.tag = mesh.patches[p].tag;
-        surface.physical = groups.tags_of(2, mesh.patches[p].groups, "surface:" + std::to_string(surface.tag));
+        surface.physical = groups.tags_of(2, mesh.patches[p].groups,
+                                          "surface:" + std::to_string(surface.tag));
         surface.box = boxes[p];
         surface.begin = start[p];
         surface.end = start[p + 1];
-        content.box.extend(surface.box);  // the inside of a valid mesh reaches no further than its skin
+        content.box.extend(surface.box); // the inside of a valid mesh reaches no further than its skin
         content.surfaces.push_back(std::move(surface));
     }
     content.volume_physical = groups.tags_of(3, mesh.volume_groups, "volume");

@@ -21,9 +21,9 @@ struct PhysicalName {
 /// A surface entity: a skin patch that has quads.
 struct MshSurface {
     int tag = 0;
-    std::vector<int> physical;    ///< tags of its groups, rising
+    std::vector<int> physical; ///< tags of its groups, rising
     Eigen::AlignedBox3d box;
-    std::size_t begin = 0, end = 0;  ///< its quads in `MshContent::skin`
+    std::size_t begin = 0, end = 0; ///< its quads in `MshContent::skin`
 };
 
 struct MshContent {
@@ -31,7 +31,7 @@ struct MshContent {
     std::vector<MshSurface> surfaces;
     std::vector<int> volume_physical;
     Eigen::AlignedBox3d box;
-    std::vector<std::uint32_t> skin;  ///< numbers of all skin quads, patch after patch
+    std::vector<std::uint32_t> skin; ///< numbers of all skin quads, patch after patch
 };
 
 inline constexpr int kVolumeTag = 1;

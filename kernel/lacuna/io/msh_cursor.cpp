@@ -25,8 +25,9 @@ std::string quoted(std::string_view text)
 void MshCursor::fail(const std::string& what) const
 {
     const auto read = data_.substr(0, std::min(at_, data_.size()));
-    const std::string place = binary ? "byte " + std::to_string(at_)
-                                     : "line " + std::to_string(1 + std::count(read.begin(), read.end(), '\n'));
+    const std::string place = binary
+                                  ? "byte " + std::to_string(at_)
+                                  : "line " + std::to_string(1 + std::count(read.begin(), read.end(), '\n'));
     throw InvalidInput("io.bad_mesh", "cannot read '" + path_ + "', " + place + ": " + what);
 }
 
@@ -98,10 +99,7 @@ std::uint64_t MshCursor::size()
     return static_cast<std::uint64_t>(value);
 }
 
-double MshCursor::real()
-{
-    return binary ? raw<double>() : text_real();
-}
+double MshCursor::real() { return binary ? raw<double>() : text_real(); }
 
 std::string_view MshCursor::bytes(std::uint64_t count)
 {
@@ -113,9 +111,10 @@ std::string_view MshCursor::bytes(std::uint64_t count)
 
 std::uint64_t MshCursor::plausible(std::uint64_t count, std::uint64_t bytes, std::uint64_t values)
 {
-    const std::uint64_t least = binary ? bytes : 2 * values;  // a digit and a blank
+    const std::uint64_t least = binary ? bytes : 2 * values; // a digit and a blank
     if (count > (data_.size() - at_ + 1) / std::max<std::uint64_t>(least, 1))
-        fail("the file is cut off: it announces " + std::to_string(count) + " entries and has no room for them");
+        fail("the file is cut off: it announces " + std::to_string(count) +
+             " entries and has no room for them");
     return count;
 }
 

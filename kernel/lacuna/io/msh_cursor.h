@@ -14,7 +14,7 @@ class MshCursor {
 public:
     MshCursor(std::string path, std::string_view data) : path_(std::move(path)), data_(data) {}
 
-    bool binary = false;  ///< set once the header is known
+    bool binary = false; ///< set once the header is known
 
     [[nodiscard]] bool at_end() const { return at_ >= data_.size(); }
     /// The rest of the line, without blanks at its ends.
@@ -22,9 +22,9 @@ public:
     /// Go behind the line `$End<section>`.
     void leave(const std::string& section);
 
-    int integer();         ///< 4 bytes, or text
-    std::uint64_t size();  ///< 8 bytes, or text
-    double real();         ///< 8 bytes, or text
+    int integer();        ///< 4 bytes, or text
+    std::uint64_t size(); ///< 8 bytes, or text
+    double real();        ///< 8 bytes, or text
     /// A number in text, also in files that are binary elsewhere.
     std::int64_t text_integer();
     double text_real();

@@ -20,12 +20,13 @@ struct ElementType {
 };
 
 constexpr ElementType kTypes[] = {
-    {15, 0, 1, 1},  {1, 1, 2, 1},   {8, 1, 3, 2},   {26, 1, 4, 3},  {27, 1, 5, 4},  {28, 1, 6, 5},  {2, 2, 3, 1},
-    {9, 2, 6, 2},   {20, 2, 9, 3},  {21, 2, 10, 3}, {22, 2, 12, 4}, {23, 2, 15, 4}, {24, 2, 15, 5}, {25, 2, 21, 5},
-    {3, 2, 4, 1},   {10, 2, 9, 2},  {16, 2, 8, 2},  {36, 2, 16, 3}, {37, 2, 25, 4}, {38, 2, 36, 5}, {4, 3, 4, 1},
-    {11, 3, 10, 2}, {29, 3, 20, 3}, {30, 3, 35, 4}, {31, 3, 56, 5}, {5, 3, 8, 1},   {12, 3, 27, 2}, {17, 3, 20, 2},
-    {92, 3, 64, 3}, {93, 3, 125, 4}, {6, 3, 6, 1},  {13, 3, 18, 2}, {18, 3, 15, 2}, {90, 3, 40, 3}, {7, 3, 5, 1},
-    {14, 3, 14, 2}, {19, 3, 13, 2}};
+    {15, 0, 1, 1},  {1, 1, 2, 1},   {8, 1, 3, 2},   {26, 1, 4, 3},  {27, 1, 5, 4},  {28, 1, 6, 5},
+    {2, 2, 3, 1},   {9, 2, 6, 2},   {20, 2, 9, 3},  {21, 2, 10, 3}, {22, 2, 12, 4}, {23, 2, 15, 4},
+    {24, 2, 15, 5}, {25, 2, 21, 5}, {3, 2, 4, 1},   {10, 2, 9, 2},  {16, 2, 8, 2},  {36, 2, 16, 3},
+    {37, 2, 25, 4}, {38, 2, 36, 5}, {4, 3, 4, 1},   {11, 3, 10, 2}, {29, 3, 20, 3}, {30, 3, 35, 4},
+    {31, 3, 56, 5}, {5, 3, 8, 1},   {12, 3, 27, 2}, {17, 3, 20, 2}, {92, 3, 64, 3}, {93, 3, 125, 4},
+    {6, 3, 6, 1},   {13, 3, 18, 2}, {18, 3, 15, 2}, {90, 3, 40, 3}, {7, 3, 5, 1},   {14, 3, 14, 2},
+    {19, 3, 13, 2}};
 
 bool is_hex(int type) { return type == 5 || type == 12 || type == 17 || type == 92 || type == 93; }
 bool is_quad(int type) { return type == 3 || type == 10 || type == 16 || (type >= 36 && type <= 38); }
@@ -50,7 +51,8 @@ public:
         if (highest <= 4 * tags_.size() + 1024) {
             dense_.assign(highest + 1, -1);
             for (std::size_t i = 0; i < tags_.size(); ++i) {
-                if (dense_[tags_[i]] >= 0) cursor.fail("node " + std::to_string(tags_[i]) + " is there twice");
+                if (dense_[tags_[i]] >= 0)
+                    cursor.fail("node " + std::to_string(tags_[i]) + " is there twice");
                 dense_[tags_[i]] = static_cast<Index>(i);
             }
             return;
@@ -65,7 +67,8 @@ public:
     [[nodiscard]] Index position(const MshCursor& cursor, std::uint64_t tag) const
     {
         if (tag < dense_.size() && dense_[tag] >= 0) return dense_[tag];
-        const auto found = std::lower_bound(sparse_.begin(), sparse_.end(), std::pair<std::uint64_t, Index>{tag, 0});
+        const auto found = std::lower_bound(sparse_.begin(), sparse_.end(),
+                                            std::pair<std::uint64_t, Index>{tag, 0});
         if (found == sparse_.end() || found->first != tag)
             cursor.fail("a cell names node " + std::to_string(tag) + ", which is not there");
         return found->second;
@@ -86,7 +89,8 @@ public:
         while (!cursor_.at_end()) {
             const std::string_view line = cursor_.line();
             if (line.empty()) continue;
-            if (line.front() != '$') cursor_.fail("expected a section, as $Nodes; this is no MSH file, or it is damaged");
+            if (line.front() != '$')
+                cursor_.fail("expected a section, as $Nodes; this is no MSH file, or it is damaged");
             read_section(std::string(line.substr(1)));
         }
         if (version_ == 0) cursor_.fail("this is no MSH file: it has no $MeshFormat");
@@ -98,12 +102,18 @@ public:
 private:
     void read_section(const std::string& name)
     {
-        if (name == "MeshFormat") read_format();
-        else if (version_ == 0 && name != "Comments") cursor_.fail("expected $MeshFormat first");
-        else if (name == "PhysicalNames") read_names();
-        else if (name == "Entities" && version_ == 4) read_entities();
-        else if (name == "Nodes") version_ == 4 ? read_nodes_4() : read_nodes_2();
-        else if (name == "Elements") version_ == 4 ? read_elements_4() : read_elements_2();
+        if (name == "MeshFormat")
+            read_format();
+        else if (version_ == 0 && name != "Comments")
+            cursor_.fail("expected $MeshFormat first");
+        else if (name == "PhysicalNames")
+            read_names();
+        else if (name == "Entities" && version_ == 4)
+            read_entities();
+        else if (name == "Nodes")
+            version_ == 4 ? read_nodes_4() : read_nodes_2();
+        else if (name == "Elements")
+            version_ == 4 ? read_elements_4() : read_elements_2();
         cursor_.leave(name);
     }
 
@@ -114,12 +124,14 @@ private:
         const std::int64_t bytes = cursor_.text_integer();
         if (version != 4.1 && !(version >= 2 && version < 3))
             cursor_.fail("only versions 4.1 and 2.2 are read; save the mesh anew as one of them");
-        if (bytes != 8) cursor_.fail("numbers of " + std::to_string(bytes) + " bytes are not read; expected 8");
+        if (bytes != 8)
+            cursor_.fail("numbers of " + std::to_string(bytes) + " bytes are not read; expected 8");
         version_ = version == 4.1 ? 4 : 2;
         cursor_.line();
         if (binary == 1) {
             cursor_.binary = true;
-            if (cursor_.raw_integer() != 1) cursor_.fail("the bytes are in another machine's order; save the mesh as text");
+            if (cursor_.raw_integer() != 1)
+                cursor_.fail("the bytes are in another machine's order; save the mesh as text");
         } else if (binary != 0) {
             cursor_.fail("expected 0 for text or 1 for binary in $MeshFormat");
         }
@@ -171,7 +183,8 @@ private:
     {
         if (nodes_known_) cursor_.fail("a second $Nodes");
         cursor_.plausible(count, bytes, values);
-        if (count > static_cast<std::uint64_t>(std::numeric_limits<Index>::max())) cursor_.fail("too many nodes");
+        if (count > static_cast<std::uint64_t>(std::numeric_limits<Index>::max()))
+            cursor_.fail("too many nodes");
         cells_.nodes.reserve(count);
     }
 
@@ -203,7 +216,8 @@ private:
             const int dimension = cursor_.integer();
             cursor_.integer();
             const bool parametric = cursor_.integer() != 0;
-            if (dimension < 0 || dimension > 3) cursor_.fail("nodes of dimension " + std::to_string(dimension));
+            if (dimension < 0 || dimension > 3)
+                cursor_.fail("nodes of dimension " + std::to_string(dimension));
             const std::uint64_t count = cursor_.plausible(cursor_.size(), 32, 4);
             if (count > total - cells_.nodes.size()) cursor_.fail("more nodes than announced");
             for (std::uint64_t i = 0; i < count; ++i) tags_.add(cursor_.size());
@@ -289,9 +303,12 @@ private:
         int physical = 0;
         int entity = 0;
         for (int k = 0; k < tags; ++k) {
-            if (k == 0) physical = group_tag();
-            else if (k == 1) entity = cursor_.integer();
-            else cursor_.integer();
+            if (k == 0)
+                physical = group_tag();
+            else if (k == 1)
+                entity = cursor_.integer();
+            else
+                cursor_.integer();
         }
         if (physical != 0) members_[{type.dimension, physical}].insert(entity);
         take_cell(type, entity, [&] {
@@ -313,7 +330,8 @@ private:
             const int count = cursor_.binary ? cursor_.integer() : 1;
             const int tags = cursor_.integer();
             if (count < 1 || tags < 0 || static_cast<std::uint64_t>(count) > total - done)
-                cursor_.fail("a block of " + std::to_string(count) + " cells with " + std::to_string(tags) + " tags");
+                cursor_.fail("a block of " + std::to_string(count) + " cells with " + std::to_string(tags) +
+                             " tags");
             const auto values = static_cast<std::uint64_t>(type.nodes) + static_cast<std::uint64_t>(tags);
             cursor_.plausible(static_cast<std::uint64_t>(count), 4 * (values + 1), values);
             if (count > 1) expect_cells(type, static_cast<std::uint64_t>(count));
@@ -331,13 +349,15 @@ private:
         for (const auto& [key, name] : names_) members_[key];
         for (const auto& [key, entities] : members_) {
             const auto name = names_.find(key);
-            cells_.groups.push_back({key.first, key.second, name == names_.end() ? "" : name->second,
+            cells_.groups.push_back({key.first,
+                                     key.second,
+                                     name == names_.end() ? "" : name->second,
                                      {entities.begin(), entities.end()}});
         }
         for (const auto& [key, count] : others_) cells_.others.push_back({key.first, key.second, count});
     }
 
-    using Key = std::pair<int, int>;  // dimension, tag
+    using Key = std::pair<int, int>; // dimension, tag
     MshCursor cursor_;
     HexCells cells_;
     NodeTags tags_;
@@ -354,7 +374,9 @@ std::string contents(const std::string& path)
     if (std::filesystem::is_directory(path, ignored))
         throw InvalidInput("io.not_a_file", "cannot read '" + path + "': it is a folder");
     std::ifstream file(path, std::ios::binary);
-    if (!file) throw InvalidInput("io.no_file", "cannot open '" + path + "': is the name right, and may it be read?");
+    if (!file)
+        throw InvalidInput("io.no_file",
+                           "cannot open '" + path + "': is the name right, and may it be read?");
     std::string data;
     const auto size = std::filesystem::file_size(path, ignored);
     if (!ignored) {

@@ -13,27 +13,27 @@ namespace lacuna::io {
 struct MshGroup {
     int dimension = 0;
     int tag = 0;
-    std::string name;           ///< empty where the file gives none
-    std::vector<int> entities;  ///< tags of the group's surfaces, volumes…, rising
+    std::string name;          ///< empty where the file gives none
+    std::vector<int> entities; ///< tags of the group's surfaces, volumes…, rising
 };
 
 /// Cells of another kind than asked for.
 struct OtherCells {
     int dimension = 0;
-    int type = 0;  ///< Gmsh's element type
+    int type = 0; ///< Gmsh's element type
     std::size_t count = 0;
 };
 
 /// The hexahedra of a mesh file and the quads beside them.
 struct HexCells {
-    std::vector<Vec3> nodes;           ///< in the order of the file
-    std::vector<Hex> hexes;            ///< node numbers from 0; of curved cells the corners
-    std::vector<int> hex_entity;       ///< volume entity of each
-    std::vector<Quad> quads;           ///< likewise, surface cells
+    std::vector<Vec3> nodes;     ///< in the order of the file
+    std::vector<Hex> hexes;      ///< node numbers from 0; of curved cells the corners
+    std::vector<int> hex_entity; ///< volume entity of each
+    std::vector<Quad> quads;     ///< likewise, surface cells
     std::vector<int> quad_entity;
     std::vector<MshGroup> groups;
-    std::vector<OtherCells> others;    ///< what else the file holds, counted
-    int order = 1;                     ///< highest order among the hexahedra
+    std::vector<OtherCells> others; ///< what else the file holds, counted
+    int order = 1;                  ///< highest order among the hexahedra
 };
 
 /// Read an MSH file: 4.1 or 2.x, binary or text.

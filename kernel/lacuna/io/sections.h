@@ -16,7 +16,7 @@ namespace lacuna::io {
 struct Section {
     std::string text;
     std::size_t records = 0;
-    std::size_t record_bytes = 0;  ///< of every record; in files of `Sizes::varying` no record is longer
+    std::size_t record_bytes = 0; ///< of every record; in files of `Sizes::varying` no record is longer
     /// Puts records [begin, end) at `out`, returns where they end.
     std::function<char*(std::size_t begin, std::size_t end, char* out)> fill;
 };
@@ -25,7 +25,8 @@ enum class Sizes { exact, varying };
 
 /// Write the sections one behind the other. Memory is bounded by a few buffers, whatever the file's size; the
 /// bytes are the same for any thread count.
-void write_sections(WholeFile& file, const std::vector<Section>& sections, Sizes sizes, const RunContext& context);
+void write_sections(WholeFile& file, const std::vector<Section>& sections, Sizes sizes,
+                    const RunContext& context);
 
 /// Bytes of a value as they lie in memory.
 template <class Value>

@@ -62,19 +62,23 @@ std::vector<Array> vtu_arrays(const mesh::HexMesh& mesh)
         std::memcpy(out, mesh.nodes[i].data(), sizeof(Vec3));
         return out + sizeof(Vec3);
     };
-    return {{"type=\"Float64\" NumberOfComponents=\"3\"", mesh.nodes.size() * sizeof(Vec3),
-             {section(mesh.nodes.size(), sizeof(Vec3), each(put_point))}},
-            {"type=\"Int32\" Name=\"connectivity\"", hexes * sizeof(Hex) + skin * sizeof(Quad),
-             {section(hexes, sizeof(Hex), each(put_hex)), section(skin, sizeof(Quad), each(put_quad))}},
-            {"type=\"Int64\" Name=\"offsets\"", (hexes + skin) * 8, {section(hexes + skin, 8, each(put_offset))}},
-            {"type=\"UInt8\" Name=\"types\"", hexes + skin, {section(hexes + skin, 1, each(put_type))}},
-            {"type=\"Int32\" Name=\"entity\"", (hexes + skin) * 4, {section(hexes + skin, 4, each(put_entity))}}};
+    return {
+        {"type=\"Float64\" NumberOfComponents=\"3\"",
+         mesh.nodes.size() * sizeof(Vec3),
+         {section(mesh.nodes.size(), sizeof(Vec3), each(put_point))}},
+        {"type=\"Int32\" Name=\"connectivity\"",
+         hexes * sizeof(Hex) + skin * sizeof(Quad),
+         {section(hexes, sizeof(Hex), each(put_hex)), section(skin, sizeof(Quad), each(put_quad))}},
+        {"type=\"Int64\" Name=\"offsets\"", (hexes + skin) * 8, {section(hexes + skin, 8, each(put_offset))}},
+        {"type=\"UInt8\" Name=\"types\"", hexes + skin, {section(hexes + skin, 1, each(put_type))}},
+        {"type=\"Int32\" Name=\"entity\"", (hexes + skin) * 4, {section(hexes + skin, 4, each(put_entity))}}};
 }
 
 std::string vtu_head(const mesh::HexMesh& mesh, const std::vector<Array>& arrays)
 {
     const char* order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
-    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
+    std::string text =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
     text.append(order).append("\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"");
     text.append(std::to_string(mesh.nodes.size())).append("\" NumberOfCells=\"");
     text.append(std::to_string(mesh.hex_count() + mesh.skin_count())).append("\">\n");
@@ -147,7 +151,8 @@ std::vector<Section> vtk_sections(const mesh::HexMesh& mesh, bool binary)
         return end_line(out, binary);
     };
     const auto put_type = [hexes, binary](std::size_t i, char* out) {
-        return end_line(put_number(out, static_cast<std::int32_t>(i < hexes ? kVtkHex : kVtkQuad), binary), binary);
+        return end_line(put_number(out, static_cast<std::int32_t>(i < hexes ? kVtkHex : kVtkQuad), binary),
+                        binary);
     };
     const auto put_entity = [&mesh, hexes, binary](std::size_t i, char* out) {
         const int tag = i < hexes ? 0 : entity(mesh, i - hexes);
@@ -160,11 +165,12 @@ std::vector<Section> vtk_sections(const mesh::HexMesh& mesh, bool binary)
     return {{head, mesh.nodes.size(), bytes(3, 8), each(put_point)},
             {"\nCELLS " + cells + sizes, hexes, bytes(9, 4),
              each([&mesh, binary](std::size_t i, char* out) { return put_cell(out, mesh.hex(i), binary); })},
-            {{}, skin, bytes(5, 4),
-             each([&mesh, binary](std::size_t i, char* out) { return put_cell(out, skin_quad(mesh, i).nodes, binary); })},
+            {{}, skin, bytes(5, 4), each([&mesh, binary](std::size_t i, char* out) {
+                 return put_cell(out, skin_quad(mesh, i).nodes, binary);
+             })},
             {"\nCELL_TYPES " + cells + "\n", hexes + skin, bytes(1, 4), each(put_type)},
-            {"\nCELL_DATA " + cells + "\nSCALARS entity int 1\nLOOKUP_TABLE default\n", hexes + skin, bytes(1, 4),
-             each(put_entity)},
+            {"\nCELL_DATA " + cells + "\nSCALARS entity int 1\nLOOKUP_TABLE default\n", hexes + skin,
+             bytes(1, 4), each(put_entity)},
             {"\n", 0, 0, {}}};
 }
 
@@ -185,11 +191,13 @@ void write_vtu(const mesh::HexMesh& mesh, const std::string& path, const RunCont
     file.commit();
 }
 
-void write_vtk(const mesh::HexMesh& mesh, const std::string& path, const VtkOptions& options, const RunContext& context)
+void write_vtk(const mesh::HexMesh& mesh, const std::string& path, const VtkOptions& options,
+               const RunContext& context)
 {
     check_skin(mesh);
     WholeFile file(path);
-    write_sections(file, vtk_sections(mesh, options.binary), options.binary ? Sizes::exact : Sizes::varying, context);
+    write_sections(file, vtk_sections(mesh, options.binary), options.binary ? Sizes::exact : Sizes::varying,
+                   context);
     file.commit();
 }
 

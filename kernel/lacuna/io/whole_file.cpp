@@ -20,7 +20,7 @@ fs::path resolved(const std::string& path)
 {
     std::error_code ignored;
     if (fs::is_symlink(path, ignored)) {
-        const fs::path target = fs::weakly_canonical(path, ignored);
+        fs::path target = fs::weakly_canonical(path, ignored);
         if (!ignored) return target;
     }
     return path;
@@ -32,8 +32,8 @@ void check_place(const std::string& path, const fs::path& target)
     std::error_code ignored;
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, ignored))
-        throw InvalidInput("io.no_folder", "cannot write '" + path + "': there is no folder '" + folder.string() +
-                                               "'; make it first, or name another place");
+        throw InvalidInput("io.no_folder", "cannot write '" + path + "': there is no folder '" +
+                                               folder.string() + "'; make it first, or name another place");
     if (fs::is_directory(target, ignored) || !target.has_filename())
         throw InvalidInput("io.not_a_file", "cannot write '" + path + "': it is a folder; add a file name");
     if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored))
@@ -69,8 +69,9 @@ void WholeFile::fail(int error)
 {
     std::string hint;
     if (error == ENOSPC || error == EDQUOT || error == EFBIG) hint = "; make room, or name another disk";
-    throw BackendError("io.write_failed", "cannot write '" + path_ + "': " + std::generic_category().message(error) +
-                                              hint + ". Nothing was left behind");
+    throw BackendError("io.write_failed", "cannot write '" + path_ +
+                                              "': " + std::generic_category().message(error) + hint +
+                                              ". Nothing was left behind");
 }
 
 void WholeFile::write_at(std::uint64_t offset, std::string_view bytes)

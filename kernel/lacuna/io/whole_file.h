@@ -29,7 +29,7 @@ public:
 private:
     [[noreturn]] void fail(int error);
 
-    std::string path_;      ///< where the file shall be
+    std::string path_;       ///< where the file shall be
     std::string unfinished_; ///< where it is written
     int descriptor_ = -1;
     std::uint64_t end_ = 0;

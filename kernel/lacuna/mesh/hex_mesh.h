@@ -18,13 +18,19 @@ namespace lacuna::mesh {
 ///
 /// Corners of each of the six sides, outward.
 inline constexpr std::array<Quad, 6> kHexSides{{
-    {0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7},
+    {0, 3, 2, 1},
+    {4, 5, 6, 7},
+    {0, 1, 5, 4},
+    {1, 2, 6, 5},
+    {2, 3, 7, 6},
+    {3, 0, 4, 7},
 }};
 
 /// A part of the skin with names: what Gmsh calls a surface entity.
 struct SkinPatch {
-    int tag = 0;                      ///< entity tag written to files, unique in the mesh, > 0
-    std::vector<std::string> groups;  ///< physical groups it belongs to: "source", "wall:12", a name of the input…
+    int tag = 0; ///< entity tag written to files, unique in the mesh, > 0
+    std::vector<std::string>
+        groups; ///< physical groups it belongs to: "source", "wall:12", a name of the input…
 };
 
 /// Swept hexahedra, kept as source quads times layers: cells and skin are computed, never stored.
@@ -34,14 +40,14 @@ struct SkinPatch {
 struct HexMesh {
     Index nodes_per_layer = 0;
     int layers = 0;
-    std::vector<Vec3> nodes;              ///< (layers + 1) × nodes_per_layer, layer-major from the source [model length]
-    std::vector<Quad> quads;              ///< source quads; their normals point into the volume
-    std::vector<Segment> rim;             ///< directed boundary sides of `quads`, as they run in their quad
+    std::vector<Vec3> nodes;  ///< (layers + 1) × nodes_per_layer, layer-major from the source [model length]
+    std::vector<Quad> quads;  ///< source quads; their normals point into the volume
+    std::vector<Segment> rim; ///< directed boundary sides of `quads`, as they run in their quad
 
     std::vector<SkinPatch> patches;
-    std::vector<Index> source_patch;      ///< patch of each quad on the source
-    std::vector<Index> target_patch;      ///< patch of each quad on the target
-    std::vector<Index> wall_patch;        ///< patch of (rim side r, layer l) at l · rim.size() + r
+    std::vector<Index> source_patch; ///< patch of each quad on the source
+    std::vector<Index> target_patch; ///< patch of each quad on the target
+    std::vector<Index> wall_patch;   ///< patch of (rim side r, layer l) at l · rim.size() + r
     std::vector<std::string> volume_groups{"volume"};
 
     [[nodiscard]] std::size_t hex_count() const { return quads.size() * static_cast<std::size_t>(layers); }
@@ -56,7 +62,8 @@ struct HexMesh {
         const Quad& q = quads[cell % quads.size()];
         const Index low = layer * nodes_per_layer;
         const Index high = low + nodes_per_layer;
-        return {low + q[0], low + q[1], low + q[2], low + q[3], high + q[0], high + q[1], high + q[2], high + q[3]};
+        return {low + q[0],  low + q[1],  low + q[2],  low + q[3],
+                high + q[0], high + q[1], high + q[2], high + q[3]};
     }
 };
 

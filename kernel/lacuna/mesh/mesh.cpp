@@ -33,8 +33,9 @@ std::vector<BoundarySide> boundary_sides(const std::vector<Quad>& quads)
         if (j == i + 1) lone.push_back(sides[i]);
         i = j;
     }
-    std::sort(lone.begin(), lone.end(),
-              [](const Side& a, const Side& b) { return std::tie(a.quad, a.place) < std::tie(b.quad, b.place); });
+    std::sort(lone.begin(), lone.end(), [](const Side& a, const Side& b) {
+        return std::tie(a.quad, a.place) < std::tie(b.quad, b.place);
+    });
 
     std::vector<BoundarySide> result;
     result.reserve(lone.size());
@@ -70,12 +71,15 @@ std::vector<Index> opposite_sides(const std::vector<Quad>& quads, Index node_cou
     }
 
     std::vector<Index> opposite(4 * quads.size(), kRimSide);
-    const auto at = [&](const Side& side) -> Index& { return opposite[static_cast<std::size_t>(side.number)]; };
+    const auto at = [&](const Side& side) -> Index& {
+        return opposite[static_cast<std::size_t>(side.number)];
+    };
     for (std::size_t n = 0; n + 1 < start.size(); ++n) {
         const auto first = sides.begin() + start[n];
         const auto last = sides.begin() + start[n + 1];
-        std::sort(first, last,
-                  [](const Side& a, const Side& b) { return std::tie(a.high, a.number) < std::tie(b.high, b.number); });
+        std::sort(first, last, [](const Side& a, const Side& b) {
+            return std::tie(a.high, a.number) < std::tie(b.high, b.number);
+        });
         for (auto i = first; i != last;) {
             auto j = i + 1;
             while (j != last && j->high == i->high) ++j;

@@ -12,10 +12,11 @@ namespace lacuna::mesh {
 ///   |     |    Side i runs from node i to node (i + 1) % 4.
 ///   0-----1
 struct QuadMesh {
-    std::vector<Vec3> nodes;                ///< [model length]
-    std::vector<Quad> quads;                ///< node numbers, counter-clockwise
-    std::vector<Index> face;                ///< a caller's label for each quad (which face it lies on)
-    std::vector<std::vector<Index>> loops;  ///< node cycles of the boundary, region on the left, first not repeated
+    std::vector<Vec3> nodes; ///< [model length]
+    std::vector<Quad> quads; ///< node numbers, counter-clockwise
+    std::vector<Index> face; ///< a caller's label for each quad (which face it lies on)
+    std::vector<std::vector<Index>>
+        loops; ///< node cycles of the boundary, region on the left, first not repeated
 };
 
 /// Directed sides used by one quad alone, each with its quad.
@@ -27,8 +28,8 @@ struct BoundarySide {
 std::vector<BoundarySide> boundary_sides(const std::vector<Quad>& quads);
 
 /// What `opposite_sides()` says of a side without a partner.
-inline constexpr Index kRimSide = -1;  ///< no other quad has it: it lies on the boundary
-inline constexpr Index kBadSide = -2;  ///< three quads or more have it, or two run it in the same direction
+inline constexpr Index kRimSide = -1; ///< no other quad has it: it lies on the boundary
+inline constexpr Index kBadSide = -2; ///< three quads or more have it, or two run it in the same direction
 
 /// Partner of every side, side i of quad q having the number 4q + i: the same side run the other way in the
 /// neighbouring quad, or `kRimSide`, or `kBadSide`. O(quads). @pre every corner lies in [0, node_count)

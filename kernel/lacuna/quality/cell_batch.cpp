@@ -23,15 +23,16 @@ template <int N>
 LACUNA_INLINE void determinant(const Lanes3<N>& a, const Lanes3<N>& b, const Lanes3<N>& c, double* out)
 {
     for (int i = 0; i < N; ++i) {
-        out[i] = a[0][i] * (b[1][i] * c[2][i] - b[2][i] * c[1][i]) + a[1][i] * (b[2][i] * c[0][i] - b[0][i] * c[2][i]) +
+        out[i] = a[0][i] * (b[1][i] * c[2][i] - b[2][i] * c[1][i]) +
+                 a[1][i] * (b[2][i] * c[0][i] - b[0][i] * c[2][i]) +
                  a[2][i] * (b[0][i] * c[1][i] - b[1][i] * c[0][i]);
     }
 }
 
 /// det(a, b0 + b1, c0 + c1)
 template <int N>
-LACUNA_INLINE void determinant(const Lanes3<N>& a, const Lanes3<N>& b0, const Lanes3<N>& b1, const Lanes3<N>& c0,
-                               const Lanes3<N>& c1, double* out)
+LACUNA_INLINE void determinant(const Lanes3<N>& a, const Lanes3<N>& b0, const Lanes3<N>& b1,
+                               const Lanes3<N>& c0, const Lanes3<N>& c1, double* out)
 {
     for (int i = 0; i < N; ++i) {
         const double bx = b0[0][i] + b1[0][i];
@@ -40,7 +41,8 @@ LACUNA_INLINE void determinant(const Lanes3<N>& a, const Lanes3<N>& b0, const La
         const double cx = c0[0][i] + c1[0][i];
         const double cy = c0[1][i] + c1[1][i];
         const double cz = c0[2][i] + c1[2][i];
-        out[i] = a[0][i] * (by * cz - bz * cy) + a[1][i] * (bz * cx - bx * cz) + a[2][i] * (bx * cy - by * cx);
+        out[i] = a[0][i] * (by * cz - bz * cy) + a[1][i] * (bz * cx - bx * cz) +
+                 a[2][i] * (bx * cy - by * cx);
     }
 }
 
@@ -49,7 +51,7 @@ LACUNA_INLINE void determinant(const Lanes3<N>& a, const Lanes3<N>& b0, const La
 template <int N>
 struct Edges {
     alignas(64) double along[3][4][3][N];
-    alignas(64) double square[3][4][N];  ///< squared lengths
+    alignas(64) double square[3][4][N]; ///< squared lengths
 };
 
 inline constexpr int kEdgeNodes[3][4][2] = {
@@ -88,7 +90,8 @@ LACUNA_INLINE void find_corners(const Edges<N>& edges, CellValues<N>& values)
         for (int v = 0; v < 2; ++v) {
             for (int u = 0; u < 2; ++u) {
                 double* det = values.bezier[2 * u + 6 * v + 18 * w];
-                determinant<N>(edges.along[0][v + 2 * w], edges.along[1][u + 2 * w], edges.along[2][u + 2 * v], det);
+                determinant<N>(edges.along[0][v + 2 * w], edges.along[1][u + 2 * w],
+                               edges.along[2][u + 2 * v], det);
                 const double* square_u = edges.square[0][v + 2 * w];
                 const double* square_v = edges.square[1][u + 2 * w];
                 const double* square_w = edges.square[2][u + 2 * v];
@@ -113,11 +116,11 @@ LACUNA_INLINE void find_middles(const Edges<N>& edges, CellValues<N>& values)
 {
     constexpr int kStride[3] = {1, 3, 9};
     for (int d = 0; d < 3; ++d) {
-        const int p = d == 0 ? 1 : 0;  // the other two directions, p < q
+        const int p = d == 0 ? 1 : 0; // the other two directions, p < q
         const int q = d == 2 ? 1 : 2;
         for (int e = 0; e < 4; ++e) {
-            const int i = e % 2;  // end in direction p
-            const int j = e / 2;  // end in direction q
+            const int i = e % 2; // end in direction p
+            const int j = e / 2; // end in direction q
             const int at = 2 * i * kStride[p] + 2 * j * kStride[q] + kStride[d];
             // An edge along p counts its ends in d and q, one along q in d and p, the lower direction fastest.
             const auto p_edge = [&](int s) { return d < q ? s + 2 * j : j + 2 * s; };
@@ -125,8 +128,9 @@ LACUNA_INLINE void find_middles(const Edges<N>& edges, CellValues<N>& values)
             const auto& ps = edges.along[p];
             const auto& qs = edges.along[q];
             double* out = values.bezier[at];
-            determinant<N>(edges.along[d][e], ps[p_edge(0)], ps[p_edge(1)], qs[q_edge(0)], qs[q_edge(1)], out);
-            const double sign = d == 1 ? -1.0 : 1.0;  // (v, u, w) is an odd order of (u, v, w)
+            determinant<N>(edges.along[d][e], ps[p_edge(0)], ps[p_edge(1)], qs[q_edge(0)], qs[q_edge(1)],
+                           out);
+            const double sign = d == 1 ? -1.0 : 1.0; // (v, u, w) is an odd order of (u, v, w)
             const double* first = values.bezier[at - kStride[d]];
             const double* last = values.bezier[at + kStride[d]];
             for (int k = 0; k < N; ++k) out[k] = 0.5 * (sign * out[k] - first[k] - last[k]);
@@ -178,7 +182,8 @@ LACUNA_INLINE void evaluate_lanes(const CellBatch<N>& batch, CellValues<N>& valu
 }
 
 #if defined(__GNUC__) && defined(__x86_64__)
-[[gnu::target("avx512f,avx512dq")]] void evaluate_avx512(const CellBatch<kLanes>& batch, CellValues<kLanes>& values)
+[[gnu::target("avx512f,avx512dq")]] void evaluate_avx512(const CellBatch<kLanes>& batch,
+                                                         CellValues<kLanes>& values)
 {
     evaluate_lanes<kLanes>(batch, values);
 }
@@ -238,9 +243,12 @@ Verdict judge(const Coefficients& c)
 bool positive_parts(const Coefficients& whole, int depth)
 {
     switch (judge(whole)) {
-    case Verdict::positive: return true;
-    case Verdict::negative: return false;
-    case Verdict::unknown: break;
+    case Verdict::positive:
+        return true;
+    case Verdict::negative:
+        return false;
+    case Verdict::unknown:
+        break;
     }
     if (depth <= 0) return false;
     Coefficients halves[2], quarters[2], eighths[2];
@@ -261,7 +269,8 @@ bool positive_parts(const Coefficients& whole, int depth)
 void evaluate(const CellBatch<kLanes>& batch, CellValues<kLanes>& values)
 {
 #if defined(__GNUC__) && defined(__x86_64__)
-    static const bool avx512 = __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0;
+    static const bool avx512 = __builtin_cpu_supports("avx512f") != 0 &&
+                               __builtin_cpu_supports("avx512dq") != 0;
     static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
     if (avx512) return evaluate_avx512(batch, values);
     if (avx2) return evaluate_avx2(batch, values);
@@ -269,10 +278,7 @@ void evaluate(const CellBatch<kLanes>& batch, CellValues<kLanes>& values)
     evaluate_plain(batch, values);
 }
 
-void evaluate(const CellBatch<1>& batch, CellValues<1>& values)
-{
-    evaluate_lanes<1>(batch, values);
-}
+void evaluate(const CellBatch<1>& batch, CellValues<1>& values) { evaluate_lanes<1>(batch, values); }
 
 bool positive_everywhere(const double (&bezier)[27], int max_depth)
 {

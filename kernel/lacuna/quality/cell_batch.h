@@ -27,8 +27,9 @@ struct CellBatch {
 /// What is known of `N` cells.
 template <int N>
 struct CellValues {
-    alignas(64) double scaled[N];    ///< scaled Jacobian; 0 where an edge has no length or a node is not a number
-    alignas(64) double smallest[N];  ///< smallest Bézier coefficient: all of J lies above it
+    alignas(
+        64) double scaled[N]; ///< scaled Jacobian; 0 where an edge has no length or a node is not a number
+    alignas(64) double smallest[N]; ///< smallest Bézier coefficient: all of J lies above it
     alignas(64) double volume[N];
     alignas(64) double bezier[27][N]; ///< coefficient (a, b, c) at a + 3b + 9c
 };

@@ -11,8 +11,8 @@
 namespace lacuna::quality {
 namespace {
 
-constexpr std::size_t kChunk = 16384;  // points a task takes at once
-constexpr int kBinBits = 10;           // points are sorted into bins small enough for the first-level cache
+constexpr std::size_t kChunk = 16384; // points a task takes at once
+constexpr int kBinBits = 10;          // points are sorted into bins small enough for the first-level cache
 constexpr std::size_t kBins = std::size_t(1) << kBinBits;
 
 std::size_t chunk_count(std::size_t points) { return (points + kChunk - 1) / kChunk; }
@@ -87,7 +87,8 @@ Bins sort_into_bins(std::span<const Vec3> points, const Grid& grid, const RunCon
     const auto over_chunks = [&](const auto& body) {
         parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t c = begin; c < end; ++c)
-                for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points.size()); ++p) body(c, p);
+                for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points.size()); ++p)
+                    body(c, p);
         });
     };
     over_chunks([&](std::size_t c, std::size_t p) {
@@ -126,7 +127,7 @@ std::optional<Pair> search_bin(std::span<const Entry> entries, std::span<const V
     table.assign(size, -1);
     std::optional<Pair> found;
     for (std::size_t e = 0; e < entries.size(); ++e) {
-        bool twin = false;  // a twin is not entered itself, so that many in one place cost no more than few
+        bool twin = false; // a twin is not entered itself, so that many in one place cost no more than few
         std::size_t slot = entries[e].hash & (size - 1);
         for (; table[slot] >= 0; slot = (slot + 1) & (size - 1)) {
             const Entry& other = entries[static_cast<std::size_t>(table[slot])];
@@ -156,7 +157,7 @@ Eigen::AlignedBox3d finite_bounds(std::span<const Vec3> points, const RunContext
             Vec3 zero(0, 0, 0);
             for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points.size()); ++p) {
                 boxes[c].extend(points[p]);
-                zero += 0 * points[p];  // not a number as soon as one of them is not finite
+                zero += 0 * points[p]; // not a number as soon as one of them is not finite
             }
             finite[c] = zero == Vec3(0, 0, 0) ? 1 : 0;
         }

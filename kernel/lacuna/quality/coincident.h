@@ -18,7 +18,8 @@ Eigen::AlignedBox3d finite_bounds(std::span<const Vec3> points, const RunContext
 
 /// Two points within 1e-9 of the diagonal of `bounds`, the pair with the lowest numbers. Parallel; O(points).
 /// @pre  bounds holds every point.
-std::optional<std::array<Index, 2>> find_coincident(std::span<const Vec3> points, const Eigen::AlignedBox3d& bounds,
+std::optional<std::array<Index, 2>> find_coincident(std::span<const Vec3> points,
+                                                    const Eigen::AlignedBox3d& bounds,
                                                     const RunContext& context);
 
 } // namespace lacuna::quality

@@ -22,7 +22,8 @@ struct Ranked {
 
     bool operator<(const Ranked& other) const
     {
-        return scaled_jacobian != other.scaled_jacobian ? scaled_jacobian < other.scaled_jacobian : cell < other.cell;
+        return scaled_jacobian != other.scaled_jacobian ? scaled_jacobian < other.scaled_jacobian
+                                                        : cell < other.cell;
     }
 };
 
@@ -95,16 +96,18 @@ void add_cell(Partial& partial, const CellValues<kLanes>& values, int lane, std:
     if (!(scaled > 0)) ++partial.inverted;
     double bezier[27];
     for (int c = 0; c < 27; ++c) bezier[c] = values.bezier[c][lane];
-    constexpr int kDepth = 6;  // as `certified_positive()`
+    constexpr int kDepth = 6; // as `certified_positive()`
     if (!(scaled > 0) || !positive_everywhere(bezier, kDepth)) ++partial.uncertified;
 }
 
 /// Corners of a level of up to a batch of columns, into `corner[0..3]`; idle lanes repeat the last column.
 template <class Cells>
-void load_level(const Cells& cells, std::size_t first, int filled, std::size_t layer, double (*corner)[3][kLanes])
+void load_level(const Cells& cells, std::size_t first, int filled, std::size_t layer,
+                double (*corner)[3][kLanes])
 {
     for (int lane = 0; lane < kLanes; ++lane) {
-        const Corners corners = cells.corners(first + static_cast<std::size_t>(std::min(lane, filled - 1)), layer);
+        const Corners corners = cells.corners(first + static_cast<std::size_t>(std::min(lane, filled - 1)),
+                                              layer);
         for (std::size_t c = 0; c < 4; ++c)
             for (int d = 0; d < 3; ++d) corner[c][d][lane] = (*corners[c])[d];
     }
@@ -124,7 +127,8 @@ void measure_columns(const Cells& cells, std::size_t begin, std::size_t end, Par
             load_level(cells, first, filled, layer + 1, batch.corner + 4);
             evaluate(batch, values);
             const std::size_t cell = layer * cells.columns() + first;
-            for (int lane = 0; lane < filled; ++lane) add_cell(partial, values, lane, cell + static_cast<std::size_t>(lane));
+            for (int lane = 0; lane < filled; ++lane)
+                add_cell(partial, values, lane, cell + static_cast<std::size_t>(lane));
         }
     }
 }
@@ -133,8 +137,9 @@ template <class Cells>
 Quality measure_all(const Cells& cells, const RunContext& context)
 {
     const std::size_t count = cells.columns() * cells.layers();
-    const std::size_t batches = std::max<std::size_t>(1, kChunk / kLanes / std::max<std::size_t>(1, cells.layers()));
-    const std::size_t width = batches * kLanes;  // columns of a partial result
+    const std::size_t batches = std::max<std::size_t>(1, kChunk / kLanes /
+                                                             std::max<std::size_t>(1, cells.layers()));
+    const std::size_t width = batches * kLanes; // columns of a partial result
     const std::size_t chunks = (cells.columns() + width - 1) / width;
     std::vector<Partial> partials(chunks);
     parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
@@ -152,7 +157,8 @@ Quality measure_all(const Cells& cells, const RunContext& context)
         quality.volume += partial.volume;
         quality.inverted += partial.inverted;
         quality.uncertified += partial.uncertified;
-        for (std::size_t b = 0; b < quality.histogram.size(); ++b) quality.histogram[b] += partial.histogram[b];
+        for (std::size_t b = 0; b < quality.histogram.size(); ++b)
+            quality.histogram[b] += partial.histogram[b];
         for (std::size_t i = 0; i < partial.worst.count; ++i) worst.offer(partial.worst.cells[i]);
     }
     quality.mean_scaled_jacobian = sum / static_cast<double>(count);
@@ -163,7 +169,8 @@ Quality measure_all(const Cells& cells, const RunContext& context)
         cell.scaled_jacobian = worst.cells[i].scaled_jacobian;
         const std::size_t layer = cell.cell / cells.columns();
         for (const std::size_t level : {layer, layer + 1})
-            for (const Vec3* corner : cells.corners(cell.cell % cells.columns(), level)) cell.centre += 0.125 * *corner;
+            for (const Vec3* corner : cells.corners(cell.cell % cells.columns(), level))
+                cell.centre += 0.125 * *corner;
         quality.worst.push_back(cell);
     }
     return quality;

@@ -16,10 +16,7 @@
 namespace lacuna::quality {
 namespace {
 
-[[noreturn]] void fail(const char* code, const std::string& message)
-{
-    throw NotSweepable(code, message);
-}
+[[noreturn]] void fail(const char* code, const std::string& message) { throw NotSweepable(code, message); }
 
 std::string person(std::size_t number) { return std::to_string(number + 1); }
 
@@ -27,12 +24,12 @@ void check_sizes(const mesh::HexMesh& mesh)
 {
     const auto expect = [](const char* what, std::size_t found, std::size_t expected) {
         if (found == expected) return;
-        fail("quality.wrong_size", std::string("the mesh holds ") + std::to_string(found) + " " + what + " where " +
-                                       std::to_string(expected) + " were expected");
+        fail("quality.wrong_size", std::string("the mesh holds ") + std::to_string(found) + " " + what +
+                                       " where " + std::to_string(expected) + " were expected");
     };
     if (mesh.layers < 1 || mesh.quads.empty() || mesh.nodes_per_layer < 4)
-        fail("quality.empty", "the mesh has no cells: " + std::to_string(mesh.quads.size()) + " source quads and " +
-                                  std::to_string(mesh.layers) + " layers");
+        fail("quality.empty", "the mesh has no cells: " + std::to_string(mesh.quads.size()) +
+                                  " source quads and " + std::to_string(mesh.layers) + " layers");
     const auto layers = static_cast<std::size_t>(mesh.layers);
     expect("nodes", mesh.nodes.size(), (layers + 1) * static_cast<std::size_t>(mesh.nodes_per_layer));
     expect("patches of source quads", mesh.source_patch.size(), mesh.quads.size());
@@ -41,8 +38,9 @@ void check_sizes(const mesh::HexMesh& mesh)
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
         for (const Index node : mesh.quads[q]) {
             if (node < 0 || node >= mesh.nodes_per_layer)
-                fail("quality.unknown_node", "source quad " + person(q) + " names node " + std::to_string(node + 1) +
-                                                 " of " + std::to_string(mesh.nodes_per_layer));
+                fail("quality.unknown_node", "source quad " + person(q) + " names node " +
+                                                 std::to_string(node + 1) + " of " +
+                                                 std::to_string(mesh.nodes_per_layer));
         }
     }
 }
@@ -57,7 +55,8 @@ void check_patches(const mesh::HexMesh& mesh)
     }
     const auto count = static_cast<Index>(mesh.patches.size());
     const auto check = [&](const char* where, const std::vector<Index>& patches) {
-        const auto wrong = std::find_if(patches.begin(), patches.end(), [&](Index p) { return p < 0 || p >= count; });
+        const auto wrong = std::find_if(patches.begin(), patches.end(),
+                                        [&](Index p) { return p < 0 || p >= count; });
         if (wrong == patches.end()) return;
         fail("quality.no_patch", std::string(where) + " quad " +
                                      person(static_cast<std::size_t>(wrong - patches.begin())) +
@@ -70,7 +69,8 @@ void check_patches(const mesh::HexMesh& mesh)
 
 std::string source_node(const mesh::HexMesh& mesh, Index node)
 {
-    return "source node " + std::to_string(node + 1) + " (at " + place(mesh.nodes[static_cast<std::size_t>(node)]) + ")";
+    return "source node " + std::to_string(node + 1) + " (at " +
+           place(mesh.nodes[static_cast<std::size_t>(node)]) + ")";
 }
 
 void check_sides(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
@@ -94,7 +94,7 @@ std::vector<Index> check_fans(const mesh::HexMesh& mesh, const std::vector<Index
 {
     const auto nodes = static_cast<std::size_t>(mesh.nodes_per_layer);
     std::vector<Index> valence(nodes, 0);
-    std::vector<Index> first(nodes, -1);  // a side that leaves the node; one on the rim where there is one
+    std::vector<Index> first(nodes, -1); // a side that leaves the node; one on the rim where there is one
     std::vector<Index> follows(nodes, -1);
     for (std::size_t side = 0; side < opposite.size(); ++side) {
         const auto node = static_cast<std::size_t>(mesh.quads[side / 4][side % 4]);
@@ -133,8 +133,8 @@ void check_rim(const mesh::HexMesh& mesh, std::vector<Index> follows)
     const auto missed = std::find_if(follows.begin(), follows.end(), [](Index to) { return to >= 0; });
     if (missed != follows.end())
         fail("quality.open_skin", "the boundary side of the source quads from " +
-                                      source_node(mesh, static_cast<Index>(missed - follows.begin())) + " to " +
-                                      source_node(mesh, *missed) + " carries no wall");
+                                      source_node(mesh, static_cast<Index>(missed - follows.begin())) +
+                                      " to " + source_node(mesh, *missed) + " carries no wall");
 }
 
 } // namespace
@@ -144,7 +144,8 @@ std::string node_name(std::span<const Vec3> nodes, Index node, Index nodes_per_l
     std::string text = "node " + std::to_string(node + 1) + " (";
     if (nodes_per_layer > 0) {
         const std::size_t levels = nodes.size() / static_cast<std::size_t>(nodes_per_layer);
-        text += "level " + std::to_string(node / nodes_per_layer + 1) + " of " + std::to_string(levels) + ", ";
+        text += "level " + std::to_string(node / nodes_per_layer + 1) + " of " + std::to_string(levels) +
+                ", ";
     }
     return text + "at " + place(nodes[static_cast<std::size_t>(node)]) + ")";
 }
@@ -153,9 +154,11 @@ void check_nodes(std::span<const Vec3> nodes, Index nodes_per_layer, const RunCo
 {
     const Eigen::AlignedBox3d bounds = finite_bounds(nodes, context);
     if (bounds.isEmpty()) {
-        const auto wrong = std::find_if(nodes.begin(), nodes.end(), [](const Vec3& p) { return !p.allFinite(); });
+        const auto wrong = std::find_if(nodes.begin(), nodes.end(),
+                                        [](const Vec3& p) { return !p.allFinite(); });
         fail("quality.not_finite",
-             node_name(nodes, static_cast<Index>(wrong - nodes.begin()), nodes_per_layer) + " has no finite place");
+             node_name(nodes, static_cast<Index>(wrong - nodes.begin()), nodes_per_layer) +
+                 " has no finite place");
     }
     if (const auto pair = find_coincident(nodes, bounds, context))
         fail("quality.coincident_nodes", node_name(nodes, (*pair)[0], nodes_per_layer) + " and " +
@@ -173,20 +176,22 @@ void check_quality(const Quality& quality, double min_scaled_jacobian, int layer
     };
     const std::string cells = " of " + std::to_string(quality.hexes) + " cells ";
     if (quality.inverted > 0)
-        fail("quality.inverted", std::to_string(quality.inverted) + cells + "are inverted. The worst:" +
-                                     worst(quality.inverted) +
+        fail("quality.inverted", std::to_string(quality.inverted) + cells +
+                                     "are inverted. The worst:" + worst(quality.inverted) +
                                      "\nTry more layers, a smaller size, or let the sweep improve the mesh");
     if (quality.uncertified > 0)
-        fail("quality.not_certified", std::to_string(quality.uncertified) + cells +
-                                          "have a Jacobian that is not positive everywhere, though it is at their corners. "
-                                          "The worst cells of the mesh:" + worst(quality.worst.size()));
+        fail("quality.not_certified",
+             std::to_string(quality.uncertified) + cells +
+                 "have a Jacobian that is not positive everywhere, though it is at their corners. "
+                 "The worst cells of the mesh:" +
+                 worst(quality.worst.size()));
     if (quality.min_scaled_jacobian < min_scaled_jacobian) {
         const auto below = static_cast<std::size_t>(
             std::count_if(quality.worst.begin(), quality.worst.end(),
                           [&](const WorstCell& cell) { return cell.scaled_jacobian < min_scaled_jacobian; }));
         fail("quality.below_limit", "the smallest scaled Jacobian is " + number(quality.min_scaled_jacobian) +
-                                        ", below the limit of " + number(min_scaled_jacobian) + ". The worst:" +
-                                        worst(below));
+                                        ", below the limit of " + number(min_scaled_jacobian) +
+                                        ". The worst:" + worst(below));
     }
 }
 

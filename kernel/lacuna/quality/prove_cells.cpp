@@ -10,7 +10,7 @@
 namespace lacuna::quality {
 namespace {
 
-constexpr Index kGivenSkin = -1;  // owner of a side that comes from the list of skin quads
+constexpr Index kGivenSkin = -1; // owner of a side that comes from the list of skin quads
 
 /// A side of a cell, told by its nodes: the lowest, the one across and the others in order.
 struct Side {
@@ -19,10 +19,7 @@ struct Side {
     Index owner;
 };
 
-bool operator<(const Side& a, const Side& b)
-{
-    return std::tie(a.key, a.owner) < std::tie(b.key, b.owner);
-}
+bool operator<(const Side& a, const Side& b) { return std::tie(a.key, a.owner) < std::tie(b.key, b.owner); }
 
 /// A quad turned so that it begins with its lowest node; same side, same direction.
 Quad turned(const Quad& quad)
@@ -40,8 +37,8 @@ Side make_side(const Quad& quad, Index owner)
 
 std::string side_name(std::span<const Vec3> nodes, const Side& side)
 {
-    return "the side of cell " + std::to_string(side.owner + 1) + " between " + node_name(nodes, side.nodes[0], 0) +
-           " and " + node_name(nodes, side.nodes[2], 0);
+    return "the side of cell " + std::to_string(side.owner + 1) + " between " +
+           node_name(nodes, side.nodes[0], 0) + " and " + node_name(nodes, side.nodes[2], 0);
 }
 
 void check_corners(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin)
@@ -53,8 +50,8 @@ void check_corners(std::span<const Vec3> nodes, std::span<const Hex> hexes, std:
         for (const Index node : hexes[h]) {
             if (!known(node))
                 throw NotSweepable("quality.unknown_node", "cell " + std::to_string(h + 1) + " names node " +
-                                                               std::to_string(std::int64_t(node) + 1) + " of " +
-                                                               std::to_string(nodes.size()));
+                                                               std::to_string(std::int64_t(node) + 1) +
+                                                               " of " + std::to_string(nodes.size()));
             used[static_cast<std::size_t>(node)] = 1;
         }
     }
@@ -64,11 +61,13 @@ void check_corners(std::span<const Vec3> nodes, std::span<const Hex> hexes, std:
     const auto unused = std::find(used.begin(), used.end(), 0);
     if (unused != used.end())
         throw NotSweepable("quality.unused_node",
-                           node_name(nodes, static_cast<Index>(unused - used.begin()), 0) + " belongs to no cell");
+                           node_name(nodes, static_cast<Index>(unused - used.begin()), 0) +
+                               " belongs to no cell");
 }
 
 /// Sides of all cells and of the given skin, brought together by their lowest node.
-std::vector<Side> sorted_sides(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin)
+std::vector<Side> sorted_sides(std::span<const Vec3> nodes, std::span<const Hex> hexes,
+                               std::span<const Quad> skin)
 {
     std::vector<std::size_t> start(nodes.size() + 1, 0);
     const auto for_each_quad = [&](const auto& body) {
@@ -97,7 +96,8 @@ std::vector<Side> sorted_sides(std::span<const Vec3> nodes, std::span<const Hex>
 }
 
 /// One side with all who use it: the given skin first, then the cells.
-void check_side(std::span<const Vec3> nodes, std::span<const Side> users, bool skin_given, std::vector<Quad>& skin)
+void check_side(std::span<const Vec3> nodes, std::span<const Side> users, bool skin_given,
+                std::vector<Quad>& skin)
 {
     const auto given = static_cast<std::size_t>(
         std::count_if(users.begin(), users.end(), [](const Side& s) { return s.owner == kGivenSkin; }));
@@ -107,8 +107,8 @@ void check_side(std::span<const Vec3> nodes, std::span<const Side> users, bool s
     if (std::adjacent_find(key.begin(), key.end()) != key.end())
         throw NotSweepable("quality.collapsed_side", side_name(nodes, any) + " uses a node twice");
     if (cells.size() > 2)
-        throw NotSweepable("quality.not_conformal",
-                           side_name(nodes, any) + " is shared by " + std::to_string(cells.size()) + " cells");
+        throw NotSweepable("quality.not_conformal", side_name(nodes, any) + " is shared by " +
+                                                        std::to_string(cells.size()) + " cells");
     if (cells.size() == 2) {
         const Quad& a = cells[0].nodes;
         const Quad& b = cells[1].nodes;
@@ -149,8 +149,9 @@ void check_skin_edges(std::span<const Vec3> nodes, const std::vector<Quad>& skin
         std::size_t j = i;
         while (j < uses.size() && uses[j].low == uses[i].low && uses[j].high == uses[i].high) ++j;
         if (j - i != 2 || uses[i].rising == uses[i + 1].rising)
-            throw NotSweepable("quality.open_skin", "the edge of the skin from " + node_name(nodes, uses[i].low, 0) +
-                                                        " to " + node_name(nodes, uses[i].high, 0) + " is used by " +
+            throw NotSweepable("quality.open_skin", "the edge of the skin from " +
+                                                        node_name(nodes, uses[i].low, 0) + " to " +
+                                                        node_name(nodes, uses[i].high, 0) + " is used by " +
                                                         std::to_string(j - i) + " quads; expected two");
         i = j;
     }

@@ -23,8 +23,8 @@ bool certified_positive(std::span<const Vec3, 8> corners, int max_depth = 6);
 
 /// A cell with what is wrong with it.
 struct WorstCell {
-    std::size_t cell = 0;  ///< from 0
-    int layer = -1;        ///< from 0; -1 where cells are a plain list
+    std::size_t cell = 0; ///< from 0
+    int layer = -1;       ///< from 0; -1 where cells are a plain list
     Vec3 centre{0, 0, 0};
     double scaled_jacobian = 0;
 };
@@ -33,11 +33,11 @@ struct Quality {
     std::size_t hexes = 0;
     double min_scaled_jacobian = 1;
     double mean_scaled_jacobian = 1;
-    std::size_t inverted = 0;    ///< cells with a corner that is not positive
-    std::size_t uncertified = 0; ///< cells whose Jacobian could not be shown positive everywhere
-    std::array<std::size_t, 20> histogram{};  ///< of the scaled Jacobian, twenty equal bins over [-1, 1]
-    std::vector<WorstCell> worst;             ///< at most ten, worst first
-    double volume = 0;                        ///< sum over the cells [model length³]
+    std::size_t inverted = 0;                ///< cells with a corner that is not positive
+    std::size_t uncertified = 0;             ///< cells whose Jacobian could not be shown positive everywhere
+    std::array<std::size_t, 20> histogram{}; ///< of the scaled Jacobian, twenty equal bins over [-1, 1]
+    std::vector<WorstCell> worst;            ///< at most ten, worst first
+    double volume = 0;                       ///< sum over the cells [model length³]
 };
 
 /// Measure every cell. Parallel; the same for any thread count. O(cells).
@@ -45,7 +45,8 @@ struct Quality {
 Quality measure(const mesh::HexMesh& mesh, const RunContext& context = {});
 
 /// The same for hexahedra of any origin.
-Quality measure_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, const RunContext& context = {});
+Quality measure_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes,
+                      const RunContext& context = {});
 
 /// As a table with a histogram.
 std::string to_table(const Quality& quality);

@@ -23,10 +23,7 @@ std::string pad_left(const std::string& text, std::size_t width)
 
 } // namespace
 
-std::string number(double value)
-{
-    return digits_of(value, std::chars_format::general, 6);
-}
+std::string number(double value) { return digits_of(value, std::chars_format::general, 6); }
 
 std::string fixed(double value, int digits, std::size_t width)
 {
@@ -41,13 +38,16 @@ std::string place(const Vec3& point)
 std::string describe(const WorstCell& cell, int layers)
 {
     std::string text = "cell " + std::to_string(cell.cell + 1) + " (";
-    if (cell.layer >= 0) text += "layer " + std::to_string(cell.layer + 1) + " of " + std::to_string(layers) + ", ";
+    if (cell.layer >= 0)
+        text += "layer " + std::to_string(cell.layer + 1) + " of " + std::to_string(layers) + ", ";
     return text + "at " + place(cell.centre) + ") has scaled Jacobian " + number(cell.scaled_jacobian);
 }
 
 std::string to_table(const Quality& quality)
 {
-    const auto count = [](std::size_t value, std::size_t width) { return pad_left(std::to_string(value), width); };
+    const auto count = [](std::size_t value, std::size_t width) {
+        return pad_left(std::to_string(value), width);
+    };
     std::string text = "hexahedra              " + count(quality.hexes, 12) + "\n";
     text += "scaled Jacobian  least " + fixed(quality.min_scaled_jacobian, 4, 12) + "\n";
     text += "                  mean " + fixed(quality.mean_scaled_jacobian, 4, 12) + "\n";
