@@ -58,11 +58,13 @@ std::vector<Tube> tubes_of(const OpenVolume& volume)
                                 "name the source or the target, or the walls "
                                 "that close the others");
         }
-        tubes.push_back({std::move(part), {open[0], open[1]}, {points_of(model, open[0]), points_of(model, open[1])}});
+        tubes.push_back(
+            {std::move(part), {open[0], open[1]}, {points_of(model, open[0]), points_of(model, open[1])}});
     }
     std::stable_sort(tubes.begin(), tubes.end(), [](const Tube& a, const Tube& b) {
         const auto size = [](const Tube& tube) {
-            return geometry::newell_vector(tube.points[0]).norm() + geometry::newell_vector(tube.points[1]).norm();
+            return geometry::newell_vector(tube.points[0]).norm() +
+                   geometry::newell_vector(tube.points[1]).norm();
         };
         return size(a) > size(b);
     });
@@ -82,8 +84,10 @@ void sort_ends(const Model& model, std::vector<Tube>& tubes)
     const Tube& first = tubes.front();
     for (std::size_t i = 1; i < tubes.size(); ++i) {
         Tube& tube = tubes[i];
-        const double as_is = distance(tube.points[0], first.points[0]) + distance(tube.points[1], first.points[1]);
-        const double turned = distance(tube.points[1], first.points[0]) + distance(tube.points[0], first.points[1]);
+        const double as_is = distance(tube.points[0], first.points[0]) +
+                             distance(tube.points[1], first.points[1]);
+        const double turned = distance(tube.points[1], first.points[0]) +
+                              distance(tube.points[0], first.points[1]);
         const double apart = (mean(first.points[0]) - mean(first.points[1])).norm();
         if (std::abs(as_is - turned) <= 1e-6 * apart) {
             throw NotClosed("closure.ambiguous_loops",
@@ -104,7 +108,8 @@ bool inside(const Vec2& p, const std::vector<Vec2>& polygon)
     for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
         const Vec2& a = polygon[i];
         const Vec2& b = polygon[j];
-        if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
+        if ((a.y() > p.y()) != (b.y() > p.y()) &&
+            p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
             in = !in;
     }
     return in;
@@ -140,8 +145,8 @@ void face_the_void(OpenVolume& volume, std::vector<Tube>& tubes)
                                 ": these are several volumes; make one open volume of each");
         }
         // With the void between them, an inner tube's loop runs against the outer one's.
-        const double along = geometry::newell_vector(tubes[i].points[0])
-                                 .dot(geometry::newell_vector(tubes.front().points[0]));
+        const double along =
+            geometry::newell_vector(tubes[i].points[0]).dot(geometry::newell_vector(tubes.front().points[0]));
         if (along > 0) {
             flip_faces(volume.model, tubes[i].walls);
             for (Rim& rim : tubes[i].rim) {

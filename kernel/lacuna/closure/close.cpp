@@ -100,9 +100,11 @@ void close_class_four(OpenVolume& volume, Closure& closure)
     }
     const std::size_t wanted = rims(model, volume.faces(Role::source)).size();
     if (loops.size() != wanted) {
-        throw NotClosed("closure.loop_counts",
-                        "the source has " + std::to_string(wanted) + " loops and the walls leave " +
-                            std::to_string(loops.size()) + " free loops for the target; a sweep needs as many on both ends: check the walls, or name the target");
+        throw NotClosed("closure.loop_counts", "the source has " + std::to_string(wanted) +
+                                                   " loops and the walls leave " +
+                                                   std::to_string(loops.size()) +
+                                                   " free loops for the target; a sweep needs as many on "
+                                                   "both ends: check the walls, or name the target");
     }
     add_face(volume, closure, loops, Role::target);
 }
@@ -155,7 +157,9 @@ void prove_sealed(const OpenVolume& volume)
         if (uses[e].size() == 2 && uses[e][0].reversed != uses[e][1].reversed) continue;
         throw NotClosed("closure.not_watertight",
                         name_of(model, EdgeId(e)) + " is used " + std::to_string(uses[e].size()) +
-                            (uses[e].size() == 2 ? " times in the same direction" : " times") + " after closing; every edge must be used twice, in opposite directions: check the faces around it");
+                            (uses[e].size() == 2 ? " times in the same direction" : " times") +
+                            " after closing; every edge must be used twice, in opposite directions: check "
+                            "the faces around it");
     }
     if (!(enclosed_volume(volume) > 0)) {
         throw NotClosed("closure.no_volume", "the sealed faces enclose no volume; source and target may lie "
@@ -165,7 +169,8 @@ void prove_sealed(const OpenVolume& volume)
 
 } // namespace
 
-Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptions& options, const RunContext& context)
+Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptions& options,
+              const RunContext& context)
 {
     check_cancelled(context);
     const VolumeClass value = classify(volume).value;
@@ -175,8 +180,9 @@ Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptio
     const bool can_follow = follower && follower->leads();
     const bool follow_at_once = options.edge_shape == EdgeShape::follow;
     if (follow_at_once && !can_follow) {
-        throw NotClosed("closure.nothing_to_follow", "edge_shape = \"follow\" needs a given wall that joins source and "
-                                                     "target, and there is none; use \"straight\"");
+        throw NotClosed("closure.nothing_to_follow",
+                        "edge_shape = \"follow\" needs a given wall that joins source and "
+                        "target, and there is none; use \"straight\"");
     }
 
     OpenVolume sealed = volume;
@@ -195,7 +201,8 @@ Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptio
     if (crossing) {
         throw NotClosed(
             "closure.faces_cross",
-            name_of(sealed.model, crossing->first) + " would cross " + name_of(sealed.model, crossing->second) +
+            name_of(sealed.model, crossing->first) + " would cross " +
+                name_of(sealed.model, crossing->second) +
                 "; try close{ edge_shape = \"follow\" }, another match, or give the missing face");
     }
     prove_sealed(sealed);

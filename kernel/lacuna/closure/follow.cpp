@@ -21,8 +21,10 @@ Follower::Follower(const topology::OpenVolume& volume)
     const std::vector<std::vector<Vec3>>& levels = sections.levels;
     if (levels.front().empty()) return;
     for (std::size_t k = 0; k < levels.size(); ++k) {
-        from_source_.push_back(geometry::fit_affine(levels.front(), levels[k], sections.areas.front(), sections.areas[k]));
-        from_target_.push_back(geometry::fit_affine(levels.back(), levels[k], sections.areas.back(), sections.areas[k]));
+        from_source_.push_back(
+            geometry::fit_affine(levels.front(), levels[k], sections.areas.front(), sections.areas[k]));
+        from_target_.push_back(
+            geometry::fit_affine(levels.back(), levels[k], sections.areas.back(), sections.areas[k]));
     }
 }
 

@@ -32,7 +32,7 @@ public:
     }
 
 private:
-    std::vector<geometry::AffineFit> from_source_, from_target_;  ///< one a level
+    std::vector<geometry::AffineFit> from_source_, from_target_; ///< one a level
     std::vector<double> heights_;
 };
 

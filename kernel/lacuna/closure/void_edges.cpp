@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/void_edges.h>
 
-
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +28,8 @@ double spacing_at(const Model& model, VertexId vertex)
 
 } // namespace
 
-std::vector<EdgeId> make_void_edges(OpenVolume& volume, const matching::Match& match, const Follower* follower)
+std::vector<EdgeId> make_void_edges(OpenVolume& volume, const matching::Match& match,
+                                    const Follower* follower)
 {
     Model& model = volume.model;
     std::vector<bool> on_wall(model.vertices.size(), false);
@@ -48,7 +48,8 @@ std::vector<EdgeId> make_void_edges(OpenVolume& volume, const matching::Match& m
         const Vec3 to = model.at(model[target].point);
         const double spacing = spacing_at(model, source);
         const double wanted = spacing > 0 ? (to - from).norm() / spacing : 1;
-        int segments = static_cast<int>(std::clamp(std::round(wanted), 1.0, static_cast<double>(kMostSegments)));
+        int segments = static_cast<int>(
+            std::clamp(std::round(wanted), 1.0, static_cast<double>(kMostSegments)));
         if (follower != nullptr) segments = kMostSegments;
 
         Edge edge;
@@ -59,7 +60,8 @@ std::vector<EdgeId> make_void_edges(OpenVolume& volume, const matching::Match& m
         edge.points.push_back(model[source].point);
         for (int i = 1; i < segments; ++i) {
             const double f = static_cast<double>(i) / segments;
-            const Vec3 place = follower != nullptr ? follower->carry(from, to, f) : Vec3((1 - f) * from + f * to);
+            const Vec3 place = follower != nullptr ? follower->carry(from, to, f)
+                                                   : Vec3((1 - f) * from + f * to);
             edge.points.push_back(static_cast<Index>(model.points.size()));
             model.points.push_back(place);
         }

@@ -13,6 +13,7 @@ namespace lacuna::closure {
 /// At a vertex with several halves a void edge comes first after a given one; where that does not decide, the half
 /// with the shortest way home, which keeps the loop four-sided.
 /// @throw NotClosed  a walk that does not come back; names the edge.
-std::vector<topology::Loop> void_loops(const topology::OpenVolume& volume, const std::vector<EdgeId>& void_edges);
+std::vector<topology::Loop> void_loops(const topology::OpenVolume& volume,
+                                       const std::vector<EdgeId>& void_edges);
 
 } // namespace lacuna::closure

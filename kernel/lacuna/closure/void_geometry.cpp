@@ -47,7 +47,8 @@ struct Outline {
 
 /// Turn a triangulation of an outline into a filling; `lift` gives the place of an added point.
 template <class Lift>
-Filling filling_of(const Model& model, const Outline& outline, const geometry::Triangulation& flat, const Lift& lift)
+Filling filling_of(const Model& model, const Outline& outline, const geometry::Triangulation& flat,
+                   const Lift& lift)
 {
     Filling result;
     const auto base = static_cast<Index>(model.points.size());
@@ -155,7 +156,8 @@ void by_height(PatchSide& side, const Follower& follower, bool rising)
     side.share.back() = 1;
 }
 
-Filling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeUse>>& sides, const Follower* follower)
+Filling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeUse>>& sides,
+                         const Follower* follower)
 {
     std::array<PatchSide, 4> side;
     for (std::size_t i = 0; i < 4; ++i) side[i] = patch_side(model, sides[i]);
@@ -170,7 +172,8 @@ Filling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeU
     };
     const double width = segments(0, 2);
     const double height = segments(1, 3);
-    const std::array<Vec2, 5> corner{Vec2(0, 0), Vec2(width, 0), Vec2(width, height), Vec2(0, height), Vec2(0, 0)};
+    const std::array<Vec2, 5> corner{Vec2(0, 0), Vec2(width, 0), Vec2(width, height), Vec2(0, height),
+                                     Vec2(0, 0)};
     Outline outline;
     outline.loops.emplace_back();
     for (std::size_t i = 0; i < 4; ++i) {
@@ -186,21 +189,26 @@ Filling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeU
         std::reverse(points.begin(), points.end());
         return points;
     };
-    const geometry::SweptPatch patch(side[0].points, side[1].points, backward(side[2].points), backward(side[3].points));
+    const geometry::SweptPatch patch(side[0].points, side[1].points, backward(side[2].points),
+                                     backward(side[3].points));
     Filling result = filling_of(model, outline, flat, [&](std::size_t i) -> Vec3 {
         const double s = flat.points[i].x() / width, t = flat.points[i].y() / height;
         if (follower == nullptr) return patch(s, t);
-        const Vec3 left = side[3].at(1 - t) - follower->carry(side[0].points.front(), side[2].points.back(), t);
+        const Vec3 left = side[3].at(1 - t) -
+                          follower->carry(side[0].points.front(), side[2].points.back(), t);
         const Vec3 right = side[1].at(t) - follower->carry(side[0].points.back(), side[2].points.front(), t);
         return follower->carry(side[0].at(s), side[2].at(1 - s), t) + (1 - s) * left + s * right;
     });
     const bool seam = sides[1].size() == sides[3].size() && sides[1].front().edge == sides[3].back().edge;
-    result.geometry = follower != nullptr ? Geometry::followed : seam ? Geometry::annular : Geometry::transfinite;
+    result.geometry = follower != nullptr ? Geometry::followed
+                      : seam              ? Geometry::annular
+                                          : Geometry::transfinite;
     result.algorithm = seam ? "Algorithm 5" : "Algorithm 6";
     return result;
 }
 
-std::string crossing_in_words(const Model& model, const std::vector<Loop>& loops, const geometry::LoopCrossing& crossing)
+std::string crossing_in_words(const Model& model, const std::vector<Loop>& loops,
+                              const geometry::LoopCrossing& crossing)
 {
     const auto edge_at = [&](std::size_t loop, std::size_t segment) {
         for (const EdgeUse& use : loops[loop].uses) {
@@ -210,7 +218,8 @@ std::string crossing_in_words(const Model& model, const std::vector<Loop>& loops
         }
         return std::string("an edge");
     };
-    return edge_at(crossing.loop_a, crossing.segment_a) + " and " + edge_at(crossing.loop_b, crossing.segment_b);
+    return edge_at(crossing.loop_a, crossing.segment_a) + " and " +
+           edge_at(crossing.loop_b, crossing.segment_b);
 }
 
 } // namespace
@@ -248,13 +257,15 @@ std::vector<std::vector<EdgeUse>> logical_sides(const OpenVolume& volume, const 
     return sides;
 }
 
-Filling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const Follower* follower, const std::string& name)
+Filling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const Follower* follower,
+             const std::string& name)
 {
     const Model& model = volume.model;
     const NewellOutline newell = newell_outline(model, loops);
     const auto crossing = geometry::find_crossing(newell.outline.flat, newell.outline.loops);
     const bool flat = newell.bulge <= model.tolerance;
-    const auto sides = loops.size() == 1 ? logical_sides(volume, loops.front()) : std::vector<std::vector<EdgeUse>>{};
+    const auto sides = loops.size() == 1 ? logical_sides(volume, loops.front())
+                                         : std::vector<std::vector<EdgeUse>>{};
     Filling result;
     if (!sides.empty() && (!flat || crossing)) {
         result = fill_transfinite(model, sides, follower);

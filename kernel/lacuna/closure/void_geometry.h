@@ -20,7 +20,8 @@ struct Filling {
 
 /// The four logical sides of a loop that runs once along the source rim and once along the target rim, in
 /// walking order from the source's: source, side, target, side; empty when it has none.
-std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVolume& volume, const topology::Loop& loop);
+std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVolume& volume,
+                                                          const topology::Loop& loop);
 
 /// Facets for the loops of one void face (its outer loop and islands).
 ///
@@ -32,8 +33,8 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 ///                  target side as they carry it down, blended, and moved to meet the sides.
 /// @param name  of the face, for messages.
 /// @throw NotClosed  names the face and the edges that cross.
-Filling fill(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops, const Follower* follower,
-             const std::string& name);
+Filling fill(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops,
+             const Follower* follower, const std::string& name);
 
 /// Put a filled face into the volume.
 FaceId add_void_face(topology::OpenVolume& volume, Filling filling, topology::Role role);

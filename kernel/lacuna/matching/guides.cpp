@@ -25,20 +25,18 @@ constexpr double kRim = 1e-12;
 
 using Side = std::pair<Index, Index>;
 
-Side side(Index a, Index b)
-{
-    return {std::min(a, b), std::max(a, b)};
-}
+Side side(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// A level line over the facets of one wall part.
 struct LevelLine {
     std::vector<Vec3> points;
-    std::vector<std::pair<std::size_t, std::size_t>> anchors;  ///< (point, side line) in walking order
+    std::vector<std::pair<std::size_t, std::size_t>> anchors; ///< (point, side line) in walking order
     bool closed = false;
 };
 
 /// The only level line at height t; nothing where there are several or none.
-std::optional<LevelLine> level_line(const Model& model, const std::vector<Triangle>& triangles, const std::vector<double>& heights, double t,
+std::optional<LevelLine> level_line(const Model& model, const std::vector<Triangle>& triangles,
+                                    const std::vector<double>& heights, double t,
                                     const std::map<Side, std::size_t>& on_line)
 {
     const auto above = [&](Index p) { return heights[static_cast<std::size_t>(p)] >= t; };
@@ -70,9 +68,11 @@ std::optional<LevelLine> level_line(const Model& model, const std::vector<Triang
     }
     std::size_t steps = 0;
     for (Side at = start;; ++steps) {
-        const double ha = heights[static_cast<std::size_t>(at.first)], hb = heights[static_cast<std::size_t>(at.second)];
+        const double ha = heights[static_cast<std::size_t>(at.first)],
+                     hb = heights[static_cast<std::size_t>(at.second)];
         const double f = (t - ha) / (hb - ha);
-        if (const auto found = on_line.find(at); found != on_line.end()) line.anchors.emplace_back(line.points.size(), found->second);
+        if (const auto found = on_line.find(at); found != on_line.end())
+            line.anchors.emplace_back(line.points.size(), found->second);
         line.points.push_back((1 - f) * model.at(at.first) + f * model.at(at.second));
         const auto onward = next.find(at);
         if (onward == next.end()) break;
@@ -91,11 +91,13 @@ std::optional<LevelLine> level_line(const Model& model, const std::vector<Triang
 void start_at_first_anchor(LevelLine& line)
 {
     if (!line.closed || line.anchors.empty()) return;
-    const auto first = std::min_element(line.anchors.begin(), line.anchors.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto first = std::min_element(line.anchors.begin(), line.anchors.end(),
+                                        [](const auto& a, const auto& b) { return a.second < b.second; });
     const std::size_t shift = first->first;
     line.points.pop_back();
     const std::size_t n = line.points.size();
-    std::rotate(line.points.begin(), line.points.begin() + static_cast<std::ptrdiff_t>(shift), line.points.end());
+    std::rotate(line.points.begin(), line.points.begin() + static_cast<std::ptrdiff_t>(shift),
+                line.points.end());
     line.points.push_back(line.points.front());
     for (auto& [point, number] : line.anchors) point = (point + n - shift) % n;
     std::sort(line.anchors.begin(), line.anchors.end());
@@ -119,7 +121,9 @@ std::vector<Vec3> sampled(const LevelLine& line)
     const int each = line.closed && line.anchors.empty() ? kSamplesRound : kSamplesBetween;
     std::vector<Vec3> samples;
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-        for (int k = 0; k < each; ++k) samples.push_back(geometry::point_at(line.points, arc, stops[i] + (stops[i + 1] - stops[i]) * k / each));
+        for (int k = 0; k < each; ++k)
+            samples.push_back(
+                geometry::point_at(line.points, arc, stops[i] + (stops[i + 1] - stops[i]) * k / each));
     }
     if (!line.closed) samples.push_back(line.points.back());
     return samples;
@@ -133,7 +137,8 @@ void align(std::vector<Vec3>& section, const std::vector<Vec3>& below)
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < section.size(); ++k) {
         double sum = 0;
-        for (std::size_t i = 0; i < section.size(); ++i) sum += (section[(i + k) % section.size()] - below[i] - shift).squaredNorm();
+        for (std::size_t i = 0; i < section.size(); ++i)
+            sum += (section[(i + k) % section.size()] - below[i] - shift).squaredNorm();
         if (sum < least) {
             least = sum;
             best = k;
@@ -143,7 +148,8 @@ void align(std::vector<Vec3>& section, const std::vector<Vec3>& below)
 }
 
 /// Sections of one wall part; empty when some level is not one line like the others.
-std::vector<std::vector<Vec3>> sections_of(const OpenVolume& volume, const std::vector<FaceId>& part, const std::vector<double>& heights,
+std::vector<std::vector<Vec3>> sections_of(const OpenVolume& volume, const std::vector<FaceId>& part,
+                                           const std::vector<double>& heights,
                                            const std::map<Side, std::size_t>& on_line, int count)
 {
     std::vector<Triangle> triangles;
@@ -161,7 +167,8 @@ std::vector<std::vector<Vec3>> sections_of(const OpenVolume& volume, const std::
         if (k == 0) anchors = anchor_lines(*line);
         if (anchor_lines(*line) != anchors) return {};
         sections.push_back(sampled(*line));
-        if (line->closed && line->anchors.empty() && k > 0) align(sections.back(), sections[sections.size() - 2]);
+        if (line->closed && line->anchors.empty() && k > 0)
+            align(sections.back(), sections[sections.size() - 2]);
         if (sections.back().size() != sections.front().size()) return {};
     }
     return sections;

@@ -9,9 +9,10 @@ namespace lacuna::matching {
 
 /// Sections through the given walls at even heights, as corresponding points.
 struct Sections {
-    std::vector<double> heights;             ///< all points of the model: `wall_heights()`
-    std::vector<Vec3> areas;                 ///< of each level: area vector of its lines, an open one closed by its chord
-    std::vector<std::vector<Vec3>> levels;   ///< level by level from the source rim to the target rim; point i of each corresponds
+    std::vector<double> heights; ///< all points of the model: `wall_heights()`
+    std::vector<Vec3> areas;     ///< of each level: area vector of its lines, an open one closed by its chord
+    std::vector<std::vector<Vec3>>
+        levels; ///< level by level from the source rim to the target rim; point i of each corresponds
 };
 
 /// Cut the given walls at `count` + 1 levels of their height.

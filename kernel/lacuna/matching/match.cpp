@@ -125,7 +125,8 @@ std::size_t position(const std::vector<VertexId>& list, VertexId wanted)
 }
 
 /// True when the hard pairs of the two loops allow the lay.
-bool allowed(const Problem& problem, const LoopShape& source, const LoopShape& target, std::size_t shift, bool backward)
+bool allowed(const Problem& problem, const LoopShape& source, const LoopShape& target, std::size_t shift,
+             bool backward)
 {
     const std::size_t n = source.vertices.size();
     if (n != target.vertices.size()) return true;
@@ -160,7 +161,8 @@ std::vector<Lay> lays(const Problem& problem, int s, int t, bool with_scale,
             result.push_back(lay);
         }
     }
-    std::stable_sort(result.begin(), result.end(), [](const Lay& x, const Lay& y) { return x.score < y.score; });
+    std::stable_sort(result.begin(), result.end(),
+                     [](const Lay& x, const Lay& y) { return x.score < y.score; });
     return result;
 }
 
@@ -171,14 +173,16 @@ double relative(double a, double b)
 }
 
 /// What it costs to send loop s to loop t once the source has been moved by `fit`.
-double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geometry::RigidFit& fit, double reach)
+double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geometry::RigidFit& fit,
+                 double reach)
 {
     if (problem.forced[s] >= 0) {
         return problem.forced[s] == static_cast<int>(t) ? 0.0 : std::numeric_limits<double>::infinity();
     }
     const LoopShape& a = problem.source[s];
     const LoopShape& b = problem.target[t];
-    const double counts = relative(static_cast<double>(a.vertices.size()), static_cast<double>(b.vertices.size()));
+    const double counts = relative(static_cast<double>(a.vertices.size()),
+                                   static_cast<double>(b.vertices.size()));
     return (fit(a.centroid) - b.centroid).norm() / reach + relative(a.length * fit.scale, b.length) +
            relative(a.area.norm() * fit.scale * fit.scale, b.area.norm()) + counts;
 }
@@ -226,7 +230,8 @@ std::vector<Arrangement> arrange(const Problem& problem)
                     if (columns[i] >= 0) sum += cost(static_cast<Eigen::Index>(i), columns[i]);
                 }
                 if (!complete) continue;
-                found.push_back({columns, static_cast<int>(anchor), lay, lay.score + sum / static_cast<double>(n)});
+                found.push_back(
+                    {columns, static_cast<int>(anchor), lay, lay.score + sum / static_cast<double>(n)});
             }
         }
     }
@@ -270,7 +275,8 @@ void read_walls(Problem& problem)
     const Model& model = volume.model;
     for (const SideLine& line : side_lines(volume)) {
         problem.hard[line.source] = line.target;
-        force(problem, loop_with(problem.source, line.source), loop_with(problem.target, line.target), "by its walls");
+        force(problem, loop_with(problem.source, line.source), loop_with(problem.target, line.target),
+              "by its walls");
     }
     for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
         std::vector<int> s, t;
@@ -291,7 +297,8 @@ void read_walls(Problem& problem)
     }
 }
 
-VertexId vertex_with_tag(const Model& model, const std::vector<LoopShape>& loops, int tag, const std::string& end)
+VertexId vertex_with_tag(const Model& model, const std::vector<LoopShape>& loops, int tag,
+                         const std::string& end)
 {
     std::string known;
     for (const LoopShape& loop : loops) {
@@ -300,8 +307,9 @@ VertexId vertex_with_tag(const Model& model, const std::vector<LoopShape>& loops
             known += (known.empty() ? "" : ", ") + std::to_string(model[v].tag);
         }
     }
-    throw InvalidInput("matching.unknown_vertex", "vertex " + std::to_string(tag) + " is not on the rim of the " +
-                                                      end + ", whose vertices are " + known);
+    throw InvalidInput("matching.unknown_vertex", "vertex " + std::to_string(tag) +
+                                                      " is not on the rim of the " + end +
+                                                      ", whose vertices are " + known);
 }
 
 void read_options(Problem& problem)
@@ -310,9 +318,10 @@ void read_options(Problem& problem)
     for (const auto& [s, t] : problem.options.loops) {
         if (s < 0 || t < 0 || s >= static_cast<int>(problem.source.size()) ||
             t >= static_cast<int>(problem.target.size())) {
-            throw InvalidInput("matching.unknown_loop",
-                               "loop pair {" + std::to_string(s + 1) + ", " + std::to_string(t + 1) +
-                                   "}: the loops are numbered from 1 to " + std::to_string(problem.source.size()));
+            throw InvalidInput("matching.unknown_loop", "loop pair {" + std::to_string(s + 1) + ", " +
+                                                            std::to_string(t + 1) +
+                                                            "}: the loops are numbered from 1 to " +
+                                                            std::to_string(problem.source.size()));
         }
         force(problem, s, t, "as the recipe asks");
     }
@@ -348,7 +357,8 @@ void pair_vertices(const Problem& problem, Match& match, const Lay& anchor_lay, 
         const LoopShape& target = problem.target[static_cast<std::size_t>(t)];
         Problem local = problem;
         local.backward = backward;
-        const auto flip = std::find(problem.options.flip.begin(), problem.options.flip.end(), static_cast<int>(s));
+        const auto flip = std::find(problem.options.flip.begin(), problem.options.flip.end(),
+                                    static_cast<int>(s));
         std::vector<Lay> found;
         if (s == static_cast<std::size_t>(anchor) && flip == problem.options.flip.end()) {
             found = lays(problem, static_cast<int>(s), t, anchor_lay.fit.scale != 1);
@@ -360,7 +370,8 @@ void pair_vertices(const Problem& problem, Match& match, const Lay& anchor_lay, 
         if (found.empty()) {
             throw NotClosed(
                 "matching.vertices_contradict",
-                "no way to lay source loop " + std::to_string(s + 1) + " on target loop " + std::to_string(t + 1) +
+                "no way to lay source loop " + std::to_string(s + 1) + " on target loop " +
+                    std::to_string(t + 1) +
                     " keeps the vertex pairs that the walls or the recipe fix; check match{ vertices = … }");
         }
         const Lay& lay = found.front();
@@ -422,8 +433,10 @@ Match match(const OpenVolume& volume, const MatchOptions& options)
     }
     if (result.source_loops.size() != result.target_loops.size()) {
         throw NotClosed("matching.loop_counts",
-                        "the source has " + std::to_string(result.source_loops.size()) + " loops and the target has " +
-                            std::to_string(result.target_loops.size()) + "; a sweep needs as many on both ends: check the roles, or leave out the faces that close a loop");
+                        "the source has " + std::to_string(result.source_loops.size()) +
+                            " loops and the target has " + std::to_string(result.target_loops.size()) +
+                            "; a sweep needs as many on both ends: check the roles, or leave out the faces "
+                            "that close a loop");
     }
     Problem problem{volume, options, {}, {}, {}, {}, {}};
     for (const Rim& rim : result.source_loops) problem.source.push_back(shape_of(model, rim));

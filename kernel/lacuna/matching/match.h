@@ -29,7 +29,8 @@ struct LoopPair {
 struct Match {
     std::vector<topology::Rim> source_loops, target_loops;
     std::vector<LoopPair> loops;
-    std::vector<std::pair<VertexId, VertexId>> vertices; ///< (source, target), source loop by source loop in walking order
+    std::vector<std::pair<VertexId, VertexId>>
+        vertices;           ///< (source, target), source loop by source loop in walking order
     std::vector<bool> hard; ///< of each vertex pair: joined by a chain of wall edges
     std::string method;
     double confidence = 1; ///< 0…1: 1 − best / second best residual; 1 where nothing had to be guessed

@@ -66,7 +66,8 @@ Rises rises(const OpenVolume& volume, const std::vector<double>& heights)
         const double up = climb(model, edge, heights, gradient);
         if (!(std::abs(up) > kLevel)) continue;
         const EdgeUse use{edge, up < 0};
-        result[use_from(model, use)].push_back({use, use_to(model, use), edge_length(model, edge) / std::abs(up)});
+        result[use_from(model, use)].push_back(
+            {use, use_to(model, use), edge_length(model, edge) / std::abs(up)});
     }
     return result;
 }
@@ -161,8 +162,10 @@ std::vector<double> height_gradient(const OpenVolume& volume, const std::vector<
             const Vec3 b = model.at(t[2]) - model.at(t[0]);
             const Vec3 normal = a.cross(b);
             const double area2 = normal.squaredNorm();
-            const double ha = heights[static_cast<std::size_t>(t[1])] - heights[static_cast<std::size_t>(t[0])];
-            const double hb = heights[static_cast<std::size_t>(t[2])] - heights[static_cast<std::size_t>(t[0])];
+            const double ha = heights[static_cast<std::size_t>(t[1])] -
+                              heights[static_cast<std::size_t>(t[0])];
+            const double hb = heights[static_cast<std::size_t>(t[2])] -
+                              heights[static_cast<std::size_t>(t[0])];
             if (!(area2 > 0) || std::isnan(ha) || std::isnan(hb)) continue;
             const Vec3 gradient = (ha * b.cross(normal) + hb * normal.cross(a)) / area2;
             const double area = std::sqrt(area2);
@@ -176,7 +179,8 @@ std::vector<double> height_gradient(const OpenVolume& volume, const std::vector<
     return sum;
 }
 
-double climb(const Model& model, EdgeId edge, const std::vector<double>& heights, const std::vector<double>& gradient)
+double climb(const Model& model, EdgeId edge, const std::vector<double>& heights,
+             const std::vector<double>& gradient)
 {
     const std::vector<Index>& points = model[edge].points;
     double most = 0;

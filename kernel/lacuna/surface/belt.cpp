@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -63,13 +63,14 @@ bool is_corner(const Model& model, const std::vector<EdgeUse>& uses, std::size_t
         const Vec3 out = model.at(points[k + 1]) - model.at(points[k]);
         return std::atan2(in.cross(out).norm(), in.dot(out)) * 180 / std::numbers::pi;
     };
-    const double smooth = std::max(bend_next_to(use_points(model, uses[(i + uses.size() - 1) % uses.size()]), false),
-                                   bend_next_to(use_points(model, uses[i]), true));
+    const double smooth = std::max(
+        bend_next_to(use_points(model, uses[(i + uses.size() - 1) % uses.size()]), false),
+        bend_next_to(use_points(model, uses[i]), true));
     return turn_at(model, uses, i) > std::max(kCornerAngle, 1.5 * smooth);
 }
 
 struct RimOf {
-    std::map<EdgeId, std::size_t> rim;  ///< rim number of each rim edge
+    std::map<EdgeId, std::size_t> rim; ///< rim number of each rim edge
     std::vector<Rim> rims;
 };
 
@@ -94,7 +95,8 @@ std::string names(const Model& model, const std::vector<FaceId>& faces)
 }
 
 /// The only rim that a wall part touches.
-std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const RimOf& of, const std::string& end)
+std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const RimOf& of,
+                     const std::string& end)
 {
     std::set<std::size_t> touched;
     for (const FaceId face : part) {
@@ -106,8 +108,10 @@ std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const 
         }
     }
     if (touched.size() != 1) {
-        throw NotSweepable("surface.belt_loops", "the walls " + names(model, part) + " touch " + std::to_string(touched.size()) + " loops of the " + end +
-                                                     "; a sweep has one ring of walls between one source loop and one target loop: check the roles");
+        throw NotSweepable("surface.belt_loops", "the walls " + names(model, part) + " touch " +
+                                                     std::to_string(touched.size()) + " loops of the " + end +
+                                                     "; a sweep has one ring of walls between one source "
+                                                     "loop and one target loop: check the roles");
     }
     return *touched.begin();
 }
@@ -130,7 +134,8 @@ std::vector<double> corners_between(const Model& model, const Chain& chain, doub
         for (std::size_t i = 0; i < chain.uses().size(); ++i) {
             const double at = chain.start(i) + turn * length;
             const double margin = 1e-9 * length;
-            if (at > from + margin && at < to - margin && (all || is_corner(model, chain.uses(), i))) result.push_back(at);
+            if (at > from + margin && at < to - margin && (all || is_corner(model, chain.uses(), i)))
+                result.push_back(at);
         }
     }
     return result;
@@ -138,7 +143,8 @@ std::vector<double> corners_between(const Model& model, const Chain& chain, doub
 
 /// Pair the breaks of two stretches in order: the pairs that lie nearest to each other in relative length, none crossing;
 /// the rest stay alone. Dynamic programming; a break alone costs as much as a pair this far apart.
-std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a, const std::vector<double>& b)
+std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a,
+                                                     const std::vector<double>& b)
 {
     constexpr double kAlone = 0.1;
     const std::size_t n = a.size(), m = b.size();
@@ -186,8 +192,10 @@ void complete(std::vector<std::pair<double, double>>& breaks)
         }
         const auto& [a0, b0] = anchors[k];
         const auto& [a1, b1] = anchors[k + 1];
-        if (a < 0) a = a0 + (a1 - a0) * (b - b0) / (b1 - b0);
-        else b = b0 + (b1 - b0) * (a - a0) / (a1 - a0);
+        if (a < 0)
+            a = a0 + (a1 - a0) * (b - b0) / (b1 - b0);
+        else
+            b = b0 + (b1 - b0) * (a - a0) / (a1 - a0);
     }
 }
 
@@ -203,7 +211,8 @@ void add_stretches(const Model& model, Belt& belt, double s0, double s1, double 
     breaks.emplace_back(1, 1);
     double a0 = 0, b0 = 0;
     for (const auto& [a1, b1] : breaks) {
-        Stretch stretch{s0 + a0 * (s1 - s0), s0 + a1 * (s1 - s0), t0 + b0 * (t1 - t0), t0 + b1 * (t1 - t0), 0};
+        Stretch stretch{s0 + a0 * (s1 - s0), s0 + a1 * (s1 - s0), t0 + b0 * (t1 - t0), t0 + b1 * (t1 - t0),
+                        0};
         stretch.use = belt.source.place((stretch.source_from + stretch.source_to) / 2).use;
         belt.stretches.push_back(stretch);
         a0 = a1;
@@ -211,15 +220,16 @@ void add_stretches(const Model& model, Belt& belt, double s0, double s1, double 
     }
 }
 
-Belt make_belt(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& source_rim, const Rim& target_rim,
-               const std::vector<matching::SideLine>& lines)
+Belt make_belt(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& source_rim,
+               const Rim& target_rim, const std::vector<matching::SideLine>& lines)
 {
     const Model& model = volume.model;
     std::vector<EdgeUse> source = source_rim.uses;
     std::vector<EdgeUse> target = against(target_rim.uses);
     std::vector<matching::SideLine> mine;
     for (const matching::SideLine& line : lines) {
-        if (use_leaving(model, source, line.source) && use_leaving(model, target, line.target)) mine.push_back(line);
+        if (use_leaving(model, source, line.source) && use_leaving(model, target, line.target))
+            mine.push_back(line);
     }
     if (!mine.empty()) {
         source = rotated(std::move(source), *use_leaving(model, source, mine.front().source));
@@ -230,7 +240,8 @@ Belt make_belt(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& s
         belt.lines.push_back({line, belt.source.start(*use_leaving(model, source, line.source)),
                               belt.target.start(*use_leaving(model, target, line.target))});
     }
-    std::sort(belt.lines.begin(), belt.lines.end(), [](const BeltLine& a, const BeltLine& b) { return a.source_at < b.source_at; });
+    std::sort(belt.lines.begin(), belt.lines.end(),
+              [](const BeltLine& a, const BeltLine& b) { return a.source_at < b.source_at; });
     belt.lines = in_order(std::move(belt.lines));
 
     const double s_end = belt.source.length();
@@ -241,8 +252,8 @@ Belt make_belt(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& s
     }
     for (std::size_t i = 0; i < belt.lines.size(); ++i) {
         const bool last = i + 1 == belt.lines.size();
-        add_stretches(model, belt, belt.lines[i].source_at, last ? s_end : belt.lines[i + 1].source_at, belt.lines[i].target_at,
-                      last ? t_end : belt.lines[i + 1].target_at);
+        add_stretches(model, belt, belt.lines[i].source_at, last ? s_end : belt.lines[i + 1].source_at,
+                      belt.lines[i].target_at, last ? t_end : belt.lines[i + 1].target_at);
     }
     return belt;
 }
@@ -255,8 +266,10 @@ std::vector<Belt> belts(const OpenVolume& volume)
     const RimOf source = rims_of(volume, Role::source);
     const RimOf target = rims_of(volume, Role::target);
     if (source.rims.size() != target.rims.size()) {
-        throw NotSweepable("surface.loop_counts", "the source has " + std::to_string(source.rims.size()) + " loops and the target " +
-                                                      std::to_string(target.rims.size()) + "; a sweep needs as many on both ends: check the roles");
+        throw NotSweepable("surface.loop_counts",
+                           "the source has " + std::to_string(source.rims.size()) + " loops and the target " +
+                               std::to_string(target.rims.size()) +
+                               "; a sweep needs as many on both ends: check the roles");
     }
     const std::vector<matching::SideLine> lines = matching::side_lines(volume);
     std::vector<std::optional<Belt>> by_rim(source.rims.size());
@@ -264,8 +277,10 @@ std::vector<Belt> belts(const OpenVolume& volume)
         const std::size_t s = only_rim(model, part, source, "source");
         const std::size_t t = only_rim(model, part, target, "target");
         if (by_rim[s]) {
-            throw NotSweepable("surface.belt_twice", "the walls " + names(model, part) + " and " + names(model, by_rim[s]->walls) +
-                                                         " stand on the same source loop without touching; the loop's walls must join");
+            throw NotSweepable(
+                "surface.belt_twice",
+                "the walls " + names(model, part) + " and " + names(model, by_rim[s]->walls) +
+                    " stand on the same source loop without touching; the loop's walls must join");
         }
         by_rim[s] = make_belt(volume, std::move(part), source.rims[s], target.rims[t], lines);
     }
@@ -273,7 +288,8 @@ std::vector<Belt> belts(const OpenVolume& volume)
     for (std::size_t s = 0; s < by_rim.size(); ++s) {
         if (!by_rim[s]) {
             throw NotSweepable("surface.no_belt", "source loop " + std::to_string(s + 1) + ", with " +
-                                                      name_of(model, source.rims[s].uses.front().edge) + ", has no walls; close the volume first");
+                                                      name_of(model, source.rims[s].uses.front().edge) +
+                                                      ", has no walls; close the volume first");
         }
         result.push_back(std::move(*by_rim[s]));
     }

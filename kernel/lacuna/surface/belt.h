@@ -14,14 +14,14 @@ namespace lacuna::surface {
 /// chains. It lies within one source edge.
 struct Stretch {
     double source_from = 0, source_to = 0;
-    double target_from = 0, target_to = 0;  ///< may run past the target chain's length: modulo it
-    std::size_t use = 0;                    ///< of the source chain
+    double target_from = 0, target_to = 0; ///< may run past the target chain's length: modulo it
+    std::size_t use = 0;                   ///< of the source chain
 };
 
 /// A side line as the belt sees it.
 struct BeltLine {
     matching::SideLine line;
-    double source_at = 0, target_at = 0;    ///< running lengths of its ends
+    double source_at = 0, target_at = 0; ///< running lengths of its ends
 };
 
 /// The walls between one source loop and one target loop: a ring of given and void faces.
@@ -31,8 +31,8 @@ struct BeltLine {
 struct Belt {
     std::vector<FaceId> walls;
     Chain source, target;
-    std::vector<BeltLine> lines;      ///< in walking order
-    std::vector<Stretch> stretches;   ///< in walking order, the first from source length 0
+    std::vector<BeltLine> lines;    ///< in walking order
+    std::vector<Stretch> stretches; ///< in walking order, the first from source length 0
 };
 
 /// The belts of a sealed volume, one a loop of the source; in order of the source's loops.

@@ -30,7 +30,8 @@ std::vector<Vec3> edge_points(const Model& model, EdgeId id, std::span<const dou
             if (edge.curve == nullptr) {
                 result[i] = (1 - at.fraction) * line[at.segment] + at.fraction * line[at.segment + 1];
             } else {
-                params.push_back((1 - at.fraction) * edge.params[at.segment] + at.fraction * edge.params[at.segment + 1]);
+                params.push_back((1 - at.fraction) * edge.params[at.segment] +
+                                 at.fraction * edge.params[at.segment + 1]);
                 inside.push_back(i);
             }
         }
@@ -43,7 +44,8 @@ std::vector<Vec3> edge_points(const Model& model, EdgeId id, std::span<const dou
     return result;
 }
 
-Chain::Chain(const Model& model, std::vector<EdgeUse> uses) : model_(&model), uses_(std::move(uses)), start_{0}
+Chain::Chain(const Model& model, std::vector<EdgeUse> uses)
+    : model_(&model), uses_(std::move(uses)), start_{0}
 {
     for (const EdgeUse& use : uses_) start_.push_back(start_.back() + edge_length(model, use.edge));
 }

@@ -65,7 +65,8 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
         std::vector<Vec3> moved;
         std::vector<Vec2> uv;
         for (const std::size_t i : members) {
-            const auto& c = f.uv[static_cast<std::size_t>(triangle_of_[static_cast<std::size_t>(hits[i].triangle)])];
+            const auto& c =
+                f.uv[static_cast<std::size_t>(triangle_of_[static_cast<std::size_t>(hits[i].triangle)])];
             const Vec3& w = hits[i].barycentric;
             moved.push_back(points[i]);
             uv.emplace_back(w[0] * c[0] + w[1] * c[1] + w[2] * c[2]);

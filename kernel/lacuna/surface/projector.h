@@ -12,8 +12,8 @@ namespace lacuna::surface {
 
 /// A place on the facets of a face.
 struct FacetPlace {
-    Index triangle = -1;              ///< of the face
-    Vec3 barycentric = Vec3::Zero();  ///< weights of the corners
+    Index triangle = -1;             ///< of the face
+    Vec3 barycentric = Vec3::Zero(); ///< weights of the corners
 };
 
 /// Places on one face's facets, as points of its exact surface; on the facets themselves where there is none.
@@ -31,8 +31,8 @@ public:
 
 private:
     const topology::Model* model_;
-    std::vector<FaceId> face_of_;        ///< of each triangle in the tree
-    std::vector<Index> triangle_of_;     ///< number of each triangle in its face
+    std::vector<FaceId> face_of_;    ///< of each triangle in the tree
+    std::vector<Index> triangle_of_; ///< number of each triangle in its face
     geometry::FacetTree tree_;
 };
 

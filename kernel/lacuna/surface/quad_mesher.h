@@ -14,15 +14,16 @@ using SizeField = std::function<double(const Vec3&)>;
 
 /// A region of the plane to be filled with quads.
 struct PlanarRegion {
-    std::vector<Vec2> points;               ///< boundary nodes; kept, in this order, as the first nodes of the mesh
-    std::vector<std::vector<Index>> loops;  ///< node cycles, region on the left; the outer one first; each of even length in sum
+    std::vector<Vec2> points; ///< boundary nodes; kept, in this order, as the first nodes of the mesh
+    std::vector<std::vector<Index>>
+        loops; ///< node cycles, region on the left; the outer one first; each of even length in sum
     std::function<double(const Vec2&)> size; ///< target edge length in the plane
 };
 
 /// Quads over a planar region.
 struct PlanarQuads {
-    std::vector<Vec2> points;   ///< the region's own first, then those added inside
-    std::vector<Quad> quads;    ///< counter-clockwise
+    std::vector<Vec2> points; ///< the region's own first, then those added inside
+    std::vector<Quad> quads;  ///< counter-clockwise
 };
 
 /// Something that fills a planar region with quads and nothing else, its boundary nodes kept.

@@ -35,7 +35,8 @@ double turning(const Model& model, EdgeId id)
         const bool last = i + 2 == points.size();
         if (last && points.front() != points.back()) break;
         const Vec3 in = model.at(points[i + 1]) - model.at(points[i]);
-        const Vec3 out = last ? Vec3(model.at(points[1]) - model.at(points[0])) : Vec3(model.at(points[i + 2]) - model.at(points[i + 1]));
+        const Vec3 out = last ? Vec3(model.at(points[1]) - model.at(points[0]))
+                              : Vec3(model.at(points[i + 2]) - model.at(points[i + 1]));
         sum += std::atan2(in.cross(out).norm(), in.dot(out)) * 180 / std::numbers::pi;
     }
     return sum;
@@ -44,7 +45,8 @@ double turning(const Model& model, EdgeId id)
 /// Inner angle of a face where use i of its loop starts [degrees].
 double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_t i)
 {
-    const std::vector<Index> before = use_points(model, loop.uses[(i + loop.uses.size() - 1) % loop.uses.size()]);
+    const std::vector<Index> before = use_points(model,
+                                                 loop.uses[(i + loop.uses.size() - 1) % loop.uses.size()]);
     const std::vector<Index> after = use_points(model, loop.uses[i]);
     const Index at = after.front();
     Vec3 normal = Vec3::Zero();
@@ -58,7 +60,8 @@ double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_
     }
     const Vec3 out = model.at(after[1]) - model.at(at);
     const Vec3 back = model.at(before[before.size() - 2]) - model.at(at);
-    const double angle = std::atan2(normal.stableNormalized().dot(out.cross(back)), out.dot(back)) * 180 / std::numbers::pi;
+    const double angle = std::atan2(normal.stableNormalized().dot(out.cross(back)), out.dot(back)) * 180 /
+                         std::numbers::pi;
     return angle < 0 ? angle + 360 : angle;
 }
 
@@ -80,13 +83,15 @@ std::vector<EdgeId> side_edges(const Loop& loop, const std::vector<std::size_t>&
 {
     std::vector<EdgeId> edges;
     const std::size_t n = loop.uses.size();
-    for (std::size_t i = corners[side]; i != corners[(side + 1) % 4]; i = (i + 1) % n) edges.push_back(loop.uses[i].edge);
+    for (std::size_t i = corners[side]; i != corners[(side + 1) % 4]; i = (i + 1) % n)
+        edges.push_back(loop.uses[i].edge);
     return edges;
 }
 
 double length_of(const Model& model, const std::vector<EdgeId>& edges)
 {
-    return std::accumulate(edges.begin(), edges.end(), 0.0, [&](double sum, EdgeId e) { return sum + edge_length(model, e); });
+    return std::accumulate(edges.begin(), edges.end(), 0.0,
+                           [&](double sum, EdgeId e) { return sum + edge_length(model, e); });
 }
 
 bool alike(const Model& model, const Loop& loop, const std::vector<std::size_t>& corners)
@@ -150,14 +155,16 @@ private:
             rim_.insert(use.edge);
         }
         for (auto& [edge, pieces] : seeds_.pieces) {
-            std::sort(pieces.begin(), pieces.end(), [](const SeedPiece& a, const SeedPiece& b) { return a.from < b.from; });
+            std::sort(pieces.begin(), pieces.end(),
+                      [](const SeedPiece& a, const SeedPiece& b) { return a.from < b.from; });
         }
     }
 
     [[nodiscard]] int wanted(EdgeId edge, const SeedPiece& piece) const
     {
         std::vector<double> at;
-        for (int i = 0; i < kSizeSamples; ++i) at.push_back(piece.from + (i + 0.5) / kSizeSamples * (piece.to - piece.from));
+        for (int i = 0; i < kSizeSamples; ++i)
+            at.push_back(piece.from + (i + 0.5) / kSizeSamples * (piece.to - piece.from));
         double sides = 0;
         for (const Vec3& p : edge_points(model_, edge, at)) sides += piece.length / kSizeSamples / size_(p);
         const double bend = turning(model_, edge) * (piece.to - piece.from) / kTurnPerSide;
@@ -169,10 +176,14 @@ private:
         if (style_ == QuadStyle::free) return;
         const auto corners = four_corners(model_, face);
         if (style_ == QuadStyle::mapped && !corners) {
-            throw NotSweepable("surface.not_four_sided", name_of(model_, face) + " is to be mapped and has not four corners (vertices with an inner angle below 135°) "
-                                                         "on one loop; use quads = \"auto\"");
+            throw NotSweepable(
+                "surface.not_four_sided",
+                name_of(model_, face) +
+                    " is to be mapped and has not four corners (vertices with an inner angle below 135°) "
+                    "on one loop; use quads = \"auto\"");
         }
-        if (!corners || (style_ == QuadStyle::automatic && !alike(model_, model_[face].loops[0], *corners))) return;
+        if (!corners || (style_ == QuadStyle::automatic && !alike(model_, model_[face].loops[0], *corners)))
+            return;
         seeds_.corners[face] = *corners;
     }
 
@@ -183,7 +194,8 @@ private:
             SeedPiece* longest = nullptr;
             for (const EdgeId edge : edges) {
                 for (SeedPiece& piece : seeds_.pieces[edge]) {
-                    if (longest == nullptr || piece.length / piece.count > longest->length / longest->count) longest = &piece;
+                    if (longest == nullptr || piece.length / piece.count > longest->length / longest->count)
+                        longest = &piece;
                 }
             }
             ++longest->count;
@@ -192,7 +204,8 @@ private:
 
     [[nodiscard]] int total(const std::vector<EdgeId>& edges) const
     {
-        return std::accumulate(edges.begin(), edges.end(), 0, [&](int sum, EdgeId e) { return sum + seeds_.count(e); });
+        return std::accumulate(edges.begin(), edges.end(), 0,
+                               [&](int sum, EdgeId e) { return sum + seeds_.count(e); });
     }
 
     /// Equal counts on opposite sides of every mapped face. Counts only grow; where they would chase each other, the face is meshed freely.
@@ -266,8 +279,11 @@ private:
     {
         for (const FaceId face : volume_.faces(Role::source)) {
             if (!is_free(face) || !odd(face)) continue;
-            throw NotSweepable("surface.odd_loop", "the loops of " + name_of(model_, face) + " have an odd number of sides in all, and no edge of it is free to take one more; "
-                                                   "change the size, or use quads = \"mapped\" for its neighbours");
+            throw NotSweepable(
+                "surface.odd_loop",
+                "the loops of " + name_of(model_, face) +
+                    " have an odd number of sides in all, and no edge of it is free to take one more; "
+                    "change the size, or use quads = \"mapped\" for its neighbours");
         }
     }
 
@@ -293,13 +309,15 @@ std::vector<double> Seeds::fractions(EdgeId edge) const
 {
     std::vector<double> result;
     for (const SeedPiece& piece : pieces.at(edge)) {
-        for (int i = 0; i < piece.count; ++i) result.push_back(piece.from + (piece.to - piece.from) * i / piece.count);
+        for (int i = 0; i < piece.count; ++i)
+            result.push_back(piece.from + (piece.to - piece.from) * i / piece.count);
     }
     result.push_back(1);
     return result;
 }
 
-Seeds seed_source(const OpenVolume& volume, std::span<const Belt> belts, const SizeField& size, QuadStyle style)
+Seeds seed_source(const OpenVolume& volume, std::span<const Belt> belts, const SizeField& size,
+                  QuadStyle style)
 {
     return Seeder(volume, belts, size, style).run();
 }

@@ -26,9 +26,14 @@ struct EdgeNode {
 
 class SourceMesher {
 public:
-    SourceMesher(const OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds, const SizeField& size, const PlanarQuadMesher& mesher,
-                 const RunContext& context)
-        : volume_(volume), model_(volume.model), seeds_(seeds), size_(size), mesher_(mesher), context_(context)
+    SourceMesher(const OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds,
+                 const SizeField& size, const PlanarQuadMesher& mesher, const RunContext& context)
+        : volume_(volume),
+          model_(volume.model),
+          seeds_(seeds),
+          size_(size),
+          mesher_(mesher),
+          context_(context)
     {
         for (const Belt& belt : belts) add_belt(belt);
         for (const FaceId face : volume.faces(Role::source)) {
@@ -43,10 +48,13 @@ public:
         for (const FaceId face : volume_.faces(Role::source)) {
             const auto corners = seeds_.corners.find(face);
             const std::size_t before = result_.quads.quads.size();
-            if (corners != seeds_.corners.end()) map(face, corners->second);
-            else fill(face);
+            if (corners != seeds_.corners.end())
+                map(face, corners->second);
+            else
+                fill(face);
             result_.quads.face.resize(result_.quads.quads.size(), static_cast<Index>(face.index()));
-            result_.notes.push_back(name_of(model_, face) + (corners != seeds_.corners.end() ? ": mapped, " : ": free, ") +
+            result_.notes.push_back(name_of(model_, face) +
+                                    (corners != seeds_.corners.end() ? ": mapped, " : ": free, ") +
                                     std::to_string(result_.quads.quads.size() - before) + " quads");
         }
         // The faces look outward; the sweep wants the quads to look along it.
@@ -83,7 +91,9 @@ private:
         for (std::size_t u = 0; u < belt.source.uses().size(); ++u) {
             const EdgeUse use = belt.source.uses()[u];
             std::vector<Index> chain;
-            for (int k = 0; k <= seeds_.count(use.edge); ++k) chain.push_back(first + static_cast<Index>((i + static_cast<std::size_t>(k)) % points.size()));
+            for (int k = 0; k <= seeds_.count(use.edge); ++k)
+                chain.push_back(first +
+                                static_cast<Index>((i + static_cast<std::size_t>(k)) % points.size()));
             i += chain.size() - 1;
             node_of_[use_from(model_, use)] = chain.front();
             if (use.reversed) std::reverse(chain.begin(), chain.end());
@@ -103,7 +113,8 @@ private:
                 chain.push_back(add_node(points[i]));
                 continue;
             }
-            const auto [found, fresh] = node_of_.try_emplace(i == 0 ? model_[edge].from : model_[edge].to, -1);
+            const auto [found, fresh] = node_of_.try_emplace(i == 0 ? model_[edge].from : model_[edge].to,
+                                                             -1);
             if (fresh) found->second = add_node(points[i]);
             chain.push_back(found->second);
         }
@@ -134,13 +145,18 @@ private:
         const std::size_t n = side[0].size() - 1, m = side[1].size() - 1;
         const auto places = [&](const std::vector<Index>& nodes) {
             std::vector<Vec3> points;
-            for (const Index node : nodes) points.push_back(result_.quads.nodes[static_cast<std::size_t>(node)]);
+            for (const Index node : nodes)
+                points.push_back(result_.quads.nodes[static_cast<std::size_t>(node)]);
             return points;
         };
-        const std::vector<Vec3> grid = geometry::transfinite(places(side[0]), places(side[1]), places(side[2]), places(side[3]));
+        const std::vector<Vec3> grid = geometry::transfinite(places(side[0]), places(side[1]),
+                                                             places(side[2]), places(side[3]));
         std::vector<Vec3> inside;
-        for (std::size_t j = 1; j < m; ++j) inside.insert(inside.end(), grid.begin() + static_cast<std::ptrdiff_t>(j * (n + 1) + 1), grid.begin() + static_cast<std::ptrdiff_t>(j * (n + 1) + n));
-        if (model_[face].kind != "plane" && !inside.empty()) Projector(model_, {face}).project(inside, context_);
+        for (std::size_t j = 1; j < m; ++j)
+            inside.insert(inside.end(), grid.begin() + static_cast<std::ptrdiff_t>(j * (n + 1) + 1),
+                          grid.begin() + static_cast<std::ptrdiff_t>(j * (n + 1) + n));
+        if (model_[face].kind != "plane" && !inside.empty())
+            Projector(model_, {face}).project(inside, context_);
         const auto first = static_cast<Index>(result_.quads.nodes.size());
         result_.quads.nodes.insert(result_.quads.nodes.end(), inside.begin(), inside.end());
         const auto node = [&](std::size_t i, std::size_t j) {
@@ -151,7 +167,9 @@ private:
             return first + static_cast<Index>((j - 1) * (n - 1) + i - 1);
         };
         for (std::size_t j = 0; j < m; ++j) {
-            for (std::size_t i = 0; i < n; ++i) result_.quads.quads.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
+            for (std::size_t i = 0; i < n; ++i)
+                result_.quads.quads.push_back(
+                    {node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
         }
     }
 
@@ -159,7 +177,9 @@ private:
     void fill(FaceId face)
     {
         if (!mesher_) {
-            throw NotSweepable("surface.no_mesher", name_of(model_, face) + " is not four-sided and no mesher for such faces is at hand");
+            throw NotSweepable("surface.no_mesher",
+                               name_of(model_, face) +
+                                   " is not four-sided and no mesher for such faces is at hand");
         }
         std::vector<Index> boundary;
         std::vector<EdgeNode> on_edge;
@@ -183,11 +203,14 @@ private:
         for (const Triangle& t : model_[face].triangles) {
             for (const Index p : t) bulge = std::max(bulge, std::abs((model_.at(p) - origin).dot(normal)));
         }
-        if (bulge <= model_.tolerance) fill_plane(boundary, loops, geometry::plane_across(origin, normal));
-        else fill_curved(face, boundary, on_edge, loops);
+        if (bulge <= model_.tolerance)
+            fill_plane(boundary, loops, geometry::plane_across(origin, normal));
+        else
+            fill_curved(face, boundary, on_edge, loops);
     }
 
-    PlanarQuads fill_region(std::vector<Vec2> points, std::vector<std::vector<Index>> loops, std::function<double(const Vec2&)> size)
+    PlanarQuads fill_region(std::vector<Vec2> points, std::vector<std::vector<Index>> loops,
+                            std::function<double(const Vec2&)> size)
     {
         const auto area = [&](const std::vector<Index>& loop) {
             double sum = 0;
@@ -198,7 +221,8 @@ private:
             }
             return sum;
         };
-        std::stable_sort(loops.begin(), loops.end(), [&](const auto& a, const auto& b) { return area(a) > area(b); });
+        std::stable_sort(loops.begin(), loops.end(),
+                         [&](const auto& a, const auto& b) { return area(a) > area(b); });
         return mesher_({std::move(points), std::move(loops), std::move(size)}, context_);
     }
 
@@ -206,7 +230,8 @@ private:
     void add_filling(const std::vector<Index>& boundary, const PlanarQuads& filling, const Lift& lift)
     {
         std::vector<Index> node = boundary;
-        const std::vector<Vec2> inside(filling.points.begin() + static_cast<std::ptrdiff_t>(boundary.size()), filling.points.end());
+        const std::vector<Vec2> inside(filling.points.begin() + static_cast<std::ptrdiff_t>(boundary.size()),
+                                       filling.points.end());
         for (const Vec3& p : lift(inside)) node.push_back(add_node(p));
         for (const Quad& q : filling.quads) {
             Quad mapped{};
@@ -215,11 +240,14 @@ private:
         }
     }
 
-    void fill_plane(const std::vector<Index>& boundary, const std::vector<std::vector<Index>>& loops, const geometry::Plane& plane)
+    void fill_plane(const std::vector<Index>& boundary, const std::vector<std::vector<Index>>& loops,
+                    const geometry::Plane& plane)
     {
         std::vector<Vec2> flat;
-        for (const Index node : boundary) flat.push_back(geometry::to_plane(plane, result_.quads.nodes[static_cast<std::size_t>(node)]));
-        const PlanarQuads filling = fill_region(flat, loops, [&](const Vec2& p) { return size_(geometry::from_plane(plane, p)); });
+        for (const Index node : boundary)
+            flat.push_back(geometry::to_plane(plane, result_.quads.nodes[static_cast<std::size_t>(node)]));
+        const PlanarQuads filling = fill_region(
+            flat, loops, [&](const Vec2& p) { return size_(geometry::from_plane(plane, p)); });
         add_filling(boundary, filling, [&](const std::vector<Vec2>& points) {
             std::vector<Vec3> lifted;
             for (const Vec2& p : points) lifted.push_back(geometry::from_plane(plane, p));
@@ -227,11 +255,14 @@ private:
         });
     }
 
-    void fill_curved(FaceId face, const std::vector<Index>& boundary, const std::vector<EdgeNode>& on_edge, const std::vector<std::vector<Index>>& loops)
+    void fill_curved(FaceId face, const std::vector<Index>& boundary, const std::vector<EdgeNode>& on_edge,
+                     const std::vector<std::vector<Index>>& loops)
     {
         const geometry::Flattened flat = geometry::flatten(model_.points, model_[face].triangles);
         if (flat.folded) {
-            throw NotSweepable("surface.not_flat", name_of(model_, face) + " cannot be laid flat without folding; split it into simpler faces");
+            throw NotSweepable("surface.not_flat",
+                               name_of(model_, face) +
+                                   " cannot be laid flat without folding; split it into simpler faces");
         }
         std::unordered_map<Index, Vec2> position;
         for (std::size_t i = 0; i < flat.used.size(); ++i) position[flat.used[i]] = flat.position[i];
@@ -252,7 +283,8 @@ private:
         const PlanarQuads filling = fill_region(rim, loops, [&](const Vec2& p) {
             const std::vector<FacetPlace> at{place(p)};
             const Triangle& t = model_[face].triangles[static_cast<std::size_t>(at[0].triangle)];
-            return size_(at[0].barycentric[0] * model_.at(t[0]) + at[0].barycentric[1] * model_.at(t[1]) + at[0].barycentric[2] * model_.at(t[2]));
+            return size_(at[0].barycentric[0] * model_.at(t[0]) + at[0].barycentric[1] * model_.at(t[1]) +
+                         at[0].barycentric[2] * model_.at(t[2]));
         });
         add_filling(boundary, filling, [&](const std::vector<Vec2>& points) {
             std::vector<FacetPlace> places;
@@ -274,8 +306,8 @@ private:
 
 } // namespace
 
-SourceMesh mesh_source(const OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds, const SizeField& size, const PlanarQuadMesher& mesher,
-                       const RunContext& context)
+SourceMesh mesh_source(const OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds,
+                       const SizeField& size, const PlanarQuadMesher& mesher, const RunContext& context)
 {
     return SourceMesher(volume, belts, seeds, size, mesher, context).run();
 }

@@ -13,7 +13,8 @@ namespace lacuna::surface {
 
 /// Quads on all source faces together.
 struct SourceMesh {
-    mesh::QuadMesh quads;           ///< normals into the volume; the rim nodes come first, belt by belt; `face` is the FaceId's index
+    mesh::QuadMesh
+        quads; ///< normals into the volume; the rim nodes come first, belt by belt; `face` is the FaceId's index
     std::vector<BeltNodes> belts;   ///< of each belt; node i of belt b is quad node first[b] + i
     std::vector<Index> first;       ///< first quad node of each belt
     std::vector<std::string> notes; ///< a line a face: how it was meshed
@@ -24,7 +25,7 @@ struct SourceMesh {
 /// Mapped faces: transfinite in arc length, then onto the face. Free ones: the face is laid flat, filled by `mesher` and lifted back onto
 /// its exact surface. Nodes of edges and vertices are shared between faces.
 /// @throw NotSweepable  a face that needs `mesher` and there is none, or that cannot be laid flat; names it.
-SourceMesh mesh_source(const topology::OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds, const SizeField& size,
-                       const PlanarQuadMesher& mesher, const RunContext& context = {});
+SourceMesh mesh_source(const topology::OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds,
+                       const SizeField& size, const PlanarQuadMesher& mesher, const RunContext& context = {});
 
 } // namespace lacuna::surface

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <queue>
 #include <set>
 #include <unordered_map>
@@ -28,8 +28,8 @@ std::uint64_t directed(Index a, Index b)
 struct BeltFacets {
     std::vector<Triangle> triangles;
     std::vector<FaceId> face;
-    std::vector<Index> number;  ///< in its face
-    std::unordered_map<std::uint64_t, std::size_t> half;  ///< directed side → triangle
+    std::vector<Index> number;                           ///< in its face
+    std::unordered_map<std::uint64_t, std::size_t> half; ///< directed side → triangle
 };
 
 BeltFacets facets_of(const Model& model, const std::vector<FaceId>& walls)
@@ -38,7 +38,8 @@ BeltFacets facets_of(const Model& model, const std::vector<FaceId>& walls)
     for (const FaceId wall : walls) {
         const std::vector<Triangle>& triangles = model[wall].triangles;
         for (std::size_t t = 0; t < triangles.size(); ++t) {
-            for (std::size_t i = 0; i < 3; ++i) facets.half[directed(triangles[t][i], triangles[t][(i + 1) % 3])] = facets.triangles.size();
+            for (std::size_t i = 0; i < 3; ++i)
+                facets.half[directed(triangles[t][i], triangles[t][(i + 1) % 3])] = facets.triangles.size();
             facets.triangles.push_back(triangles[t]);
             facets.face.push_back(wall);
             facets.number.push_back(static_cast<Index>(t));
@@ -117,7 +118,8 @@ std::vector<Index> shortest_way_up(const Model& model, const BeltFacets& facets,
             front.emplace(next, q);
         }
     }
-    throw NotSweepable("surface.wall_broken", "the facets of " + name_of(model, belt.walls.front()) + " do not lead from the source's rim to the target's");
+    throw NotSweepable("surface.wall_broken", "the facets of " + name_of(model, belt.walls.front()) +
+                                                  " do not lead from the source's rim to the target's");
 }
 
 /// Turns of the corners along a cut, which leads upwards. Walking round as the belt does, s grows away from the cut's left (seen from
@@ -163,7 +165,8 @@ std::vector<std::array<int, 3>> turns_along(const BeltFacets& facets, const std:
 }
 
 /// s of the belt with the target rim left free: how the walls themselves lead up. A row a model point.
-Eigen::MatrixXd natural_coordinate(const Model& model, const BeltFacets& facets, const Belt& belt, const std::vector<Index>& cut)
+Eigen::MatrixXd natural_coordinate(const Model& model, const BeltFacets& facets, const Belt& belt,
+                                   const std::vector<Index>& cut)
 {
     geometry::HarmonicProblem problem;
     problem.points = model.points;
@@ -223,13 +226,15 @@ WallMap::WallMap(const OpenVolume& volume, const Belt& belt)
     if (belt.lines.empty()) {
         cut = shortest_way_up(model, facets, belt);
         const double natural = natural_coordinate(model, facets, belt, cut)(cut.back(), 0);
-        const auto end = std::find_if(high.begin(), high.end(), [&](const RimPoint& p) { return p.point == cut.back(); });
+        const auto end = std::find_if(high.begin(), high.end(),
+                                      [&](const RimPoint& p) { return p.point == cut.back(); });
         const double wanted = target_coordinate(belt, end->at);
         end_branch = wanted + std::round(natural - wanted);
     } else {
         cut = line_points(model, belt.lines.front().line);
     }
-    for (const RimPoint& p : rim_points(model, belt.source)) fixed[p.point] = Vec2(p.at / belt.source.length(), 0);
+    for (const RimPoint& p : rim_points(model, belt.source))
+        fixed[p.point] = Vec2(p.at / belt.source.length(), 0);
     for (const RimPoint& p : high) {
         const double s = target_coordinate(belt, p.at);
         const double turned = s - std::floor(s - end_branch + 1e-12);
@@ -238,8 +243,10 @@ WallMap::WallMap(const OpenVolume& volume, const Belt& belt)
     for (const BeltLine& line : belt.lines) {
         const std::vector<Index> points = line_points(model, line.line);
         std::vector<double> at{0};
-        for (std::size_t i = 1; i < points.size(); ++i) at.push_back(at.back() + (model.at(points[i]) - model.at(points[i - 1])).norm());
-        for (std::size_t i = 0; i < points.size(); ++i) fixed[points[i]] = Vec2(line.source_at / belt.source.length(), at[i] / at.back());
+        for (std::size_t i = 1; i < points.size(); ++i)
+            at.push_back(at.back() + (model.at(points[i]) - model.at(points[i - 1])).norm());
+        for (std::size_t i = 0; i < points.size(); ++i)
+            fixed[points[i]] = Vec2(line.source_at / belt.source.length(), at[i] / at.back());
     }
 
     geometry::HarmonicProblem problem;
@@ -292,7 +299,8 @@ WallMap::Place WallMap::locate(double s, double t) const
     return {face_of_[original], {triangle_of_[original], hit.barycentric}};
 }
 
-void WallMap::find_rings(const OpenVolume& volume, const Belt& belt, const std::vector<std::array<Vec2, 3>>& corners)
+void WallMap::find_rings(const OpenVolume& volume, const Belt& belt,
+                         const std::vector<std::array<Vec2, 3>>& corners)
 {
     const Model& model = volume.model;
     const BeltFacets facets = facets_of(model, belt.walls);
@@ -314,7 +322,8 @@ void WallMap::find_rings(const OpenVolume& volume, const Belt& belt, const std::
                     const auto found = facets.half.find(directed(points[i], points[i + 1]));
                     if (found == facets.half.end()) continue;
                     const Triangle& t = facets.triangles[found->second];
-                    const auto c = static_cast<std::size_t>(std::find(t.begin(), t.end(), points[i]) - t.begin());
+                    const auto c = static_cast<std::size_t>(std::find(t.begin(), t.end(), points[i]) -
+                                                            t.begin());
                     const Vec2 a = corners[found->second][c];
                     const Vec2 b = corners[found->second][(c + 1) % 3];
                     piece.segments.push_back({a, b});
@@ -340,22 +349,27 @@ void WallMap::find_rings(const OpenVolume& volume, const Belt& belt, const std::
         for (bool grown = true; grown;) {
             grown = false;
             for (std::size_t j = 0; j < pieces.size(); ++j) {
-                const bool meets = std::any_of(pieces[j].vertices.begin(), pieces[j].vertices.end(), [&](VertexId v) {
-                    return std::find(ring.vertices.begin(), ring.vertices.end(), v) != ring.vertices.end();
-                });
+                const bool meets = std::any_of(
+                    pieces[j].vertices.begin(), pieces[j].vertices.end(), [&](VertexId v) {
+                        return std::find(ring.vertices.begin(), ring.vertices.end(), v) !=
+                               ring.vertices.end();
+                    });
                 if (used[j] || !meets) continue;
                 used[j] = grown = true;
                 const auto more = static_cast<double>(pieces[j].segments.size());
                 ring.height += more * pieces[j].height;
                 weight += more;
-                ring.segments.insert(ring.segments.end(), pieces[j].segments.begin(), pieces[j].segments.end());
-                ring.vertices.insert(ring.vertices.end(), pieces[j].vertices.begin(), pieces[j].vertices.end());
+                ring.segments.insert(ring.segments.end(), pieces[j].segments.begin(),
+                                     pieces[j].segments.end());
+                ring.vertices.insert(ring.vertices.end(), pieces[j].vertices.begin(),
+                                     pieces[j].vertices.end());
             }
         }
         ring.height /= weight;
         rings_.push_back(std::move(ring));
     }
-    std::stable_sort(rings_.begin(), rings_.end(), [](const Ring& a, const Ring& b) { return a.height < b.height; });
+    std::stable_sort(rings_.begin(), rings_.end(),
+                     [](const Ring& a, const Ring& b) { return a.height < b.height; });
 }
 
 std::vector<double> WallMap::crossings(const Ring& ring, double s)

@@ -26,8 +26,8 @@ public:
 
     /// Edges that run round the belt, between faces stacked on each other: where a layer should lie.
     struct Ring {
-        double height = 0;                             ///< mean t
-        std::vector<std::array<Vec2, 2>> segments;     ///< (s, t) pieces
+        double height = 0;                         ///< mean t
+        std::vector<std::array<Vec2, 2>> segments; ///< (s, t) pieces
         std::vector<VertexId> vertices;
     };
     [[nodiscard]] const std::vector<Ring>& rings() const { return rings_; }
@@ -35,11 +35,12 @@ public:
     [[nodiscard]] static std::vector<double> crossings(const Ring& ring, double s);
 
 private:
-    void find_rings(const topology::OpenVolume& volume, const Belt& belt, const std::vector<std::array<Vec2, 3>>& corners);
+    void find_rings(const topology::OpenVolume& volume, const Belt& belt,
+                    const std::vector<std::array<Vec2, 3>>& corners);
 
     std::vector<FaceId> face_of_;
     std::vector<Index> triangle_of_;
-    std::vector<Index> original_;  ///< triangle of the belt behind each triangle of the tree
+    std::vector<Index> original_; ///< triangle of the belt behind each triangle of the tree
     double width_ = 1, height_ = 1;
     geometry::FacetTree tree_;
     std::vector<Ring> rings_;

@@ -32,7 +32,8 @@ std::vector<std::vector<FaceId>> panel_faces(const Model& model, const Belt& bel
     const std::set<FaceId> walls(belt.walls.begin(), belt.walls.end());
     std::vector<std::vector<FaceId>> panels;
     for (const BeltLine& line : belt.lines) {
-        const EdgeUse foot = belt.source.uses()[belt.source.place(line.source_at + 1e-9 * belt.source.length()).use];
+        const EdgeUse foot =
+            belt.source.uses()[belt.source.place(line.source_at + 1e-9 * belt.source.length()).use];
         std::vector<FaceId> faces;
         for (const FaceUse& use : uses[foot.edge.index()]) {
             if (walls.contains(use.face)) faces.push_back(use.face);
@@ -61,9 +62,16 @@ struct FollowedPanel {
 /// One belt being meshed.
 class WallMesher {
 public:
-    WallMesher(const OpenVolume& volume, const Belt& belt, const BeltNodes& nodes, std::span<const double> heights, const RunContext& context)
-        : volume_(volume), model_(volume.model), belt_(belt), nodes_(nodes), heights_(heights.begin(), heights.end()), context_(context),
-          count_(nodes.source_at.size()), layers_(heights.size() - 1)
+    WallMesher(const OpenVolume& volume, const Belt& belt, const BeltNodes& nodes,
+               std::span<const double> heights, const RunContext& context)
+        : volume_(volume),
+          model_(volume.model),
+          belt_(belt),
+          nodes_(nodes),
+          heights_(heights.begin(), heights.end()),
+          context_(context),
+          count_(nodes.source_at.size()),
+          layers_(heights.size() - 1)
     {
         mesh_.points.resize(count_ * (layers_ + 1));
         mesh_.face.resize(count_ * layers_);
@@ -74,7 +82,9 @@ public:
         set_row(0, belt_.source.points(nodes_.source_at));
         set_row(layers_, belt_.target.points(wrapped(nodes_.target_at, belt_.target.length())));
         const auto panels = panel_faces(model_, belt_);
-        const bool simple = !panels.empty() && std::all_of(panels.begin(), panels.end(), [&](const auto& faces) { return is_simple(faces); });
+        const bool simple = !panels.empty() &&
+                            std::all_of(panels.begin(), panels.end(),
+                                        [&](const auto& faces) { return is_simple(faces); });
         if (!simple) {
             map_ = std::make_unique<WallMap>(volume_, belt_);
             plan_rings();
@@ -105,7 +115,10 @@ private:
         return at;
     }
 
-    [[nodiscard]] Vec3& point(std::size_t layer, std::size_t node) { return mesh_.points[layer * count_ + node % count_]; }
+    [[nodiscard]] Vec3& point(std::size_t layer, std::size_t node)
+    {
+        return mesh_.points[layer * count_ + node % count_];
+    }
 
     void set_row(std::size_t layer, const std::vector<Vec3>& points)
     {
@@ -139,12 +152,15 @@ private:
         for (const WallMap::Ring& ring : map_->rings()) {
             int nearest = 1;
             for (int k = 1; k < layers; ++k) {
-                if (std::abs(heights_[static_cast<std::size_t>(k)] - ring.height) < std::abs(heights_[static_cast<std::size_t>(nearest)] - ring.height)) nearest = k;
+                if (std::abs(heights_[static_cast<std::size_t>(k)] - ring.height) <
+                    std::abs(heights_[static_cast<std::size_t>(nearest)] - ring.height))
+                    nearest = k;
             }
             const bool shared = last > 0 && ring.height - last_height < 0.5 / layers;
             int layer = shared ? last : std::max(nearest, last + 1);
             if (layers < 2 || layer >= layers) {
-                mesh_.notes.push_back("an edge between stacked walls at " + std::to_string(ring.height) + " of the height has no layer of its own; use more layers");
+                mesh_.notes.push_back("an edge between stacked walls at " + std::to_string(ring.height) +
+                                      " of the height has no layer of its own; use more layers");
                 layer = 0;
             } else {
                 last = layer;
@@ -159,7 +175,8 @@ private:
     {
         std::vector<std::pair<double, double>> knots{{0, 0}};
         for (const auto& [layer, t] : at_layer) {
-            if (t > knots.back().second && t < 1) knots.emplace_back(heights_[static_cast<std::size_t>(layer)], t);
+            if (t > knots.back().second && t < 1)
+                knots.emplace_back(heights_[static_cast<std::size_t>(layer)], t);
         }
         knots.emplace_back(1, 1);
         std::vector<double> result;
@@ -181,7 +198,8 @@ private:
             const WallMap::Ring& ring = map_->rings()[r];
             for (const double t : WallMap::crossings(ring, s)) {
                 const auto [found, fresh] = at_layer.try_emplace(ring_layer_[r], t);
-                if (!fresh && std::abs(t - ring.height) < std::abs(found->second - ring.height)) found->second = t;
+                if (!fresh && std::abs(t - ring.height) < std::abs(found->second - ring.height))
+                    found->second = t;
             }
         }
         return column_heights(at_layer);
@@ -196,7 +214,8 @@ private:
                 const VertexId v = use_from(model_, chain.uses()[u]);
                 for (std::size_t r = 0; r < ring_layer_.size(); ++r) {
                     const auto& vertices = map_->rings()[r].vertices;
-                    if (ring_layer_[r] > 0 && std::find(vertices.begin(), vertices.end(), v) != vertices.end()) {
+                    if (ring_layer_[r] > 0 &&
+                        std::find(vertices.begin(), vertices.end(), v) != vertices.end()) {
                         at_layer[ring_layer_[r]] = chain.start(u) / chain.length();
                     }
                 }
@@ -222,7 +241,8 @@ private:
         }
         // Flat panels stay with the plain patch, which keeps an affine block affine to rounding.
         const bool flat = model_[face].kind == "plane" || model_[face].geometry == Geometry::newell;
-        const std::vector<Vec3> grid = flat ? geometry::transfinite(bottom, right, top, left) : geometry::swept_grid(bottom, right, top, left);
+        const std::vector<Vec3> grid = flat ? geometry::transfinite(bottom, right, top, left)
+                                            : geometry::swept_grid(bottom, right, top, left);
         std::vector<Vec3> inside;
         for (std::size_t k = 1; k < layers_; ++k) {
             for (std::size_t i = 1; i < n; ++i) inside.push_back(grid[k * (n + 1) + i]);
@@ -244,7 +264,8 @@ private:
     {
         for (std::size_t k = 0; k < layers_; ++k) {
             for (std::size_t i = first; i < last; ++i) {
-                const std::array<Vec3, 4> c{point(k, i), point(k, i + 1), point(k + 1, i + 1), point(k + 1, i)};
+                const std::array<Vec3, 4> c{point(k, i), point(k, i + 1), point(k + 1, i + 1),
+                                            point(k + 1, i)};
                 const Vec3 normal = (c[2] - c[0]).cross(c[3] - c[1]);
                 for (std::size_t j = 0; j < 4; ++j) {
                     if ((c[(j + 1) % 4] - c[j]).cross(c[(j + 3) % 4] - c[j]).dot(normal) <= 0) return true;
@@ -257,7 +278,9 @@ private:
     void mesh_by_map(std::size_t first, std::size_t last)
     {
         std::map<FaceId, std::pair<std::vector<FacetPlace>, std::vector<std::size_t>>> on_face;
-        const auto s_of = [&](std::size_t i) { return i < count_ ? nodes_.source_at[i] / belt_.source.length() : 1.0; };
+        const auto s_of = [&](std::size_t i) {
+            return i < count_ ? nodes_.source_at[i] / belt_.source.length() : 1.0;
+        };
         const std::set<std::size_t> lines(nodes_.line.begin(), nodes_.line.end());
         std::vector<double> before;
         for (std::size_t i = first; i <= last; ++i) {
@@ -289,17 +312,17 @@ private:
     WallMesh mesh_;
     std::unique_ptr<WallMap> map_;
     std::vector<FollowedPanel> followed_;
-    std::vector<int> ring_layer_;  ///< of each ring of the map; 0: none
+    std::vector<int> ring_layer_; ///< of each ring of the map; 0: none
 };
 
 /// The rows of the walls that are there, as a section each.
 struct Rows {
-    std::vector<std::vector<Vec3>> points;  ///< of each row, those of all known columns
-    std::vector<Vec3> areas;                ///< Newell vectors of each row's belts
+    std::vector<std::vector<Vec3>> points; ///< of each row, those of all known columns
+    std::vector<Vec3> areas;               ///< Newell vectors of each row's belts
 };
 
-Rows known_rows(const std::vector<WallMesh>& meshes, std::span<const BeltNodes> nodes, const std::vector<FollowedPanel>& followed,
-                std::size_t layers)
+Rows known_rows(const std::vector<WallMesh>& meshes, std::span<const BeltNodes> nodes,
+                const std::vector<FollowedPanel>& followed, std::size_t layers)
 {
     Rows rows;
     rows.points.resize(layers + 1);
@@ -324,14 +347,16 @@ Rows known_rows(const std::vector<WallMesh>& meshes, std::span<const BeltNodes> 
 
 /// Put the nodes of followed panels where each row's known columns carry the source rim and the target rim, blended by height and moved
 /// to meet the panel's sides.
-void follow_rows(std::vector<WallMesh>& meshes, std::span<const BeltNodes> nodes, const std::vector<FollowedPanel>& followed,
-                 std::size_t layers)
+void follow_rows(std::vector<WallMesh>& meshes, std::span<const BeltNodes> nodes,
+                 const std::vector<FollowedPanel>& followed, std::size_t layers)
 {
     const Rows rows = known_rows(meshes, nodes, followed, layers);
     for (std::size_t k = 1; k < layers; ++k) {
         const double t = static_cast<double>(k) / static_cast<double>(layers);
-        const geometry::AffineFit up = geometry::fit_affine(rows.points.front(), rows.points[k], rows.areas.front(), rows.areas[k]);
-        const geometry::AffineFit down = geometry::fit_affine(rows.points.back(), rows.points[k], rows.areas.back(), rows.areas[k]);
+        const geometry::AffineFit up = geometry::fit_affine(rows.points.front(), rows.points[k],
+                                                            rows.areas.front(), rows.areas[k]);
+        const geometry::AffineFit down = geometry::fit_affine(rows.points.back(), rows.points[k],
+                                                              rows.areas.back(), rows.areas[k]);
         for (const FollowedPanel& panel : followed) {
             std::vector<Vec3>& points = meshes[panel.belt].points;
             const std::size_t n = nodes[panel.belt].source_at.size();
@@ -341,7 +366,8 @@ void follow_rows(std::vector<WallMesh>& meshes, std::span<const BeltNodes> nodes
             const Vec3 left = points[k * n + panel.first % n] - carried(panel.first);
             const Vec3 right = points[k * n + panel.last % n] - carried(panel.last);
             for (std::size_t i = panel.first + 1; i < panel.last; ++i) {
-                const double s = static_cast<double>(i - panel.first) / static_cast<double>(panel.last - panel.first);
+                const double s = static_cast<double>(i - panel.first) /
+                                 static_cast<double>(panel.last - panel.first);
                 points[k * n + i] = carried(i) + (1 - s) * left + s * right;
             }
         }
@@ -356,7 +382,8 @@ BeltNodes belt_nodes(const Belt& belt, std::span<const int> counts)
     std::size_t line = 0;
     for (std::size_t i = 0; i < belt.stretches.size(); ++i) {
         const Stretch& stretch = belt.stretches[i];
-        while (line < belt.lines.size() && belt.lines[line].source_at <= stretch.source_from + 1e-12 * belt.source.length()) {
+        while (line < belt.lines.size() &&
+               belt.lines[line].source_at <= stretch.source_from + 1e-12 * belt.source.length()) {
             nodes.line.push_back(nodes.source_at.size());
             ++line;
         }

@@ -12,9 +12,9 @@ namespace lacuna::surface {
 
 /// Nodes round a belt, in walking order from the belt's start; the first is not repeated.
 struct BeltNodes {
-    std::vector<double> source_at;   ///< running length on the source chain
-    std::vector<double> target_at;   ///< running length on the target chain
-    std::vector<std::size_t> line;   ///< node at the foot of each side line
+    std::vector<double> source_at; ///< running length on the source chain
+    std::vector<double> target_at; ///< running length on the target chain
+    std::vector<std::size_t> line; ///< node at the foot of each side line
 };
 
 /// Spread `counts[i]` sides evenly over stretch i.
@@ -22,8 +22,8 @@ BeltNodes belt_nodes(const Belt& belt, std::span<const int> counts);
 
 /// A structured quad mesh on the walls of a belt.
 struct WallMesh {
-    std::vector<Vec3> points;   ///< (layers + 1) × nodes, layer-major from the source
-    std::vector<FaceId> face;   ///< wall of each quad: layer · nodes + i, the quad from node i to node i + 1
+    std::vector<Vec3> points; ///< (layers + 1) × nodes, layer-major from the source
+    std::vector<FaceId> face; ///< wall of each quad: layer · nodes + i, the quad from node i to node i + 1
     std::vector<std::string> notes;
 };
 
@@ -36,7 +36,8 @@ struct WallMesh {
 /// @param nodes    of each belt.
 /// @param heights  layers + 1 numbers from 0 to 1.
 /// @post  nodes on given faces and edges lie on the exact geometry; rows 0 and last are points of the rims.
-std::vector<WallMesh> mesh_walls(const topology::OpenVolume& volume, std::span<const Belt> belts, std::span<const BeltNodes> nodes,
-                                 std::span<const double> heights, const RunContext& context = {});
+std::vector<WallMesh> mesh_walls(const topology::OpenVolume& volume, std::span<const Belt> belts,
+                                 std::span<const BeltNodes> nodes, std::span<const double> heights,
+                                 const RunContext& context = {});
 
 } // namespace lacuna::surface

@@ -179,8 +179,7 @@ Carried carry(const mesh::QuadMesh& source, const Columns& columns, const Surfac
 
     Carried result;
     result.worst_source = worst_quad(source.quads, source.nodes);
-    result.report = guess.affine ? "affine image of the source"
-                                 : "fitted image of the source";
+    result.report = guess.affine ? "affine image of the source" : "fitted image of the source";
     Candidate found{guess.nodes, worst_quad(source.quads, guess.nodes)};
     // What an affine map takes from the source's quads is the rims' doing; the rest is there to be mended.
     const double model = guess.affine ? std::min(result.worst_source, found.worst) : result.worst_source;

@@ -28,9 +28,11 @@ surface::QuadStyle style_of(Quads quads)
     case Quads::gmsh:
         return surface::QuadStyle::free;
     case Quads::paved:
-        throw InvalidInput("sweep.quads", "quads = \"paved\" is not available yet; use \"auto\", \"mapped\" or \"gmsh\"");
+        throw InvalidInput("sweep.quads",
+                           "quads = \"paved\" is not available yet; use \"auto\", \"mapped\" or \"gmsh\"");
     case Quads::keep:
-        throw InvalidInput("sweep.quads", "quads = \"keep\" is not available yet; use \"auto\", \"mapped\" or \"gmsh\"");
+        throw InvalidInput("sweep.quads",
+                           "quads = \"keep\" is not available yet; use \"auto\", \"mapped\" or \"gmsh\"");
     }
     return surface::QuadStyle::automatic;
 }
@@ -45,15 +47,18 @@ surface::SizeField checked_size(const OpenVolume& volume, const SweepOptions& op
     return [size = options.size](const Vec3& p) {
         const double h = size(p);
         if (!(h > 0) || !std::isfinite(h)) {
-            throw InvalidInput("sweep.size", "the size at (" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ") is " +
-                                                 std::to_string(h) + "; it must be a positive length");
+            throw InvalidInput("sweep.size", "the size at (" + std::to_string(p.x()) + ", " +
+                                                 std::to_string(p.y()) + ", " + std::to_string(p.z()) +
+                                                 ") is " + std::to_string(h) +
+                                                 "; it must be a positive length");
         }
         return h;
     };
 }
 
-Columns columns_of(const OpenVolume& volume, const std::vector<surface::Belt>& belts, const surface::SourceMesh& source,
-                   const std::vector<double>& heights, std::vector<surface::WallMesh>& walls, const RunContext& context)
+Columns columns_of(const OpenVolume& volume, const std::vector<surface::Belt>& belts,
+                   const surface::SourceMesh& source, const std::vector<double>& heights,
+                   std::vector<surface::WallMesh>& walls, const RunContext& context)
 {
     Columns columns;
     columns.layers = static_cast<int>(heights.size()) - 1;
@@ -97,7 +102,8 @@ public:
             mesh::SkinPatch patch;
             patch.tag = static_cast<int>(mesh_.patches.size()) + 1;
             patch.groups.push_back(role_group(face));
-            if (f.origin == Origin::made_void && volume_.role[face.index()] != Role::wall) patch.groups.push_back("void:" + std::to_string(f.tag));
+            if (f.origin == Origin::made_void && volume_.role[face.index()] != Role::wall)
+                patch.groups.push_back("void:" + std::to_string(f.tag));
             if (!f.name.empty() && f.name != patch.groups.front()) patch.groups.push_back(f.name);
             mesh_.patches.push_back(std::move(patch));
         }
@@ -124,7 +130,8 @@ private:
     std::map<FaceId, Index> patch_;
 };
 
-std::vector<FaceId> faces_under_quads(const surface::Projector& projector, const std::vector<Quad>& quads, std::span<const Vec3> nodes)
+std::vector<FaceId> faces_under_quads(const surface::Projector& projector, const std::vector<Quad>& quads,
+                                      std::span<const Vec3> nodes)
 {
     std::vector<Vec3> centres;
     for (const Quad& q : quads) {
@@ -135,17 +142,20 @@ std::vector<FaceId> faces_under_quads(const surface::Projector& projector, const
     return projector.closest_face(centres);
 }
 
-void set_patches(const OpenVolume& volume, const surface::SourceMesh& source, const surface::Projector& target, const std::vector<surface::WallMesh>& walls,
+void set_patches(const OpenVolume& volume, const surface::SourceMesh& source,
+                 const surface::Projector& target, const std::vector<surface::WallMesh>& walls,
                  mesh::HexMesh& mesh)
 {
     Patches patches(volume, mesh);
     for (const Index face : source.quads.face) mesh.source_patch.push_back(patches.of(FaceId(face)));
-    const std::span<const Vec3> top{mesh.nodes.data() + static_cast<std::size_t>(mesh.layers) * static_cast<std::size_t>(mesh.nodes_per_layer),
+    const std::span<const Vec3> top{mesh.nodes.data() + static_cast<std::size_t>(mesh.layers) *
+                                                            static_cast<std::size_t>(mesh.nodes_per_layer),
                                     static_cast<std::size_t>(mesh.nodes_per_layer)};
     if (const std::vector<FaceId> faces = volume.faces(Role::target); faces.size() == 1) {
         mesh.target_patch.assign(mesh.quads.size(), patches.of(faces.front()));
     } else {
-        for (const FaceId face : faces_under_quads(target, mesh.quads, top)) mesh.target_patch.push_back(patches.of(face));
+        for (const FaceId face : faces_under_quads(target, mesh.quads, top))
+            mesh.target_patch.push_back(patches.of(face));
     }
 
     // A belt's sides run with the belt or against it; each side of the rim finds its place by the nodes it joins.
@@ -165,7 +175,8 @@ void set_patches(const OpenVolume& volume, const surface::SourceMesh& source, co
         for (const Segment& side : mesh.rim) {
             const Place place = places.at({std::min(side[0], side[1]), std::max(side[0], side[1])});
             const std::size_t n = source.belts[place.belt].source_at.size();
-            mesh.wall_patch.push_back(patches.of(walls[place.belt].face[static_cast<std::size_t>(layer) * n + place.side]));
+            mesh.wall_patch.push_back(
+                patches.of(walls[place.belt].face[static_cast<std::size_t>(layer) * n + place.side]));
         }
     }
 }
@@ -181,13 +192,15 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
         for (double& h : heights) h = 1 - h;
     }
     if (!closure::is_watertight(volume)) {
-        throw NotSweepable("sweep.not_closed", "the volume is not sealed; close it first with volume:close()");
+        throw NotSweepable("sweep.not_closed",
+                           "the volume is not sealed; close it first with volume:close()");
     }
     const surface::SizeField size = checked_size(volume, options);
     Swept result;
     const std::vector<surface::Belt> belts = surface::belts(volume);
     const surface::Seeds seeds = surface::seed_source(volume, belts, size, style_of(options.quads));
-    surface::SourceMesh source = surface::mesh_source(volume, belts, seeds, size, options.quad_mesher, context);
+    surface::SourceMesh source = surface::mesh_source(volume, belts, seeds, size, options.quad_mesher,
+                                                      context);
     for (std::string& note : source.notes) result.report.push_back("source " + note);
 
     std::vector<surface::WallMesh> walls;
@@ -198,7 +211,8 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
     check_cancelled(context);
 
     const surface::Projector target(volume.model, volume.faces(Role::target));
-    const Carried carried = carry(source.quads, columns, [&](std::span<Vec3> points) { target.project(points, context); }, context);
+    const Carried carried = carry(
+        source.quads, columns, [&](std::span<Vec3> points) { target.project(points, context); }, context);
     result.report.push_back("target: " + carried.report);
     PlacementOptions placement;
     placement.straight_lines = ruled(volume, belts);
@@ -211,10 +225,12 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
     mesh.layers = columns.layers;
     mesh.nodes = std::move(layers.nodes);
     mesh.quads = source.quads.quads;
-    for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads)) mesh.rim.push_back({side.from, side.to});
+    for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
+        mesh.rim.push_back({side.from, side.to});
     set_patches(volume, source, target, walls, mesh);
     const quality::Quality quality = quality::prove(mesh, options.min_scaled_jacobian, context);
-    result.report.push_back("cells: " + std::to_string(quality.hexes) + ", all certified, scaled Jacobian " + std::to_string(quality.min_scaled_jacobian) + " at least, " +
+    result.report.push_back("cells: " + std::to_string(quality.hexes) + ", all certified, scaled Jacobian " +
+                            std::to_string(quality.min_scaled_jacobian) + " at least, " +
                             std::to_string(quality.mean_scaled_jacobian) + " on average");
     return result;
 }

@@ -16,10 +16,11 @@ namespace lacuna::sweep {
 enum class Spacing { geometric, bell, both_ends };
 
 struct LayerSpec {
-    int count = 0;                 ///< hexes along the sweep, >= 1; 0 with `heights`
-    double bias = 1;               ///< last / first layer height (geometric), middle / end (bell), end / middle (both_ends), > 0 [-]
+    int count = 0; ///< hexes along the sweep, >= 1; 0 with `heights`
+    double bias =
+        1; ///< last / first layer height (geometric), middle / end (bell), end / middle (both_ends), > 0 [-]
     Spacing spacing = Spacing::geometric;
-    std::vector<double> heights;   ///< rising, in (0, 1], the last 1; instead of a count
+    std::vector<double> heights; ///< rising, in (0, 1], the last 1; instead of a count
 };
 
 /// Heights in [0, 1] of every layer's nodes: layers + 1 numbers from 0 to 1.
@@ -31,7 +32,7 @@ enum class Quads { automatic, paved, mapped, gmsh, keep };
 
 struct SweepOptions {
     LayerSpec layers;
-    surface::SizeField size;               ///< null: from the rim's own spacing
+    surface::SizeField size; ///< null: from the rim's own spacing
     Quads quads = Quads::automatic;
     surface::PlanarQuadMesher quad_mesher; ///< used where a source face is not mapped
     double min_scaled_jacobian = 0;        ///< below it the mesh is refused [-1, 1]
@@ -41,7 +42,7 @@ struct SweepOptions {
 /// Hexahedra and how they came about.
 struct Swept {
     mesh::HexMesh mesh;
-    std::vector<std::string> report;  ///< a line a stage: seeds, quads, walls, target, layers
+    std::vector<std::string> report; ///< a line a stage: seeds, quads, walls, target, layers
 };
 
 /// Fill a sealed volume with hexahedra. What goes with what is read off the sealed walls.

@@ -47,10 +47,12 @@ public:
     {
         for (std::size_t t = 0; t < face.triangles.size(); ++t) {
             for (std::size_t i = 0; i < 3; ++i) {
-                const auto [found, fresh] = half_.try_emplace(directed(from(3 * t + i), to(3 * t + i)), 3 * t + i);
+                const auto [found, fresh] = half_.try_emplace(directed(from(3 * t + i), to(3 * t + i)),
+                                                              3 * t + i);
                 if (!fresh) {
                     throw InvalidInput("topology.not_manifold",
-                                       "the facets of " + name() + " overlap or are not consistently oriented at the point " +
+                                       "the facets of " + name() +
+                                           " overlap or are not consistently oriented at the point " +
                                            place(from(3 * t + i)) + "; mend the face or mesh it anew");
                 }
             }
@@ -64,7 +66,8 @@ public:
     /// A half that belongs to the face's border: nothing beyond it, or a seam to cut along.
     [[nodiscard]] bool on_border(std::size_t half) const
     {
-        return segments_.contains(directed(from(half), to(half))) || !half_.contains(directed(to(half), from(half)));
+        return segments_.contains(directed(from(half), to(half))) ||
+               !half_.contains(directed(to(half), from(half)));
     }
 
     /// The border half that follows, found by turning through the fan of facets round the half's end.
@@ -75,8 +78,9 @@ public:
             const std::size_t across = half_.at(directed(to(next), from(next)));
             next = across - across % 3 + (across + 1) % 3;
             if (turns > size()) {
-                throw InvalidInput("topology.not_manifold", "the facets of " + name() + " do not form a surface at the point " +
-                                                                place(to(half)) + "; mend the face or mesh it anew");
+                throw InvalidInput("topology.not_manifold",
+                                   "the facets of " + name() + " do not form a surface at the point " +
+                                       place(to(half)) + "; mend the face or mesh it anew");
             }
         }
         return next;
@@ -86,8 +90,9 @@ public:
     {
         const auto found = segments_.find(directed(from(half), to(half)));
         if (found == segments_.end()) {
-            throw InvalidInput("topology.loose_border", "the border of " + name() + " leaves its edges at the point " +
-                                                            place(from(half)) + "; each boundary side must lie on an edge");
+            throw InvalidInput("topology.loose_border",
+                               "the border of " + name() + " leaves its edges at the point " +
+                                   place(from(half)) + "; each boundary side must lie on an edge");
         }
         return found->second;
     }
@@ -108,7 +113,8 @@ private:
     [[nodiscard]] std::string place(Index point) const
     {
         const Vec3& p = model_.at(point);
-        return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ")";
+        return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) +
+               ")";
     }
 
     const Model& model_;
@@ -284,9 +290,10 @@ void orient_consistently(Model& model)
         if (uses[e].size() <= 2) continue;
         std::string names;
         for (const FaceUse& use : uses[e]) names += (names.empty() ? "" : ", ") + name_of(model, use.face);
-        throw InvalidInput("topology.not_manifold",
-                           name_of(model, EdgeId(e)) + " is shared by " + std::to_string(uses[e].size()) + " faces (" +
-                               names + "); the skin of a volume has two at each edge: leave the others out of the volume");
+        throw InvalidInput(
+            "topology.not_manifold",
+            name_of(model, EdgeId(e)) + " is shared by " + std::to_string(uses[e].size()) + " faces (" +
+                names + "); the skin of a volume has two at each edge: leave the others out of the volume");
     }
 
     std::vector<FaceId> all;

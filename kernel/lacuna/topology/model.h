@@ -18,11 +18,11 @@ enum class Origin { given, made_void };
 /// How the facets of a face came to be (the paper's v-Geometry).
 enum class Geometry {
     given,
-    newell,       ///< Algorithm 4: triangulated in its Newell plane
-    transfinite,  ///< Algorithm 6
-    annular,      ///< Algorithm 5: between two closed edges
-    followed,     ///< transfinite, bent as the given walls lead
-    minimal,      ///< least area over its loops
+    newell,      ///< Algorithm 4: triangulated in its Newell plane
+    transfinite, ///< Algorithm 6
+    annular,     ///< Algorithm 5: between two closed edges
+    followed,    ///< transfinite, bent as the given walls lead
+    minimal,     ///< least area over its loops
 };
 
 struct Vertex {
@@ -55,9 +55,10 @@ struct Loop {
 
 /// Facets with a boundary. The facets of two faces that share an edge share its points.
 struct Face {
-    int tag = 0;                   ///< the one Gmsh shows for the same file
-    std::string name;              ///< a physical group, part, element set; may be empty
-    std::string kind = "discrete"; ///< "plane", "cylinder", "cone", "sphere", "torus", "bspline", "surface", "discrete"
+    int tag = 0;      ///< the one Gmsh shows for the same file
+    std::string name; ///< a physical group, part, element set; may be empty
+    std::string kind =
+        "discrete"; ///< "plane", "cylinder", "cone", "sphere", "torus", "bspline", "surface", "discrete"
     Origin origin = Origin::given;
     Geometry geometry = Geometry::given;
 
@@ -119,7 +120,8 @@ void orient_consistently(Model& model);
 struct SplitOptions {
     double feature_angle = 40; ///< facets that meet at a sharper turn belong to two faces [degrees]
     double tolerance = 0;      ///< points closer than this are one [model length]; 0: 1e-6 × the diagonal
-    bool whole_labels = false; ///< a label's facets stay one face however they turn; the angle is for vertices alone
+    bool whole_labels =
+        false; ///< a label's facets stay one face however they turn; the angle is for vertices alone
 };
 
 /// Facets as a file holds them.

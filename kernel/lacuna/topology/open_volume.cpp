@@ -19,7 +19,134 @@ std::string_view word(Role role)
     return role == Role::source ? "source" : role == Role::target ? "target" : "wall";
 }
 
-/// Keep only the faces named, and of edges, vertices and points only what they use.
+std::vector<VertexId> wall_free(const OpenVolume& volume, Role end)
+{
+    const Model& model = volume.model;
+    std::vector<bool> on_wall(model.vertices.size(), false);
+    for (const FaceId wall : volume.faces(Role::wall)) {
+        for (const Loop& loop : model[wall].loops) {
+            for (const EdgeUse& use : loop.uses) {
+                on_wall[model[use.edge].from.index()] = true;
+                on_wall[model[use.edge].to.index()] = true;
+            }
+        }
+    }
+    std::vector<VertexId> result;
+    std::set<VertexId> seen;
+    for (const Rim& rim : rims(model, volume.faces(end))) {
+        for (const EdgeUse& use : rim.uses) {
+            const VertexId v = use_from(model, use);
+            if (!on_wall[v.index()] && seen.insert(v).second) result.push_back(v);
+        }
+    }
+    return result;
+}
+
+std::string tags_of(const Model& model, const std::vector<VertexId>& vertices)
+{
+    std::string text;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (i == 8) return text + ", … (" + std::to_string(vertices.size()) + " in all)";
+        text += (i == 0 ? "" : ", ") + std::to_string(model[vertices[i]].tag);
+    }
+    return text;
+}
+
+std::string count(std::size_t n, std::string_view one)
+{
+    return std::to_string(n) + " " + std::string(one) + (n == 1 ? "" : "s");
+}
+
+/// A wall nobody can reach from the ends is a slip of the recipe: say so before anything is built on it.
+void check_walls_touch(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    std::vector<FaceId> all;
+    for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
+    bool ends = false;
+    for (const Role role : volume.role) ends = ends || role != Role::wall;
+    if (!ends) return;
+    for (const std::vector<FaceId>& part : connected_parts(model, all)) {
+        const bool touches = std::any_of(
+            part.begin(), part.end(), [&](FaceId face) { return volume.role[face.index()] != Role::wall; });
+        if (touches) continue;
+        throw InvalidInput(
+            "topology.wall_apart",
+            name_of(model, part.front()) +
+                " is named as a wall and touches neither the source's rim nor the target's; leave it "
+                "out, or raise the tolerance (now " +
+                std::to_string(model.tolerance) + ") if it should be joined to them");
+    }
+}
+
+void check_override(const OpenVolume& volume, const Classification& found)
+{
+    if (!volume.override_class || *volume.override_class == found.value) return;
+    const VolumeClass asked = *volume.override_class;
+    const bool source = !volume.faces(Role::source).empty();
+    const bool target = !volume.faces(Role::target).empty();
+    const bool walls = !volume.faces(Role::wall).empty();
+    const auto refuse = [&](const std::string& why) {
+        throw InvalidInput("topology.class_contradicted",
+                           "the volume cannot be of class " + std::string(to_string(asked)) + ": " + why +
+                               " (found: class " + std::string(to_string(found.value)) + ")");
+    };
+    switch (asked) {
+    case VolumeClass::closed:
+        refuse(count(found.free_loops.size(), "free loop") + " remain");
+        break;
+    case VolumeClass::I:
+        if (!source || !target)
+            refuse(std::string("it needs a source and a target, and has no ") +
+                   (source ? "target" : "source"));
+        if (walls)
+            refuse("it has no walls, and " + count(volume.faces(Role::wall).size(), "wall") +
+                   " are given; leave them out");
+        break;
+    case VolumeClass::II:
+    case VolumeClass::III:
+        if (!source || !target)
+            refuse(std::string("it needs a source and a target, and has no ") +
+                   (source ? "target" : "source"));
+        if (!walls) refuse("it needs at least one wall, and none is given");
+        if (asked == VolumeClass::II && found.wall_free_source.empty())
+            refuse("every vertex of the source is on a wall");
+        if (asked == VolumeClass::II && found.wall_free_target.empty())
+            refuse("every vertex of the target is on a wall");
+        if (asked == VolumeClass::III &&
+            (!found.wall_free_source.empty() || !found.wall_free_target.empty())) {
+            refuse("vertices of source and target are on no wall (source: " +
+                   tags_of(volume.model, found.wall_free_source) +
+                   "; target: " + tags_of(volume.model, found.wall_free_target) + ")");
+        }
+        break;
+    case VolumeClass::IV:
+        if (!source) refuse("it needs a source, and none is given");
+        if (target) refuse("its target is missing, and one is given; leave it out");
+        if (!walls) refuse("it needs all walls, and none is given");
+        break;
+    case VolumeClass::V:
+        if (source || target)
+            refuse(std::string("it has walls alone, and a ") + (source ? "source" : "target") +
+                   " is given; leave it out");
+        break;
+    }
+}
+
+} // namespace
+
+std::string_view to_string(VolumeClass value) { return kClassNames[static_cast<std::size_t>(value)]; }
+
+VolumeClass volume_class(std::string_view name)
+{
+    for (std::size_t i = 0; i < kClassNames.size(); ++i) {
+        if (kClassNames[i] == name) return static_cast<VolumeClass>(i);
+    }
+    throw InvalidInput("topology.unknown_class",
+                       "\"" + std::string(name) +
+                           "\" is no class of open volume; the classes are I, II, III, IV, V and closed");
+}
+
 Model extract(const Model& model, const std::vector<FaceId>& faces)
 {
     Model part;
@@ -72,130 +199,6 @@ Model extract(const Model& model, const std::vector<FaceId>& faces)
         }
     }
     return part;
-}
-
-std::vector<VertexId> wall_free(const OpenVolume& volume, Role end)
-{
-    const Model& model = volume.model;
-    std::vector<bool> on_wall(model.vertices.size(), false);
-    for (const FaceId wall : volume.faces(Role::wall)) {
-        for (const Loop& loop : model[wall].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                on_wall[model[use.edge].from.index()] = true;
-                on_wall[model[use.edge].to.index()] = true;
-            }
-        }
-    }
-    std::vector<VertexId> result;
-    std::set<VertexId> seen;
-    for (const Rim& rim : rims(model, volume.faces(end))) {
-        for (const EdgeUse& use : rim.uses) {
-            const VertexId v = use_from(model, use);
-            if (!on_wall[v.index()] && seen.insert(v).second) result.push_back(v);
-        }
-    }
-    return result;
-}
-
-std::string tags_of(const Model& model, const std::vector<VertexId>& vertices)
-{
-    std::string text;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        if (i == 8) return text + ", … (" + std::to_string(vertices.size()) + " in all)";
-        text += (i == 0 ? "" : ", ") + std::to_string(model[vertices[i]].tag);
-    }
-    return text;
-}
-
-std::string count(std::size_t n, std::string_view one)
-{
-    return std::to_string(n) + " " + std::string(one) + (n == 1 ? "" : "s");
-}
-
-/// A wall nobody can reach from the ends is a slip of the recipe: say so before anything is built on it.
-void check_walls_touch(const OpenVolume& volume)
-{
-    const Model& model = volume.model;
-    std::vector<FaceId> all;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
-    bool ends = false;
-    for (const Role role : volume.role) ends = ends || role != Role::wall;
-    if (!ends) return;
-    for (const std::vector<FaceId>& part : connected_parts(model, all)) {
-        const bool touches = std::any_of(part.begin(), part.end(),
-                                         [&](FaceId face) { return volume.role[face.index()] != Role::wall; });
-        if (touches) continue;
-        throw InvalidInput(
-            "topology.wall_apart",
-            name_of(model, part.front()) +
-                " is named as a wall and touches neither the source's rim nor the target's; leave it "
-                "out, or raise the tolerance (now " +
-                std::to_string(model.tolerance) + ") if it should be joined to them");
-    }
-}
-
-void check_override(const OpenVolume& volume, const Classification& found)
-{
-    if (!volume.override_class || *volume.override_class == found.value) return;
-    const VolumeClass asked = *volume.override_class;
-    const bool source = !volume.faces(Role::source).empty();
-    const bool target = !volume.faces(Role::target).empty();
-    const bool walls = !volume.faces(Role::wall).empty();
-    const auto refuse = [&](const std::string& why) {
-        throw InvalidInput("topology.class_contradicted",
-                           "the volume cannot be of class " + std::string(to_string(asked)) + ": " + why +
-                               " (found: class " + std::string(to_string(found.value)) + ")");
-    };
-    switch (asked) {
-    case VolumeClass::closed:
-        refuse(count(found.free_loops.size(), "free loop") + " remain");
-        break;
-    case VolumeClass::I:
-        if (!source || !target)
-            refuse(std::string("it needs a source and a target, and has no ") + (source ? "target" : "source"));
-        if (walls)
-            refuse("it has no walls, and " + count(volume.faces(Role::wall).size(), "wall") + " are given; leave them out");
-        break;
-    case VolumeClass::II:
-    case VolumeClass::III:
-        if (!source || !target)
-            refuse(std::string("it needs a source and a target, and has no ") + (source ? "target" : "source"));
-        if (!walls) refuse("it needs at least one wall, and none is given");
-        if (asked == VolumeClass::II && found.wall_free_source.empty())
-            refuse("every vertex of the source is on a wall");
-        if (asked == VolumeClass::II && found.wall_free_target.empty())
-            refuse("every vertex of the target is on a wall");
-        if (asked == VolumeClass::III && (!found.wall_free_source.empty() || !found.wall_free_target.empty())) {
-            refuse("vertices of source and target are on no wall (source: " + tags_of(volume.model, found.wall_free_source) +
-                   "; target: " + tags_of(volume.model, found.wall_free_target) + ")");
-        }
-        break;
-    case VolumeClass::IV:
-        if (!source) refuse("it needs a source, and none is given");
-        if (target) refuse("its target is missing, and one is given; leave it out");
-        if (!walls) refuse("it needs all walls, and none is given");
-        break;
-    case VolumeClass::V:
-        if (source || target)
-            refuse(std::string("it has walls alone, and a ") + (source ? "source" : "target") + " is given; leave it out");
-        break;
-    }
-}
-
-} // namespace
-
-std::string_view to_string(VolumeClass value)
-{
-    return kClassNames[static_cast<std::size_t>(value)];
-}
-
-VolumeClass volume_class(std::string_view name)
-{
-    for (std::size_t i = 0; i < kClassNames.size(); ++i) {
-        if (kClassNames[i] == name) return static_cast<VolumeClass>(i);
-    }
-    throw InvalidInput("topology.unknown_class",
-                       "\"" + std::string(name) + "\" is no class of open volume; the classes are I, II, III, IV, V and closed");
 }
 
 std::vector<FaceId> OpenVolume::faces(Role wanted) const
@@ -289,7 +292,8 @@ Classification classify(const OpenVolume& volume)
         found.value = VolumeClass::closed;
         why.push_back("every edge is used twice: nothing is missing");
     } else {
-        why.push_back(count(free_edges(volume).size(), "free edge") + " in " + count(found.free_loops.size(), "free loop"));
+        why.push_back(count(free_edges(volume).size(), "free edge") + " in " +
+                      count(found.free_loops.size(), "free loop"));
         if (sources > 0 && targets > 0 && walls == 0) {
             found.value = VolumeClass::I;
             why.push_back("source and target and no wall between them");
@@ -297,8 +301,8 @@ Classification classify(const OpenVolume& volume)
             const bool both = !found.wall_free_source.empty() && !found.wall_free_target.empty();
             found.value = both ? VolumeClass::II : VolumeClass::III;
             const auto on_no_wall = [&](std::string_view end, const std::vector<VertexId>& list) {
-                why.push_back("vertices of the " + std::string(end) +
-                              " on no wall: " + (list.empty() ? std::string("none") : tags_of(volume.model, list)));
+                why.push_back("vertices of the " + std::string(end) + " on no wall: " +
+                              (list.empty() ? std::string("none") : tags_of(volume.model, list)));
             };
             on_no_wall("source", found.wall_free_source);
             on_no_wall("target", found.wall_free_target);
@@ -350,8 +354,9 @@ std::string describe(const Model& model)
         std::size_t edges = 0;
         for (const Loop& loop : face.loops) edges += loop.uses.size();
         const Vec3 n = face_area_vector(model, FaceId(f)).stableNormalized();
-        std::snprintf(line.data(), line.size(), "%6d  %-10s %5zu %5zu %12.6g  (%6.3f, %6.3f, %6.3f) ", face.tag,
-                      face.kind.c_str(), face.loops.size(), edges, face_area(model, FaceId(f)), n.x(), n.y(), n.z());
+        std::snprintf(line.data(), line.size(), "%6d  %-10s %5zu %5zu %12.6g  (%6.3f, %6.3f, %6.3f) ",
+                      face.tag, face.kind.c_str(), face.loops.size(), edges, face_area(model, FaceId(f)),
+                      n.x(), n.y(), n.z());
         text += line.data();
         text += face.name + "\n";
     }

@@ -40,6 +40,9 @@ struct OpenVolume {
 /// @throw InvalidInput  a face in two roles or named twice, no face at all, faces that cannot be oriented.
 OpenVolume open_volume(const Model& model, const Roles& roles);
 
+/// A model of the faces named alone, in that order, with the edges, vertices and points they use.
+Model extract(const Model& model, const std::vector<FaceId>& faces);
+
 /// Every face that can be reached from the rim of `source` over shared edges, and is neither source nor target.
 std::vector<FaceId> faces_reachable_from(const Model& model, const std::vector<FaceId>& source,
                                          const std::vector<FaceId>& target);

@@ -23,10 +23,7 @@ double length_of(const Model& model, const Rim& rim)
     return sum;
 }
 
-EdgeUse opposite(EdgeUse use)
-{
-    return {use.edge, !use.reversed};
-}
+EdgeUse opposite(EdgeUse use) { return {use.edge, !use.reversed}; }
 
 } // namespace
 
