@@ -110,7 +110,7 @@ TEST_CASE("tags need be neither dense nor in order, other cells are counted, cur
                 " " + std::to_string(p[2] + (i < 8 ? 0 : 10 + i)) + "\n";
     }
     text += "$EndNodes\n$Elements\n4\n1 15 2 5 1 1000000\n2 17 3 9 4 0";
-    for (int i = 0; i < 20; ++i) text += " " + std::to_string(1000000 * (i + 1));
+    for (int i = 0; i < 20; ++i) text.append(1, ' ').append(std::to_string(1000000 * (i + 1)));
     text += "\n3 4 2 0 4 1000000 2000000 3000000 4000000\n4 3 2 8 6 1000000 2000000 3000000 "
             "4000000\n$EndElements\n";
     test::put_bytes(folder.file("x.msh"), text);
