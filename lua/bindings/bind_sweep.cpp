@@ -97,12 +97,13 @@ void read_size(lua_State* L, int index, const Where& where, SweepArguments& argu
 /// Calls back a recipe's function. The kernel samples sizes on the thread that called it; were it ever to ask
 /// from another, Lua, which knows no threads, would be lost: so that is refused.
 struct LuaSize {
-    lua_State* L;
+    lua_State* state;
     int function;
     std::thread::id thread;
 
     double operator()(const Vec3& place) const
     {
+        lua_State* const L = state;
         if (std::this_thread::get_id() != thread || !lua_checkstack(L, 8))
             throw Error("lua.size_function",
                         "the size function cannot be called here; give size as a number");

@@ -26,15 +26,15 @@ struct Counted {
 };
 
 struct State {
-    lua_State* L = luaL_newstate();
-    State() { luaL_openlibs(L); }
+    lua_State* lua = luaL_newstate();
+    State() { luaL_openlibs(lua); }
     ~State()
     {
-        if (L) lua_close(L);
+        if (lua) lua_close(lua);
     }
     State(const State&) = delete;
     State& operator=(const State&) = delete;
-    operator lua_State*() const { return L; }
+    operator lua_State*() const { return lua; }
 };
 
 /// The error of a chunk as text, empty where it runs through.
@@ -149,13 +149,13 @@ TEST_CASE("what is no box of the class is refused by name")
 TEST_CASE("the module opens in any number of states at once, each with its own classes")
 {
     State first, second;
-    for (lua_State* L : {first.L, second.L, first.L}) {
+    for (lua_State* L : {first.lua, second.lua, first.lua}) {
         luaL_requiref(L, "lacuna", luaopen_lacuna, 1);
         lua_settop(L, 0);
         CHECK(error_of(L, "assert(#lacuna.synthetic.barrel():faces() == 3)") == "");
     }
-    lua_close(first.L);
-    first.L = nullptr;
+    lua_close(first.lua);
+    first.lua = nullptr;
     CHECK(error_of(second, "assert(#lacuna.synthetic.barrel():faces() == 3)") == "");
 }
 
