@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
 #include <set>
 
@@ -42,9 +43,18 @@ TEST_CASE(
             CHECK(ends(mesh.quads, other)[0] == ends(mesh.quads, side)[1]);
             CHECK(ends(mesh.quads, other)[1] == ends(mesh.quads, side)[0]);
         }
+        std::map<std::set<Index>, int> uses;
+        for (std::size_t side = 0; side < opposite.size(); ++side) {
+            const auto nodes = ends(mesh.quads, side);
+            ++uses[{nodes[0], nodes[1]}];
+        }
         std::set<std::array<Index, 2>> boundary;
-        for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
+        for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads)) {
             boundary.insert({side.from, side.to});
+            CHECK(uses[{side.from, side.to}] == 1);
+        }
+        CHECK(boundary.size() == std::size_t(std::count_if(uses.begin(), uses.end(),
+                                                           [](const auto& use) { return use.second == 1; })));
         CHECK(lone == boundary);
     }
 }

@@ -9,39 +9,14 @@ namespace lacuna::mesh {
 
 std::vector<BoundarySide> boundary_sides(const std::vector<Quad>& quads)
 {
-    struct Side {
-        Index low, high, quad;
-        int place;
-    };
-    std::vector<Side> sides;
-    sides.reserve(4 * quads.size());
-    for (std::size_t q = 0; q < quads.size(); ++q) {
-        for (int i = 0; i < 4; ++i) {
-            const Index a = quads[q][i];
-            const Index b = quads[q][(i + 1) % 4];
-            sides.push_back({std::min(a, b), std::max(a, b), static_cast<Index>(q), i});
-        }
-    }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-        return std::tie(a.low, a.high, a.quad, a.place) < std::tie(b.low, b.high, b.quad, b.place);
-    });
-
-    std::vector<Side> lone;
-    for (std::size_t i = 0; i < sides.size();) {
-        std::size_t j = i + 1;
-        while (j < sides.size() && sides[j].low == sides[i].low && sides[j].high == sides[i].high) ++j;
-        if (j == i + 1) lone.push_back(sides[i]);
-        i = j;
-    }
-    std::sort(lone.begin(), lone.end(), [](const Side& a, const Side& b) {
-        return std::tie(a.quad, a.place) < std::tie(b.quad, b.place);
-    });
-
+    Index highest = -1;
+    for (const Quad& quad : quads) highest = std::max(highest, *std::max_element(quad.begin(), quad.end()));
+    const std::vector<Index> opposite = opposite_sides(quads, highest + 1);
     std::vector<BoundarySide> result;
-    result.reserve(lone.size());
-    for (const Side& side : lone) {
-        const Quad& quad = quads[static_cast<std::size_t>(side.quad)];
-        result.push_back({quad[side.place], quad[(side.place + 1) % 4], side.quad});
+    for (std::size_t side = 0; side < opposite.size(); ++side) {
+        const Quad& quad = quads[side / 4];
+        if (opposite[side] == kRimSide)
+            result.push_back({quad[side % 4], quad[(side + 1) % 4], static_cast<Index>(side / 4)});
     }
     return result;
 }

@@ -24,7 +24,8 @@ struct BoundarySide {
     Index from, to, quad;
 };
 
-/// The sides of `quads` that no other quad shares, as directed in their quad, in order of quad. O(quads log quads).
+/// The sides of `quads` that no other quad shares, as directed in their quad, in order of quad. O(quads).
+/// @pre no corner is negative
 std::vector<BoundarySide> boundary_sides(const std::vector<Quad>& quads);
 
 /// What `opposite_sides()` says of a side without a partner.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace lacuna::quality {
@@ -73,26 +74,39 @@ struct Grid {
     }
 };
 
-/// Entries of all points, bin after bin, in order of points within a bin.
+/// Entries of all points, bin after bin; in an order that does not depend on threads.
 struct Bins {
     std::vector<Entry> entries;
     std::vector<std::size_t> start;
 };
 
+/// What the first pass over a chunk leaves for the second.
+struct ChunkHashes {
+    std::array<std::uint32_t, kChunk> first; ///< of each point
+    std::vector<Entry> more;                 ///< of points near another cube
+    std::array<std::uint32_t, kBins> count{};
+};
+
 Bins sort_into_bins(std::span<const Vec3> points, const Grid& grid, const RunContext& context)
 {
     const std::size_t chunks = chunk_count(points.size());
-    std::vector<std::array<std::uint32_t, kBins>> counts(chunks);
     const auto bin_of = [](std::uint32_t hash) { return hash >> (32 - kBinBits); };
-    const auto over_chunks = [&](const auto& body) {
-        parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t c = begin; c < end; ++c)
-                for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points.size()); ++p)
-                    body(c, p);
-        });
-    };
-    over_chunks([&](std::size_t c, std::size_t p) {
-        grid.visit(points[p], [&](std::uint32_t hash) { ++counts[c][bin_of(hash)]; });
+    const auto hashes = std::make_unique<ChunkHashes[]>(chunks);
+    parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            ChunkHashes& chunk = hashes[c];
+            for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points.size()); ++p) {
+                bool first = true;
+                grid.visit(points[p], [&](std::uint32_t hash) {
+                    ++chunk.count[bin_of(hash)];
+                    if (first)
+                        chunk.first[p - c * kChunk] = hash;
+                    else
+                        chunk.more.push_back({hash, static_cast<Index>(p)});
+                    first = false;
+                });
+            }
+        }
     });
 
     Bins bins;
@@ -103,22 +117,27 @@ Bins sort_into_bins(std::span<const Vec3> points, const Grid& grid, const RunCon
         bins.start[b] = total;
         for (std::size_t c = 0; c < chunks; ++c) {
             next[c][b] = total;
-            total += counts[c][b];
+            total += hashes[c].count[b];
         }
     }
     bins.start[kBins] = total;
     bins.entries.resize(total);
-    over_chunks([&](std::size_t c, std::size_t p) {
-        grid.visit(points[p], [&](std::uint32_t hash) {
-            bins.entries[next[c][bin_of(hash)]++] = {hash, static_cast<Index>(p)};
-        });
+    parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            const auto enter = [&](const Entry& entry) {
+                bins.entries[next[c][bin_of(entry.hash)]++] = entry;
+            };
+            for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points.size()); ++p)
+                enter({hashes[c].first[p - c * kChunk], static_cast<Index>(p)});
+            for (const Entry& entry : hashes[c].more) enter(entry);
+        }
     });
     return bins;
 }
 
 using Pair = std::array<Index, 2>;
 
-/// The lowest pair within a bin.
+/// A pair within a bin.
 std::optional<Pair> search_bin(std::span<const Entry> entries, std::span<const Vec3> points, double tolerance,
                                std::vector<std::int32_t>& table)
 {
@@ -135,7 +154,7 @@ std::optional<Pair> search_bin(std::span<const Entry> entries, std::span<const V
             const Vec3& a = points[static_cast<std::size_t>(other.point)];
             const Vec3& b = points[static_cast<std::size_t>(entries[e].point)];
             if ((a - b).squaredNorm() > tolerance * tolerance) continue;
-            const Pair pair{other.point, entries[e].point};
+            const Pair pair{std::min(other.point, entries[e].point), std::max(other.point, entries[e].point)};
             if (!found || pair < *found) found = pair;
             twin = true;
             break;

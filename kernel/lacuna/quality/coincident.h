@@ -16,7 +16,7 @@ namespace lacuna::quality {
 /// Bounds of the points; empty when one of them is not a finite number. Parallel.
 Eigen::AlignedBox3d finite_bounds(std::span<const Vec3> points, const RunContext& context);
 
-/// Two points within 1e-9 of the diagonal of `bounds`, the pair with the lowest numbers. Parallel; O(points).
+/// Two points within 1e-9 of the diagonal of `bounds`, the same pair for any thread count. O(points).
 /// @pre  bounds holds every point.
 std::optional<std::array<Index, 2>> find_coincident(std::span<const Vec3> points,
                                                     const Eigen::AlignedBox3d& bounds,
