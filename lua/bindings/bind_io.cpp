@@ -6,22 +6,72 @@
 
 #include <lacuna/io/msh.h>
 #include <lacuna/io/msh_reader.h>
+#include <lacuna/io/vtk.h>
 
 namespace lacuna::lua {
 
 namespace {
 
-void read_version(lua_State* L, int index, const Where& where, io::MshOptions& options)
+struct WriteArguments {
+    io::MshOptions msh;
+    bool version_given = false, binary_given = false;
+};
+
+void read_version(lua_State* L, int index, const Where& where, WriteArguments& arguments)
 {
     const double version = read_number(L, index, where);
     if (version != 4.1 && version != 2.2) fail_value(L, where, "4.1 or 2.2", index);
-    options.version = version;
+    arguments.msh.version = version;
+    arguments.version_given = true;
 }
 
-const Option<io::MshOptions> kWriteOptions[] = {
-    {"version", read_version},
-    {"binary", boolean<&io::MshOptions::binary>},
+void read_binary(lua_State* L, int index, const Where& where, WriteArguments& arguments)
+{
+    arguments.msh.binary = read_boolean(L, index, where);
+    arguments.binary_given = true;
+}
+
+const Option<WriteArguments> kWriteOptions[] = {{"version", read_version}, {"binary", read_binary}};
+
+/// A format by its ending, and which options it has.
+struct Format {
+    const char* ending;
+    bool has_version, has_binary;
+    void (*write)(const mesh::HexMesh& mesh, const std::string& path, const io::MshOptions& options,
+                  const RunContext& context);
 };
+
+const Format kFormats[] = {
+    {".msh", true, true,
+     [](const auto& mesh, const auto& path, const auto& options, const auto& context) {
+         io::write_msh(mesh, path, options, context);
+     }},
+    {".vtu", false, false,
+     [](const auto& mesh, const auto& path, const auto&, const auto& context) {
+         io::write_vtu(mesh, path, context);
+     }},
+    {".vtk", false, true,
+     [](const auto& mesh, const auto& path, const auto& options, const auto& context) {
+         io::write_vtk(mesh, path, {options.binary}, context);
+     }},
+};
+
+const Format& format_of(const std::string& path, const WriteArguments& arguments)
+{
+    std::string known;
+    for (const Format& format : kFormats) {
+        known += std::string(" ") + format.ending;
+        if (ending_of(path) != format.ending) continue;
+        const bool idle_version = arguments.version_given && !format.has_version;
+        if (idle_version || (arguments.binary_given && !format.has_binary))
+            throw InvalidInput("lua.idle_option",
+                               std::string("write: ") + format.ending + " files have no option '" +
+                                   (idle_version ? "version" : "binary") + "'; leave it out");
+        return format;
+    }
+    throw InvalidInput("lua.unknown_ending",
+                       "write: the ending of " + path + " says no format; meshes are written as" + known);
+}
 
 /// mesh:write(path [, options])
 int write(lua_State* L)
@@ -29,16 +79,10 @@ int write(lua_State* L)
     lua_settop(L, 3);
     const auto& state = check<MeshState>(L, 1);
     const char* path = push_output_path(L, 2, "write");
-    io::MshOptions options;
-    read_options(L, 3, "write", kWriteOptions, options);
+    WriteArguments arguments;
+    read_options(L, 3, "write", kWriteOptions, arguments);
     RunContext& context = push_context(L);
-    guard(L, [&] {
-        if (ending_of(path) != ".msh")
-            throw InvalidInput("io.unknown_ending", std::string("write: ") + path +
-                                                        ": meshes are written as .msh so far; "
-                                                        "the other formats are not available yet");
-        io::write_msh(state.swept.mesh, path, options, context);
-    });
+    guard(L, [&] { format_of(path, arguments).write(state.swept.mesh, path, arguments.msh, context); });
     return 0;
 }
 

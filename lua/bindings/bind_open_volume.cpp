@@ -2,7 +2,10 @@
 // Volume: what topology/open_volume.h knows of it. Matching, closing and sweeping add their methods to the class.
 #include "bindings/faces.h"
 
+#include <lacuna/topology/auto_roles.h>
+
 #include <cstring>
+#include <utility>
 
 namespace lacuna::lua {
 
@@ -23,6 +26,7 @@ struct RoleArguments {
     std::vector<FaceId> faces;
     bool auto_walls = false;
     bool roles_named = false;
+    bool faces_named = false;
     std::optional<VolumeClass> override_class;
 };
 
@@ -45,6 +49,7 @@ void read_walls(lua_State* L, int index, const Where& where, RoleArguments& argu
 void read_volume_faces(lua_State* L, int index, const Where& where, RoleArguments& arguments)
 {
     read_faces(L, index, where, *arguments.model, arguments.faces);
+    arguments.faces_named = true;
 }
 
 void read_class(lua_State* L, int index, const Where& where, RoleArguments& arguments)
@@ -60,27 +65,39 @@ const Option<RoleArguments> kRoleOptions[] = {
     {"class", read_class},
 };
 
+/// The walls named "auto": what hangs together with the rim of the one end that is named.
+void find_walls(const topology::Model& model, topology::Roles& roles)
+{
+    if (roles.source.empty() && roles.target.empty())
+        throw InvalidInput(
+            "lua.walls_without_ends",
+            "open_volume: walls = \"auto\" finds the walls from the rim of the source or the target; "
+            "name one of them");
+    const bool from_source = !roles.source.empty();
+    roles.walls = topology::faces_reachable_from(model, from_source ? roles.source : roles.target,
+                                                 from_source ? roles.target : roles.source);
+}
+
 VolumeState make_volume(const topology::Model& model, RoleArguments& arguments)
 {
-    topology::Roles& roles = arguments.roles;
-    if (arguments.auto_walls) {
-        if (roles.source.empty() && roles.target.empty())
-            throw InvalidInput(
-                "lua.walls_without_ends",
-                "open_volume: walls = \"auto\" finds the walls from the rim of the source or the "
-                "target; name one of them");
-        const bool from_source = !roles.source.empty();
-        roles.walls = topology::faces_reachable_from(model, from_source ? roles.source : roles.target,
-                                                     from_source ? roles.target : roles.source);
-    }
     VolumeState state;
-    state.volume = topology::open_volume(model, roles);
+    if (!arguments.roles_named) {
+        if (!arguments.faces_named)
+            for (std::size_t f = 0; f < model.faces.size(); ++f) arguments.faces.emplace_back(f);
+        topology::RoleCandidate found = topology::find_roles(model, arguments.faces);
+        arguments.roles = std::move(found.roles);
+        state.role_reasons = std::move(found.reasons);
+    } else if (arguments.auto_walls) {
+        find_walls(model, arguments.roles);
+    }
+    state.volume = topology::open_volume(model, arguments.roles);
     state.volume.override_class = arguments.override_class;
     state.classification = topology::classify(state.volume);
     return state;
 }
 
 /// volume = model:open_volume { source=, target=, walls= [, class=] }
+/// volume = model:open_volume { faces= }, or of all faces: their roles are found
 int open_volume(lua_State* L)
 {
     lua_settop(L, 2);
@@ -89,13 +106,9 @@ int open_volume(lua_State* L)
     auto& arguments = temporary<RoleArguments>(L);
     arguments.model = &model;
     read_options(L, 2, "open_volume", kRoleOptions, arguments);
-    if (arguments.roles_named && !arguments.faces.empty())
+    if (arguments.roles_named && arguments.faces_named)
         fail(L, "open_volume: name either the roles (source, target, walls) or 'faces', whose roles are then "
                 "found; not both");
-    if (!arguments.roles_named)
-        fail(L, "open_volume: finding the roles of faces is not available yet; name them, as in "
-                "open_volume { source = 12, target = 31, walls = { 4, 5, 6 } }; model:describe() lists the "
-                "faces");
     auto& box = new_box<VolumeState>(L);
     guard(L, [&] { box = std::make_shared<VolumeState>(make_volume(model->model, arguments)); });
     return 1;

@@ -146,6 +146,8 @@ std::string describe(const VolumeState& state)
     list_faces(out, "source: ", state.volume, Role::source, Origin::given);
     list_faces(out, "target: ", state.volume, Role::target, Origin::given);
     list_faces(out, "walls:  ", state.volume, Role::wall, Origin::given);
+    if (!state.role_reasons.empty()) out << "roles found:\n";
+    for (const std::string& reason : state.role_reasons) out << "  " << reason << '\n';
     out << "class:  " << topology::to_string(state.classification.value) << '\n';
     for (const std::string& reason : state.classification.reasons) out << "  " << reason << '\n';
     if (state.match) {
@@ -161,7 +163,7 @@ std::string describe(const VolumeState& state)
             << state.closure->void_faces.size() << " void faces, "
             << (state.closure->watertight ? "watertight" : "not watertight") << '\n';
         for (const std::string& algorithm : state.closure->algorithms) out << "  " << algorithm << '\n';
-    } else {
+    } else if (!state.classification.free_loops.empty()) {
         out << "open:   " << topology::free_edges(state.volume).size() << " free edges in "
             << state.classification.free_loops.size() << " loops; close() seals them\n";
     }

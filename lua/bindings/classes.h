@@ -39,6 +39,7 @@ struct FaceHandle {
 
 struct VolumeState {
     topology::OpenVolume volume;
+    std::vector<std::string> role_reasons;     ///< why the faces got their roles; empty where they were named
     topology::Classification classification; ///< as the volume was given
     std::optional<matching::Match> match;
     std::optional<closure::Closure> closure;

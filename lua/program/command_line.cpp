@@ -15,7 +15,7 @@ const char* const kHelp = R"(usage: lacuna [option ...] RECIPE [key=value ...]
 
   RECIPE [key=value ...]  run a recipe, with parameters changed; - reads it from standard input
   -i                      a prompt
-  info FILE               the faces of a file
+  info FILE               the faces of a file, and the roles and class they seem to have
   check FILE.msh          read a mesh and print its quality; exit 1 when a cell is invalid
 
   --sandbox               no os, io or bytecode; limits on memory and time; no file is written

@@ -18,7 +18,14 @@ print(("lacuna %s (%s, Gmsh %s)"):format(lacuna.version, _VERSION, lacuna.gmsh_v
 
 const char* const kInfo = R"lua(
 local lacuna = require "lacuna"
-print(lacuna.load((...)):describe())
+local model = lacuna.load((...))
+print(model:describe())
+local found, volume = pcall(model.open_volume, model)
+if found then
+  print(volume:describe())
+else
+  print("roles: none found: " .. volume)
+end
 )lua";
 
 const char* const kCheck = R"lua(

@@ -39,7 +39,9 @@ expect("s.prism():open_volume { source = 'sauce' }", { "'source'", '"sauce"', 'f
 expect("s.prism():open_volume { source = 1, target = 2, walls = { 3, 1 } }", { 'face 1 "source"', "source", "wall" })
 expect("s.prism():open_volume { source = 1, target = 1 }", { 'face 1 "source"', "source", "target" })
 expect("s.prism():open_volume { source = 1, target = 2, walls = { 3, 3 } }", { 'face 3 "wall_1"' })
-expect("s.prism():open_volume {}", { "source" })
+expect("s.prism():open_volume { faces = 1, source = 1 }", { "source", "'faces'" })
+expect("s.prism():open_volume { faces = 'wall_1' }", { "wall_1" })
+expect("lacuna.model():open_volume()", { "face" })
 expect("lacuna.model():open_volume { source = 1 }", { "1", "no faces" })
 
 -- Options of the sweep.
@@ -69,6 +71,7 @@ expect("local m = s.prism { sides = 4, drop = { 'wall_1' } } " .. triangle(50, "
 local mesh = "local mesh = " .. void .. ":sweep { layers = 1, size = 1 } "
 expect(mesh .. "mesh:write 'nowhere/x.msh'", { "nowhere" })
 expect(mesh .. "mesh:write 'x.abc'", { "x.abc" })
+expect(mesh .. "mesh:write('x.vtu', { binary = false })", { ".vtu", "'binary'" })
 expect(mesh .. "mesh:write ''", { "path" })
 expect(mesh .. "mesh:write('x.msh', { version = 3 })", { "'version'", "4.1 or 2.2" })
 expect(mesh .. "mesh:write('x.msh', { binry = true })", { "'binary'" })

@@ -150,6 +150,25 @@ for _, options in ipairs { {}, { binary = false }, { version = 2.2 } } do
   os.remove(path)
 end
 
+for _, ending in ipairs { ".vtu", ".vtk" } do
+  local other = path:gsub("%.msh$", ending)
+  mesh:write(other)
+  local file <close> = assert(io.open(other, "rb"))
+  check.that(file:seek "end" > mesh.nodes * 3 * 8, "the coordinates alone are longer than that")
+  os.remove(other)
+end
+
+-- Roles that are found rather than named.
+local whole = lacuna.synthetic.barrel()
+for _, roles in ipairs { {}, { faces = { 1, 2, 3 } }, { faces = { "source", "target", "wall_1" } } } do
+  local guessed = whole:open_volume(roles)
+  check.equal(guessed.class, "closed")
+  check.that(guessed:describe():find("roles found:", 1, true))
+end
+check.equal(whole:open_volume().class, "closed")
+check.equal(lacuna.synthetic.barrel({ drop = "target" }):open_volume().class, "IV")
+check.equal(lacuna.synthetic.elbow({ drop = { "source", "target" } }):open_volume().class, "V")
+
 -- Every way to give layers and sizes makes the layers asked for.
 local function swept(options) return cube(names):open_volume({ source = 1, walls = "auto" }):sweep(options) end
 check.equal(swept({ layers = 2, size = 0.5 }).layers, 2)
