@@ -51,10 +51,9 @@ need_packages()
     mapfile -t missing < <(missing_packages "$@")
     ((${#missing[@]})) || return 0
 
-    local by_hand="install by hand: ${missing[*]}"
-    command -v apt-get >/dev/null || die "missing, and there is no apt-get here to install with; $by_hand"
+    command -v apt-get >/dev/null || die "missing: ${missing[*]}; there is no apt-get here to install them with"
     if [[ $(id -u) != 0 ]] && ! sudo -n true 2>/dev/null; then
-        die "missing, and neither root nor a sudo without password to install with; $by_hand"
+        die "missing: ${missing[*]}; installing them takes root, or a sudo that asks for no password"
     fi
     say "installing ${missing[*]}"
     apt_as_root update || say "apt-get update failed; trying with the package lists there are"
