@@ -14,7 +14,8 @@ int main()
     try {
         topology::FacetSoup box;
         box.points = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {0, 0, 3}, {2, 0, 3}, {2, 1, 3}, {0, 1, 3}};
-        box.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}};
+        box.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7},
+                         {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}};
         box.triangle_label = {0, 0, 1, 1, 2, 2, 3, 3};
         box.label_name = {"floor", "lid", "front", "right"};
         const topology::Model model = topology::split_facets(box);
@@ -38,9 +39,9 @@ int main()
         std::cout << "class " << topology::to_string(class_found) << ", " << closure.void_edges.size()
                   << " void edge, " << closure.void_faces.size() << " void faces, " << quality.hexes
                   << " hexes, volume " << quality.volume << '\n';
-        const bool right = class_found == topology::VolumeClass::II && closure.watertight
-                           && closure.void_edges.size() == 1 && closure.void_faces.size() == 2
-                           && quality.uncertified == 0 && std::abs(quality.volume - 6) < 1e-9;
+        const bool right = class_found == topology::VolumeClass::II && closure.watertight &&
+                           closure.void_edges.size() == 1 && closure.void_faces.size() == 2 &&
+                           quality.uncertified == 0 && std::abs(quality.volume - 6) < 1e-9;
         return right ? 0 : 1;
     } catch (const lacuna::Error& error) {
         std::cerr << error.code() << ": " << error.what() << '\n';
