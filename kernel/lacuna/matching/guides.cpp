@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 
 namespace lacuna::matching {
@@ -32,7 +33,19 @@ struct LevelLine {
     std::vector<Vec3> points;
     std::vector<std::pair<std::size_t, std::size_t>> anchors; ///< (point, side line) in walking order
     bool closed = false;
+    Vec3 rise{0, 0, 0}; ///< sum over the facets crossed of the way straight up, each as long as its piece of the line
 };
+
+/// The way straight up a facet, as long as its piece of a level line.
+Vec3 rise_on(const Model& model, const Triangle& triangle, const std::vector<double>& heights, const Vec3& line)
+{
+    const auto height = [&](std::size_t i) { return heights[static_cast<std::size_t>(triangle[i])]; };
+    const Vec3 a = model.at(triangle[1]) - model.at(triangle[0]);
+    const Vec3 b = model.at(triangle[2]) - model.at(triangle[0]);
+    const Vec3 normal = a.cross(b);
+    const Vec3 gradient = (height(1) - height(0)) * b.cross(normal) + (height(2) - height(0)) * normal.cross(a);
+    return line.norm() * gradient.stableNormalized();
+}
 
 /// The only level line at height t; nothing where there are several or none.
 std::optional<LevelLine> level_line(const Model& model, const std::vector<Triangle>& triangles,
@@ -40,8 +53,15 @@ std::optional<LevelLine> level_line(const Model& model, const std::vector<Triang
                                     const std::map<Side, std::size_t>& on_line)
 {
     const auto above = [&](Index p) { return heights[static_cast<std::size_t>(p)] >= t; };
+    const auto crossing = [&](const Side& at) {
+        const double ha = heights[static_cast<std::size_t>(at.first)],
+                     hb = heights[static_cast<std::size_t>(at.second)];
+        const double f = (t - ha) / (hb - ha);
+        return Vec3((1 - f) * model.at(at.first) + f * model.at(at.second));
+    };
     std::map<Side, Side> next;
     std::map<Side, bool> entered;
+    LevelLine line;
     for (const Triangle& triangle : triangles) {
         Side from{-1, -1}, to{-1, -1};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -53,9 +73,9 @@ std::optional<LevelLine> level_line(const Model& model, const std::vector<Triang
         if (from.first < 0 || to.first < 0) continue;
         next[from] = to;
         entered[to] = true;
+        line.rise += rise_on(model, triangle, heights, crossing(to) - crossing(from));
     }
     if (next.empty()) return std::nullopt;
-    LevelLine line;
     line.closed = true;
     Side start = next.begin()->first;
     for (const auto& [from, to] : next) {
@@ -68,12 +88,9 @@ std::optional<LevelLine> level_line(const Model& model, const std::vector<Triang
     }
     std::size_t steps = 0;
     for (Side at = start;; ++steps) {
-        const double ha = heights[static_cast<std::size_t>(at.first)],
-                     hb = heights[static_cast<std::size_t>(at.second)];
-        const double f = (t - ha) / (hb - ha);
         if (const auto found = on_line.find(at); found != on_line.end())
             line.anchors.emplace_back(line.points.size(), found->second);
-        line.points.push_back((1 - f) * model.at(at.first) + f * model.at(at.second));
+        line.points.push_back(crossing(at));
         const auto onward = next.find(at);
         if (onward == next.end()) break;
         at = onward->second;
@@ -147,17 +164,42 @@ void align(std::vector<Vec3>& section, const std::vector<Vec3>& below)
     std::rotate(section.begin(), section.begin() + static_cast<std::ptrdiff_t>(best), section.end());
 }
 
+/// The sections of one wall part.
+struct PartSections {
+    std::vector<std::vector<Vec3>> points;
+    std::vector<Vec3> areas;
+};
+
+/// The area of a section, along the way up whichever side of the wall the void is on, so that those of several parts add up.
+///
+/// A section that does not close says little of the void beside it; a straight one leaves open how it is turned.
+/// The way up the wall says the rest: two points off the wall and an area are added, as large as a round section's
+/// that is as long as the gap.
+Vec3 complete(const LevelLine& line, std::vector<Vec3>& section)
+{
+    const Vec3 area = geometry::newell_vector(section);
+    if (line.closed) return area.dot(line.rise) < 0 ? Vec3(-area) : area;
+    const Vec3 open = section.back() - section.front();
+    const Vec3 up = (line.rise - line.rise.dot(open) / open.squaredNorm() * open).stableNormalized();
+    const Vec3 middle = geometry::mean_point(section);
+    const Vec3 off = up.cross(open) / (2 * std::numbers::pi);
+    section.push_back(middle + off);
+    section.push_back(middle - off);
+    return (std::abs(area.dot(up)) + open.squaredNorm() / (4 * std::numbers::pi)) * up;
+}
+
 /// Sections of one wall part; empty when some level is not one line like the others.
-std::vector<std::vector<Vec3>> sections_of(const OpenVolume& volume, const std::vector<FaceId>& part,
-                                           const std::vector<double>& heights,
-                                           const std::map<Side, std::size_t>& on_line, int count)
+PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& part,
+                         const std::vector<double>& heights, const std::map<Side, std::size_t>& on_line,
+                         int count)
 {
     std::vector<Triangle> triangles;
     for (const FaceId face : part) {
         const std::vector<Triangle>& more = volume.model[face].triangles;
         triangles.insert(triangles.end(), more.begin(), more.end());
     }
-    std::vector<std::vector<Vec3>> sections;
+    PartSections result;
+    std::vector<std::vector<Vec3>>& sections = result.points;
     std::vector<std::size_t> anchors;
     for (int k = 0; k <= count; ++k) {
         const double t = std::clamp(static_cast<double>(k) / count, kRim, 1 - kRim);
@@ -169,9 +211,10 @@ std::vector<std::vector<Vec3>> sections_of(const OpenVolume& volume, const std::
         sections.push_back(sampled(*line));
         if (line->closed && line->anchors.empty() && k > 0)
             align(sections.back(), sections[sections.size() - 2]);
+        result.areas.push_back(complete(*line, sections.back()));
         if (sections.back().size() != sections.front().size()) return {};
     }
-    return sections;
+    return result;
 }
 
 } // namespace
@@ -193,9 +236,10 @@ Sections cut_sections(const OpenVolume& volume, int count)
     for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
         const auto sections = sections_of(volume, part, result.heights, on_line, count);
         if (result.areas.empty()) result.areas.assign(result.levels.size(), Vec3::Zero());
-        for (std::size_t k = 0; k < sections.size(); ++k) {
-            result.areas[k] += geometry::newell_vector(sections[k]);
-            result.levels[k].insert(result.levels[k].end(), sections[k].begin(), sections[k].end());
+        for (std::size_t k = 0; k < sections.points.size(); ++k) {
+            result.areas[k] += sections.areas[k];
+            result.levels[k].insert(result.levels[k].end(), sections.points[k].begin(),
+                                    sections.points[k].end());
         }
     }
     return result;

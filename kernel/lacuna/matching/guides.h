@@ -10,7 +10,7 @@ namespace lacuna::matching {
 /// Sections through the given walls at even heights, as corresponding points.
 struct Sections {
     std::vector<double> heights; ///< all points of the model: `wall_heights()`
-    std::vector<Vec3> areas;     ///< of each level: area vector of its lines, an open one closed by its chord
+    std::vector<Vec3> areas;     ///< of each level: area of its lines, along the way up the walls
     std::vector<std::vector<Vec3>>
         levels; ///< level by level from the source rim to the target rim; point i of each corresponds
 };
@@ -19,7 +19,8 @@ struct Sections {
 ///
 /// The height is harmonic, so its level lines cut a bent tube about square to its run. A level line is walked with the rise on its
 /// left and sampled evenly between the side lines it crosses; a closed one that crosses none is started where it lies best on the level below.
-/// Wall parts that a level cuts in several lines (holes), or that do not join both rims, are left out.
+/// An open line is given two points off the wall and the area of a round line as long as its gap, by the way up the wall: a straight one
+/// by itself leaves open how it is turned. Wall parts that a level cuts in several lines (holes), or that do not join both rims, are left out.
 Sections cut_sections(const topology::OpenVolume& volume, int count);
 
 } // namespace lacuna::matching
