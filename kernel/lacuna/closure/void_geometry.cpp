@@ -156,6 +156,36 @@ void by_height(PatchSide& side, const Follower& follower, bool rising)
     side.share.back() = 1;
 }
 
+/// Facets of a rectangle whose opposite sides have as many points: the grid between them, so that no facet cuts a
+/// corner that the sides do not.
+geometry::Triangulation grid_between(const std::array<PatchSide, 4>& side, const Outline& outline, double width, double height)
+{
+    const std::size_t n = side[0].chain.size() - 1, m = side[1].chain.size() - 1;
+    geometry::Triangulation grid{outline.flat, {}};
+    for (std::size_t j = 1; j < m; ++j) {
+        for (std::size_t i = 1; i < n; ++i) {
+            const double low = side[0].share[i], lean = 1 - side[2].share[n - i] - low;
+            const double left = 1 - side[3].share[m - j], slope = side[1].share[j] - left;
+            const double s = (low + lean * left) / (1 - lean * slope);
+            grid.points.emplace_back(s * width, (left + slope * s) * height);
+        }
+    }
+    const auto at = [&](std::size_t i, std::size_t j) {
+        const bool inside = i > 0 && i < n && j > 0 && j < m;
+        const std::size_t round = j == 0 ? i : i == n ? n + j : j == m ? n + m + n - i : 2 * n + m + m - j;
+        return static_cast<Index>(inside ? 2 * (n + m) + (j - 1) * (n - 1) + i - 1 : round);
+    };
+    for (std::size_t j = 0; j < m; ++j) {
+        for (std::size_t i = 0; i < n; ++i) {
+            const Quad q{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+            const std::size_t k = (i + j) % 2; // diagonals by turns lean to neither side
+            grid.triangles.push_back({q[k], q[k + 1], q[k + 2]});
+            grid.triangles.push_back({q[k], q[k + 2], q[(k + 3) % 4]});
+        }
+    }
+    return grid;
+}
+
 Filling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeUse>>& sides,
                          const Follower* follower)
 {
@@ -165,7 +195,7 @@ Filling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeU
         by_height(side[1], *follower, true);
         by_height(side[3], *follower, false);
     }
-    // Triangulate a rectangle that counts the sides' own segments: facets are then as long each way as the sides, which were cut by
+    // Cut a rectangle that counts the sides' own segments: facets are then as long each way as the sides, which were cut by
     // their curvature, are that way.
     const auto segments = [&](std::size_t i, std::size_t j) {
         return static_cast<double>(std::max(side[i].chain.size(), side[j].chain.size()) - 1);
@@ -184,7 +214,9 @@ Filling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeU
             outline.flat.emplace_back((1 - f) * corner[i] + f * corner[i + 1]);
         }
     }
-    const geometry::Triangulation flat = geometry::triangulate(outline.flat, outline.loops);
+    const bool even = side[0].chain.size() == side[2].chain.size() && side[1].chain.size() == side[3].chain.size();
+    const geometry::Triangulation flat = even ? grid_between(side, outline, width, height)
+                                              : geometry::triangulate(outline.flat, outline.loops);
     const auto backward = [](std::vector<Vec3> points) {
         std::reverse(points.begin(), points.end());
         return points;
