@@ -4,6 +4,7 @@
 #include <lacuna/closure/class_five.h>
 #include <lacuna/closure/follow.h>
 #include <lacuna/closure/sealing.h>
+#include <lacuna/closure/stubs.h>
 #include <lacuna/closure/void_edges.h>
 #include <lacuna/closure/void_faces.h>
 #include <lacuna/closure/void_geometry.h>
@@ -51,12 +52,34 @@ void add_void_walls(OpenVolume& volume, const Follower* follower, Closure& closu
     note(closure, "Algorithm 3");
 }
 
+/// A loop with no wall at all hangs on void edges alone.
+void check_matched(const OpenVolume& volume, const matching::Match& match)
+{
+    const auto uses = edge_uses(volume.model);
+    for (std::size_t l = 0; l < match.source_loops.size(); ++l) {
+        const std::vector<EdgeUse>& rim = match.source_loops[l].uses;
+        const bool bare = std::all_of(rim.begin(), rim.end(),
+                                      [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
+        const bool matched = std::any_of(match.vertices.begin(), match.vertices.end(), [&](const auto& pair) {
+            return std::any_of(rim.begin(), rim.end(),
+                               [&](const EdgeUse& use) { return use_from(volume.model, use) == pair.first; });
+        });
+        if (!bare || matched) continue;
+        throw NotClosed("closure.unmatched_loop",
+                        "source loop " + std::to_string(l + 1) + ", with " +
+                            name_of(volume.model, rim.front().edge) +
+                            ", has no wall and none of its vertices is matched to the target; pair some by "
+                            "hand with match{ vertices = … }");
+    }
+}
+
 /// Class I has no algorithm of its own in the paper; its walls are those of class II with no wall given.
 void close_class_one_or_two(OpenVolume& volume, const matching::Match& match, const Follower* follower,
                             Closure& closure)
 {
     if (closure.value == VolumeClass::II) note(closure, "Algorithm 8");
     turn_target_to_source(volume, match);
+    check_matched(volume, match);
     closure.void_edges = make_void_edges(volume, match, follower);
     note(closure, "Algorithm 2");
     add_void_walls(volume, follower, closure);
@@ -167,13 +190,9 @@ void prove_sealed(const OpenVolume& volume)
     }
 }
 
-} // namespace
-
-Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptions& options,
-              const RunContext& context)
+/// Seal a volume as one of a class, and prove it.
+Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value, const CloseOptions& options)
 {
-    check_cancelled(context);
-    const VolumeClass value = classify(volume).value;
     const bool has_walls = value == VolumeClass::II || value == VolumeClass::III;
     std::optional<Follower> follower;
     if (has_walls && options.edge_shape != EdgeShape::straight) follower.emplace(volume);
@@ -208,6 +227,29 @@ Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptio
     prove_sealed(sealed);
     closure.watertight = true;
     volume = std::move(sealed);
+    return closure;
+}
+
+} // namespace
+
+Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptions& options,
+              const RunContext& context)
+{
+    check_cancelled(context);
+    const VolumeClass whole = classify(volume).value;
+    const bool two_ends = whole == VolumeClass::I || whole == VolumeClass::II || whole == VolumeClass::III;
+    if (!two_ends) return seal(volume, match, whole, options);
+    OpenVolume lent = volume;
+    const std::vector<FaceId> stubs = lend_stubs_to_ends(lent);
+    if (stubs.empty()) return seal(volume, match, whole, options);
+
+    // Part of a stack is missing: what is open lies between the stubs, and is matched there.
+    lent.override_class.reset();
+    Closure closure = seal(lent, matching::match(lent), classify(lent).value, options);
+    closure.value = whole;
+    for (const FaceId stub : stubs) lent.role[stub.index()] = Role::wall;
+    lent.override_class = volume.override_class;
+    volume = std::move(lent);
     return closure;
 }
 

@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/swept_patch.h>
 #include <lacuna/geometry/transfinite.h>
 #include <lacuna/surface/wall_map.h>
@@ -20,6 +21,9 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
+
+/// A patch this far from its face, as a share of the shorter rim, is no guide to where nodes belong on it.
+constexpr double kFarFromPatch = 0.05;
 
 /// The faces of the stretch of walls after each side line.
 std::vector<std::vector<FaceId>> panel_faces(const Model& model, const Belt& belt)
@@ -249,7 +253,14 @@ private:
         }
         const Face& f = model_[face];
         if (f.origin == Origin::given && f.kind != "plane" && !inside.empty()) {
+            const std::vector<Vec3> patch = inside;
             Projector(model_, {face}).project(inside, context_);
+            double moved = 0;
+            for (std::size_t i = 0; i < inside.size(); ++i)
+                moved = std::max(moved, (inside[i] - patch[i]).norm());
+            // Four sides that say so little of the face would spread its nodes by chance.
+            if (moved > kFarFromPatch * std::min(geometry::length(bottom), geometry::length(top)))
+                return false;
         }
         std::size_t next = 0;
         for (std::size_t k = 1; k < layers_; ++k) {
