@@ -33,31 +33,38 @@ struct LevelLine {
     std::vector<Vec3> points;
     std::vector<std::pair<std::size_t, std::size_t>> anchors; ///< (point, side line) in walking order
     bool closed = false;
-    Vec3 rise{0, 0, 0}; ///< sum over the facets crossed of the way straight up, each as long as its piece of the line
+    Vec3 rise{0, 0, 0}; ///< the way straight up, summed along the line
 };
 
-/// The way straight up a facet, as long as its piece of a level line.
-Vec3 rise_on(const Model& model, const Triangle& triangle, const std::vector<double>& heights, const Vec3& line)
+/// The mean way straight up the walls at each model point. Facets' own ways would jump from row to row.
+std::vector<Vec3> ways_up(const OpenVolume& volume, const std::vector<double>& heights)
 {
-    const auto height = [&](std::size_t i) { return heights[static_cast<std::size_t>(triangle[i])]; };
-    const Vec3 a = model.at(triangle[1]) - model.at(triangle[0]);
-    const Vec3 b = model.at(triangle[2]) - model.at(triangle[0]);
-    const Vec3 normal = a.cross(b);
-    const Vec3 gradient = (height(1) - height(0)) * b.cross(normal) + (height(2) - height(0)) * normal.cross(a);
-    return line.norm() * gradient.stableNormalized();
+    const Model& model = volume.model;
+    std::vector<Vec3> sum(model.points.size(), Vec3::Zero());
+    for (const FaceId face : volume.faces(Role::wall)) {
+        for (const Triangle& t : model[face].triangles) {
+            const auto height = [&](std::size_t i) { return heights[static_cast<std::size_t>(t[i])]; };
+            const Vec3 a = model.at(t[1]) - model.at(t[0]), b = model.at(t[2]) - model.at(t[0]);
+            const Vec3 normal = a.cross(b);
+            const Vec3 gradient = (height(1) - height(0)) * b.cross(normal) + (height(2) - height(0)) * normal.cross(a);
+            if (!gradient.allFinite()) continue;
+            for (const Index p : t) sum[static_cast<std::size_t>(p)] += normal.norm() * gradient.stableNormalized();
+        }
+    }
+    for (Vec3& up : sum) up.stableNormalize();
+    return sum;
 }
 
 /// The only level line at height t; nothing where there are several or none.
 std::optional<LevelLine> level_line(const Model& model, const std::vector<Triangle>& triangles,
                                     const std::vector<double>& heights, double t,
-                                    const std::map<Side, std::size_t>& on_line)
+                                    const std::vector<Vec3>& up, const std::map<Side, std::size_t>& on_line)
 {
     const auto above = [&](Index p) { return heights[static_cast<std::size_t>(p)] >= t; };
-    const auto crossing = [&](const Side& at) {
-        const double ha = heights[static_cast<std::size_t>(at.first)],
-                     hb = heights[static_cast<std::size_t>(at.second)];
-        const double f = (t - ha) / (hb - ha);
-        return Vec3((1 - f) * model.at(at.first) + f * model.at(at.second));
+    const auto crossing = [&](const Side& at, const std::vector<Vec3>& of) {
+        const auto a = static_cast<std::size_t>(at.first), b = static_cast<std::size_t>(at.second);
+        const double f = (t - heights[a]) / (heights[b] - heights[a]);
+        return Vec3((1 - f) * of[a] + f * of[b]);
     };
     std::map<Side, Side> next;
     std::map<Side, bool> entered;
@@ -73,7 +80,8 @@ std::optional<LevelLine> level_line(const Model& model, const std::vector<Triang
         if (from.first < 0 || to.first < 0) continue;
         next[from] = to;
         entered[to] = true;
-        line.rise += rise_on(model, triangle, heights, crossing(to) - crossing(from));
+        const double piece = (crossing(to, model.points) - crossing(from, model.points)).norm();
+        line.rise += piece * (crossing(from, up) + crossing(to, up));
     }
     if (next.empty()) return std::nullopt;
     line.closed = true;
@@ -90,7 +98,7 @@ std::optional<LevelLine> level_line(const Model& model, const std::vector<Triang
     for (Side at = start;; ++steps) {
         if (const auto found = on_line.find(at); found != on_line.end())
             line.anchors.emplace_back(line.points.size(), found->second);
-        line.points.push_back(crossing(at));
+        line.points.push_back(crossing(at, model.points));
         const auto onward = next.find(at);
         if (onward == next.end()) break;
         at = onward->second;
@@ -190,8 +198,8 @@ Vec3 complete(const LevelLine& line, std::vector<Vec3>& section)
 
 /// Sections of one wall part; empty when some level is not one line like the others.
 PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& part,
-                         const std::vector<double>& heights, const std::map<Side, std::size_t>& on_line,
-                         int count)
+                         const std::vector<double>& heights, const std::vector<Vec3>& up,
+                         const std::map<Side, std::size_t>& on_line, int count)
 {
     std::vector<Triangle> triangles;
     for (const FaceId face : part) {
@@ -203,7 +211,7 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
     std::vector<std::size_t> anchors;
     for (int k = 0; k <= count; ++k) {
         const double t = std::clamp(static_cast<double>(k) / count, kRim, 1 - kRim);
-        std::optional<LevelLine> line = level_line(volume.model, triangles, heights, t, on_line);
+        std::optional<LevelLine> line = level_line(volume.model, triangles, heights, t, up, on_line);
         if (!line) return {};
         start_at_first_anchor(*line);
         if (k == 0) anchors = anchor_lines(*line);
@@ -224,6 +232,7 @@ Sections cut_sections(const OpenVolume& volume, int count)
     const Model& model = volume.model;
     Sections result;
     result.heights = wall_heights(volume);
+    const std::vector<Vec3> up = ways_up(volume, result.heights);
     result.levels.resize(static_cast<std::size_t>(count) + 1);
     std::map<Side, std::size_t> on_line;
     const std::vector<SideLine> lines = side_lines(volume);
@@ -234,7 +243,7 @@ Sections cut_sections(const OpenVolume& volume, int count)
         }
     }
     for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
-        const auto sections = sections_of(volume, part, result.heights, on_line, count);
+        const auto sections = sections_of(volume, part, result.heights, up, on_line, count);
         if (result.areas.empty()) result.areas.assign(result.levels.size(), Vec3::Zero());
         for (std::size_t k = 0; k < sections.points.size(); ++k) {
             result.areas[k] += sections.areas[k];
