@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/harmonic.h>
+#include <lacuna/geometry/minimal_area.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/swept_patch.h>
@@ -158,7 +159,8 @@ void by_height(PatchSide& side, const Follower& follower, bool rising)
 
 /// Facets of a rectangle whose opposite sides have as many points: the grid between them, so that no facet cuts a
 /// corner that the sides do not.
-geometry::Triangulation grid_between(const std::array<PatchSide, 4>& side, const Outline& outline, double width, double height)
+geometry::Triangulation grid_between(const std::array<PatchSide, 4>& side, const Outline& outline,
+                                     double width, double height)
 {
     const std::size_t n = side[0].chain.size() - 1, m = side[1].chain.size() - 1;
     geometry::Triangulation grid{outline.flat, {}};
@@ -214,7 +216,8 @@ Filling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeU
             outline.flat.emplace_back((1 - f) * corner[i] + f * corner[i + 1]);
         }
     }
-    const bool even = side[0].chain.size() == side[2].chain.size() && side[1].chain.size() == side[3].chain.size();
+    const bool even = side[0].chain.size() == side[2].chain.size() &&
+                      side[1].chain.size() == side[3].chain.size();
     const geometry::Triangulation flat = even ? grid_between(side, outline, width, height)
                                               : geometry::triangulate(outline.flat, outline.loops);
     const auto backward = [](std::vector<Vec3> points) {
@@ -252,6 +255,47 @@ std::string crossing_in_words(const Model& model, const std::vector<Loop>& loops
     };
     return edge_at(crossing.loop_a, crossing.segment_a) + " and " +
            edge_at(crossing.loop_b, crossing.segment_b);
+}
+
+// --- beyond the paper: least area ---------------------------------------------------------------------
+
+/// A face that folds in its Newell plane and has no four sides: a membrane over its loops.
+Filling fill_with_least_area(const Model& model, const std::vector<Loop>& loops, const std::string& crossing,
+                             const std::string& name)
+{
+    std::vector<Index> model_point;
+    std::vector<Vec3> points;
+    std::vector<std::vector<Index>> cycles;
+    for (const Loop& loop : loops) {
+        std::vector<Index>& cycle = cycles.emplace_back();
+        for (const Index p : points_of(model, loop.uses, true)) {
+            cycle.push_back(static_cast<Index>(points.size()));
+            model_point.push_back(p);
+            points.push_back(model.at(p));
+        }
+    }
+    geometry::MinimalArea membrane;
+    try {
+        membrane = geometry::minimal_area(points, cycles);
+    } catch (const InvalidInput& error) {
+        throw NotClosed("closure.outline_crosses",
+                        name + " cannot be laid out in a plane: " + crossing +
+                            " cross there; and no surface was found over its loops (" + error.what() +
+                            "); give a face for it, or split it by one more wall");
+    }
+    Filling result;
+    const auto base = static_cast<Index>(model.points.size());
+    const auto rim = static_cast<Index>(points.size());
+    result.points.assign(membrane.points.begin() + rim, membrane.points.end());
+    for (const Triangle& t : membrane.triangles) {
+        Triangle mapped{};
+        for (std::size_t i = 0; i < 3; ++i)
+            mapped[i] = t[i] < rim ? model_point[static_cast<std::size_t>(t[i])] : base + t[i] - rim;
+        result.triangles.push_back(mapped);
+    }
+    result.geometry = Geometry::minimal;
+    result.algorithm = "least area";
+    return result;
 }
 
 } // namespace
@@ -304,10 +348,7 @@ Filling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const Fol
     } else if (!crossing) {
         result = fill_on_newell_plane(model, newell);
     } else {
-        throw NotClosed(
-            "closure.outline_crosses",
-            name + " cannot be laid out in a plane: " + crossing_in_words(model, loops, *crossing) +
-                " cross there, and it has no four sides; give a face for it, or split it by one more wall");
+        result = fill_with_least_area(model, loops, crossing_in_words(model, loops, *crossing), name);
     }
     result.loops = loops;
     return result;
