@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/topology/side_points.h>
+
+#include <lacuna/geometry/facet_tree.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace lacuna::topology {
+
+namespace {
+
+std::uint64_t key_of(Index a, Index b)
+{
+    const auto [low, high] = std::minmax(a, b);
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(low)) << 32) |
+           static_cast<std::uint32_t>(high);
+}
+
+/// Cut along side `k` and, in what comes of it, along the sides after it.
+void cut(std::span<const Vec3> points, const ParamFacet& facet, std::array<bool, 3> whole,
+         const SidePoints& sides, std::vector<ParamFacet>& result)
+{
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (whole[k]) continue;
+        whole[k] = true;
+        const std::size_t l = (k + 1) % 3;
+        const std::size_t m = (k + 2) % 3;
+        std::vector<Index> chain = sides.on(facet.corner[k], facet.corner[l]);
+        if (chain.empty()) continue;
+        const Vec3& a = points[static_cast<std::size_t>(facet.corner[k])];
+        const Vec3& b = points[static_cast<std::size_t>(facet.corner[l])];
+        chain.push_back(facet.corner[l]);
+        Index from = facet.corner[k];
+        Vec2 from_uv = facet.uv[k];
+        for (std::size_t i = 0; i < chain.size(); ++i) {
+            const bool last = i + 1 == chain.size();
+            const double f = last ? 1 : fraction_along(points[static_cast<std::size_t>(chain[i])], a, b);
+            const Vec2 to_uv = last ? facet.uv[l] : Vec2(facet.uv[k] + f * (facet.uv[l] - facet.uv[k]));
+            // Of the old sides the first piece keeps the one before, the last piece the one after.
+            cut(points, {{from, chain[i], facet.corner[m]}, {from_uv, to_uv, facet.uv[m]}},
+                {true, !last || whole[l], i != 0 || whole[m]}, sides, result);
+            from = chain[i];
+            from_uv = to_uv;
+        }
+        return;
+    }
+    result.push_back(facet);
+}
+
+} // namespace
+
+void SidePoints::add(Index a, Index b, std::vector<Index> between)
+{
+    if (between.empty()) return;
+    if (a > b) std::reverse(between.begin(), between.end());
+    between_.try_emplace(key_of(a, b), std::move(between));
+}
+
+std::vector<Index> SidePoints::on(Index a, Index b) const
+{
+    const auto found = between_.find(key_of(a, b));
+    if (found == between_.end()) return {};
+    std::vector<Index> points = found->second;
+    if (a > b) std::reverse(points.begin(), points.end());
+    return points;
+}
+
+std::vector<ParamFacet> cut_at_sides(std::span<const Vec3> points, const ParamFacet& facet,
+                                     const SidePoints& sides)
+{
+    std::vector<ParamFacet> result;
+    cut(points, facet, {false, false, false}, sides, result);
+    return result;
+}
+
+std::vector<NearSegment> near_segments(std::span<const Vec3> points,
+                                       std::span<const std::array<Vec3, 2>> segments, double reach)
+{
+    std::vector<Triangle> dots(points.size());
+    for (std::size_t p = 0; p < dots.size(); ++p) dots[p].fill(static_cast<Index>(p));
+    std::vector<Vec3> ends;
+    std::vector<Triangle> lines(segments.size());
+    for (std::size_t s = 0; s < segments.size(); ++s) {
+        const auto a = static_cast<Index>(ends.size());
+        ends.insert(ends.end(), segments[s].begin(), segments[s].end());
+        lines[s] = {a, a + 1, a + 1};
+    }
+    std::vector<NearSegment> pairs;
+    const geometry::FacetTree of_points(points, dots);
+    of_points.overlaps(
+        geometry::FacetTree(ends, lines),
+        [&](Index point, Index segment) {
+            pairs.push_back({point, segment});
+            return true;
+        },
+        reach);
+    std::sort(pairs.begin(), pairs.end(), [](const NearSegment& a, const NearSegment& b) {
+        return std::pair(a.segment, a.point) < std::pair(b.segment, b.point);
+    });
+    return pairs;
+}
+
+double fraction_along(const Vec3& p, const Vec3& a, const Vec3& b)
+{
+    const double length2 = (b - a).squaredNorm();
+    return length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0;
+}
+
+} // namespace lacuna::topology
