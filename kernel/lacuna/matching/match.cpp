@@ -26,6 +26,8 @@ constexpr int kSamples = 64;
 /// What a turn of 180° counts in a score, against a residual as large as the loop: small, so that it only decides
 /// between fits that are about as good.
 constexpr double kTurnWeight = 0.1;
+/// Confidence below which the second best is named beside the best: it fits within a quarter as well.
+constexpr double kUnsure = 0.25;
 
 std::vector<VertexId> vertices_of(const Model& model, const Rim& rim)
 {
@@ -315,6 +317,12 @@ VertexId vertex_with_tag(const Model& model, const std::vector<LoopShape>& loops
 void read_options(Problem& problem)
 {
     const Model& model = problem.volume.model;
+    for (const int s : problem.options.flip) {
+        if (s >= 0 && s < static_cast<int>(problem.source.size())) continue;
+        throw InvalidInput("matching.unknown_loop", "flip names source loop " + std::to_string(s + 1) +
+                                                        ": the loops are numbered from 1 to " +
+                                                        std::to_string(problem.source.size()));
+    }
     for (const auto& [s, t] : problem.options.loops) {
         if (s < 0 || t < 0 || s >= static_cast<int>(problem.source.size()) ||
             t >= static_cast<int>(problem.target.size())) {
@@ -338,6 +346,19 @@ void read_options(Problem& problem)
         problem.hard[from] = to;
         force(problem, loop_with(problem.source, from), loop_with(problem.target, to), "by its vertices");
     }
+}
+
+/// Where a loop could as well be laid another way, say which two there are: the recipe can choose.
+void note_candidates(const Problem& problem, std::size_t s, int t, const Lay& best, const Lay& second, Match& match)
+{
+    const Model& model = problem.volume.model;
+    const LoopShape& target = problem.target[static_cast<std::size_t>(t)];
+    const auto tag = [&](VertexId vertex) { return std::to_string(model[vertex].tag); };
+    match.notes.push_back("source loop " + std::to_string(s + 1) + ": vertex " + tag(problem.source[s].vertices.front()) +
+                          " was paired with vertex " + tag(target.vertices[best.shift]) + ", and " +
+                          (best.shift == second.shift ? "the other way round" : "vertex " + tag(target.vertices[second.shift])) +
+                          " fits about as well; choose with match{ vertices = … }" +
+                          (best.backward == second.backward ? "" : " or match{ flip = … }"));
 }
 
 void pair_vertices(const Problem& problem, Match& match, const Lay& anchor_lay, int anchor)
@@ -375,7 +396,8 @@ void pair_vertices(const Problem& problem, Match& match, const Lay& anchor_lay, 
                     " keeps the vertex pairs that the walls or the recipe fix; check match{ vertices = … }");
         }
         const Lay& lay = found.front();
-        if (!backward) backward = lay.backward;
+        // A loop turned round by hand says nothing of how the others run.
+        if (!backward) backward = flip == problem.options.flip.end() ? lay.backward : !lay.backward;
         match.loops[s] = {static_cast<int>(s), t, !lay.backward};
         const std::size_t k = source.vertices.size();
         if (k == target.vertices.size()) {
@@ -387,6 +409,7 @@ void pair_vertices(const Problem& problem, Match& match, const Lay& anchor_lay, 
                 const double best = std::max(lay.score, 1e-12);
                 const double second = std::max(found[1].score, 1e-12);
                 match.confidence = std::min(match.confidence, 1 - best / second);
+                if (1 - best / second < kUnsure) note_candidates(problem, s, t, lay, found[1], match);
             }
         } else {
             for (const VertexId v : source.vertices) {
@@ -412,6 +435,19 @@ void pair_vertices(const Problem& problem, Match& match, const Lay& anchor_lay, 
     }
 }
 
+/// Numbers as the recipe counts them, from 1.
+std::string numbers(const std::vector<int>& list)
+{
+    std::string text;
+    for (const int i : list) text += (text.empty() ? "" : ", ") + std::to_string(i + 1);
+    return text;
+}
+
+std::string loops_in_words(std::size_t count)
+{
+    return std::to_string(count) + (count == 1 ? " loop" : " loops");
+}
+
 } // namespace
 
 Match match(const OpenVolume& volume, const MatchOptions& options)
@@ -433,8 +469,8 @@ Match match(const OpenVolume& volume, const MatchOptions& options)
     }
     if (result.source_loops.size() != result.target_loops.size()) {
         throw NotClosed("matching.loop_counts",
-                        "the source has " + std::to_string(result.source_loops.size()) +
-                            " loops and the target has " + std::to_string(result.target_loops.size()) +
+                        "the source has " + loops_in_words(result.source_loops.size()) + " and the target has " +
+                            loops_in_words(result.target_loops.size()) +
                             "; a sweep needs as many on both ends: check the roles, or leave out the faces "
                             "that close a loop");
     }
@@ -455,6 +491,11 @@ Match match(const OpenVolume& volume, const MatchOptions& options)
     const bool open = std::find(problem.forced.begin(), problem.forced.end(), -1) != problem.forced.end();
     if (open && found.size() > 1) {
         result.confidence = 1 - std::max(found[0].score, 1e-12) / std::max(found[1].score, 1e-12);
+        if (result.confidence < kUnsure) {
+            result.notes.push_back("the source's loops were sent, in their order, to target loops " +
+                                   numbers(found[0].target) + ", and " + numbers(found[1].target) +
+                                   " fits about as well; choose with match{ loops = … }");
+        }
     }
     pair_vertices(problem, result, found.front().lay, found.front().anchor);
     return result;
