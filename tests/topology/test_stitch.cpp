@@ -346,6 +346,25 @@ void add_box(Model& model, const Vec3& low, const Vec3& high, int cuts = 1)
     add_polygon(model, {at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1)}, cuts);
 }
 
+/// n × n cells on the patch o + u s + v t, with points of its own.
+void add_patch(FacetSoup& soup, int n, const Vec3& o, const Vec3& u, const Vec3& v, bool quads)
+{
+    const auto first = static_cast<Index>(soup.points.size());
+    for (int j = 0; j <= n; ++j)
+        for (int i = 0; i <= n; ++i) soup.points.push_back(o + u * i / n + v * j / n);
+    for (int j = 0; j < n; ++j) {
+        for (int i = 0; i < n; ++i) {
+            const Index a = first + j * (n + 1) + i, b = a + 1, c = b + n + 1, d = c - 1;
+            if (quads) {
+                soup.quads.push_back({a, b, c, d});
+            } else {
+                soup.triangles.push_back({a, b, c});
+                soup.triangles.push_back({a, c, d});
+            }
+        }
+    }
+}
+
 /// A unit square of n × n quads, which are a mesh to be kept or just facets.
 void add_grid(Model& model, const Vec3& corner, int n, bool keep)
 {
@@ -664,6 +683,65 @@ TEST_CASE("nodes of a mesh that is kept stay to the bit and get no others betwee
             if (both) continue; // of two kept nodes one must give way, by less than the tolerance
             for (const Vec3& node : kept)
                 CHECK(std::find(model.points.begin(), model.points.end(), node) != model.points.end());
+        }
+    }
+}
+
+TEST_CASE(
+    "facets with points on the inside of their sides are cut there, so the skin is whole; given quads stay")
+{
+    for (const bool quads : {false, true}) {
+        for (const int n : {1, 2, 5}) {
+            CAPTURE(quads);
+            CAPTURE(n);
+            FacetSoup soup;
+            const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1), o(0, 0, 0);
+            // Every side of the cube is divided in a way of its own; in one part, so that all is within a label.
+            std::mt19937 random(static_cast<unsigned>(n));
+            add_patch(soup, 1, o, y, x, false);
+            add_patch(soup, n, z, x, y, quads);
+            add_patch(soup, 1, o, x, z, false);
+            add_patch(soup, 1, y, z, x, false);
+            add_patch(soup, n > 1 && !quads ? n + 1 : 1, o, z, y, false);
+            add_patch(soup, 1, x, y, z, false);
+            for (Vec3& p : soup.points) p += 0.4 * kTolerance * wobble(random);
+            const Model model = split_facets(soup, {.tolerance = kTolerance});
+            check_closed(model, 1, 10 * kTolerance);
+            CHECK(model.faces.size() == 6);
+            CHECK(model.edges.size() == 12);
+            std::size_t kept = 0;
+            for (const Face& face : model.faces) kept += face.given_quads.size();
+            CHECK(kept == (quads ? index(n * n) : 0U));
+        }
+    }
+}
+
+TEST_CASE("facets listed twice in a part come once, with a note; in two parts they are one face each")
+{
+    for (const bool quads : {false, true}) {
+        for (const bool turned : {false, true}) {
+            CAPTURE(quads);
+            CAPTURE(turned);
+            FacetSoup soup;
+            const Vec3 x(1, 0, 0), y(0, 1, 0), o(0, 0, 0);
+            add_patch(soup, 3, o, x, y, quads);
+            add_patch(soup, 3, turned ? o : Vec3(0, 0, kTolerance / 2), turned ? y : x, turned ? x : y,
+                      quads);
+            const Model model = split_facets(soup, {.tolerance = kTolerance});
+            CHECK(model.faces.size() == 1);
+            CHECK(face_area(model, FaceId(0UL)) == doctest::Approx(1));
+            REQUIRE(model.notes.size() == 1);
+            CHECK(model.notes[0].find("18 facets") == 0);
+            if (quads) CHECK(model.faces[0].given_quads.size() == 9);
+            auto& label = quads ? soup.quad_label : soup.triangle_label;
+            label.assign(quads ? 18 : 36, 0);
+            std::fill(label.begin() + static_cast<std::ptrdiff_t>(label.size() / 2), label.end(), 1);
+            Model parts = split_facets(soup, {.tolerance = kTolerance});
+            CHECK(parts.faces.size() == 2);
+            CHECK(parts.notes.empty());
+            const StitchReport report = stitch(parts, kTolerance);
+            CHECK(parts.faces.size() == 1);
+            CHECK(report.notes.size() == 1);
         }
     }
 }

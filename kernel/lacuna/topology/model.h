@@ -79,6 +79,7 @@ struct Model {
     double diagonal = 0;  ///< of the bounding box [model length]
     double tolerance = 0; ///< points closer than this are one [model length]
     std::string source;   ///< the file(s) it was read from, for messages
+    std::vector<std::string> notes; ///< what loading left out or left apart, a sentence each
 
     [[nodiscard]] const Vertex& operator[](VertexId id) const { return vertices[id.index()]; }
     [[nodiscard]] const Edge& operator[](EdgeId id) const { return edges[id.index()]; }
@@ -137,7 +138,8 @@ struct FacetSoup {
 /// Cut facets into faces: by label first, then wherever they turn by more than the feature angle. Edges are
 /// the chains between two faces or along a border; vertices are where three faces meet, where a border turns
 /// by more than the feature angle, or, on a closed chain that has none, its first point.
-/// Tags count from 1 in the order faces are met, each kind of entity by itself.
+/// Tags count from 1 in the order faces are met, each kind of entity by itself. First, facets are cut at points
+/// on the inside of their free sides (T-junctions), and of facets listed twice in a label one stays, with a note.
 /// @throw InvalidInput  no facets; an edge of three or more facets inside one label.
 Model split_facets(const FacetSoup& soup, const SplitOptions& options = {});
 
