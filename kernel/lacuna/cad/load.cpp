@@ -4,6 +4,7 @@
 #include <lacuna/cad/import_cad.h>
 #include <lacuna/cad/import_facets.h>
 #include <lacuna/core/error.h>
+#include <lacuna/topology/stitch.h>
 
 #include <cmath>
 #include <filesystem>
@@ -90,6 +91,16 @@ void append(topology::Model& model, topology::Model more)
     model.diagonal = bounds.diagonal().norm();
     model.tolerance = std::max(model.tolerance, more.tolerance);
     model.source += ", " + more.source;
+    move_in(model.notes, more.notes);
+}
+
+/// What reading the files has not joined: T-junctions, faces of different files, faces listed twice.
+void stitch(topology::Model& model, const RunContext& context)
+{
+    const topology::StitchReport report = topology::stitch(model, model.tolerance);
+    if (report.changed()) log_line(context, report.summary());
+    model.notes.insert(model.notes.end(), report.notes.begin(), report.notes.end());
+    for (const std::string& note : model.notes) log_line(context, note);
 }
 
 } // namespace
@@ -106,6 +117,7 @@ topology::Model load(const std::vector<std::string>& paths, const LoadOptions& o
     if (!facets.empty() && cad.empty()) model = import_facets(facets, options, context);
     else if (!facets.empty()) append(model, import_facets(facets, options, context));
     topology::build_loops(model);
+    stitch(model, context);
     return model;
 }
 
