@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <tuple>
 #include <unordered_map>
 
 namespace lacuna::cad {
@@ -207,6 +209,116 @@ bool remove_doublets(MixedMesh& mesh)
 /// A quad below it is worth work on its connections; half the sine of a right angle.
 constexpr double kWorthWork = 0.5;
 
+double corner_sine(const MixedMesh& mesh, const Quad& q, std::size_t k)
+{
+    const Vec2 u = mesh.at(q[(k + 1) % 4]) - mesh.at(q[k]);
+    const Vec2 v = mesh.at(q[(k + 3) % 4]) - mesh.at(q[k]);
+    const double product = u.norm() * v.norm();
+    return product > 0 ? (u.x() * v.y() - u.y() * v.x()) / product : -1;
+}
+
+/// Pairs of neighbouring triangles that make quads.
+class Matching {
+public:
+    explicit Matching(const MixedMesh& mesh) : mesh_(mesh), neighbours_(mesh.cells.size()), mate_(mesh.cells.size(), -1)
+    {
+        const Sides sides(mesh);
+        for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+            const Quad& cell = mesh.cells[c];
+            if (!MixedMesh::is_triangle(cell)) continue;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index other = sides.across(cell[k], cell[(k + 1) % 3], static_cast<Index>(c));
+                if (other < 0 || !MixedMesh::is_triangle(mesh.cells[static_cast<std::size_t>(other)])) continue;
+                const double quality = scaled_jacobian(mesh, merged(static_cast<Index>(c), other));
+                if (quality > kLeast) neighbours_[c].emplace_back(quality, other);
+            }
+            std::sort(neighbours_[c].begin(), neighbours_[c].end(), std::greater<>());
+        }
+    }
+
+    /// The best pairs first.
+    void greedy()
+    {
+        std::vector<std::tuple<double, Index, Index>> pairs;
+        for (std::size_t c = 0; c < neighbours_.size(); ++c) {
+            for (const auto& [quality, other] : neighbours_[c]) {
+                if (static_cast<Index>(c) < other) pairs.emplace_back(-quality, static_cast<Index>(c), other);
+            }
+        }
+        std::sort(pairs.begin(), pairs.end());
+        for (const auto& [quality, a, b] : pairs) {
+            if (mate(a) >= 0 || mate(b) >= 0) continue;
+            mate(a) = b;
+            mate(b) = a;
+        }
+    }
+
+    /// Join two unpaired triangles by a path of pairs that all change partners. Odd rings of triangles are not
+    /// looked into, so a few may be left that could be paired.
+    void augment()
+    {
+        for (std::size_t c = 0; c < mate_.size(); ++c) {
+            if (mate_[c] < 0 && !neighbours_[c].empty()) augment_from(static_cast<Index>(c));
+        }
+    }
+
+    [[nodiscard]] std::vector<Quad> cells() const
+    {
+        std::vector<Quad> cells;
+        for (std::size_t c = 0; c < mate_.size(); ++c) {
+            if (mate_[c] < 0) cells.push_back(mesh_.cells[c]);
+            else if (static_cast<Index>(c) < mate_[c]) cells.push_back(merged(static_cast<Index>(c), mate_[c]));
+        }
+        return cells;
+    }
+
+private:
+    static constexpr double kLeast = 0.15;  ///< a flatter quad is no pair: smoothing cannot mend it at a boundary
+
+    Index& mate(Index c) { return mate_[static_cast<std::size_t>(c)]; }
+
+    [[nodiscard]] Quad merged(Index a, Index b) const
+    {
+        const std::vector<Index> ring = ring_of(mesh_.cells[static_cast<std::size_t>(a)], mesh_.cells[static_cast<std::size_t>(b)]);
+        return {ring[0], ring[1], ring[2], ring[3]};
+    }
+
+    void augment_from(Index start)
+    {
+        // Triangles reached over an even number of steps, with the one before each.
+        std::unordered_map<Index, Index> before{{start, -1}};
+        std::vector<Index> queue{start};
+        for (std::size_t i = 0; i < queue.size(); ++i) {
+            const Index here = queue[i];
+            for (const auto& [quality, other] : neighbours_[static_cast<std::size_t>(here)]) {
+                // Reached both ways: an odd ring.
+                if (before.contains(other)) continue;
+                const Index next = mate(other);
+                if (next < 0) {
+                    change_partners(here, other, before);
+                    return;
+                }
+                if (next >= 0 && before.try_emplace(next, here).second) queue.push_back(next);
+            }
+        }
+    }
+
+    void change_partners(Index here, Index other, const std::unordered_map<Index, Index>& before)
+    {
+        while (here >= 0) {
+            const Index left = mate(here);
+            mate(here) = other;
+            mate(other) = here;
+            other = left;
+            here = before.at(here);
+        }
+    }
+
+    const MixedMesh& mesh_;
+    std::vector<std::vector<std::pair<double, Index>>> neighbours_;
+    std::vector<Index> mate_;
+};
+
 class Smoother {
 public:
     explicit Smoother(MixedMesh& mesh) : mesh_(mesh), around_(cells_around(mesh)) {}
@@ -276,11 +388,25 @@ public:
         for (const Index p : cell) around_[static_cast<std::size_t>(p)].push_back(c);
     }
 
-    [[nodiscard]] double worst_around_all(const std::array<Index, 6>& points) const
+    /// What the corners of the quads around some points lack to good ones, the worst counting most.
+    [[nodiscard]] double lack_around(const std::array<Index, 6>& points) const
     {
-        double worst = 1;
-        for (const Index p : points) worst = std::min(worst, worst_around(static_cast<std::size_t>(p)));
-        return worst;
+        std::vector<Index> cells;
+        for (const Index p : points) {
+            const auto& around = around_[static_cast<std::size_t>(p)];
+            cells.insert(cells.end(), around.begin(), around.end());
+        }
+        std::sort(cells.begin(), cells.end());
+        cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+        double sum = 0;
+        for (const Index c : cells) {
+            // By corner: otherwise one quad shrunk to a line would look better than two with a flat corner.
+            for (std::size_t k = 0; k < 4; ++k) {
+                const double lack = std::max(0.0, kGood - corner_sine(mesh_, mesh_.cells[static_cast<std::size_t>(c)], k));
+                sum += lack * lack;
+            }
+        }
+        return sum;
     }
 
 private:
@@ -297,7 +423,7 @@ private:
     std::vector<std::vector<Index>> around_;
 };
 
-/// Turn one side of a bad quad, let the points around settle, and keep that if the worst there is better.
+/// Turn one side of a bad quad, let the points around settle, and keep that if the quads there are better.
 bool turn_side(MixedMesh& mesh, Sides& sides, Smoother& smoother, Index c, std::size_t k)
 {
     const Quad one = mesh.cells[static_cast<std::size_t>(c)];
@@ -310,7 +436,7 @@ bool turn_side(MixedMesh& mesh, Sides& sides, Smoother& smoother, Index c, std::
     if (two[(m + 1) % 4] != a) return false;
     // Counter-clockwise: a, two's far corners, b, one's far corners.
     const std::array<Index, 6> ring{a, two[(m + 2) % 4], two[(m + 3) % 4], b, one[(k + 2) % 4], one[(k + 3) % 4]};
-    const double before = smoother.worst_around_all(ring);
+    const double before = smoother.lack_around(ring);
     for (const std::size_t turn : {1, 2}) {
         const auto at = [&](std::size_t i) { return ring[(turn + i) % 6]; };
         // A chord that is a side already would give two quads two sides in common.
@@ -322,7 +448,7 @@ bool turn_side(MixedMesh& mesh, Sides& sides, Smoother& smoother, Index c, std::
         for (int pass = 0; pass < 2; ++pass) {
             for (const Index p : ring) smoother.optimise(static_cast<std::size_t>(p));
         }
-        if (smoother.worst_around_all(ring) > before + 1e-6) {
+        if (smoother.lack_around(ring) < before - 1e-6) {
             sides.remove(one, c);
             sides.remove(two, other);
             sides.add(mesh.cells[static_cast<std::size_t>(c)], c);
@@ -351,19 +477,123 @@ bool turn_sides(MixedMesh& mesh)
     return any;
 }
 
+/// Gives boundary points that lie flat in one quad alone a second one, taken over from the nearest point along the
+/// boundary that can spare one, point by point.
+class FlatCorners {
+public:
+    explicit FlatCorners(MixedMesh& mesh) : mesh_(mesh), sides_(mesh), count_(mesh.points.size(), 0)
+    {
+        for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Index a = mesh.cells[c][k];
+                const Index b = mesh.cells[c][(k + 1) % 4];
+                ++count_[static_cast<std::size_t>(a)];
+                if (sides_.across(a, b, static_cast<Index>(c)) >= 0) continue;
+                next_[a] = b;
+                before_[b] = a;
+            }
+        }
+    }
+
+    void mend()
+    {
+        for (std::size_t p = 0; p < mesh_.fixed; ++p) {
+            const auto v = static_cast<Index>(p);
+            if (next_.contains(v) && count_[p] == 1 && angle(v) > kFlat) mend(v);
+        }
+    }
+
+private:
+    /// From this angle on a boundary point wants one more quad [radians].
+    static constexpr double kFlat = 0.85 * std::numbers::pi;
+
+    /// Inner angle of the boundary.
+    [[nodiscard]] double angle(Index v) const
+    {
+        const Vec2 out = mesh_.at(next_.at(v)) - mesh_.at(v);
+        const Vec2 back = mesh_.at(before_.at(v)) - mesh_.at(v);
+        const double turn = std::atan2(out.x() * back.y() - out.y() * back.x(), out.dot(back));
+        return turn > 0 ? turn : turn + 2 * std::numbers::pi;
+    }
+
+    [[nodiscard]] bool can_spare(Index v) const
+    {
+        const int count = count_[static_cast<std::size_t>(v)];
+        return count > 1 && angle(v) / (count - 1) < kFlat;
+    }
+
+    void mend(Index v)
+    {
+        std::vector<Index> ahead{v}, behind{v};
+        while (true) {
+            ahead.push_back(next_.at(ahead.back()));
+            behind.push_back(before_.at(behind.back()));
+            if (ahead.back() == v) return;
+            for (const auto& [way, forward] : {std::pair(&ahead, true), std::pair(&behind, false)}) {
+                if (!can_spare(way->back())) continue;
+                for (std::size_t i = way->size() - 1; i > 0; --i) {
+                    if (!hand_over((*way)[i], (*way)[i - 1], forward)) return;
+                }
+                return;
+            }
+        }
+    }
+
+    /// Turn the side at `from` next to the boundary side it shares with `to`, so that it starts at `to`.
+    bool hand_over(Index from, Index to, bool forward)
+    {
+        const Index c = forward ? sides_.across(to, from, -2) : sides_.across(from, to, -2);
+        const Quad one = mesh_.cells[static_cast<std::size_t>(c)];
+        // Going round from the boundary side: from, then away from `to`.
+        const auto step = [&](const Quad& q, std::size_t k, std::size_t i) { return forward ? q[(k + i) % 4] : q[(k + 4 - i) % 4]; };
+        const std::size_t k = place_of(one, from);
+        const Index far = step(one, k, 1);
+        const Index last = step(one, k, 2);
+        const Index other = sides_.across(from, far, c);
+        if (other < 0) return false;
+        const Quad two = mesh_.cells[static_cast<std::size_t>(other)];
+        const std::size_t m = place_of(two, from);
+        const Index y = step(two, m, 1);
+        const Index z = step(two, m, 2);
+        if (z == to || z == last || sides_.across(to, z, -2) >= 0) return false;
+        Quad first{to, from, y, z};
+        Quad second{z, far, last, to};
+        if (!forward) {
+            std::reverse(first.begin(), first.end());
+            std::reverse(second.begin(), second.end());
+        }
+        sides_.remove(one, c);
+        sides_.remove(two, other);
+        replace(mesh_, sides_, c, first);
+        replace(mesh_, sides_, other, second);
+        --count_[static_cast<std::size_t>(from)];
+        --count_[static_cast<std::size_t>(far)];
+        ++count_[static_cast<std::size_t>(to)];
+        ++count_[static_cast<std::size_t>(z)];
+        return true;
+    }
+
+    MixedMesh& mesh_;
+    Sides sides_;
+    std::vector<int> count_;
+    std::unordered_map<Index, Index> next_, before_;
+};
+
 } // namespace
 
 double scaled_jacobian(const MixedMesh& mesh, const Quad& q)
 {
     double worst = 1;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const Vec2 u = mesh.at(q[(k + 1) % 4]) - mesh.at(q[k]);
-        const Vec2 v = mesh.at(q[(k + 3) % 4]) - mesh.at(q[k]);
-        const double product = u.norm() * v.norm();
-        if (!(product > 0)) return -1;
-        worst = std::min(worst, (u.x() * v.y() - u.y() * v.x()) / product);
-    }
+    for (std::size_t k = 0; k < 4; ++k) worst = std::min(worst, corner_sine(mesh, q, k));
     return worst;
+}
+
+void match_triangles(MixedMesh& mesh)
+{
+    Matching matching(mesh);
+    matching.greedy();
+    matching.augment();
+    mesh.cells = matching.cells();
 }
 
 void pair_triangles(MixedMesh& mesh)
@@ -432,6 +662,8 @@ void improve(MixedMesh& mesh)
 {
     constexpr int kRounds = 6;
     constexpr int kSweeps = 5;
+    while (remove_doublets(mesh)) {}
+    FlatCorners(mesh).mend();
     while (remove_doublets(mesh)) {}
     for (int round = 0; round < kRounds; ++round) {
         Smoother smoother(mesh);

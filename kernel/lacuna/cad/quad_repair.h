@@ -22,6 +22,9 @@ struct MixedMesh {
 /// Least scaled Jacobian at the corners of a quad: 1 for a rectangle, above 0 where it is convex.
 double scaled_jacobian(const MixedMesh& mesh, const Quad& quad);
 
+/// Make quads of neighbouring triangles, as many as go, the best pairs first. Some triangles may be left.
+void match_triangles(MixedMesh& mesh);
+
 /// Make quads of the triangles, two by two: one walks towards the other through the quads between them, each
 /// step dividing a triangle and a quad, which make a pentagon, anew. Of an odd number one is left.
 void pair_triangles(MixedMesh& mesh);

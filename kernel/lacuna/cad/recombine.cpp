@@ -114,8 +114,9 @@ double expected_quads(const surface::PlanarRegion& region, const SizeRaster& siz
 
 /// How Gmsh is asked.
 struct Attempt {
-    int algorithm;  ///< Gmsh's 8: frontal for quads, 6: frontal, 5: Delaunay
+    int algorithm;  ///< Gmsh's 6: frontal, 5: Delaunay, 1: adaptive
     int halvings;   ///< the boundary's every 2^halvings-th node is meshed, the cells then cut so many times
+    bool blossom;   ///< Gmsh pairs the triangles, rather than `match_triangles()`
     double size;    ///< of what is wanted: finer cells leave more freedom between coarse sides
 };
 
@@ -128,6 +129,8 @@ MixedMesh mesh_with_gmsh(Session& session, const std::vector<Vec2>& points, cons
     std::exception_ptr thrown;
     MixedMesh mesh;
     session.run([&] {
+        // 8, which is made for quads, gives other coordinates each time: its cross field is solved in an order
+        // that depends on addresses.
         session.set("Mesh.Algorithm", attempt.algorithm);
         std::vector<int> wires;
         std::vector<std::pair<Index, int>> tags;
@@ -146,7 +149,7 @@ MixedMesh mesh_with_gmsh(Session& session, const std::vector<Vec2>& points, cons
         }
         const int face = gmsh::model::geo::addPlaneSurface(wires);
         gmsh::model::geo::synchronize();
-        gmsh::model::mesh::setRecombine(2, face);
+        if (attempt.blossom) gmsh::model::mesh::setRecombine(2, face);
         const auto wanted = [&](double x, double y) { return factor * size(Vec2(x, y)); };
 #if LACUNA_GMSH_AT_LEAST(4, 9)
         gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double, double) { return wanted(x, y); });
@@ -356,11 +359,12 @@ surface::PlanarQuads recombine(const surface::PlanarRegion& given, const RunCont
     const Eigen::AlignedBox2d box(Vec2::Zero(), Vec2(bounds.sizes() / scale));
     const SizeRaster size(region, box);
 
-    // Gmsh's matching takes seconds beyond this many quads and grows with the square: larger regions are
-    // meshed coarser and cut.
-    constexpr double kMostMatched = 1500;
+    // Cells cut from coarser ones are more regular, so regions are meshed coarser and cut as long as this many
+    // quads are left.
+    constexpr double kWorthHalving = 1500;
     std::vector<Loops> coarser{region.loops};
-    for (double quads = expected_quads(region, size, box); quads > kMostMatched; quads /= 4) {
+    double quads = expected_quads(region, size, box);
+    for (; quads > kWorthHalving; quads /= 4) {
         if (std::any_of(coarser.back().begin(), coarser.back().end(), [](const auto& loop) { return loop.size() % 2 != 0; })) break;
         Loops half = halve(region.points, coarser.back());
         if (!can_halve(region.points, coarser.back(), half)) break;
@@ -381,10 +385,15 @@ surface::PlanarQuads recombine(const surface::PlanarRegion& given, const RunCont
     session.set("Mesh.RecombineAll", 0);
     session.set("Mesh.Smoothing", 1);
 
+    // The time Blossom takes grows with the square of the quads; beyond this many it is seconds.
+    constexpr double kMostBlossom = 8000;
+    // Gmsh aims at equilateral triangles, whose pairs have less area than the square of their side.
+    const double kPairSize = std::sqrt(2 / std::sqrt(3.0));
     MixedMesh best;
     double best_quality = -2;
     const int most = static_cast<int>(coarser.size()) - 1;
-    for (const Attempt& attempt : {Attempt{8, most, 1}, Attempt{6, most, 1}, Attempt{8, 0, 0.6}, Attempt{6, 0, 0.4}, Attempt{5, 0, 1}}) {
+    for (const Attempt& attempt : {Attempt{6, most, quads < kMostBlossom, kPairSize}, Attempt{5, most, false, kPairSize}, Attempt{6, 0, false, 0.7},
+          Attempt{6, 0, false, 0.5}}) {
         check_cancelled(context);
         MixedMesh mesh;
         try {
@@ -394,6 +403,7 @@ surface::PlanarQuads recombine(const surface::PlanarRegion& given, const RunCont
             continue;
         }
         orient(mesh);
+        match_triangles(mesh);
         pair_triangles(mesh);
         for (int level = attempt.halvings; level > 0; --level) {
             const auto l = static_cast<std::size_t>(level);
