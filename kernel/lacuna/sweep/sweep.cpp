@@ -7,6 +7,7 @@
 #include <lacuna/surface/projector.h>
 #include <lacuna/surface/source_mesh.h>
 #include <lacuna/sweep/layers.h>
+#include <lacuna/sweep/untangle.h>
 
 #include <algorithm>
 #include <cmath>
@@ -181,6 +182,32 @@ void set_patches(const OpenVolume& volume, const surface::SourceMesh& source,
     }
 }
 
+/// What untangling can mend.
+bool is_poor(const NotSweepable& error)
+{
+    return error.code() == "quality.inverted" || error.code() == "quality.not_certified" ||
+           error.code() == "quality.below_limit";
+}
+
+/// Prove the mesh; where cells are folded or poor, untangle them and prove it again.
+quality::Quality prove_or_mend(Swept& swept, const SweepOptions& options, const RunContext& context)
+{
+    UntangleOptions untangling;
+    untangling.good_enough = std::max(untangling.good_enough, options.min_scaled_jacobian);
+    try {
+        const quality::Quality quality = quality::prove(swept.mesh, options.min_scaled_jacobian, context);
+        if (!options.improve || quality.min_scaled_jacobian >= untangling.good_enough) return quality;
+    } catch (const NotSweepable& error) {
+        if (!options.improve || !is_poor(error)) throw;
+    }
+    const Untangled mended = untangle(swept.mesh, untangling, context);
+    swept.report.push_back("untangled: " + std::to_string(mended.cells) + " cells, " +
+                           std::to_string(mended.moved) + " nodes, least scaled Jacobian " +
+                           std::to_string(mended.before) + " before, " + std::to_string(mended.after) +
+                           " after");
+    return quality::prove(swept.mesh, options.min_scaled_jacobian, context);
+}
+
 } // namespace
 
 Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
@@ -228,7 +255,7 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
     for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
         mesh.rim.push_back({side.from, side.to});
     set_patches(volume, source, target, walls, mesh);
-    const quality::Quality quality = quality::prove(mesh, options.min_scaled_jacobian, context);
+    const quality::Quality quality = prove_or_mend(result, options, context);
     result.report.push_back("cells: " + std::to_string(quality.hexes) + ", all certified, scaled Jacobian " +
                             std::to_string(quality.min_scaled_jacobian) + " at least, " +
                             std::to_string(quality.mean_scaled_jacobian) + " on average");
