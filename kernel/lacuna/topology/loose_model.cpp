@@ -5,6 +5,7 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -322,11 +323,13 @@ void LooseModel::renew_parameters()
         }
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const auto [t, k] = corners[i];
-            const auto& own = face.uv[t];
-            // Beyond a seam the projection may answer with the parameters of the other side.
-            const double size = std::max((own[(k + 1) % 3] - own[k]).norm(),
-                                         (own[(k + 2) % 3] - own[k]).norm());
-            if ((uv[i] - own[k]).norm() <= size) face.uv[t][k] = uv[i];
+            // At a seam the projection may answer with the parameters of the other side.
+            for (int axis = 0; axis < 2; ++axis) {
+                const auto [low, high] = std::minmax(
+                    {face.uv[t][0][axis], face.uv[t][1][axis], face.uv[t][2][axis]});
+                const double moved = std::abs(uv[i][axis] - face.uv[t][k][axis]);
+                if (moved <= (high - low) / 2) face.uv[t][k][axis] = uv[i][axis];
+            }
             const Index p = face.triangles[t][k];
             if (inside_[index(p)]) model_.points[index(p)] = at[i];
         }

@@ -23,6 +23,11 @@ public:
     /// The faces at an edge, once a use.
     [[nodiscard]] const std::vector<FaceId>& users(EdgeId e) const { return users_[e.index()]; }
     [[nodiscard]] bool is_free(EdgeId e) const { return !is_gone(e) && users_[e.index()].size() == 1; }
+    /// Is it where one face meets itself?
+    [[nodiscard]] bool is_seam(EdgeId e) const
+    {
+        return users(e).size() == 2 && users(e).front() == users(e).back();
+    }
     /// Has a face at the edge a mesh that must stay?
     [[nodiscard]] bool keeps_mesh(EdgeId e) const;
     /// Edges of each face, once a use, in order.

@@ -260,6 +260,8 @@ std::map<EdgeId, std::vector<Stitcher::Stop>> Stitcher::find_stops()
     double sagitta = 0;
     for (std::size_t e = 0; e < model().edges.size(); ++e) {
         if (loose_.is_gone(EdgeId(e))) continue;
+        // What lies along a seam has its own border there; the face needs no cut.
+        if (loose_.is_seam(EdgeId(e))) continue;
         const EdgeTrack& on = track(EdgeId(e));
         sagitta = std::max(sagitta, on.sagitta());
         for (std::size_t i = 0; i + 1 < on.samples().size(); ++i) {

@@ -30,7 +30,7 @@ struct StitchReport {
 /// - Vertices closer than the tolerance, in a chain too, become one. An edge no longer than the tolerance
 ///   becomes its vertex.
 /// - A vertex on the inside of an edge splits it (a T-junction), where the edge, or an edge at the vertex, has
-///   one face alone. A closed polyline with a vertex of no meaning begins at the one found instead.
+///   one face alone; no seam. A closed polyline with a vertex of no meaning begins at the one found instead.
 /// - Edges with the same ends that stay within the tolerance of each other, by their exact curves where they
 ///   have them, become one. It has the points of all, and so have the facets on all its sides; points a
 ///   quarter of a side apart on an exact curve become one. Edges further apart stay, with a note where
