@@ -4,8 +4,6 @@
 #include <lacuna/core/error.h>
 
 #include <algorithm>
-#include <map>
-#include <set>
 
 namespace lacuna::io {
 namespace {
@@ -35,44 +33,35 @@ std::string shortened(const std::string& name, std::size_t bytes)
     return name.substr(0, bytes);
 }
 
-/// Gives each group one tag. Tags are unique over all dimensions, for readers that know a tag alone.
-class GroupTags {
-public:
-    int tag_of(int dimension, const std::string& group)
-    {
-        const auto [at, fresh] = tags_.try_emplace({dimension, group}, static_cast<int>(names_.size()) + 1);
-        if (fresh) names_.push_back({dimension, at->second, unique_name(dimension, group)});
-        return at->second;
-    }
-    std::vector<int> tags_of(int dimension, const std::vector<std::string>& groups,
-                             const std::string& otherwise)
-    {
-        std::set<int> tags;
-        for (const std::string& group : groups) tags.insert(tag_of(dimension, group));
-        if (tags.empty()) tags.insert(tag_of(dimension, otherwise));
-        return {tags.begin(), tags.end()};
-    }
-    std::vector<PhysicalName> take() { return std::move(names_); }
-
-private:
-    /// Two groups stay two, even where shortening makes their names alike.
-    std::string unique_name(int dimension, const std::string& group)
-    {
-        const std::string whole = printable(group);
-        std::string name = shortened(whole, kLongestName);
-        for (int i = 2; !written_.insert({dimension, name}).second; ++i) {
-            const std::string mark = "~" + std::to_string(i);
-            name = shortened(whole, kLongestName - mark.size()) + mark;
-        }
-        return name;
-    }
-
-    std::map<std::pair<int, std::string>, int> tags_;
-    std::set<std::pair<int, std::string>> written_;
-    std::vector<PhysicalName> names_;
-};
-
 } // namespace
+
+int GroupTags::tag_of(int dimension, const std::string& group)
+{
+    const auto [at, fresh] = tags_.try_emplace({dimension, group}, static_cast<int>(names_.size()) + 1);
+    if (fresh) names_.push_back({dimension, at->second, unique_name(dimension, group)});
+    return at->second;
+}
+
+std::vector<int> GroupTags::tags_of(int dimension, const std::vector<std::string>& groups,
+                                    const std::string& otherwise)
+{
+    std::set<int> tags;
+    for (const std::string& group : groups) tags.insert(tag_of(dimension, group));
+    if (tags.empty()) tags.insert(tag_of(dimension, otherwise));
+    return {tags.begin(), tags.end()};
+}
+
+/// Two groups stay two, even where shortening makes their names alike.
+std::string GroupTags::unique_name(int dimension, const std::string& group)
+{
+    const std::string whole = printable(group);
+    std::string name = shortened(whole, kLongestName);
+    for (int i = 2; !written_.insert({dimension, name}).second; ++i) {
+        const std::string mark = "~" + std::to_string(i);
+        name = shortened(whole, kLongestName - mark.size()) + mark;
+    }
+    return name;
+}
 
 void check_skin(const mesh::HexMesh& mesh)
 {

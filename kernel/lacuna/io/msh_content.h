@@ -6,7 +6,10 @@
 #include <Eigen/Geometry>
 
 #include <cstdint>
+#include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// What an MSH file says beside nodes and cells: entities and physical groups. Internal to this folder.
@@ -16,6 +19,23 @@ struct PhysicalName {
     int dimension;
     int tag;
     std::string name;
+};
+
+/// Gives each group one tag. Tags are unique over all dimensions, for readers that know a tag alone.
+class GroupTags {
+public:
+    int tag_of(int dimension, const std::string& group);
+    /// Of several groups, rising; of `otherwise` where there is none.
+    std::vector<int> tags_of(int dimension, const std::vector<std::string>& groups,
+                             const std::string& otherwise);
+    std::vector<PhysicalName> take() { return std::move(names_); }
+
+private:
+    std::string unique_name(int dimension, const std::string& group);
+
+    std::map<std::pair<int, std::string>, int> tags_;
+    std::set<std::pair<int, std::string>> written_;
+    std::vector<PhysicalName> names_;
 };
 
 /// A surface entity: a skin patch that has quads.

@@ -1,0 +1,423 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/facets.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/io/msh_content.h>
+#include <lacuna/io/sections.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <set>
+
+namespace lacuna::io {
+
+using namespace topology;
+
+namespace {
+
+/// Free edges a message names before it only counts.
+constexpr std::size_t kNamedEdges = 4;
+
+/// The facets of the volume, face after face, and the points they use, numbered from 0 in order of first use.
+struct Skin {
+    std::vector<Triangle> triangles;
+    std::vector<std::size_t> start;       ///< first facet of each face, and the end
+    std::vector<Vec3> points;
+    std::vector<std::size_t> first_point; ///< first point each face brings in, and the end
+};
+
+[[noreturn]] void throw_not_sealed(const OpenVolume& volume)
+{
+    const std::vector<EdgeId> open = free_edges(volume);
+    std::string which = "its facets do not meet side by side";
+    if (!open.empty()) {
+        which = std::to_string(open.size()) + (open.size() == 1 ? " edge is free: " : " edges are free: ");
+        for (std::size_t i = 0; i < std::min(open.size(), kNamedEdges); ++i)
+            which += (i > 0 ? ", " : "") + name_of(volume.model, open[i]);
+        if (open.size() > kNamedEdges) which += ", …";
+    }
+    throw InvalidInput("io.not_sealed", "the volume is not sealed, so its facets would not be watertight: " + which +
+                                            "; close() it first");
+}
+
+/// Every side of a facet must be met by another facet's, run the other way.
+void check_sealed(const OpenVolume& volume)
+{
+    std::map<Segment, int> balance;
+    for (const Face& face : volume.model.faces) {
+        for (const Triangle& t : face.triangles) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                const Index a = t[i], b = t[(i + 1) % 3];
+                balance[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+            }
+        }
+    }
+    const bool met = std::all_of(balance.begin(), balance.end(), [](const auto& side) { return side.second == 0; });
+    if (balance.empty() || !met || !free_edges(volume).empty()) throw_not_sealed(volume);
+}
+
+Skin skin_of(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    std::vector<FaceId> all;
+    for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
+    const bool inward = volume_integral(model, all) < 0;
+    Skin skin;
+    std::vector<Index> number(model.points.size(), -1);
+    for (const Face& face : model.faces) {
+        skin.start.push_back(skin.triangles.size());
+        skin.first_point.push_back(skin.points.size());
+        for (Triangle t : face.triangles) {
+            if (inward) std::swap(t[1], t[2]);
+            for (Index& p : t) {
+                Index& place = number[static_cast<std::size_t>(p)];
+                if (place < 0) {
+                    place = static_cast<Index>(skin.points.size());
+                    skin.points.push_back(model.at(p));
+                }
+                p = place;
+            }
+            skin.triangles.push_back(t);
+        }
+    }
+    skin.start.push_back(skin.triangles.size());
+    skin.first_point.push_back(skin.points.size());
+    return skin;
+}
+
+/// The groups the face's quads have in a mesh.
+std::vector<std::string> groups_of(const OpenVolume& volume, std::size_t f)
+{
+    const Face& face = volume.model.faces[f];
+    const bool made = face.origin == Origin::made_void;
+    const std::string own = (made ? "void:" : "wall:") + std::to_string(face.tag);
+    std::vector<std::string> groups;
+    if (volume.role[f] == Role::wall) {
+        groups.push_back(own);
+    } else {
+        groups.push_back((volume.role[f] == Role::source) != volume.turned_round ? "source" : "target");
+        if (made) groups.push_back(own);
+    }
+    if (!face.name.empty() && face.name != groups.front()) groups.push_back(face.name);
+    return groups;
+}
+
+// ---- STL
+
+Vec3 normal_of(const Skin& skin, const Triangle& t)
+{
+    const auto at = [&](std::size_t i) -> const Vec3& { return skin.points[static_cast<std::size_t>(t[i])]; };
+    const Vec3 area = (at(1) - at(0)).cross(at(2) - at(0));
+    const double norm = area.norm();
+    return norm > 0 ? Vec3(area / norm) : Vec3::Zero();
+}
+
+std::vector<Section> stl_bytes(const Skin& skin)
+{
+    std::string head = "facets of a sealed volume"; // not "solid": readers take that for text
+    head.resize(80, ' ');
+    put(head, static_cast<std::uint32_t>(skin.triangles.size()));
+    const auto put_floats = [](char* out, const Vec3& p) {
+        for (const double value : p) out = put(out, static_cast<float>(value));
+        return out;
+    };
+    return {{head, skin.triangles.size(), 50, [&skin, put_floats](std::size_t begin, std::size_t end, char* out) {
+                 for (std::size_t i = begin; i < end; ++i) {
+                     out = put_floats(out, normal_of(skin, skin.triangles[i]));
+                     for (const Index p : skin.triangles[i]) out = put_floats(out, skin.points[static_cast<std::size_t>(p)]);
+                     out = put(out, std::uint16_t{0});
+                 }
+                 return out;
+             }}};
+}
+
+char* put_words(char* out, std::string_view words) { return std::copy(words.begin(), words.end(), out); }
+
+/// Numbers, a blank before each.
+char* put_point(char* out, const Vec3& point)
+{
+    for (const double value : point) {
+        *out++ = ' ';
+        out = put_text(out, value);
+    }
+    return out;
+}
+
+std::vector<Section> stl_text(const Skin& skin)
+{
+    constexpr std::size_t kWords = 100; // of a facet, besides its numbers
+    return {{"solid volume\n", skin.triangles.size(), kWords + 12 * kNumberBytes,
+             [&skin](std::size_t begin, std::size_t end, char* out) {
+                 for (std::size_t i = begin; i < end; ++i) {
+                     out = put_words(out, "facet normal");
+                     out = put_point(out, normal_of(skin, skin.triangles[i]));
+                     out = put_words(out, "\nouter loop\n");
+                     for (const Index p : skin.triangles[i]) {
+                         out = put_words(out, "vertex");
+                         out = put_point(out, skin.points[static_cast<std::size_t>(p)]);
+                         *out++ = '\n';
+                     }
+                     out = put_words(out, "endloop\nendfacet\n");
+                 }
+                 return out;
+             }},
+            {"endsolid volume\n", 0, 0, {}}};
+}
+
+// ---- OBJ
+
+/// The groups of a face as words, for OBJ knows no blank in a name; the first is the face's alone.
+std::string obj_groups(const OpenVolume& volume, std::size_t f)
+{
+    const Face& face = volume.model.faces[f];
+    std::vector<std::string> groups = groups_of(volume, f);
+    if (volume.role[f] != Role::wall)
+        groups.front() += (face.origin == Origin::made_void ? ":void:" : ":") + std::to_string(face.tag);
+    std::string line;
+    for (std::string& group : groups) {
+        for (char& c : group)
+            if (std::isspace(static_cast<unsigned char>(c)) != 0 || std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '_';
+        line += " " + group;
+    }
+    return line;
+}
+
+std::vector<Section> obj_text(const OpenVolume& volume, const Skin& skin)
+{
+    std::vector<Section> sections{{{}, skin.points.size(), 3 * kNumberBytes + 2,
+                                   [&skin](std::size_t begin, std::size_t end, char* out) {
+                                       for (std::size_t i = begin; i < end; ++i) {
+                                           *out++ = 'v';
+                                           out = put_point(out, skin.points[i]);
+                                           *out++ = '\n';
+                                       }
+                                       return out;
+                                   }}};
+    for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
+        const std::size_t first = skin.start[f];
+        sections.push_back({"g" + obj_groups(volume, f) + "\n", skin.start[f + 1] - first, 3 * kNumberBytes + 2,
+                            [&skin, first](std::size_t begin, std::size_t end, char* out) {
+                                for (std::size_t i = first + begin; i < first + end; ++i) {
+                                    *out++ = 'f';
+                                    for (const Index p : skin.triangles[i]) {
+                                        *out++ = ' ';
+                                        out = put_text(out, static_cast<long long>(p) + 1);
+                                    }
+                                    *out++ = '\n';
+                                }
+                                return out;
+                            }});
+    }
+    return sections;
+}
+
+// ---- MSH 4.1. https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format
+
+constexpr int kTriangleType = 2;
+
+/// What an MSH file says of each face, before its points and facets.
+struct Surface {
+    int tag = 0;
+    std::vector<int> physical;
+    Eigen::AlignedBox3d box;
+};
+
+std::vector<int> surface_tags(const Model& model)
+{
+    int highest = 0;
+    for (const Face& face : model.faces)
+        if (face.origin == Origin::given) highest = std::max(highest, face.tag);
+    std::set<int> taken;
+    std::vector<int> tags;
+    for (const Face& face : model.faces) {
+        const bool own = face.origin == Origin::given && face.tag > 0 && taken.insert(face.tag).second;
+        tags.push_back(own ? face.tag : ++highest);
+    }
+    return tags;
+}
+
+std::vector<Surface> surfaces_of(const OpenVolume& volume, const Skin& skin, GroupTags& groups)
+{
+    std::vector<Surface> surfaces;
+    const std::vector<int> tags = surface_tags(volume.model);
+    for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
+        Surface surface{tags[f], groups.tags_of(2, groups_of(volume, f), "surface"), {}};
+        for (std::size_t i = skin.start[f]; i < skin.start[f + 1]; ++i)
+            for (const Index p : skin.triangles[i]) surface.box.extend(skin.points[static_cast<std::size_t>(p)]);
+        surfaces.push_back(std::move(surface));
+    }
+    return surfaces;
+}
+
+/// Numbers in either form: bytes, or text with a blank between and a line's end after.
+class Numbers {
+public:
+    explicit Numbers(bool binary) : binary_(binary) {}
+
+    Numbers& whole(int value) { return number(value, static_cast<long long>(value)); }
+    Numbers& count(std::size_t value) { return number(static_cast<std::uint64_t>(value), static_cast<long long>(value)); }
+    Numbers& real(double value) { return number(value, value); }
+    Numbers& end_line()
+    {
+        if (!binary_) text_.back() = '\n';
+        return *this;
+    }
+    [[nodiscard]] std::string take() { return std::move(text_); }
+
+private:
+    template <class Bytes, class Text>
+    Numbers& number(const Bytes& bytes, const Text& text)
+    {
+        if (binary_) {
+            put(text_, bytes);
+        } else {
+            char word[kNumberBytes];
+            text_.append(word, put_text(word, text)).append(1, ' ');
+        }
+        return *this;
+    }
+
+    bool binary_;
+    std::string text_;
+};
+
+std::string msh_head(const std::vector<Surface>& surfaces, const std::vector<PhysicalName>& names, bool binary)
+{
+    std::string text = std::string("$MeshFormat\n4.1 ") + (binary ? "1" : "0") + " 8\n";
+    if (binary) {
+        put(text, int{1}); // tells the reader the order of bytes
+        text += "\n";
+    }
+    text += "$EndMeshFormat\n$PhysicalNames\n" + std::to_string(names.size()) + "\n";
+    for (const PhysicalName& name : names)
+        text += std::to_string(name.dimension) + " " + std::to_string(name.tag) + " \"" + name.name + "\"\n";
+    text += "$EndPhysicalNames\n$Entities\n";
+    Numbers numbers(binary);
+    numbers.count(0).count(0).count(surfaces.size()).count(0).end_line();
+    for (const Surface& surface : surfaces) {
+        numbers.whole(surface.tag);
+        for (const double value : surface.box.min()) numbers.real(value);
+        for (const double value : surface.box.max()) numbers.real(value);
+        numbers.count(surface.physical.size());
+        for (const int tag : surface.physical) numbers.whole(tag);
+        numbers.count(0).end_line();
+    }
+    return text + numbers.take() + (binary ? "\n" : "") + "$EndEntities\n";
+}
+
+/// `$Nodes` or `$Elements`: how many blocks, and how many things numbered from 1.
+std::string msh_counts(std::size_t blocks, std::size_t count, bool binary)
+{
+    return Numbers(binary).count(blocks).count(count).count(1).count(count).end_line().take();
+}
+
+Section numbered(std::string text, std::size_t first, std::size_t count, bool binary)
+{
+    return {std::move(text), count, binary ? sizeof(std::uint64_t) : kNumberBytes,
+            [first, binary](std::size_t begin, std::size_t end, char* out) {
+                for (std::size_t i = first + begin; i < first + end; ++i) {
+                    if (binary) {
+                        out = put(out, static_cast<std::uint64_t>(i + 1));
+                        continue;
+                    }
+                    out = put_text(out, static_cast<long long>(i) + 1);
+                    *out++ = '\n';
+                }
+                return out;
+            }};
+}
+
+Section coordinates(const Skin& skin, std::size_t first, std::size_t count, bool binary)
+{
+    return {{}, count, binary ? sizeof(Vec3) : 3 * kNumberBytes + 1,
+            [&skin, first, binary](std::size_t begin, std::size_t end, char* out) {
+                for (std::size_t i = first + begin; i < first + end; ++i) {
+                    for (int d = 0; d < 3; ++d) {
+                        out = binary ? put(out, skin.points[i][d]) : put_text(out, skin.points[i][d]);
+                        if (!binary) *out++ = d < 2 ? ' ' : '\n';
+                    }
+                }
+                return out;
+            }};
+}
+
+Section facets_of(const Skin& skin, std::string text, std::size_t f, bool binary)
+{
+    const std::size_t first = skin.start[f];
+    return {std::move(text), skin.start[f + 1] - first, binary ? 4 * sizeof(std::uint64_t) : 4 * kNumberBytes + 1,
+            [&skin, first, binary](std::size_t begin, std::size_t end, char* out) {
+                for (std::size_t i = first + begin; i < first + end; ++i) {
+                    std::array<std::size_t, 4> record{i + 1};
+                    for (std::size_t k = 0; k < 3; ++k) record[k + 1] = static_cast<std::size_t>(skin.triangles[i][k]) + 1;
+                    for (std::size_t k = 0; k < 4; ++k) {
+                        out = binary ? put(out, static_cast<std::uint64_t>(record[k]))
+                                     : put_text(out, static_cast<long long>(record[k]));
+                        if (!binary) *out++ = k < 3 ? ' ' : '\n';
+                    }
+                }
+                return out;
+            }};
+}
+
+std::vector<Section> msh_sections(const OpenVolume& volume, const Skin& skin, bool binary)
+{
+    GroupTags groups;
+    const std::vector<Surface> surfaces = surfaces_of(volume, skin, groups);
+    const auto block = [&](std::size_t f, int third, std::size_t count) {
+        return Numbers(binary).whole(2).whole(surfaces[f].tag).whole(third).count(count).end_line().take();
+    };
+    const std::string line = binary ? "\n" : "";
+    std::string text = msh_head(surfaces, groups.take(), binary) + "$Nodes\n" +
+                       msh_counts(surfaces.size(), skin.points.size(), binary);
+    std::vector<Section> sections;
+    for (std::size_t f = 0; f < surfaces.size(); ++f) {
+        const std::size_t first = skin.first_point[f], count = skin.first_point[f + 1] - first;
+        sections.push_back(numbered(text + block(f, 0, count), first, count, binary));
+        sections.push_back(coordinates(skin, first, count, binary));
+        text.clear();
+    }
+    text = line + "$EndNodes\n$Elements\n" + msh_counts(surfaces.size(), skin.triangles.size(), binary);
+    for (std::size_t f = 0; f < surfaces.size(); ++f) {
+        const std::size_t count = skin.start[f + 1] - skin.start[f];
+        sections.push_back(facets_of(skin, text + block(f, kTriangleType, count), f, binary));
+        text.clear();
+    }
+    sections.push_back({line + "$EndElements\n", 0, 0, {}});
+    return sections;
+}
+
+std::string ending_of(const std::string& path)
+{
+    const std::size_t dot = path.find_last_of('.');
+    if (dot == std::string::npos || path.find('/', dot) != std::string::npos) return {};
+    std::string ending = path.substr(dot);
+    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return ending;
+}
+
+} // namespace
+
+void write_facets(const OpenVolume& volume, const std::string& path, const FacetFileOptions& options,
+                  const RunContext& context)
+{
+    const std::string ending = ending_of(path);
+    if (ending != ".stl" && ending != ".obj" && ending != ".msh")
+        throw InvalidInput("io.unknown_ending", "cannot write facets to '" + path + "': the ending \"" + ending +
+                                                    "\" says no format; facets are written as .stl, .obj and .msh");
+    check_sealed(volume);
+    const Skin skin = skin_of(volume);
+    WholeFile file(path);
+    if (ending == ".msh")
+        write_sections(file, msh_sections(volume, skin, options.binary), options.binary ? Sizes::exact : Sizes::varying, context);
+    else if (ending == ".obj")
+        write_sections(file, obj_text(volume, skin), Sizes::varying, context);
+    else if (options.binary)
+        write_sections(file, stl_bytes(skin), Sizes::exact, context);
+    else
+        write_sections(file, stl_text(skin), Sizes::varying, context);
+    file.commit();
+}
+
+} // namespace lacuna::io
