@@ -174,8 +174,10 @@ function Volume:sweep(options) end
 ---@param options lacuna.SweepOptions
 ---@return table report
 function Volume:sweep_to(path, options) end
+--- The facets of the sealed volume, watertight and outward.
 ---@param path string .stl, .msh or .obj
-function Volume:write_facets(path) end
+---@param options? { binary: boolean } of .stl and .msh; default true
+function Volume:write_facets(path, options) end
 ---@param path string .step or .brep
 function Volume:write_cad(path) end
 

@@ -4,6 +4,7 @@
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
 
+#include <lacuna/io/facets.h>
 #include <lacuna/io/msh.h>
 #include <lacuna/io/msh_reader.h>
 #include <lacuna/io/vtk.h>
@@ -97,11 +98,22 @@ int not_yet(lua_State* L, const char* name, const char* instead)
 }
 
 int view(lua_State* L) { return not_yet<MeshState>(L, "view", "write a .msh and open it in Gmsh"); }
+
+const Option<io::FacetFileOptions> kFacetOptions[] = {{"binary", boolean<&io::FacetFileOptions::binary>}};
+
+/// volume:write_facets(path [, options])
 int write_facets(lua_State* L)
 {
-    return not_yet<VolumeState>(L, "write_facets",
-                                "sweep the volume and write the mesh, whose skin is the facets' shape");
+    lua_settop(L, 3);
+    const auto& state = check<VolumeState>(L, 1);
+    const char* path = push_output_path(L, 2, "write_facets");
+    io::FacetFileOptions options;
+    read_options(L, 3, "write_facets", kFacetOptions, options);
+    RunContext& context = push_context(L);
+    guard(L, [&] { io::write_facets(state.volume, path, options, context); });
+    return 0;
 }
+
 int write_cad(lua_State* L)
 {
     return not_yet<VolumeState>(L, "write_cad", "sweep the volume and write the mesh");
