@@ -63,10 +63,48 @@ void mend_parameters(int face, const std::vector<Vec3>& at, std::vector<Vec2>& u
     }
 }
 
+/// How far places lie outside the face's parameter rectangle, all together.
+double outside(const std::vector<Vec2>& uv, const Eigen::AlignedBox2d& bounds)
+{
+    double sum = 0;
+    for (const Vec2& p : uv) sum += bounds.exteriorDistance(p);
+    return sum;
+}
+
+/// A curve that was a seam before the face was cut knows two places on the surface. The face has it on the side
+/// that is within its rectangle or, where both are, at which it meets the other curves.
+void choose_sides(std::vector<BorderChain>& border, const std::vector<std::vector<Vec2>>& other_side, int face)
+{
+    std::vector<double> low, high;
+    gmsh::model::getParametrizationBounds(2, face, low, high);
+    const Eigen::AlignedBox2d bounds(Vec2(low.at(0), low.at(1)), Vec2(high.at(0), high.at(1)));
+    const double near = 1e-6 * bounds.diagonal().norm();
+    const auto gap = [&](const std::vector<Vec2>& uv, std::size_t own) {
+        double sum = 0;
+        for (const Vec2& end : {uv.front(), uv.back()}) {
+            double nearest = bounds.diagonal().norm();
+            for (std::size_t c = 0; c < border.size(); ++c) {
+                if (c == own || !other_side[c].empty()) continue;
+                nearest = std::min({nearest, (border[c].uv.front() - end).norm(), (border[c].uv.back() - end).norm()});
+            }
+            sum += nearest;
+        }
+        return sum;
+    };
+    for (std::size_t c = 0; c < border.size(); ++c) {
+        if (other_side[c].empty()) continue;
+        const double here = outside(border[c].uv, bounds);
+        const double there = outside(other_side[c], bounds);
+        const bool decided = std::abs(here - there) > near;
+        if (decided ? there < here : gap(other_side[c], c) < gap(border[c].uv, c)) border[c].uv = other_side[c];
+    }
+}
+
 /// Every curve of the face as chains of places; a seam gives two.
 std::vector<BorderChain> border_of(const CadWire& wire, const CadFaceInfo& face, double allowed)
 {
     std::vector<BorderChain> border;
+    std::vector<std::vector<Vec2>> other_side;  // of each chain; empty where there is but one
     for (const CadFaceInfo::Side& side : face.sides) {
         const CadCurveInfo& curve = wire.curves[side.curve];
         BorderChain chain;
@@ -88,19 +126,21 @@ std::vector<BorderChain> border_of(const CadWire& wire, const CadFaceInfo& face,
         chain.uv = parameters_on_face(curve, params, face.tag, 0);
         if (!chain.pole) mend_parameters(face.tag, at, chain.uv, allowed);
         if (chain.uv.size() != params.size()) continue;
-        if (side.uses > 1) {
-            BorderChain other = chain;
-            other.uv = parameters_on_face(curve, params, face.tag, 1);
-            const bool seam = other.uv.size() == chain.uv.size() &&
-                              (other.uv.front() - chain.uv.front()).norm() > 1e-9 * (1 + chain.uv.front().norm());
-            if (seam) {
-                border.push_back(std::move(other));
-            } else {
-                chain.slit = true;
-            }
+        std::vector<Vec2> other = chain.pole ? std::vector<Vec2>{} : parameters_on_face(curve, params, face.tag, 1);
+        const bool two_sided = other.size() == chain.uv.size() &&
+                               (other.front() - chain.uv.front()).norm() > 1e-9 * (1 + chain.uv.front().norm());
+        if (!two_sided) other.clear();
+        chain.slit = side.uses > 1 && !two_sided && !chain.pole;
+        if (side.uses > 1 && two_sided) {
+            BorderChain twin = chain;
+            twin.uv = std::exchange(other, {});
+            border.push_back(std::move(twin));
+            other_side.emplace_back();
         }
         border.push_back(std::move(chain));
+        other_side.push_back(std::move(other));
     }
+    choose_sides(border, other_side, face.tag);
     return border;
 }
 

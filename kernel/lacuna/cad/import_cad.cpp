@@ -21,7 +21,7 @@ constexpr double kSidesPerTurn = 48;
 constexpr double kLongestSide = 1.0 / 20;
 /// Cells all faces may have together, and any one of them.
 constexpr double kMaxCells = 400'000;
-constexpr double kMaxCellsOfFace = 4'000;
+constexpr double kMaxCellsOfFace = 16'000;
 constexpr double kMinCellsOfFace = 100;
 /// How often borders are divided anew, twice as fine, where they cross themselves.
 constexpr int kDivisions = 6;

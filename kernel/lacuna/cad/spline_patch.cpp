@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <lacuna/cad/spline_patch.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace lacuna::cad {
+
+namespace {
+
+/// Sides between the points of a spline at most. A full turn is then met to 3e-10 of its radius.
+constexpr std::size_t kMostSides = 256;
+/// Lines across along which a surface is probed.
+constexpr std::size_t kProbes = 5;
+
+std::vector<double> evenly(std::size_t sides)
+{
+    std::vector<double> parameters(sides + 1);
+    for (std::size_t i = 0; i <= sides; ++i) parameters[i] = static_cast<double>(i) / static_cast<double>(sides);
+    return parameters;
+}
+
+std::vector<double> halfway(const std::vector<double>& parameters)
+{
+    std::vector<double> middles(parameters.size() - 1);
+    for (std::size_t i = 0; i < middles.size(); ++i) middles[i] = (parameters[i] + parameters[i + 1]) / 2;
+    return middles;
+}
+
+/// Poles of several curves with the same axis: a column a coordinate.
+Eigen::MatrixXd poles_through(const SplineAxis& axis, const Eigen::MatrixXd& values)
+{
+    const auto count = static_cast<std::size_t>(values.rows());
+    Eigen::MatrixXd collocation(values.rows(), values.rows());
+    const std::vector<double> at = evenly(count - 1);
+    for (std::size_t i = 0; i < count; ++i) collocation.row(static_cast<Eigen::Index>(i)) = axis.basis(at[i]).transpose();
+    Eigen::MatrixXd poles = collocation.partialPivLu().solve(values);
+    poles.row(0) = values.row(0); // the ends to the bit, as corners are shared
+    poles.bottomRows(1) = values.bottomRows(1);
+    return poles;
+}
+
+Eigen::MatrixXd rows_of(std::span<const Vec3> points)
+{
+    Eigen::MatrixXd rows(static_cast<Eigen::Index>(points.size()), 3);
+    for (std::size_t i = 0; i < points.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = points[i].transpose();
+    return rows;
+}
+
+double greatest_distance(std::span<const Vec3> a, std::span<const Vec3> b)
+{
+    double greatest = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) greatest = std::max(greatest, (a[i] - b[i]).norm());
+    return greatest;
+}
+
+/// Sides a function of one parameter, with values of any number of places, must be divided into.
+std::size_t sides_for(const std::function<std::vector<std::vector<Vec3>>(std::span<const double>)>& lines, double precision)
+{
+    for (std::size_t sides = 1; sides < kMostSides; sides = sides == 1 ? 4 : 2 * sides) {
+        const std::vector<double> at = evenly(sides);
+        // A straight side is one whose quarters lie on its chord too.
+        const std::vector<double> probes = sides == 1 ? evenly(4) : halfway(at);
+        const auto values = lines(at);
+        const auto wanted = lines(probes);
+        bool good = true;
+        for (std::size_t line = 0; good && line < values.size(); ++line) {
+            const SplineCurve curve = interpolate(values[line]);
+            std::vector<Vec3> met;
+            for (const double p : probes) met.push_back(curve.at(p));
+            good = greatest_distance(met, wanted[line]) <= precision;
+        }
+        if (good) return sides;
+    }
+    return kMostSides;
+}
+
+} // namespace
+
+SplineAxis SplineAxis::even(std::size_t count)
+{
+    SplineAxis axis;
+    axis.degree = static_cast<int>(std::min<std::size_t>(3, count - 1));
+    const std::vector<double> at = evenly(count - 1);
+    axis.knots.push_back(0);
+    // Not-a-knot: the first and last inner parameters of a cubic carry none.
+    for (std::size_t i = 2; axis.degree == 3 && i + 2 < at.size(); ++i) axis.knots.push_back(at[i]);
+    axis.knots.push_back(1);
+    axis.multiplicities.assign(axis.knots.size(), 1);
+    axis.multiplicities.front() = axis.multiplicities.back() = axis.degree + 1;
+    return axis;
+}
+
+SplineAxis SplineAxis::spans(std::size_t count, int degree)
+{
+    SplineAxis axis;
+    axis.degree = degree;
+    axis.knots = evenly(count);
+    axis.multiplicities.assign(axis.knots.size(), 1);
+    axis.multiplicities.front() = axis.multiplicities.back() = degree + 1;
+    return axis;
+}
+
+std::size_t SplineAxis::poles() const
+{
+    return static_cast<std::size_t>(std::accumulate(multiplicities.begin(), multiplicities.end(), 0) - degree - 1);
+}
+
+Eigen::VectorXd SplineAxis::basis(double parameter) const
+{
+    std::vector<double> flat;
+    for (std::size_t k = 0; k < knots.size(); ++k) flat.insert(flat.end(), static_cast<std::size_t>(multiplicities[k]), knots[k]);
+    const auto p = static_cast<std::size_t>(degree);
+    std::size_t span = p;
+    while (span + p + 2 < flat.size() && parameter >= flat[span + 1]) ++span;
+    // Cox and de Boor, from the one function of degree 0 up.
+    std::vector<double> value(p + 1, 0.0);
+    value[0] = 1;
+    for (std::size_t d = 1; d <= p; ++d) {
+        double saved = 0;
+        for (std::size_t r = 0; r < d; ++r) {
+            const double left = parameter - flat[span + 1 + r - d];
+            const double right = flat[span + r + 1] - parameter;
+            const double part = value[r] / (right + left);
+            value[r] = saved + right * part;
+            saved = left * part;
+        }
+        value[d] = saved;
+    }
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(poles()));
+    for (std::size_t r = 0; r <= p; ++r) all[static_cast<Eigen::Index>(span - p + r)] = value[r];
+    return all;
+}
+
+Vec3 SplineCurve::at(double parameter) const
+{
+    const Eigen::VectorXd weight = axis.basis(parameter);
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < poles.size(); ++i) sum += weight[static_cast<Eigen::Index>(i)] * poles[i];
+    return sum;
+}
+
+SplineCurve interpolate(std::span<const Vec3> points)
+{
+    SplineCurve curve{SplineAxis::even(points.size()), {}};
+    const Eigen::MatrixXd poles = poles_through(curve.axis, rows_of(points));
+    for (Eigen::Index i = 0; i < poles.rows(); ++i) curve.poles.emplace_back(poles.row(i));
+    return curve;
+}
+
+SplineSurface interpolate(std::span<const Vec3> grid, std::size_t columns)
+{
+    const std::size_t rows = grid.size() / columns;
+    SplineSurface surface{SplineAxis::even(columns), SplineAxis::even(rows), {}};
+    // First along every row, then across the rows' poles.
+    Eigen::MatrixXd values(static_cast<Eigen::Index>(columns), static_cast<Eigen::Index>(3 * rows));
+    for (std::size_t j = 0; j < rows; ++j)
+        values.middleCols(static_cast<Eigen::Index>(3 * j), 3) = rows_of(grid.subspan(j * columns, columns));
+    const Eigen::MatrixXd along = poles_through(surface.u, values);
+    Eigen::MatrixXd turned(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(3 * columns));
+    for (Eigen::Index j = 0; j < turned.rows(); ++j) {
+        for (Eigen::Index i = 0; i < along.rows(); ++i) turned.block(j, 3 * i, 1, 3) = along.block(i, 3 * j, 1, 3);
+    }
+    const Eigen::MatrixXd poles = poles_through(surface.v, turned);
+    for (Eigen::Index j = 0; j < poles.rows(); ++j) {
+        for (Eigen::Index i = 0; i < along.rows(); ++i) surface.poles.emplace_back(poles.block(j, 3 * i, 1, 3).transpose());
+    }
+    return surface;
+}
+
+SplineCurve approximate(const CurveFunction& function, double precision)
+{
+    const std::size_t sides =
+        sides_for([&](std::span<const double> at) { return std::vector<std::vector<Vec3>>{function(at)}; }, precision);
+    return interpolate(function(evenly(sides)));
+}
+
+SplineSurface approximate(const SurfaceFunction& function, double precision)
+{
+    const std::vector<double> across = evenly(kProbes - 1);
+    const auto lines_along_u = [&](std::span<const double> at) {
+        const std::vector<Vec3> grid = function(at, across);
+        std::vector<std::vector<Vec3>> lines;
+        for (std::size_t j = 0; j < across.size(); ++j)
+            lines.emplace_back(grid.begin() + static_cast<std::ptrdiff_t>(j * at.size()),
+                               grid.begin() + static_cast<std::ptrdiff_t>((j + 1) * at.size()));
+        return lines;
+    };
+    const auto lines_along_v = [&](std::span<const double> at) {
+        const std::vector<Vec3> grid = function(across, at);
+        std::vector<std::vector<Vec3>> lines(across.size());
+        for (std::size_t k = 0; k < grid.size(); ++k) lines[k % across.size()].push_back(grid[k]);
+        return lines;
+    };
+    const std::vector<double> u = evenly(sides_for(lines_along_u, precision));
+    const std::vector<double> v = evenly(sides_for(lines_along_v, precision));
+    return interpolate(function(u, v), u.size());
+}
+
+} // namespace lacuna::cad
