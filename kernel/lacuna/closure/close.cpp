@@ -2,6 +2,7 @@
 #include <lacuna/closure/close.h>
 
 #include <lacuna/closure/class_five.h>
+#include <lacuna/closure/cut_edges.h>
 #include <lacuna/closure/follow.h>
 #include <lacuna/closure/sealing.h>
 #include <lacuna/closure/stubs.h>
@@ -74,11 +75,12 @@ void check_matched(const OpenVolume& volume, const matching::Match& match)
 }
 
 /// Class I has no algorithm of its own in the paper; its walls are those of class II with no wall given.
-void close_class_one_or_two(OpenVolume& volume, const matching::Match& match, const Follower* follower,
-                            Closure& closure)
+void close_class_one_or_two(OpenVolume& volume, matching::Match match, const Follower* follower, Closure& closure)
 {
     if (closure.value == VolumeClass::II) note(closure, "Algorithm 8");
     turn_target_to_source(volume, match);
+    const auto made = cut_edges(volume, match);
+    match.vertices.insert(match.vertices.end(), made.begin(), made.end());
     check_matched(volume, match);
     closure.void_edges = make_void_edges(volume, match, follower);
     note(closure, "Algorithm 2");

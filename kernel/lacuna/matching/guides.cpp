@@ -46,9 +46,11 @@ std::vector<Vec3> ways_up(const OpenVolume& volume, const std::vector<double>& h
             const auto height = [&](std::size_t i) { return heights[static_cast<std::size_t>(t[i])]; };
             const Vec3 a = model.at(t[1]) - model.at(t[0]), b = model.at(t[2]) - model.at(t[0]);
             const Vec3 normal = a.cross(b);
-            const Vec3 gradient = (height(1) - height(0)) * b.cross(normal) + (height(2) - height(0)) * normal.cross(a);
+            const Vec3 gradient = (height(1) - height(0)) * b.cross(normal) +
+                                  (height(2) - height(0)) * normal.cross(a);
             if (!gradient.allFinite()) continue;
-            for (const Index p : t) sum[static_cast<std::size_t>(p)] += normal.norm() * gradient.stableNormalized();
+            for (const Index p : t)
+                sum[static_cast<std::size_t>(p)] += normal.norm() * gradient.stableNormalized();
         }
     }
     for (Vec3& up : sum) up.stableNormalize();
@@ -57,8 +59,8 @@ std::vector<Vec3> ways_up(const OpenVolume& volume, const std::vector<double>& h
 
 /// The only level line at height t; nothing where there are several or none.
 std::optional<LevelLine> level_line(const Model& model, const std::vector<Triangle>& triangles,
-                                    const std::vector<double>& heights, double t,
-                                    const std::vector<Vec3>& up, const std::map<Side, std::size_t>& on_line)
+                                    const std::vector<double>& heights, double t, const std::vector<Vec3>& up,
+                                    const std::map<Side, std::size_t>& on_line)
 {
     const auto above = [&](Index p) { return heights[static_cast<std::size_t>(p)] >= t; };
     const auto crossing = [&](const Side& at, const std::vector<Vec3>& of) {

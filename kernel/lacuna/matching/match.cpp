@@ -3,9 +3,9 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/affine.h>
-#include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/matching/arc_pairs.h>
 #include <lacuna/matching/assignment.h>
+#include <lacuna/matching/loop_shape.h>
 #include <lacuna/matching/side_lines.h>
 
 #include <algorithm>
@@ -21,96 +21,11 @@ using namespace topology;
 
 namespace {
 
-/// How many points stand for a loop in a fit.
-constexpr int kSamples = 64;
+/// Confidence below which the second best is named beside the best: it fits within a quarter as well.
+constexpr double kUnsure = 0.25;
 /// What a turn of 180° counts in a score, against a residual as large as the loop: small, so that it only decides
 /// between fits that are about as good.
 constexpr double kTurnWeight = 0.1;
-/// Confidence below which the second best is named beside the best: it fits within a quarter as well.
-constexpr double kUnsure = 0.25;
-
-std::vector<VertexId> vertices_of(const Model& model, const Rim& rim)
-{
-    std::vector<VertexId> vertices;
-    for (const EdgeUse& use : rim.uses) vertices.push_back(use_from(model, use));
-    return vertices;
-}
-
-/// A loop as matching sees it.
-struct LoopShape {
-    std::vector<VertexId> vertices;
-    std::vector<Vec3> points;       ///< polyline, closed: first repeated at the end
-    std::vector<double> arc;        ///< running length of `points`
-    std::vector<double> vertex_arc; ///< running length at each vertex
-    Vec3 centroid = Vec3::Zero();
-    Vec3 area = Vec3::Zero();
-    double length = 0;
-};
-
-LoopShape shape_of(const Model& model, const Rim& rim)
-{
-    LoopShape shape;
-    shape.vertices = vertices_of(model, rim);
-    std::vector<std::size_t> first;
-    for (const EdgeUse& use : rim.uses) {
-        const std::vector<Index> chain = use_points(model, use);
-        first.push_back(shape.points.size());
-        for (std::size_t i = 0; i + 1 < chain.size(); ++i) shape.points.push_back(model.at(chain[i]));
-    }
-    shape.area = geometry::newell_vector(shape.points);
-    shape.points.push_back(shape.points.front());
-    shape.arc = geometry::arc_lengths(shape.points);
-    shape.length = shape.arc.back();
-    for (const std::size_t i : first) shape.vertex_arc.push_back(shape.arc[i]);
-    for (std::size_t i = 0; i + 1 < shape.points.size(); ++i) {
-        shape.centroid += (shape.arc[i + 1] - shape.arc[i]) * (shape.points[i] + shape.points[i + 1]) / 2;
-    }
-    shape.centroid /= shape.length > 0 ? shape.length : 1;
-    return shape;
-}
-
-/// Sample a loop from vertex `start`, forward or backward. With `per_edge`, as many points on each edge, so that
-/// vertex meets vertex; else evenly by arc length.
-std::vector<Vec3> samples(const LoopShape& shape, std::size_t start, bool backward, bool per_edge)
-{
-    std::vector<Vec3> result;
-    const std::size_t n = shape.vertices.size();
-    const auto at = [&](double s) {
-        const double wrapped = s - shape.length * std::floor(s / shape.length);
-        result.push_back(geometry::point_at(shape.points, shape.arc, wrapped));
-    };
-    if (!per_edge) {
-        for (int i = 0; i < kSamples; ++i) {
-            const double step = shape.length * i / kSamples;
-            at(shape.vertex_arc[start] + (backward ? -step : step));
-        }
-        return result;
-    }
-    const int each = std::max<int>(1, kSamples / static_cast<int>(n));
-    for (std::size_t k = 0; k < n; ++k) {
-        const std::size_t edge = backward ? (start + 2 * n - k - 1) % n : (start + k) % n;
-        const double from = shape.vertex_arc[edge];
-        const double to = edge + 1 < n ? shape.vertex_arc[edge + 1] : shape.length;
-        for (int i = 0; i < each; ++i) {
-            const double f = static_cast<double>(i) / each;
-            at(backward ? to + (from - to) * f : from + (to - from) * f);
-        }
-    }
-    return result;
-}
-
-double turn_of(const Eigen::Matrix3d& rotation)
-{
-    return std::abs(Eigen::AngleAxisd(rotation).angle()) / std::numbers::pi;
-}
-
-/// One way to lay a source loop on a target loop.
-struct Lay {
-    std::size_t shift = 0; ///< target vertex that the source's first vertex meets
-    bool backward = true;  ///< the target loop is walked against its own direction
-    double score = std::numeric_limits<double>::infinity();
-    geometry::RigidFit fit;
-};
 
 struct Problem {
     const OpenVolume& volume;
@@ -131,7 +46,7 @@ bool allowed(const Problem& problem, const LoopShape& source, const LoopShape& t
              bool backward)
 {
     const std::size_t n = source.vertices.size();
-    if (n != target.vertices.size()) return true;
+    if (by_length(source, target)) return true;
     for (std::size_t i = 0; i < n; ++i) {
         const auto pair = problem.hard.find(source.vertices[i]);
         if (pair == problem.hard.end()) continue;
@@ -141,25 +56,31 @@ bool allowed(const Problem& problem, const LoopShape& source, const LoopShape& t
     return true;
 }
 
+double turn_of(const Eigen::Matrix3d& rotation)
+{
+    return std::abs(Eigen::AngleAxisd(rotation).angle()) / std::numbers::pi;
+}
+
 /// Every lay of one loop on another, best first. Points already matched elsewhere (`from`, `to`) take part in the fit.
 std::vector<Lay> lays(const Problem& problem, int s, int t, bool with_scale,
                       const std::vector<Vec3>& from = {}, const std::vector<Vec3>& to = {})
 {
     const LoopShape& source = problem.source[static_cast<std::size_t>(s)];
     const LoopShape& target = problem.target[static_cast<std::size_t>(t)];
-    const bool per_edge = source.vertices.size() == target.vertices.size();
+    const std::size_t shifts = by_length(source, target) ? kSamples : target.vertices.size();
     const double scale = std::max(source.length, target.length);
-    std::vector<Vec3> a = samples(source, 0, false, per_edge);
+    std::vector<Vec3> a = source_samples(source, target);
     a.insert(a.end(), from.begin(), from.end());
     std::vector<Lay> result;
     for (const bool backward : {true, false}) {
         if (problem.backward && *problem.backward != backward) continue;
-        for (std::size_t shift = 0; shift < target.vertices.size(); ++shift) {
+        for (std::size_t shift = 0; shift < shifts; ++shift) {
             if (!allowed(problem, source, target, shift, backward)) continue;
-            std::vector<Vec3> b = samples(target, shift, backward, per_edge);
+            std::vector<Vec3> b = target_samples(source, target, shift, backward);
             b.insert(b.end(), to.begin(), to.end());
             Lay lay{shift, backward, 0, geometry::fit_rigid(a, b, with_scale)};
-            lay.score = lay.fit.rms / scale + kTurnWeight * turn_of(lay.fit.rotation);
+            lay.score = lay.fit.rms / scale +
+                        kTurnWeight * (turn_of(lay.fit.rotation) + overturned(source, target, backward));
             result.push_back(lay);
         }
     }
@@ -174,79 +95,114 @@ double relative(double a, double b)
     return most > 0 ? std::abs(a - b) / most : 0;
 }
 
+/// How far a loop's middle lands from another's once the source has been moved by `fit`.
+double misfit(const Problem& problem, std::size_t s, std::size_t t, const geometry::RigidFit& fit,
+              double reach)
+{
+    return (fit(problem.source[s].centroid) - problem.target[t].centroid).norm() / reach;
+}
+
 /// What it costs to send loop s to loop t once the source has been moved by `fit`.
 double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geometry::RigidFit& fit,
                  double reach)
 {
-    if (problem.forced[s] >= 0) {
-        return problem.forced[s] == static_cast<int>(t) ? 0.0 : std::numeric_limits<double>::infinity();
-    }
+    if (problem.forced[s] >= 0 && problem.forced[s] != static_cast<int>(t))
+        return std::numeric_limits<double>::infinity();
+    const double place = misfit(problem, s, t, fit, reach);
+    if (problem.forced[s] >= 0) return place;
     const LoopShape& a = problem.source[s];
     const LoopShape& b = problem.target[t];
     const double counts = relative(static_cast<double>(a.vertices.size()),
                                    static_cast<double>(b.vertices.size()));
-    return (fit(a.centroid) - b.centroid).norm() / reach + relative(a.length * fit.scale, b.length) +
+    return place + relative(a.length * fit.scale, b.length) +
            relative(a.area.norm() * fit.scale * fit.scale, b.area.norm()) + counts;
 }
 
 struct Arrangement {
     std::vector<int> target; ///< of each source loop
     int anchor = 0;
-    Lay lay;
+    Lay lay;                 ///< of the anchor; its score counts where the other loops land
+    std::optional<Lay> next; ///< the second best with the same pairs
     double score = std::numeric_limits<double>::infinity();
 };
 
+/// The arrangement that a lay of the anchor leads to; nothing where no complete one is cheaper than `limit`.
+std::optional<Arrangement> arrangement_of(const Problem& problem, std::size_t anchor, std::size_t t,
+                                          const Lay& lay, double reach, double limit)
+{
+    const std::size_t n = problem.source.size();
+    const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
+    Eigen::MatrixXd cost(at(n), at(n));
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) {
+            const bool fixed = (i == anchor) != (j == t);
+            cost(at(i), at(j)) = fixed ? std::numeric_limits<double>::infinity()
+                                       : loop_cost(problem, i, j, lay.fit, reach);
+        }
+    }
+    // However the loops are paired, each costs its least: most lays are out before they are assigned.
+    if (!(lay.score + cost.rowwise().minCoeff().sum() / static_cast<double>(n) < limit)) return std::nullopt;
+    Arrangement result{assign(cost), static_cast<int>(anchor), lay, {}, lay.score};
+    for (std::size_t i = 0; i < n; ++i) {
+        if (result.target[i] < 0) return std::nullopt;
+        result.score += cost(at(i), result.target[i]) / static_cast<double>(n);
+        result.lay.score += misfit(problem, i, static_cast<std::size_t>(result.target[i]), lay.fit, reach) /
+                            static_cast<double>(n);
+    }
+    return result.score < limit ? std::optional(result) : std::nullopt;
+}
+
+/// Keep the two best arrangements with different pairs, and of the lays of each the two best that differ.
+void keep(const Problem& problem, Arrangement candidate, std::vector<Arrangement>& best)
+{
+    const auto same = std::find_if(
+        best.begin(), best.end(), [&](const Arrangement& other) { return other.target == candidate.target; });
+    if (same == best.end()) {
+        best.push_back(std::move(candidate));
+    } else {
+        const LoopShape& source = problem.source[static_cast<std::size_t>(candidate.anchor)];
+        const LoopShape& target = problem.target[static_cast<std::size_t>(
+            candidate.target[static_cast<std::size_t>(candidate.anchor)])];
+        std::vector<Lay> others{candidate.lay, same->lay};
+        if (same->next) others.push_back(*same->next);
+        if (candidate.score < same->score) std::swap(*same, candidate);
+        same->next.reset();
+        for (const Lay& lay : others) {
+            if (differ(source, target, lay, same->lay) && (!same->next || lay.score < same->next->score))
+                same->next = lay;
+        }
+    }
+    std::stable_sort(best.begin(), best.end(),
+                     [](const Arrangement& a, const Arrangement& b) { return a.score < b.score; });
+    if (best.size() > 2) best.pop_back();
+}
+
 /// Pair the loops: lay one source loop on each target loop it may go to, in every way, and see how the others fall.
-/// @return the arrangements, best first; of those with the same pairs only the best.
+/// @return the two best arrangements with different pairs, best first.
 std::vector<Arrangement> arrange(const Problem& problem)
 {
     const std::size_t n = problem.source.size();
     double reach = 0;
     for (const LoopShape& shape : problem.target) reach = std::max(reach, shape.length);
-    std::size_t anchor = 0;
-    for (std::size_t s = 0; s < n; ++s) {
-        if (problem.forced[s] >= 0) {
-            anchor = s;
-            break;
-        }
-    }
-    std::vector<Arrangement> found;
+    const auto first_forced = std::find_if(problem.forced.begin(), problem.forced.end(),
+                                           [](int t) { return t >= 0; });
+    const auto anchor = first_forced == problem.forced.end()
+                            ? std::size_t{0}
+                            : static_cast<std::size_t>(first_forced - problem.forced.begin());
+    std::vector<Arrangement> best;
     for (std::size_t t = 0; t < n; ++t) {
         if (problem.forced[anchor] >= 0 && problem.forced[anchor] != static_cast<int>(t)) continue;
         for (const bool with_scale : {false, true}) {
             for (const Lay& lay : lays(problem, static_cast<int>(anchor), static_cast<int>(t), with_scale)) {
-                Eigen::MatrixXd cost(n, n);
-                for (std::size_t i = 0; i < n; ++i) {
-                    for (std::size_t j = 0; j < n; ++j) {
-                        const bool fixed = (i == anchor) != (j == t);
-                        cost(static_cast<Eigen::Index>(i),
-                             static_cast<Eigen::Index>(j)) = fixed ? std::numeric_limits<double>::infinity()
-                                                                   : loop_cost(problem, i, j, lay.fit, reach);
-                    }
-                }
-                const std::vector<int> columns = assign(cost);
-                double sum = 0;
-                bool complete = true;
-                for (std::size_t i = 0; i < n; ++i) {
-                    complete = complete && columns[i] >= 0;
-                    if (columns[i] >= 0) sum += cost(static_cast<Eigen::Index>(i), columns[i]);
-                }
-                if (!complete) continue;
-                found.push_back(
-                    {columns, static_cast<int>(anchor), lay, lay.score + sum / static_cast<double>(n)});
+                // With loops to spare for a second arrangement nothing worse than it matters.
+                const double limit = n > 2 && best.size() > 1 ? best.back().score
+                                                              : std::numeric_limits<double>::infinity();
+                auto found = arrangement_of(problem, anchor, t, lay, reach, limit);
+                if (found) keep(problem, std::move(*found), best);
             }
         }
     }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Arrangement& a, const Arrangement& b) { return a.score < b.score; });
-    std::vector<Arrangement> distinct;
-    for (Arrangement& candidate : found) {
-        const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const Arrangement& other) {
-            return other.target == candidate.target;
-        });
-        if (!known) distinct.push_back(std::move(candidate));
-    }
-    return distinct;
+    return best;
 }
 
 /// Loop that holds a vertex; -1 for none.
@@ -348,28 +304,94 @@ void read_options(Problem& problem)
     }
 }
 
-/// Where a loop could as well be laid another way, say which two there are: the recipe can choose.
-void note_candidates(const Problem& problem, std::size_t s, int t, const Lay& best, const Lay& second, Match& match)
+/// Cut a loop where a vertex of the other end needs a partner: at the point of its edges that is nearest.
+void add_split(const Model& model, const Rim& rim, const LoopShape& shape, double share, Split split,
+               Match& match)
+{
+    const double wanted = share * shape.length;
+    std::size_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i + 1 < shape.points.size(); ++i) {
+        const double apart = std::abs(shape.arc[i] - wanted);
+        const double distance = std::min(apart, shape.length - apart);
+        if (distance < least) {
+            least = distance;
+            nearest = i;
+        }
+    }
+    std::size_t first = 0;
+    for (const EdgeUse& use : rim.uses) {
+        const std::size_t segments = model[use.edge].points.size() - 1;
+        if (nearest < first + segments) {
+            split.edge = use.edge;
+            split.point = use.reversed ? segments - (nearest - first) : nearest - first;
+            match.splits.push_back(split);
+            return;
+        }
+        first += segments;
+    }
+}
+
+/// Pair the vertices of two loops by how far along them they stand.
+std::vector<std::pair<VertexId, VertexId>> pair_by_length(const Problem& problem, Match& match,
+                                                          const Lay& lay, std::size_t s, std::size_t t)
 {
     const Model& model = problem.volume.model;
+    const LoopShape& source = problem.source[s];
+    const LoopShape& target = problem.target[t];
+    const auto arc_loop = [](const LoopShape& shape) {
+        ArcLoop loop{shape.vertices, shape.vertex_arc, shape.corner};
+        for (double& at : loop.at) at /= shape.length;
+        return loop;
+    };
+    std::vector<std::pair<VertexId, VertexId>> hard;
+    for (const VertexId v : source.vertices) {
+        const auto pair = problem.hard.find(v);
+        if (pair != problem.hard.end()) hard.emplace_back(*pair);
+    }
+    ArcPairs pairs = pair_by_arc(arc_loop(source), arc_loop(target),
+                                 static_cast<double>(lay.shift) / kSamples, lay.backward, hard);
+    for (const auto& [vertex, share] : pairs.split_target)
+        add_split(model, match.target_loops[t], target, share, {vertex, true, {}, 0}, match);
+    for (const auto& [vertex, share] : pairs.split_source)
+        add_split(model, match.source_loops[s], source, share, {vertex, false, {}, 0}, match);
+    if (source.vertices.size() != target.vertices.size()) {
+        match.notes.push_back("source loop " + std::to_string(s + 1) + " has " +
+                              std::to_string(source.vertices.size()) + " vertices, target loop " +
+                              std::to_string(t + 1) + " has " + std::to_string(target.vertices.size()) +
+                              ": paired by how far along they stand");
+    }
+    return pairs.vertices;
+}
+
+/// Where a loop could as well be laid another way, say which two there are: the recipe can choose.
+void note_candidates(const Problem& problem, std::size_t s, int t, const Lay& best, const Lay& second,
+                     Match& match)
+{
+    const LoopShape& source = problem.source[s];
     const LoopShape& target = problem.target[static_cast<std::size_t>(t)];
-    const auto tag = [&](VertexId vertex) { return std::to_string(model[vertex].tag); };
-    match.notes.push_back("source loop " + std::to_string(s + 1) + ": vertex " + tag(problem.source[s].vertices.front()) +
-                          " was paired with vertex " + tag(target.vertices[best.shift]) + ", and " +
-                          (best.shift == second.shift ? "the other way round" : "vertex " + tag(target.vertices[second.shift])) +
+    const auto start_on = [&](const Lay& lay) {
+        if (by_length(source, target))
+            return std::to_string(lay.shift * 100 / kSamples) + "% of the target loop's length";
+        return "vertex " + std::to_string(problem.volume.model[target.vertices[lay.shift]].tag);
+    };
+    match.notes.push_back("source loop " + std::to_string(s + 1) + ": vertex " +
+                          std::to_string(problem.volume.model[source.vertices.front()].tag) +
+                          " was laid on " + start_on(best) + ", and " +
+                          (best.shift == second.shift ? "the other way round" : start_on(second)) +
                           " fits about as well; choose with match{ vertices = … }" +
                           (best.backward == second.backward ? "" : " or match{ flip = … }"));
 }
 
-void pair_vertices(const Problem& problem, Match& match, const Lay& anchor_lay, int anchor)
+void pair_vertices(const Problem& problem, Match& match, const Arrangement& arrangement)
 {
     const std::size_t n = problem.source.size();
     std::vector<Vec3> from, to;
     std::vector<LoopPair> pairs(n);
     std::vector<std::vector<std::pair<VertexId, VertexId>>> vertices(n);
-    std::vector<std::size_t> order{static_cast<std::size_t>(anchor)};
+    std::vector<std::size_t> order{static_cast<std::size_t>(arrangement.anchor)};
     for (std::size_t s = 0; s < n; ++s) {
-        if (s != static_cast<std::size_t>(anchor)) order.push_back(s);
+        if (s != static_cast<std::size_t>(arrangement.anchor)) order.push_back(s);
     }
     std::optional<bool> backward = problem.backward;
     for (const std::size_t s : order) {
@@ -381,11 +403,12 @@ void pair_vertices(const Problem& problem, Match& match, const Lay& anchor_lay, 
         const auto flip = std::find(problem.options.flip.begin(), problem.options.flip.end(),
                                     static_cast<int>(s));
         std::vector<Lay> found;
-        if (s == static_cast<std::size_t>(anchor) && flip == problem.options.flip.end()) {
-            found = lays(problem, static_cast<int>(s), t, anchor_lay.fit.scale != 1);
+        if (s == static_cast<std::size_t>(arrangement.anchor) && flip == problem.options.flip.end()) {
+            found = {arrangement.lay};
+            if (arrangement.next) found.push_back(*arrangement.next);
         } else {
             if (flip != problem.options.flip.end())
-                local.backward = !(backward ? *backward : anchor_lay.backward);
+                local.backward = !(backward ? *backward : arrangement.lay.backward);
             found = lays(local, static_cast<int>(s), t, true, from, to);
         }
         if (found.empty()) {
@@ -399,30 +422,28 @@ void pair_vertices(const Problem& problem, Match& match, const Lay& anchor_lay, 
         // A loop turned round by hand says nothing of how the others run.
         if (!backward) backward = flip == problem.options.flip.end() ? lay.backward : !lay.backward;
         match.loops[s] = {static_cast<int>(s), t, !lay.backward};
-        const std::size_t k = source.vertices.size();
-        if (k == target.vertices.size()) {
+        const auto second = std::find_if(
+            found.begin(), found.end(), [&](const Lay& other) { return differ(source, target, lay, other); });
+        if (by_length(source, target)) {
+            vertices[s] = pair_by_length(problem, match, lay, s, static_cast<std::size_t>(t));
+        } else {
+            const std::size_t k = source.vertices.size();
             for (std::size_t i = 0; i < k; ++i) {
                 const std::size_t j = lay.backward ? (lay.shift + k - i) % k : (lay.shift + i) % k;
                 vertices[s].emplace_back(source.vertices[i], target.vertices[j]);
             }
-            if (found.size() > 1 && !problem.hard.contains(source.vertices.front())) {
-                const double best = std::max(lay.score, 1e-12);
-                const double second = std::max(found[1].score, 1e-12);
-                match.confidence = std::min(match.confidence, 1 - best / second);
-                if (1 - best / second < kUnsure) note_candidates(problem, s, t, lay, found[1], match);
-            }
-        } else {
-            for (const VertexId v : source.vertices) {
-                const auto pair = problem.hard.find(v);
-                if (pair != problem.hard.end()) vertices[s].emplace_back(*pair);
-            }
-            match.notes.push_back("source loop " + std::to_string(s + 1) + " has " + std::to_string(k) +
-                                  " vertices, target loop " + std::to_string(t + 1) + " has " +
-                                  std::to_string(target.vertices.size()) + ": paired where walls join them");
         }
-        const bool per_edge = k == target.vertices.size();
-        const std::vector<Vec3> a = samples(source, 0, false, per_edge);
-        const std::vector<Vec3> b = samples(target, lay.shift, lay.backward, per_edge);
+        // One hard pair settles all of a loop.
+        const bool guessed = std::none_of(source.vertices.begin(), source.vertices.end(),
+                                          [&](VertexId v) { return problem.hard.contains(v); });
+        if (second != found.end() && guessed) {
+            // The pairs of the loops may have been chosen for their shapes, and not be the best by where they land.
+            const double ratio = std::min(1.0, std::max(lay.score, 1e-12) / std::max(second->score, 1e-12));
+            match.confidence = std::min(match.confidence, 1 - ratio);
+            if (1 - ratio < kUnsure) note_candidates(problem, s, t, lay, *second, match);
+        }
+        const std::vector<Vec3> a = source_samples(source, target);
+        const std::vector<Vec3> b = target_samples(source, target, lay.shift, lay.backward);
         from.insert(from.end(), a.begin(), a.end());
         to.insert(to.end(), b.begin(), b.end());
     }
@@ -469,8 +490,8 @@ Match match(const OpenVolume& volume, const MatchOptions& options)
     }
     if (result.source_loops.size() != result.target_loops.size()) {
         throw NotClosed("matching.loop_counts",
-                        "the source has " + loops_in_words(result.source_loops.size()) + " and the target has " +
-                            loops_in_words(result.target_loops.size()) +
+                        "the source has " + loops_in_words(result.source_loops.size()) +
+                            " and the target has " + loops_in_words(result.target_loops.size()) +
                             "; a sweep needs as many on both ends: check the roles, or leave out the faces "
                             "that close a loop");
     }
@@ -497,7 +518,7 @@ Match match(const OpenVolume& volume, const MatchOptions& options)
                                    " fits about as well; choose with match{ loops = … }");
         }
     }
-    pair_vertices(problem, result, found.front().lay, found.front().anchor);
+    pair_vertices(problem, result, found.front());
     return result;
 }
 

@@ -25,13 +25,22 @@ struct LoopPair {
     bool flipped = false; ///< the target loop has to be walked against its own direction
 };
 
+/// A vertex of one end that has no partner on the other: an edge there is cut at one of its points to make one.
+struct Split {
+    VertexId vertex;
+    bool on_target = true; ///< the edge is the target's, the vertex the source's; else the other way round
+    EdgeId edge;
+    std::size_t point = 0; ///< of the edge; where it is an end, the partner is that vertex
+};
+
 /// Which loop and vertex of the source goes to which of the target (Algorithm 1).
 struct Match {
     std::vector<topology::Rim> source_loops, target_loops;
     std::vector<LoopPair> loops;
     std::vector<std::pair<VertexId, VertexId>>
-        vertices;           ///< (source, target), source loop by source loop in walking order
-    std::vector<bool> hard; ///< of each vertex pair: joined by a chain of wall edges
+        vertices;              ///< (source, target), source loop by source loop in walking order
+    std::vector<bool> hard;    ///< of each vertex pair: joined by a chain of wall edges
+    std::vector<Split> splits; ///< loops with unequal vertices, and round ones whose vertex says nothing
     std::string method;
     double confidence = 1; ///< 0…1: 1 − best / second best residual; 1 where nothing had to be guessed
     std::vector<std::string> notes;

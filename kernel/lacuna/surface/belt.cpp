@@ -2,6 +2,7 @@
 #include <lacuna/surface/belt.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/matching/corners.h>
 #include <lacuna/surface/wall_map.h>
 
 #include <algorithm>
@@ -16,10 +17,6 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
-
-/// A bend of a rim that a node must keep [degrees]. Less is a point on a smooth run (where two arcs meet, where a closed
-/// edge was cut), which the target need not keep; the source keeps all its vertices, as its edges are seeded one by one.
-constexpr double kCornerAngle = 15;
 
 std::vector<EdgeUse> against(const std::vector<EdgeUse>& uses)
 {
@@ -41,32 +38,6 @@ std::optional<std::size_t> use_leaving(const Model& model, const std::vector<Edg
         if (use_from(model, uses[i]) == vertex) return i;
     }
     return std::nullopt;
-}
-
-/// The turn of a closed walk where use i starts [degrees].
-double turn_at(const Model& model, const std::vector<EdgeUse>& uses, std::size_t i)
-{
-    const std::vector<Index> before = use_points(model, uses[(i + uses.size() - 1) % uses.size()]);
-    const std::vector<Index> after = use_points(model, uses[i]);
-    const Vec3 in = model.at(before.back()) - model.at(before[before.size() - 2]);
-    const Vec3 out = model.at(after[1]) - model.at(after[0]);
-    return std::atan2(in.cross(out).norm(), in.dot(out)) * 180 / std::numbers::pi;
-}
-
-/// The turn that a smooth run makes from facet to facet is no corner: at least as much as the larger one next to it.
-bool is_corner(const Model& model, const std::vector<EdgeUse>& uses, std::size_t i)
-{
-    const auto bend_next_to = [&](const std::vector<Index>& points, bool at_start) {
-        if (points.size() < 3) return 0.0;
-        const std::size_t k = at_start ? 1 : points.size() - 2;
-        const Vec3 in = model.at(points[k]) - model.at(points[k - 1]);
-        const Vec3 out = model.at(points[k + 1]) - model.at(points[k]);
-        return std::atan2(in.cross(out).norm(), in.dot(out)) * 180 / std::numbers::pi;
-    };
-    const double smooth = std::max(
-        bend_next_to(use_points(model, uses[(i + uses.size() - 1) % uses.size()]), false),
-        bend_next_to(use_points(model, uses[i]), true));
-    return turn_at(model, uses, i) > std::max(kCornerAngle, 1.5 * smooth);
 }
 
 struct RimOf {
@@ -134,7 +105,7 @@ std::vector<double> corners_between(const Model& model, const Chain& chain, doub
         for (std::size_t i = 0; i < chain.uses().size(); ++i) {
             const double at = chain.start(i) + turn * length;
             const double margin = 1e-9 * length;
-            if (at > from + margin && at < to - margin && (all || is_corner(model, chain.uses(), i)))
+            if (at > from + margin && at < to - margin && (all || matching::is_corner(model, chain.uses(), i)))
                 result.push_back(at);
         }
     }

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/matching/corners.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lacuna::matching {
+
+using namespace topology;
+
+namespace {
+
+/// A bend of a walk that a node must keep [degrees].
+constexpr double kCornerAngle = 15;
+/// How much more than its facets next to it a corner turns.
+constexpr double kOverSmooth = 1.5;
+
+double turn(const Vec3& in, const Vec3& out)
+{
+    return std::atan2(in.cross(out).norm(), in.dot(out)) * 180 / std::numbers::pi;
+}
+
+/// The turn of a chain from its first side to its second, or from its last but one to its last [degrees].
+double bend_at_end(const Model& model, const std::vector<Index>& points, bool first)
+{
+    if (points.size() < 3) return 0;
+    const std::size_t k = first ? 1 : points.size() - 2;
+    return turn(model.at(points[k]) - model.at(points[k - 1]), model.at(points[k + 1]) - model.at(points[k]));
+}
+
+} // namespace
+
+bool is_corner(const Model& model, const std::vector<EdgeUse>& walk, std::size_t i)
+{
+    const std::vector<Index> before = use_points(model, walk[(i + walk.size() - 1) % walk.size()]);
+    const std::vector<Index> after = use_points(model, walk[i]);
+    const double here = turn(model.at(before.back()) - model.at(before[before.size() - 2]),
+                             model.at(after[1]) - model.at(after[0]));
+    const double smooth = std::max(bend_at_end(model, before, false), bend_at_end(model, after, true));
+    return here > std::max(kCornerAngle, kOverSmooth * smooth);
+}
+
+} // namespace lacuna::matching

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/matching/loop_shape.h>
+
+#include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/matching/corners.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lacuna::matching {
+
+using namespace topology;
+
+namespace {
+
+/// Sample a loop evenly from a running length on.
+std::vector<Vec3> even_samples(const LoopShape& shape, double start, bool backward)
+{
+    std::vector<Vec3> result;
+    for (std::size_t i = 0; i < kSamples; ++i) {
+        const double s = start + (backward ? -1 : 1) * shape.length * static_cast<double>(i) / kSamples;
+        result.push_back(
+            geometry::point_at(shape.points, shape.arc, s - shape.length * std::floor(s / shape.length)));
+    }
+    return result;
+}
+
+/// Sample a loop from vertex `start` on, as many points on each edge, so that vertex meets vertex.
+std::vector<Vec3> edge_samples(const LoopShape& shape, std::size_t start, bool backward)
+{
+    std::vector<Vec3> result;
+    const std::size_t n = shape.vertices.size();
+    const auto at = [&](double s) { result.push_back(geometry::point_at(shape.points, shape.arc, s)); };
+    const std::size_t each = std::max<std::size_t>(1, kSamples / n);
+    for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t edge = backward ? (start + 2 * n - k - 1) % n : (start + k) % n;
+        const double from = shape.vertex_arc[edge];
+        const double to = edge + 1 < n ? shape.vertex_arc[edge + 1] : shape.length;
+        for (std::size_t i = 0; i < each; ++i) {
+            const double f = static_cast<double>(i) / static_cast<double>(each);
+            at(backward ? to + (from - to) * f : from + (to - from) * f);
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+LoopShape shape_of(const Model& model, const Rim& rim)
+{
+    LoopShape shape;
+    for (const EdgeUse& use : rim.uses) shape.vertices.push_back(use_from(model, use));
+    std::vector<std::size_t> first;
+    for (const EdgeUse& use : rim.uses) {
+        const std::vector<Index> chain = use_points(model, use);
+        first.push_back(shape.points.size());
+        for (std::size_t i = 0; i + 1 < chain.size(); ++i) shape.points.push_back(model.at(chain[i]));
+    }
+    shape.area = geometry::newell_vector(shape.points);
+    shape.points.push_back(shape.points.front());
+    shape.arc = geometry::arc_lengths(shape.points);
+    shape.length = shape.arc.back();
+    for (std::size_t u = 0; u < first.size(); ++u) {
+        shape.vertex_arc.push_back(shape.arc[first[u]]);
+        shape.corner.push_back(is_corner(model, rim.uses, u));
+    }
+    for (std::size_t i = 0; i + 1 < shape.points.size(); ++i) {
+        shape.centroid += (shape.arc[i + 1] - shape.arc[i]) * (shape.points[i] + shape.points[i + 1]) / 2;
+    }
+    shape.centroid /= shape.length > 0 ? shape.length : 1;
+    return shape;
+}
+
+bool by_length(const LoopShape& source, const LoopShape& target)
+{
+    return source.vertices.size() != target.vertices.size() || source.vertices.size() == 1;
+}
+
+double overturned(const LoopShape& source, const LoopShape& target, bool backward)
+{
+    const Vec3 way = (target.centroid - source.centroid).stableNormalized();
+    const double low = source.area.stableNormalized().dot(way);
+    const double high = (backward ? -1 : 1) * target.area.stableNormalized().dot(way);
+    return low * high < 0 ? std::min(std::abs(low), std::abs(high)) : 0;
+}
+
+std::vector<Vec3> source_samples(const LoopShape& source, const LoopShape& target)
+{
+    return by_length(source, target) ? even_samples(source, 0, false) : edge_samples(source, 0, false);
+}
+
+std::vector<Vec3> target_samples(const LoopShape& source, const LoopShape& target, std::size_t shift,
+                                 bool backward)
+{
+    if (!by_length(source, target)) return edge_samples(target, shift, backward);
+    return even_samples(target, target.length * static_cast<double>(shift) / kSamples, backward);
+}
+
+bool differ(const LoopShape& source, const LoopShape& target, const Lay& a, const Lay& b)
+{
+    if (a.backward != b.backward || !by_length(source, target))
+        return a.backward != b.backward || a.shift != b.shift;
+    const std::size_t apart = (a.shift + kSamples - b.shift) % kSamples;
+    return 2 * std::min(apart, kSamples - apart) * std::max(source.vertices.size(), target.vertices.size()) >=
+           kSamples;
+}
+
+} // namespace lacuna::matching
