@@ -18,9 +18,11 @@
 namespace lacuna::test {
 
 /// Match where there are two ends, and close.
-inline closure::Closure seal(topology::OpenVolume& volume, const closure::CloseOptions& options = {}, const matching::MatchOptions& match = {})
+inline closure::Closure seal(topology::OpenVolume& volume, const closure::CloseOptions& options = {},
+                             const matching::MatchOptions& match = {})
 {
-    const bool ends = !volume.faces(topology::Role::source).empty() && !volume.faces(topology::Role::target).empty();
+    const bool ends = !volume.faces(topology::Role::source).empty() &&
+                      !volume.faces(topology::Role::target).empty();
     return closure::close(volume, ends ? matching::match(volume, match) : matching::Match{}, options);
 }
 
@@ -36,7 +38,8 @@ inline void check_sealed(const topology::OpenVolume& volume)
         }
     }
     std::size_t lone = 0;
-    for (const auto& [side, uses] : sides) lone += uses != 1 || !sides.contains({side.second, side.first}) ? 1 : 0;
+    for (const auto& [side, uses] : sides)
+        lone += uses != 1 || !sides.contains({side.second, side.first}) ? 1 : 0;
     CHECK(lone == 0);
     std::vector<int> forward(volume.model.edges.size(), 0), backward(volume.model.edges.size(), 0);
     for (const topology::Face& face : volume.model.faces) {
@@ -44,7 +47,8 @@ inline void check_sealed(const topology::OpenVolume& volume)
             for (std::size_t i = 0; i < loop.uses.size(); ++i) {
                 const topology::EdgeUse use = loop.uses[i];
                 ++(use.reversed ? backward : forward)[use.edge.index()];
-                CHECK(topology::use_to(volume.model, use) == topology::use_from(volume.model, loop.uses[(i + 1) % loop.uses.size()]));
+                CHECK(topology::use_to(volume.model, use) ==
+                      topology::use_from(volume.model, loop.uses[(i + 1) % loop.uses.size()]));
             }
         }
     }

@@ -43,14 +43,21 @@ const auto kWallsAlone = test::without(true, true, false);
 
 } // namespace
 
-TEST_CASE("the loops of walls alone are grouped by the end they lie at, whatever the facets' order and direction")
+TEST_CASE(
+    "the loops of walls alone are grouped by the end they lie at, whatever the facets' order and direction")
 {
     int combinations = 0;
     for (const int holes : {0, 1, 4}) {
         for (const double bend : {0.0, 90.0, 170.0}) {
             for (const double taper : {1.0, 0.5}) {
                 for (unsigned seed = 0; seed < 4; ++seed) {
-                    const PrismOptions options{.sides = 5, .height = 6, .holes = holes, .levels = 12, .taper = taper, .bend = bend, .drop = kWallsAlone};
+                    const PrismOptions options{.sides = 5,
+                                               .height = 6,
+                                               .holes = holes,
+                                               .levels = 12,
+                                               .taper = taper,
+                                               .bend = bend,
+                                               .drop = kWallsAlone};
                     const auto prism = test::prism(options);
                     SplitOptions split;
                     split.whole_labels = true;
@@ -68,12 +75,15 @@ TEST_CASE("the loops of walls alone are grouped by the end they lie at, whatever
                     // The source's loops all lie in the plane z = 0, or all off it.
                     std::set<bool> low;
                     for (const Loop& loop : ends.source) {
-                        for (const EdgeUse& use : loop.uses) low.insert(std::abs(volume.model.at(volume.model[use.edge].points.front()).z()) < 1e-9);
+                        for (const EdgeUse& use : loop.uses)
+                            low.insert(std::abs(volume.model.at(volume.model[use.edge].points.front()).z()) <
+                                       1e-9);
                     }
                     CHECK(low.size() == 1);
                     test::seal(volume);
                     test::check_sealed(volume);
-                    CHECK(closure::enclosed_volume(volume) == doctest::Approx(prism.facet_volume).epsilon(1e-6));
+                    CHECK(closure::enclosed_volume(volume) ==
+                          doctest::Approx(prism.facet_volume).epsilon(1e-6));
                     ++combinations;
                 }
             }
@@ -85,21 +95,27 @@ TEST_CASE("the loops of walls alone are grouped by the end they lie at, whatever
 TEST_CASE("walls that leave an odd number of loops are refused, and the walls named")
 {
     // Two tubes, one of them with a lid: three free loops.
-    auto volume = together({{{.sides = 6, .radius = 2, .drop = kWallsAlone}, Vec3(0, 0, 0)},
-                            {{.sides = 4, .radius = 0.5, .drop = test::without(true, false, false)}, Vec3(0, 0, 0)}});
+    auto volume = together(
+        {{{.sides = 6, .radius = 2, .drop = kWallsAlone}, Vec3(0, 0, 0)},
+         {{.sides = 4, .radius = 0.5, .drop = test::without(true, false, false)}, Vec3(0, 0, 0)}});
     const std::string code = test::refusal([&] { test::seal(volume); }, {"1 free loop", "face "});
     CHECK(code == "closure.tube_loops");
     // A tube with a gap in its wall has one loop.
     auto gap = together({{{.sides = 6, .drop = test::without(true, true, false, {2})}, Vec3(0, 0, 0)}});
     CHECK(test::refusal([&] { test::seal(gap); }, {"1 free loop", "face "}) == "closure.tube_loops");
     // And one with a window three.
-    auto window = together({{{.sides = 6, .rows = 3, .drop = [](const Part& p) { return p.role != Role::wall || (p.row == 1 && p.side == 0); }}, Vec3(0, 0, 0)}});
+    auto window = together(
+        {{{.sides = 6,
+           .rows = 3,
+           .drop = [](const Part& p) { return p.role != Role::wall || (p.row == 1 && p.side == 0); }},
+          Vec3(0, 0, 0)}});
     CHECK(test::refusal([&] { test::seal(window); }, {"3 free loops", "face "}) == "closure.tube_loops");
 }
 
 TEST_CASE("tubes side by side, and tubes nested twice, are several volumes and are refused")
 {
-    auto beside = together({{{.sides = 4, .drop = kWallsAlone}, Vec3(0, 0, 0)}, {{.sides = 4, .radius = 0.5, .drop = kWallsAlone}, Vec3(5, 0, 0)}});
+    auto beside = together({{{.sides = 4, .drop = kWallsAlone}, Vec3(0, 0, 0)},
+                            {{.sides = 4, .radius = 0.5, .drop = kWallsAlone}, Vec3(5, 0, 0)}});
     CHECK(test::refusal([&] { test::seal(beside); }, {"beside"}) == "closure.nested_loops");
     auto nested = together({{{.sides = 4, .radius = 3, .drop = kWallsAlone}, Vec3(0, 0, 0)},
                             {{.sides = 4, .radius = 2, .drop = kWallsAlone}, Vec3(0, 0, 0)},
@@ -111,7 +127,8 @@ TEST_CASE("a tube as near to one end as to the other is refused")
 {
     // The inner tube lies across, its two loops at the same height.
     PrismOptions inner{.sides = 4, .radius = 0.2, .height = 1, .drop = kWallsAlone};
-    auto volume = together({{{.sides = 6, .radius = 3, .height = 2, .drop = kWallsAlone}, Vec3(0, 0, 0)}, {inner, Vec3(0, 0, 0.5)}});
+    auto volume = together({{{.sides = 6, .radius = 3, .height = 2, .drop = kWallsAlone}, Vec3(0, 0, 0)},
+                            {inner, Vec3(0, 0, 0.5)}});
     std::vector<FaceId> all;
     for (std::size_t f = 0; f < volume.model.faces.size(); ++f) all.emplace_back(f);
     for (Vec3& p : volume.model.points) {
@@ -125,8 +142,10 @@ TEST_CASE("inner tubes of other heights and shapes than the outer one still find
 {
     for (const double inner_height : {1.0, 2.0, 3.0}) {
         for (const int sides : {0, 3, 4}) {
-            auto volume = together({{{.sides = 6, .radius = 3, .height = 2, .drop = kWallsAlone}, Vec3(0, 0, 0)},
-                                    {{.sides = sides, .radius = 1, .height = inner_height, .drop = kWallsAlone}, Vec3(0, 0, 1 - inner_height / 2)}});
+            auto volume = together(
+                {{{.sides = 6, .radius = 3, .height = 2, .drop = kWallsAlone}, Vec3(0, 0, 0)},
+                 {{.sides = sides, .radius = 1, .height = inner_height, .drop = kWallsAlone},
+                  Vec3(0, 0, 1 - inner_height / 2)}});
             CAPTURE(inner_height);
             CAPTURE(sides);
             test::seal(volume);

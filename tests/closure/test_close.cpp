@@ -84,7 +84,10 @@ TEST_CASE("prisms of every set of missing walls close to the volume of the whole
                     CAPTURE(bits);
                     const bool all = bits + 1 == 1UL << sides;
                     const bool warped = taper != 1 && end != End::planar;
-                    check_prism(options, all ? VolumeClass::I : missing(options).corners > 0 ? VolumeClass::II : VolumeClass::III,
+                    check_prism(options,
+                                all                            ? VolumeClass::I
+                                : missing(options).corners > 0 ? VolumeClass::II
+                                                               : VolumeClass::III,
                                 warped ? 0.02 : 1e-9);
                     ++combinations;
                 }
@@ -94,7 +97,8 @@ TEST_CASE("prisms of every set of missing walls close to the volume of the whole
     MESSAGE(combinations << " prisms");
 }
 
-TEST_CASE("prisms with holes close to the volume of the whole, whichever walls of whichever loops are missing")
+TEST_CASE(
+    "prisms with holes close to the volume of the whole, whichever walls of whichever loops are missing")
 {
     std::mt19937_64 dice(7);
     int combinations = 0;
@@ -112,7 +116,9 @@ TEST_CASE("prisms with holes close to the volume of the whole, whichever walls o
                     CAPTURE(holes);
                     CAPTURE(hole_sides);
                     CAPTURE(bits);
-                    check_prism(options, bits == all ? VolumeClass::I : missing(options).corners > 0 ? VolumeClass::II : VolumeClass::III);
+                    check_prism(options, bits == all                    ? VolumeClass::I
+                                         : missing(options).corners > 0 ? VolumeClass::II
+                                                                        : VolumeClass::III);
                     ++combinations;
                 }
             }
@@ -129,7 +135,13 @@ TEST_CASE("prisms without target, without source and without both close to the v
             for (const int rows : {1, 2}) {
                 for (const double bend : {0.0, 60.0}) {
                     for (int gone = 1; gone < 4; ++gone) {
-                        PrismOptions options{.sides = sides, .height = 3, .holes = holes, .hole_sides = sides, .rows = rows, .levels = bend > 0 ? 6 : 1, .bend = bend};
+                        PrismOptions options{.sides = sides,
+                                             .height = 3,
+                                             .holes = holes,
+                                             .hole_sides = sides,
+                                             .rows = rows,
+                                             .levels = bend > 0 ? 6 : 1,
+                                             .bend = bend};
                         options.drop = without((gone & 1) != 0, (gone & 2) != 0, false);
                         CAPTURE(sides);
                         CAPTURE(holes);
@@ -146,7 +158,8 @@ TEST_CASE("prisms without target, without source and without both close to the v
     MESSAGE(combinations << " prisms without an end");
 }
 
-TEST_CASE("an open volume with one wall of three, as in the paper's figure 6, takes one void edge and two void faces")
+TEST_CASE("an open volume with one wall of three, as in the paper's figure 6, takes one void edge and two "
+          "void faces")
 {
     auto volume = test::prism({.sides = 3, .drop = without(false, false, false, {0, 1})}).open();
     const Closure closed = test::seal(volume);
@@ -184,8 +197,12 @@ TEST_CASE("the order and the directions the facets come in do not matter")
             const Model model = split_facets(test::scrambled_facets(prism.soup, seed), split);
             Roles roles;
             for (std::size_t f = 0; f < model.faces.size(); ++f) {
-                const Role role = prism.part[static_cast<std::size_t>(std::stoi(model.faces[f].name.substr(1)))].role;
-                (role == Role::source ? roles.source : role == Role::target ? roles.target : roles.walls).emplace_back(f);
+                const Role role =
+                    prism.part[static_cast<std::size_t>(std::stoi(model.faces[f].name.substr(1)))].role;
+                (role == Role::source   ? roles.source
+                 : role == Role::target ? roles.target
+                                        : roles.walls)
+                    .emplace_back(f);
             }
             auto volume = open_volume(model, roles);
             CAPTURE(std::string(to_string(value)));
@@ -204,7 +221,12 @@ TEST_CASE("a closed wall that is missing is closed by one void edge used twice")
 {
     for (const double taper : {1.0, 0.5, 2.0}) {
         for (const double lift : {-0.3, 0.3}) {
-            PrismOptions options{.sides = 0, .cuts = 4, .taper = taper, .target = End::tilted, .lift = lift, .drop = without(false, false, true)};
+            PrismOptions options{.sides = 0,
+                                 .cuts = 4,
+                                 .taper = taper,
+                                 .target = End::tilted,
+                                 .lift = lift,
+                                 .drop = without(false, false, true)};
             const auto prism = test::prism(options);
             auto volume = prism.open();
             const Closure closed = test::seal(volume);
@@ -219,6 +241,41 @@ TEST_CASE("a closed wall that is missing is closed by one void edge used twice")
     }
 }
 
+TEST_CASE("round ends whose vertices were cut at random close to the volume of the whole")
+{
+    int combinations = 0;
+    for (const int holes : {0, 1, 2, 4}) {
+        for (unsigned seed = 0; seed < 8; ++seed) {
+            const auto prism = test::prism({.sides = 0,
+                                            .holes = holes,
+                                            .hole_sides = 0,
+                                            .cuts = 4,
+                                            .drop = without(false, false, true)});
+            FacetSoup soup = prism.soup;
+            std::vector<std::size_t> order(soup.points.size());
+            for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+            std::mt19937 dice(seed);
+            std::shuffle(order.begin(), order.end(), dice);
+            for (std::size_t i = 0; i < order.size(); ++i) soup.points[order[i]] = prism.soup.points[i];
+            for (Triangle& t : soup.triangles) {
+                for (Index& p : t) p = static_cast<Index>(order[static_cast<std::size_t>(p)]);
+            }
+            SplitOptions split;
+            split.whole_labels = true;
+            auto volume = open_volume(split_facets(soup, split),
+                                      {{FaceId(std::size_t(0))}, {FaceId(std::size_t(1))}, {}});
+            CAPTURE(holes);
+            CAPTURE(seed);
+            const Closure closed = test::seal(volume);
+            CHECK(closed.void_edges.size() == static_cast<std::size_t>(holes) + 1);
+            test::check_sealed(volume);
+            CHECK(closure::enclosed_volume(volume) == doctest::Approx(prism.facet_volume).epsilon(0.01));
+            ++combinations;
+        }
+    }
+    MESSAGE(combinations << " round ends");
+}
+
 TEST_CASE("curved ends and walls close watertight, and near the volume of the whole")
 {
     int combinations = 0;
@@ -227,7 +284,14 @@ TEST_CASE("curved ends and walls close watertight, and near the volume of the wh
             for (const double twist : {0.0, 20.0}) {
                 for (const double bend : {0.0, 40.0}) {
                     for (unsigned long bits = 0; bits < (1UL << sides); ++bits) {
-                        PrismOptions options{.sides = sides, .height = 3, .holes = holes, .cuts = 4, .levels = 8, .twist = twist, .bend = bend, .target = End::bowed};
+                        PrismOptions options{.sides = sides,
+                                             .height = 3,
+                                             .holes = holes,
+                                             .cuts = 4,
+                                             .levels = 8,
+                                             .twist = twist,
+                                             .bend = bend,
+                                             .target = End::bowed};
                         options.drop = by_bits(bits, options);
                         const auto prism = test::prism(options);
                         CAPTURE(sides);
@@ -239,13 +303,16 @@ TEST_CASE("curved ends and walls close watertight, and near the volume of the wh
                         test::seal(volume);
                         test::check_sealed(volume);
                         // The chords of a bend cut off some of it.
-                        CHECK(closure::enclosed_volume(volume) == doctest::Approx(prism.facet_volume).epsilon(bend > 0 ? 0.25 : 0.05));
-                        const bool leads = holes > 0 || missing(options).walls < static_cast<std::size_t>(sides);
+                        CHECK(closure::enclosed_volume(volume) ==
+                              doctest::Approx(prism.facet_volume).epsilon(bend > 0 ? 0.25 : 0.05));
+                        const bool leads = holes > 0 ||
+                                           missing(options).walls < static_cast<std::size_t>(sides);
                         if (leads && missing(options).walls > 0) {
                             auto followed = prism.open();
                             test::seal(followed, {closure::EdgeShape::follow});
                             test::check_sealed(followed);
-                            CHECK(closure::enclosed_volume(followed) == doctest::Approx(prism.facet_volume).epsilon(0.05));
+                            CHECK(closure::enclosed_volume(followed) ==
+                                  doctest::Approx(prism.facet_volume).epsilon(0.05));
                         }
                         ++combinations;
                     }
@@ -263,7 +330,9 @@ TEST_CASE("walls missing from one row of a stack are closed")
         for (int row = 0; row < rows; ++row) {
             for (unsigned side_bits = 1; side_bits < 16; ++side_bits) {
                 PrismOptions options{.sides = 4, .rows = rows};
-                options.drop = [=](const Part& p) { return p.role == Role::wall && p.row == row && ((side_bits >> p.side) & 1U) != 0; };
+                options.drop = [=](const Part& p) {
+                    return p.role == Role::wall && p.row == row && ((side_bits >> p.side) & 1U) != 0;
+                };
                 const auto prism = test::prism(options);
                 CAPTURE(rows);
                 CAPTURE(row);
@@ -280,7 +349,8 @@ TEST_CASE("walls missing from one row of a stack are closed")
                 } else {
                     test::seal(volume);
                     test::check_sealed(volume);
-                    CHECK(closure::enclosed_volume(volume) == doctest::Approx(prism.facet_volume).epsilon(1e-9));
+                    CHECK(closure::enclosed_volume(volume) ==
+                          doctest::Approx(prism.facet_volume).epsilon(1e-9));
                 }
                 ++combinations;
             }
@@ -294,7 +364,9 @@ TEST_CASE("pieces of walls missing from a row are closed")
     int combinations = 0;
     for (unsigned bits = 1; bits < 256; ++bits) {
         PrismOptions options{.sides = 4, .pieces = 2};
-        options.drop = [=](const Part& p) { return p.role == Role::wall && ((bits >> (2 * p.side + p.piece)) & 1U) != 0; };
+        options.drop = [=](const Part& p) {
+            return p.role == Role::wall && ((bits >> (2 * p.side + p.piece)) & 1U) != 0;
+        };
         const auto prism = test::prism(options);
         CAPTURE(bits);
         auto volume = prism.open();
@@ -311,9 +383,12 @@ TEST_CASE("a class IV volume with a wall missing is refused, and the source's ed
     for (const int sides : {3, 4}) {
         for (const int holes : {0, 2}) {
             for (int gone = 0; gone < sides; ++gone) {
-                auto volume = test::prism({.sides = sides, .holes = holes, .drop = without(false, true, false, {gone})}).open();
+                auto volume =
+                    test::prism({.sides = sides, .holes = holes, .drop = without(false, true, false, {gone})})
+                        .open();
                 const auto before = volume.model.faces.size();
-                CHECK(test::refusal([&] { test::seal(volume); }, {"edge ", "wall"}) == "closure.wall_missing");
+                CHECK(test::refusal([&] { test::seal(volume); }, {"edge ", "wall"}) ==
+                      "closure.wall_missing");
                 CHECK(volume.model.faces.size() == before); // what fails leaves the volume as it was
             }
         }
@@ -334,7 +409,7 @@ TEST_CASE("what fails leaves the volume as it was, and what is closed stays so w
     CHECK(closure::enclosed_volume(volume) == before);
 }
 
-TEST_CASE("ends with different numbers of corners and no walls between them are closed or refused by name")
+TEST_CASE("ends with different numbers of corners and no walls between them are closed")
 {
     int combinations = 0;
     for (const int below : {3, 4, 6}) {
@@ -351,17 +426,18 @@ TEST_CASE("ends with different numbers of corners and no walls between them are 
             soup.label_name.push_back("top");
             SplitOptions split;
             split.whole_labels = true;
-            auto volume = open_volume(split_facets(soup, split), {{FaceId(std::size_t(0))}, {FaceId(std::size_t(1))}, {}});
+            auto volume = open_volume(split_facets(soup, split),
+                                      {{FaceId(std::size_t(0))}, {FaceId(std::size_t(1))}, {}});
             CAPTURE(below);
             CAPTURE(above);
-            const std::string code = test::refusal([&] {
-                test::seal(volume);
-                test::check_sealed(volume);
-                CHECK(volume.faces(Role::wall).size() > 0);
-            });
-            CAPTURE(code);
-            CHECK((code == "done" || code.rfind("closure.", 0) == 0 || code.rfind("matching.", 0) == 0));
-            if (code == "done") CHECK(closure::enclosed_volume(volume) > 1);
+            test::seal(volume);
+            test::check_sealed(volume);
+            // Between the prisms over either end, or near: corners are cut where the facets are.
+            const auto area = [](int sides) {
+                return sides == 0 ? 3.14 : sides * std::sin(2 * 3.14159265 / sides) / 2;
+            };
+            CHECK(closure::enclosed_volume(volume) > 1.8 * std::min(area(below), area(above)));
+            CHECK(closure::enclosed_volume(volume) < 2.1 * std::max(area(below), area(above)));
             ++combinations;
         }
     }

@@ -16,7 +16,12 @@ namespace {
 
 PrismOptions bent(double bend, std::vector<int> gone)
 {
-    return {.sides = 4, .height = 4, .cuts = 4, .levels = 24, .bend = bend, .drop = without(false, false, false, std::move(gone))};
+    return {.sides = 4,
+            .height = 4,
+            .cuts = 4,
+            .levels = 24,
+            .bend = bend,
+            .drop = without(false, false, false, std::move(gone))};
 }
 
 } // namespace
@@ -25,7 +30,8 @@ TEST_CASE("void edges that follow the walls of a bend close to the volume of the
 {
     int combinations = 0;
     for (const double bend : {30.0, 90.0, 150.0}) {
-        for (const auto& gone : std::vector<std::vector<int>>{{0}, {1}, {0, 1}, {1, 2}, {0, 1, 2}, {1, 2, 3}, {0, 2}}) {
+        for (const auto& gone :
+             std::vector<std::vector<int>>{{0}, {1}, {0, 1}, {1, 2}, {0, 1, 2}, {1, 2, 3}, {0, 2}}) {
             const auto prism = test::prism(bent(bend, gone));
             auto volume = prism.open();
             CAPTURE(bend);
@@ -40,12 +46,14 @@ TEST_CASE("void edges that follow the walls of a bend close to the volume of the
     MESSAGE(combinations << " bends");
 }
 
-TEST_CASE("straight closing that would cut through a given wall is refused with both faces named, and followed when left to itself")
+TEST_CASE("straight closing that would cut through a given wall is refused with both faces named, and "
+          "followed when left to itself")
 {
     // The walls on the inside of the bend stay; the chord between the ends' outer corners cuts through them.
     const auto prism = test::prism(bent(170, {1, 2}));
     auto straight = prism.open();
-    const std::string code = test::refusal([&] { test::seal(straight, {EdgeShape::straight}); }, {"void face ", "face ", "follow"});
+    const std::string code = test::refusal([&] { test::seal(straight, {EdgeShape::straight}); },
+                                           {"void face ", "face ", "follow"});
     CHECK(code == "closure.faces_cross");
     auto left = prism.open();
     test::seal(left);
@@ -56,7 +64,8 @@ TEST_CASE("straight closing that would cut through a given wall is refused with 
 TEST_CASE("a straight volume is closed alike however its void edges are to run")
 {
     for (const auto& gone : std::vector<std::vector<int>>{{0, 1}, {0, 1, 2}}) {
-        const auto prism = test::prism({.sides = 5, .levels = 3, .taper = 0.7, .drop = without(false, false, false, gone)});
+        const auto prism = test::prism(
+            {.sides = 5, .levels = 3, .taper = 0.7, .drop = without(false, false, false, gone)});
         for (const auto shape : {EdgeShape::automatic, EdgeShape::straight, EdgeShape::follow}) {
             auto volume = prism.open();
             test::seal(volume, {shape});
@@ -70,7 +79,8 @@ TEST_CASE("following without a wall to follow is refused")
 {
     auto volume = test::prism({.drop = without(false, false, true)}).open();
     const auto before = volume.model.points.size();
-    CHECK(test::refusal([&] { test::seal(volume, {EdgeShape::follow}); }, {"straight"}) == "closure.nothing_to_follow");
+    CHECK(test::refusal([&] { test::seal(volume, {EdgeShape::follow}); }, {"straight"}) ==
+          "closure.nothing_to_follow");
     CHECK(volume.model.points.size() == before);
 }
 
@@ -78,13 +88,15 @@ TEST_CASE("a follower carries source points to target points, rim to rim at both
 {
     for (const double bend : {0.0, 60.0, 120.0}) {
         for (const double twist : {0.0, 30.0}) {
-            const PrismOptions whole{.sides = 4, .height = 4, .cuts = 2, .levels = 24, .twist = twist, .taper = 0.8, .bend = bend};
+            const PrismOptions whole{
+                .sides = 4, .height = 4, .cuts = 2, .levels = 24, .twist = twist, .taper = 0.8, .bend = bend};
             const auto prism = test::prism(whole);
             const auto volume = prism.open();
             const closure::Follower follower(volume);
             REQUIRE(follower.leads());
             const Vec3 a(0.3, 0.2, 0);
-            const Vec3 b = a; // carried twice with the same source and target point given by the fit's own ends
+            const Vec3 b =
+                a; // carried twice with the same source and target point given by the fit's own ends
             CAPTURE(bend);
             CAPTURE(twist);
             CHECK((follower.carry(a, b, 0) - a).norm() < 1e-6);

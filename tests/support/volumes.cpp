@@ -52,12 +52,14 @@ std::vector<SectionLoop> section_of(const PrismOptions& o)
     std::vector<SectionLoop> section{section_loop(o.sides, o.radius, Vec2(0, 0), false, o)};
     const double inner = o.sides == 0 ? o.radius : o.radius * std::cos(kPi / o.sides);
     const double reach = o.holes == 1 ? 0 : 0.55 * inner;
-    const double room = o.holes == 1 ? inner : std::min(reach * std::sin(kPi / std::max(o.holes, 2)), inner - reach);
+    const double room = o.holes == 1 ? inner
+                                     : std::min(reach * std::sin(kPi / std::max(o.holes, 2)), inner - reach);
     for (int h = 0; h < o.holes; ++h) {
         // Off the section's own symmetry, so that loops and turns can be told.
         const double angle = 2 * kPi * h / o.holes + 0.1;
         const double radius = (0.45 + 0.15 * h / o.holes) * room;
-        section.push_back(section_loop(o.hole_sides, radius, reach * Vec2(std::cos(angle), std::sin(angle)), true, o));
+        section.push_back(
+            section_loop(o.hole_sides, radius, reach * Vec2(std::cos(angle), std::sin(angle)), true, o));
     }
     return section;
 }
@@ -66,7 +68,8 @@ Vec3 carried(const PrismOptions& o, const Vec2& p, double t)
 {
     const double angle = o.twist * kPi / 180 * t;
     const double size = 1 + (o.taper - 1) * t;
-    const Vec2 q(size * (std::cos(angle) * p.x() - std::sin(angle) * p.y()), size * (std::sin(angle) * p.x() + std::cos(angle) * p.y()));
+    const Vec2 q(size * (std::cos(angle) * p.x() - std::sin(angle) * p.y()),
+                 size * (std::sin(angle) * p.x() + std::cos(angle) * p.y()));
     double along = o.height * t;
     if (o.target == End::tilted) along += t * o.lift * p.x() / o.radius;
     if (o.target == End::bowed) along += t * o.lift * (1 - p.squaredNorm() / (o.radius * o.radius));
@@ -97,12 +100,15 @@ public:
         if (result_.soup.triangles.empty()) return std::move(result_);
         SplitOptions split;
         split.whole_labels = true;
+        split.feature_angle = o_.feature_angle;
         result_.model = split_facets(result_.soup, split);
         for (std::size_t f = 0; f < result_.model.faces.size(); ++f) {
             const auto label = static_cast<std::size_t>(std::stoi(result_.model.faces[f].name.substr(1)));
             result_.part.push_back(parts_[label]);
             const Role role = parts_[label].role;
-            auto& list = role == Role::source ? result_.roles.source : role == Role::target ? result_.roles.target : result_.roles.walls;
+            auto& list = role == Role::source   ? result_.roles.source
+                         : role == Role::target ? result_.roles.target
+                                                : result_.roles.walls;
             list.emplace_back(f);
         }
         return std::move(result_);
@@ -173,7 +179,8 @@ private:
             }
         }
         const int side = static_cast<int>(w) / o_.pieces;
-        add_face({Role::wall, static_cast<int>(l), side, row, static_cast<int>(w) % o_.pieces}, points, triangles);
+        add_face({Role::wall, static_cast<int>(l), side, row, static_cast<int>(w) % o_.pieces}, points,
+                 triangles);
     }
 
     /// A straight or tapered prism over the polygons, its target planar or tilted; else the facets' own volume.
@@ -191,7 +198,8 @@ private:
             }
         }
         if (o_.target == End::bowed) return result_.facet_volume;
-        if (o_.target == End::tilted && (o_.twist != 0 || o_.taper != 1 || o_.bend != 0)) return result_.facet_volume;
+        if (o_.target == End::tilted && (o_.twist != 0 || o_.taper != 1 || o_.bend != 0))
+            return result_.facet_volume;
         const double k = o_.taper;
         double sum = area * o_.height * (1 + k + k * k) / 3;
         if (o_.target == End::tilted) sum += o_.lift * moment.x() / o_.radius;
@@ -214,17 +222,15 @@ FaceId Prism::face(const Part& wanted) const
     for (std::size_t f = 0; f < part.size(); ++f) {
         const Part& p = part[f];
         if (p.role != wanted.role) continue;
-        if (p.role != Role::wall || (p.loop == wanted.loop && p.side == wanted.side && p.row == wanted.row && p.piece == wanted.piece)) {
+        if (p.role != Role::wall || (p.loop == wanted.loop && p.side == wanted.side && p.row == wanted.row &&
+                                     p.piece == wanted.piece)) {
             return FaceId(f);
         }
     }
     return {};
 }
 
-Prism prism(const PrismOptions& options)
-{
-    return Builder(options).run();
-}
+Prism prism(const PrismOptions& options) { return Builder(options).run(); }
 
 std::function<bool(const Part&)> without(bool source, bool target, bool walls, std::vector<int> sides)
 {
@@ -256,7 +262,8 @@ void add_seam(Model& model, FaceId wall)
     const Index start = model[from].point, end = model[to].point;
     std::map<Index, double> cost{{start, 0}};
     std::map<Index, Index> back;
-    std::priority_queue<std::pair<double, Index>, std::vector<std::pair<double, Index>>, std::greater<>> front;
+    std::priority_queue<std::pair<double, Index>, std::vector<std::pair<double, Index>>, std::greater<>>
+        front;
     front.emplace(0, start);
     while (!front.empty()) {
         const auto [c, p] = front.top();

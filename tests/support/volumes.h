@@ -19,31 +19,33 @@ enum class End { planar, tilted, bowed };
 
 /// A prism along z as faces of facets: a section of straight-sided or round loops carried up, and parts of it left out.
 struct PrismOptions {
-    int sides = 4;          ///< corners of the outer loop; 0: a circle
-    double radius = 1;      ///< of the outer loop's corners
+    int sides = 4;     ///< corners of the outer loop; 0: a circle
+    double radius = 1; ///< of the outer loop's corners
     double height = 2;
-    int holes = 0;          ///< loops within: one in the middle, several on a circle
-    int hole_sides = 4;     ///< 0: circles
-    int cuts = 2;           ///< facets along a straight side and a piece; a circle has twelve times as many in all
-    int rows = 1;           ///< walls stacked on each other
-    int pieces = 1;         ///< walls side by side on each side
-    int levels = 1;         ///< rows of facets in each row of walls
-    double twist = 0;       ///< of the target against the source [degrees]
-    double taper = 1;       ///< size of the target over the source's
-    double bend = 0;        ///< of the axis towards +x, its length kept [degrees]
+    int holes = 0;      ///< loops within: one in the middle, several on a circle
+    int hole_sides = 4; ///< 0: circles
+    int cuts = 2;     ///< facets along a straight side and a piece; a circle has twelve times as many in all
+    int rows = 1;     ///< walls stacked on each other
+    int pieces = 1;   ///< walls side by side on each side
+    int levels = 1;   ///< rows of facets in each row of walls
+    double twist = 0; ///< of the target against the source [degrees]
+    double taper = 1; ///< size of the target over the source's
+    double bend = 0;  ///< of the axis towards +x, its length kept [degrees]
     End target = End::planar;
-    double lift = 0.4;      ///< how much a tilted target rises at the rim, a bowed one in the middle
-    std::function<bool(const Part&)> drop = nullptr;  ///< parts left out
+    double lift = 0.4;         ///< how much a tilted target rises at the rim, a bowed one in the middle
+    double feature_angle = 40; ///< of the model; the corners of nine sides and more turn by less [degrees]
+    std::function<bool(const Part&)> drop = nullptr; ///< parts left out
 };
 
 /// The faces that are left, with their roles, and what the whole encloses.
 struct Prism {
-    topology::FacetSoup soup;          ///< of the faces left; a label a face
-    topology::Model model;             ///< whole labels, feature angle 40°
+    topology::FacetSoup soup; ///< of the faces left; a label a face
+    topology::Model model;    ///< whole labels
     topology::Roles roles;
-    std::vector<Part> part;            ///< of each face of `model`
-    double facet_volume = 0;           ///< within the facets, nothing left out
-    double volume = 0;                 ///< of the smooth solid over the polygonal section, where it has a formula; else `facet_volume`
+    std::vector<Part> part;  ///< of each face of `model`
+    double facet_volume = 0; ///< within the facets, nothing left out
+    double volume =
+        0; ///< of the smooth solid over the polygonal section, where it has a formula; else `facet_volume`
 
     [[nodiscard]] topology::OpenVolume open() const { return topology::open_volume(model, roles); }
     /// The face of a part. @pre it is not left out

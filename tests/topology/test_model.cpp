@@ -46,7 +46,8 @@ void check_loops(const Model& model)
 }
 
 /// A face of its own edges over given facets: one edge a side between points named as vertices.
-Model by_hand(std::vector<Vec3> points, const std::vector<std::vector<Triangle>>& faces, const std::vector<std::vector<Index>>& edges)
+Model by_hand(std::vector<Vec3> points, const std::vector<std::vector<Triangle>>& faces,
+              const std::vector<std::vector<Index>>& edges)
 {
     Model model;
     model.points = std::move(points);
@@ -77,14 +78,19 @@ Model by_hand(std::vector<Vec3> points, const std::vector<std::vector<Triangle>>
 
 } // namespace
 
-TEST_CASE("loops are closed walks with the face on the left, whatever the section, the rows and the order of the facets")
+TEST_CASE("loops are closed walks with the face on the left, whatever the section, the rows and the order of "
+          "the facets")
 {
     int combinations = 0;
     for (const int sides : {0, 3, 4, 7}) {
         for (const int holes : {0, 1, 3}) {
             for (const int rows : {1, 2}) {
                 for (const int pieces : {1, 2}) {
-                    const auto prism = test::prism({.sides = sides, .holes = holes, .hole_sides = sides, .rows = rows, .pieces = pieces});
+                    const auto prism = test::prism({.sides = sides,
+                                                    .holes = holes,
+                                                    .hole_sides = sides,
+                                                    .rows = rows,
+                                                    .pieces = pieces});
                     SplitOptions split;
                     split.whole_labels = true;
                     for (unsigned seed = 0; seed < 3; ++seed) {
@@ -101,7 +107,8 @@ TEST_CASE("loops are closed walks with the face on the left, whatever the sectio
                         for (std::size_t f = 0; f < model.faces.size(); ++f) {
                             const std::size_t ends = model.faces[f].loops.size();
                             const bool closed_wall = sides == 0 && pieces == 1;
-                            CHECK((ends == 1 || ends == static_cast<std::size_t>(holes) + 1 || (closed_wall && ends == 2)));
+                            CHECK((ends == 1 || ends == static_cast<std::size_t>(holes) + 1 ||
+                                   (closed_wall && ends == 2)));
                         }
                         std::vector<FaceId> all;
                         for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
@@ -162,7 +169,8 @@ TEST_CASE("a closed wall has two loops without a seam, and one of four uses with
 TEST_CASE("two loops of one face that touch in a vertex are told apart by the facets between them")
 {
     // Two squares of one face, corner to corner at point 2.
-    const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}};
+    const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                   {2, 1, 0}, {2, 2, 0}, {1, 2, 0}};
     Model model = by_hand(points, {{{0, 1, 2}, {0, 2, 3}, {2, 4, 5}, {2, 5, 6}}},
                           {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 4}, {4, 5}, {5, 6}, {6, 2}});
     build_loops(model);
@@ -175,7 +183,8 @@ TEST_CASE("a hole that touches the outer border in a vertex makes one walk that 
 {
     // A triangle with a triangular hole whose corner is the outer corner 0: two strips that meet in one point.
     const std::vector<Vec3> points{{0, 0, 0}, {6, 0, 0}, {0, 6, 0}, {2, 1, 0}, {1, 2, 0}};
-    Model model = by_hand(points, {{{0, 1, 3}, {3, 1, 2}, {3, 2, 4}, {4, 2, 0}}}, {{0, 1}, {1, 2}, {2, 0}, {0, 4}, {4, 3}, {3, 0}});
+    Model model = by_hand(points, {{{0, 1, 3}, {3, 1, 2}, {3, 2, 4}, {4, 2, 0}}},
+                          {{0, 1}, {1, 2}, {2, 0}, {0, 4}, {4, 3}, {3, 0}});
     build_loops(model);
     check_loops(model);
     REQUIRE(model.faces[0].loops.size() == 1);
@@ -198,7 +207,8 @@ TEST_CASE("facets that overlap, and a border that leaves its edges, are refused 
     };
     CHECK(code_of(by_hand(points, {{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}}}, edges)) == "topology.not_manifold");
     CHECK(code_of(by_hand(points, {{{0, 1, 2}, {0, 3, 2}}}, edges)) == "topology.not_manifold");
-    CHECK(code_of(by_hand(points, {{{0, 1, 2}, {0, 2, 3}}}, {{0, 1}, {1, 2}, {2, 3}})) == "topology.loose_border");
+    CHECK(code_of(by_hand(points, {{{0, 1, 2}, {0, 2, 3}}}, {{0, 1}, {1, 2}, {2, 3}})) ==
+          "topology.loose_border");
 }
 
 TEST_CASE("orientation is consistent and outward whichever faces come turned over")
@@ -234,7 +244,8 @@ TEST_CASE("turning a face over twice changes nothing, and its area vector turns 
         check_loops(prism.model);
         flip_faces(prism.model, {face});
         REQUIRE(prism.model[face].loops.size() == loops.size());
-        for (std::size_t l = 0; l < loops.size(); ++l) CHECK(prism.model[face].loops[l].uses == loops[l].uses);
+        for (std::size_t l = 0; l < loops.size(); ++l)
+            CHECK(prism.model[face].loops[l].uses == loops[l].uses);
     }
 }
 
@@ -299,7 +310,8 @@ TEST_CASE("an edge of three faces is refused, and edge and faces are named")
     } catch (const InvalidInput& error) {
         CHECK(error.code() == "topology.not_manifold");
         const std::string what = error.what();
-        for (const char* word : {"left", "right", "fin", "edge "}) CHECK(what.find(word) != std::string::npos);
+        for (const char* word : {"left", "right", "fin", "edge "})
+            CHECK(what.find(word) != std::string::npos);
     }
 }
 
@@ -307,12 +319,15 @@ TEST_CASE("area, centroid and lengths move with the points")
 {
     const auto prism = test::prism({.sides = 6, .holes = 2});
     const Eigen::AngleAxisd turn(1.1, Vec3(1, 2, 3).normalized());
-    const Model other = test::moved(prism.model, [&](const Vec3& p) { return Vec3(turn * p * 3 + Vec3(5, -2, 7)); });
+    const Model other = test::moved(prism.model,
+                                    [&](const Vec3& p) { return Vec3(turn * p * 3 + Vec3(5, -2, 7)); });
     for (std::size_t f = 0; f < prism.model.faces.size(); ++f) {
         const FaceId face(f);
         CHECK(face_area(other, face) == doctest::Approx(9 * face_area(prism.model, face)));
-        CHECK((face_centroid(other, face) - (turn * face_centroid(prism.model, face) * 3 + Vec3(5, -2, 7))).norm() < 1e-12 * other.diagonal);
-        CHECK((face_area_vector(other, face) - turn * face_area_vector(prism.model, face) * 9).norm() < 1e-12 * other.diagonal * other.diagonal);
+        CHECK((face_centroid(other, face) - (turn * face_centroid(prism.model, face) * 3 + Vec3(5, -2, 7)))
+                  .norm() < 1e-12 * other.diagonal);
+        CHECK((face_area_vector(other, face) - turn * face_area_vector(prism.model, face) * 9).norm() <
+              1e-12 * other.diagonal * other.diagonal);
     }
     for (std::size_t e = 0; e < prism.model.edges.size(); ++e) {
         CHECK(edge_length(other, EdgeId(e)) == doctest::Approx(3 * edge_length(prism.model, EdgeId(e))));

@@ -67,11 +67,12 @@ TEST_CASE("every combination of ends and walls falls into the class of Table 1, 
                         const bool all = static_cast<int>(gone.size()) == sides;
                         if (holes > 0 && all) continue; // then the holes' walls remain: class II, told below
                         if (!source && !target && all) continue;
-                        const auto prism = test::prism({.sides = sides, .holes = holes, .hole_sides = 3, .drop = [&](const Part& part) {
-                                                            if (part.role == Role::source) return !source;
-                                                            if (part.role == Role::target) return !target;
-                                                            return part.loop == 0 && gone.contains(part.side);
-                                                        }});
+                        const auto prism = test::prism(
+                            {.sides = sides, .holes = holes, .hole_sides = 3, .drop = [&](const Part& part) {
+                                 if (part.role == Role::source) return !source;
+                                 if (part.role == Role::target) return !target;
+                                 return part.loop == 0 && gone.contains(part.side);
+                             }});
                         CAPTURE(sides);
                         CAPTURE(holes);
                         CAPTURE(source);
@@ -84,8 +85,10 @@ TEST_CASE("every combination of ends and walls falls into the class of Table 1, 
                         CHECK(volume.turned_round == (!source && target));
                         CHECK(volume.faces(Role::source).empty() == (!source && !target));
                         CHECK((found.value == VolumeClass::closed) == found.free_loops.empty());
-                        CHECK(found.wall_free_source.empty() == !((source || target) && free_corner(gone, sides)));
-                        CHECK(found.wall_free_target.empty() == !(source && target && free_corner(gone, sides)));
+                        CHECK(found.wall_free_source.empty() ==
+                              !((source || target) && free_corner(gone, sides)));
+                        CHECK(found.wall_free_target.empty() ==
+                              !(source && target && free_corner(gone, sides)));
                         ++combinations;
                     }
                 }
@@ -97,7 +100,8 @@ TEST_CASE("every combination of ends and walls falls into the class of Table 1, 
 
 TEST_CASE("the walls of holes count as walls")
 {
-    const auto prism = test::prism({.sides = 4, .holes = 2, .drop = [](const Part& p) { return p.role == Role::wall && p.loop == 0; }});
+    const auto prism = test::prism(
+        {.sides = 4, .holes = 2, .drop = [](const Part& p) { return p.role == Role::wall && p.loop == 0; }});
     const auto found = classify(prism.open());
     CHECK(found.value == VolumeClass::II);
     CHECK(found.wall_free_source.size() == 4);
@@ -106,15 +110,18 @@ TEST_CASE("the walls of holes count as walls")
 
 TEST_CASE("the words of the classes are read back")
 {
-    for (const auto value : {VolumeClass::closed, VolumeClass::I, VolumeClass::II, VolumeClass::III, VolumeClass::IV, VolumeClass::V}) {
+    for (const auto value : {VolumeClass::closed, VolumeClass::I, VolumeClass::II, VolumeClass::III,
+                             VolumeClass::IV, VolumeClass::V}) {
         CHECK(volume_class(to_string(value)) == value);
     }
     for (const char* word : {"", "VI", "i", "open", "II "}) {
-        CHECK(refusal([&] { volume_class(word); }, {std::string("\"") + word + "\""}) == "topology.unknown_class");
+        CHECK(refusal([&] { volume_class(word); }, {std::string("\"") + word + "\""}) ==
+              "topology.unknown_class");
     }
 }
 
-TEST_CASE("an override is obeyed where the faces allow it, and refused with the reason where they contradict it")
+TEST_CASE(
+    "an override is obeyed where the faces allow it, and refused with the reason where they contradict it")
 {
     struct Case {
         const char* name;
@@ -132,7 +139,8 @@ TEST_CASE("an override is obeyed where the faces allow it, and refused with the 
     int combinations = 0;
     for (const Case& c : cases) {
         auto volume = test::prism({.sides = 4, .drop = c.drop}).open();
-        for (const auto value : {VolumeClass::closed, VolumeClass::I, VolumeClass::II, VolumeClass::III, VolumeClass::IV, VolumeClass::V}) {
+        for (const auto value : {VolumeClass::closed, VolumeClass::I, VolumeClass::II, VolumeClass::III,
+                                 VolumeClass::IV, VolumeClass::V}) {
             CAPTURE(c.name);
             CAPTURE(std::string(to_string(value)));
             volume.override_class = value;
@@ -141,7 +149,8 @@ TEST_CASE("an override is obeyed where the faces allow it, and refused with the 
                 CHECK(classify(volume).value == value);
                 continue;
             }
-            const std::string code = refusal([&] { classify(volume); }, {"class " + std::string(to_string(value)), "found"});
+            const std::string code = refusal([&] { classify(volume); },
+                                             {"class " + std::string(to_string(value)), "found"});
             CHECK(code == "topology.class_contradicted");
         }
     }
@@ -155,10 +164,26 @@ TEST_CASE("a face in two roles, a face twice, and no face at all are refused by 
     Model model = prism.model;
     model[source].name = "floor";
     model[wall].name = "side";
-    CHECK(refusal([&] { open_volume(model, {{source}, {source}, {}}); }, {"floor", "source", "target"}) == "topology.face_in_two_roles");
-    CHECK(refusal([&] { open_volume(model, {{source}, {}, {wall, source}}); }, {"floor", "source", "wall"}) == "topology.face_in_two_roles");
-    CHECK(refusal([&] { open_volume(model, {{source}, {}, {wall, wall}}); }, {"side", "twice", "wall"}) == "topology.face_twice");
-    CHECK(refusal([&] { open_volume(model, {{source, source}, {}, {}}); }, {"floor", "twice", "source"}) == "topology.face_twice");
+    CHECK(refusal(
+              [&] {
+                  open_volume(model, {{source}, {source}, {}});
+              },
+              {"floor", "source", "target"}) == "topology.face_in_two_roles");
+    CHECK(refusal(
+              [&] {
+                  open_volume(model, {{source}, {}, {wall, source}});
+              },
+              {"floor", "source", "wall"}) == "topology.face_in_two_roles");
+    CHECK(refusal(
+              [&] {
+                  open_volume(model, {{source}, {}, {wall, wall}});
+              },
+              {"side", "twice", "wall"}) == "topology.face_twice");
+    CHECK(refusal(
+              [&] {
+                  open_volume(model, {{source, source}, {}, {}});
+              },
+              {"floor", "twice", "source"}) == "topology.face_twice");
     CHECK(refusal([&] { open_volume(model, {}); }, {"no faces"}) == "topology.no_faces");
 }
 
@@ -176,7 +201,8 @@ TEST_CASE("a wall that touches neither end is refused by name")
     const Model model = split_facets(soup, split);
     Roles roles = first.roles;
     roles.walls.emplace_back(model.faces.size() - 1);
-    CHECK(refusal([&] { open_volume(model, roles); }, {"astray", "wall", "tolerance"}) == "topology.wall_apart");
+    CHECK(refusal([&] { open_volume(model, roles); }, {"astray", "wall", "tolerance"}) ==
+          "topology.wall_apart");
 }
 
 TEST_CASE("an open volume holds only what its faces use, and the model it came from is left alone")
@@ -209,7 +235,8 @@ TEST_CASE("walls are found from the source's rim over shared edges, the target l
         CHECK(found == walls);
     }
     // Without the middle row the upper one cannot be reached but over the target.
-    const auto cut = test::prism({.sides = 5, .rows = 3, .drop = [](const Part& p) { return p.role == Role::wall && p.row == 1; }});
+    const auto cut = test::prism(
+        {.sides = 5, .rows = 3, .drop = [](const Part& p) { return p.role == Role::wall && p.row == 1; }});
     CHECK(faces_reachable_from(cut.model, cut.roles.source, cut.roles.target).size() == 5);
 }
 
@@ -218,6 +245,7 @@ TEST_CASE("a description has a line a face, with its tag and name")
     auto prism = test::prism({.sides = 3});
     prism.model.faces[0].name = "a floor with a rather long name";
     const std::string text = describe(prism.model);
-    CHECK(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) == prism.model.faces.size() + 1);
+    CHECK(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) ==
+          prism.model.faces.size() + 1);
     CHECK(text.find("a floor with a rather long name") != std::string::npos);
 }

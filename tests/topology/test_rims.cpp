@@ -100,7 +100,8 @@ TEST_CASE("a whole skin has no rim, and its parts have complementary ones")
     CHECK(rims(model, all_faces(model)).empty());
     for (unsigned bits = 1; bits < 200; ++bits) {
         std::vector<FaceId> in, out;
-        for (std::size_t f = 0; f < model.faces.size(); ++f) ((bits >> (f % 8)) & 1U ? in : out).emplace_back(f);
+        for (std::size_t f = 0; f < model.faces.size(); ++f)
+            ((bits >> (f % 8)) & 1U ? in : out).emplace_back(f);
         std::map<EdgeId, bool> inside;
         for (const Rim& rim : rims(model, in)) {
             for (const EdgeUse& use : rim.uses) inside[use.edge] = use.reversed;
@@ -145,7 +146,8 @@ TEST_CASE("free edges are those used once, and free loops walk each of them once
                 };
                 const auto prism = test::prism({.sides = sides, .holes = holes, .rows = 2, .drop = drop});
                 if (prism.model.faces.empty()) continue;
-                if (prism.roles.source.empty() && prism.roles.target.empty() && prism.roles.walls.empty()) continue;
+                if (prism.roles.source.empty() && prism.roles.target.empty() && prism.roles.walls.empty())
+                    continue;
                 const auto volume = prism.open();
                 std::set<EdgeId> walked;
                 for (const Rim& rim : free_loops(volume)) {
