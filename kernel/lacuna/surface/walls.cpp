@@ -258,8 +258,10 @@ private:
             double moved = 0;
             for (std::size_t i = 0; i < inside.size(); ++i)
                 moved = std::max(moved, (inside[i] - patch[i]).norm());
-            // Four sides that say so little of the face would spread its nodes by chance.
-            if (moved > kFarFromPatch * std::min(geometry::length(bottom), geometry::length(top)))
+            // Round a seam the patch has no chord to turn with; far from the face it would spread the nodes by chance.
+            const bool round_a_seam = n == count_;
+            if (round_a_seam &&
+                moved > kFarFromPatch * std::min(geometry::length(bottom), geometry::length(top)))
                 return false;
         }
         std::size_t next = 0;
