@@ -8,6 +8,8 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
+#include <utility>
 
 namespace lacuna::topology {
 
@@ -24,7 +26,8 @@ bool repeats(std::span<const Index> corners)
 }
 
 /// Facets of a face that are each other's back: what a facet no wider than the tolerance leaves. Both go.
-void drop_folds(Face& face)
+/// @return did any?
+bool drop_folds(Face& face)
 {
     std::map<Triangle, std::vector<std::size_t>> alike;
     for (std::size_t t = 0; t < face.triangles.size(); ++t) {
@@ -50,6 +53,7 @@ void drop_folds(Face& face)
     }
     face.triangles.resize(kept);
     if (!face.uv.empty()) face.uv.resize(kept);
+    return kept < gone.size();
 }
 
 } // namespace
@@ -132,7 +136,7 @@ bool LooseModel::shrink(FaceId f)
     const bool shrank = kept < face.triangles.size();
     face.triangles.resize(kept);
     if (!face.uv.empty()) face.uv.resize(kept);
-    if (shrank) drop_folds(face);
+    if (shrank && drop_folds(face)) folded_ = true;
     return !face.triangles.empty();
 }
 
@@ -200,6 +204,7 @@ void LooseModel::cut(const SidePoints& sides, const std::vector<EdgeId>& edges)
         }
         face.triangles = std::move(triangles);
         face.uv = std::move(uv);
+        if (drop_folds(face)) folded_ = true;
     }
 }
 
@@ -336,8 +341,24 @@ void LooseModel::renew_parameters()
     }
 }
 
+/// Edges whose facets all went with folds.
+void LooseModel::drop_bare_edges()
+{
+    std::set<std::pair<Index, Index>> sides;
+    for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+        if (face_gone_[f]) continue;
+        for (const Triangle& t : model_.faces[f].triangles)
+            for (std::size_t k = 0; k < 3; ++k) sides.insert(std::minmax(t[k], t[(k + 1) % 3]));
+    }
+    for (std::size_t e = 0; e < model_.edges.size(); ++e) {
+        const std::vector<Index>& points = model_.edges[e].points;
+        if (!edge_gone_[e] && !sides.contains(std::minmax(points[0], points[1]))) edge_gone_[e] = true;
+    }
+}
+
 Model LooseModel::settled()
 {
+    if (folded_) drop_bare_edges();
     part_shortcuts();
     renew_parameters();
     compact();

@@ -60,6 +60,7 @@ public:
 private:
     Index stays_as(Index p);
     bool shrink(FaceId f);
+    void drop_bare_edges();
     void part_shortcuts();
     void renew_parameters();
     void compact();
@@ -72,6 +73,7 @@ private:
     std::vector<bool> kept_;              ///< points that are nodes of given quads
     std::vector<bool> touched_;           ///< points whose surface parameters are to be found anew
     std::vector<bool> inside_;            ///< points put inside faces, which may move onto the surface
+    bool folded_ = false;                 ///< facets went that lay on each other's back
     int next_edge_tag_ = 1;
 };
 

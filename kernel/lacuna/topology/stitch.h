@@ -43,7 +43,7 @@ struct StitchReport {
 ///
 /// @param tolerance  [model length], > 0.
 /// @pre   build_loops() has run, or can.
-/// @post  loops are those of build_loops(); a second call changes nothing.
+/// @post  loops are those of build_loops(); where gaps are well below the tolerance, a second call changes nothing.
 /// @note  O(n log n) in points; deterministic.
 StitchReport stitch(Model& model, double tolerance);
 
