@@ -28,7 +28,8 @@ using Ends = std::vector<Outline>;
 using Place = std::function<Vec3(const Vec2&)>;
 
 /// A circle with vertices at shares of its length; points between them even.
-inline Outline circle(const std::vector<double>& shares, double radius = 1, int points = 60, const Vec2& centre = {0, 0})
+inline Outline circle(const std::vector<double>& shares, double radius = 1, int points = 60,
+                      const Vec2& centre = {0, 0})
 {
     Outline outline;
     const std::size_t n = shares.size();
@@ -53,7 +54,8 @@ inline std::vector<double> even(int count, double phase = 0)
 }
 
 /// Straight sides between corners, each a vertex, and vertices on sides: {side, share of it}.
-inline Outline polygon(const std::vector<Vec2>& corners, int cuts = 4, const std::vector<std::pair<std::size_t, double>>& extra = {})
+inline Outline polygon(const std::vector<Vec2>& corners, int cuts = 4,
+                       const std::vector<std::pair<std::size_t, double>>& extra = {})
 {
     Outline outline;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -64,10 +66,13 @@ inline Outline polygon(const std::vector<Vec2>& corners, int cuts = 4, const std
             if (side == i) shares.push_back(share);
         }
         std::sort(shares.begin(), shares.end());
-        shares.erase(std::unique(shares.begin(), shares.end(), [](double x, double y) { return y - x < 1e-9; }), shares.end());
+        shares.erase(
+            std::unique(shares.begin(), shares.end(), [](double x, double y) { return y - x < 1e-9; }),
+            shares.end());
         for (const double share : shares) {
-            const bool wanted = std::any_of(extra.begin(), extra.end(),
-                                            [&](const auto& e) { return e.first == i && std::abs(e.second - share) < 1e-9; });
+            const bool wanted = std::any_of(extra.begin(), extra.end(), [&](const auto& e) {
+                return e.first == i && std::abs(e.second - share) < 1e-9;
+            });
             if (share == 0 || wanted) outline.vertices.push_back(outline.points.size());
             outline.points.emplace_back((1 - share) * a + share * b);
         }
@@ -101,14 +106,16 @@ inline void add_end(topology::Model& model, const Ends& ends, const Place& place
         const std::size_t n = outline.vertices.size(), vertex = model.vertices.size();
         for (std::size_t i = 0; i < n; ++i) {
             const auto at = static_cast<Index>(outline.vertices[i]);
-            model.vertices.push_back({base + first + at, static_cast<int>(model.vertices.size()) + 1, Origin::given});
+            model.vertices.push_back(
+                {base + first + at, static_cast<int>(model.vertices.size()) + 1, Origin::given});
             Edge edge;
             edge.tag = static_cast<int>(model.edges.size()) + 1;
             edge.from = VertexId(vertex + i);
             edge.to = VertexId(vertex + (i + 1) % n);
             const std::size_t size = outline.points.size();
             const std::size_t next = i + 1 < n ? outline.vertices[i + 1] : outline.vertices[0] + size;
-            for (std::size_t k = outline.vertices[i]; k <= next; ++k) edge.points.push_back(base + first + static_cast<Index>(k % size));
+            for (std::size_t k = outline.vertices[i]; k <= next; ++k)
+                edge.points.push_back(base + first + static_cast<Index>(k % size));
             model.edges.push_back(edge);
         }
     }
@@ -130,7 +137,8 @@ inline void add_end(topology::Model& model, const Ends& ends, const Place& place
 inline topology::OpenVolume two_ends(const Ends& low, const Ends& high, const Place& place)
 {
     topology::Model model;
-    add_end(model, low, [](const Vec2& p) { return Vec3(p.x(), p.y(), 0); }, false);
+    add_end(
+        model, low, [](const Vec2& p) { return Vec3(p.x(), p.y(), 0); }, false);
     add_end(model, high, place, true);
     Vec3 least = model.points.front(), most = least;
     for (const Vec3& p : model.points) {
@@ -147,7 +155,8 @@ inline Place lifted(double height, double scale = 1, double turn = 0, const Vec2
 {
     return [=](const Vec2& p) {
         const double c = std::cos(turn), s = std::sin(turn);
-        return Vec3(scale * (c * p.x() - s * p.y()) + shift.x(), scale * (s * p.x() + c * p.y()) + shift.y(), height);
+        return Vec3(scale * (c * p.x() - s * p.y()) + shift.x(), scale * (s * p.x() + c * p.y()) + shift.y(),
+                    height);
     };
 }
 

@@ -24,7 +24,8 @@ class Circle : public geometry::ExactCurve {
 public:
     void evaluate(std::span<const double> params, std::span<Vec3> points) const override
     {
-        for (std::size_t i = 0; i < params.size(); ++i) points[i] = {std::cos(params[i]), std::sin(params[i]), 0};
+        for (std::size_t i = 0; i < params.size(); ++i)
+            points[i] = {std::cos(params[i]), std::sin(params[i]), 0};
     }
 };
 
@@ -90,7 +91,8 @@ Model disc(int sides)
     FacetSoup soup;
     soup.points.emplace_back(0, 0, 0);
     for (int i = 0; i < sides; ++i)
-        soup.points.emplace_back(std::cos(2 * std::numbers::pi * i / sides), std::sin(2 * std::numbers::pi * i / sides), 0);
+        soup.points.emplace_back(std::cos(2 * std::numbers::pi * i / sides),
+                                 std::sin(2 * std::numbers::pi * i / sides), 0);
     for (int i = 0; i < sides; ++i) soup.triangles.push_back({0, i + 1, (i + 1) % sides + 1});
     SplitOptions options;
     options.feature_angle = 120;
@@ -102,13 +104,15 @@ Model disc(int sides)
     const double from = std::atan2(start.y(), start.x());
     const Vec3 second = model.at(edge.points[1]);
     const double step = std::atan2(start.cross(second).z(), start.dot(second));
-    for (std::size_t i = 0; i < edge.points.size(); ++i) edge.params.push_back(from + step * static_cast<double>(i));
+    for (std::size_t i = 0; i < edge.points.size(); ++i)
+        edge.params.push_back(from + step * static_cast<double>(i));
     return model;
 }
 
 } // namespace
 
-TEST_CASE("a split edge has its two parts' lengths, and faces, loops and what they enclose stay what they were")
+TEST_CASE(
+    "a split edge has its two parts' lengths, and faces, loops and what they enclose stay what they were")
 {
     std::mt19937 dice(5);
     std::uniform_real_distribution<double> chance(0.02, 0.98);
@@ -117,7 +121,9 @@ TEST_CASE("a split edge has its two parts' lengths, and faces, loops and what th
         for (const int holes : {0, 2}) {
             for (const int rows : {1, 2}) {
                 for (const double bend : {0.0, 60.0}) {
-                    const Model whole = test::prism({.sides = sides, .holes = holes, .rows = rows, .levels = 2, .bend = bend}).model;
+                    const Model whole =
+                        test::prism({.sides = sides, .holes = holes, .rows = rows, .levels = 2, .bend = bend})
+                            .model;
                     for (std::size_t e = 0; e < whole.edges.size(); ++e) {
                         Model model = whole;
                         const EdgeId edge(e);
@@ -136,15 +142,19 @@ TEST_CASE("a split edge has its two parts' lengths, and faces, loops and what th
                         CHECK(model[edge].tag == whole[edge].tag);
                         for (const FaceId face : all_faces(model))
                             CHECK(face_area(model, face) == doctest::Approx(face_area(whole, face)));
-                        CHECK(volume_integral(model, all_faces(model)) == doctest::Approx(volume_integral(whole, all_faces(whole))));
+                        CHECK(volume_integral(model, all_faces(model)) ==
+                              doctest::Approx(volume_integral(whole, all_faces(whole))));
                         // Only the faces at the edge have changed.
                         for (std::size_t face = 0; face < whole.faces.size(); ++face) {
                             bool at_edge = false;
                             for (const Loop& loop : whole.faces[face].loops) {
                                 for (const EdgeUse& use : loop.uses) at_edge = at_edge || use.edge == edge;
                             }
-                            if (!at_edge) CHECK(model.faces[face].triangles == whole.faces[face].triangles);
-                            else CHECK(model.faces[face].triangles.size() > whole.faces[face].triangles.size());
+                            if (!at_edge)
+                                CHECK(model.faces[face].triangles == whole.faces[face].triangles);
+                            else
+                                CHECK(model.faces[face].triangles.size() >
+                                      whole.faces[face].triangles.size());
                         }
                         ++splits;
                     }
@@ -191,7 +201,8 @@ TEST_CASE("both uses of a seam are split, and the wall stays one loop")
         const auto& uses = model[wall].loops[0].uses;
         CHECK(uses.size() == prism.model[wall].loops[0].uses.size() + 2);
         for (const EdgeId part : {seam, made.behind}) {
-            for (const bool reversed : {false, true}) CHECK(std::count(uses.begin(), uses.end(), EdgeUse{part, reversed}) == 1);
+            for (const bool reversed : {false, true})
+                CHECK(std::count(uses.begin(), uses.end(), EdgeUse{part, reversed}) == 1);
         }
     }
 }
@@ -212,7 +223,8 @@ TEST_CASE("the new vertex lies on the exact curve, its parameter between its nei
                 for (std::size_t k = 0; k < edge.points.size(); ++k) {
                     const Vec3 on(std::cos(edge.params[k]), std::sin(edge.params[k]), 0);
                     CHECK((model.at(edge.points[k]) - on).norm() < 1e-12);
-                    if (k > 0) CHECK((edge.params[k] > edge.params[k - 1]) == (edge.params[1] > edge.params[0]));
+                    if (k > 0)
+                        CHECK((edge.params[k] > edge.params[k - 1]) == (edge.params[1] > edge.params[0]));
                 }
             }
         }
@@ -224,7 +236,8 @@ TEST_CASE("surface parameters of new corners lie between those of their facets' 
     const auto uv_of = [](const Vec3& p) { return Vec2(2 * p.x() + p.z() + 3, p.y() - p.z()); };
     Model whole = test::prism({.sides = 5, .holes = 1, .levels = 2}).model;
     for (Face& face : whole.faces) {
-        for (const Triangle& t : face.triangles) face.uv.push_back({uv_of(whole.at(t[0])), uv_of(whole.at(t[1])), uv_of(whole.at(t[2]))});
+        for (const Triangle& t : face.triangles)
+            face.uv.push_back({uv_of(whole.at(t[0])), uv_of(whole.at(t[1])), uv_of(whole.at(t[2]))});
     }
     for (std::size_t e = 0; e < whole.edges.size(); ++e) {
         Model model = whole;
@@ -247,7 +260,8 @@ TEST_CASE("an inner point of the edge within the tolerance becomes the vertex, a
         for (std::size_t i = 1; i <= inner; ++i) {
             Model model = whole;
             const double off = 0.5 * whole.tolerance / edge_length(whole, EdgeId(e));
-            const EdgeSplit made = split_edge(model, EdgeId(e), static_cast<double>(i) / static_cast<double>(inner + 1) + off);
+            const EdgeSplit made = split_edge(model, EdgeId(e),
+                                              static_cast<double>(i) / static_cast<double>(inner + 1) + off);
             CHECK(model[made.vertex].point == whole.edges[e].points[i]);
             CHECK(model.points.size() == whole.points.size());
             check_model(model);
@@ -264,7 +278,8 @@ TEST_CASE("the nodes of a mesh that a face came with get none between them")
     }
     const auto at = [&](int i, int j) { return static_cast<Index>(j * (n + 1) + i); };
     for (int j = 0; j < n; ++j) {
-        for (int i = 0; i < n; ++i) soup.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+        for (int i = 0; i < n; ++i)
+            soup.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
     }
     const Model whole = split_facets(soup);
     REQUIRE(whole.faces.front().given_quads.size() == 16);
@@ -278,7 +293,8 @@ TEST_CASE("the nodes of a mesh that a face came with get none between them")
             // The nearest of the three inner nodes.
             const double wanted = std::clamp(std::round(f * n), 1.0, 3.0) / n;
             CHECK(edge_length(model, EdgeId(e)) == doctest::Approx(wanted * n));
-            CHECK(model[made.vertex].point == whole.edges[e].points[static_cast<std::size_t>(std::lround(wanted * n))]);
+            CHECK(model[made.vertex].point ==
+                  whole.edges[e].points[static_cast<std::size_t>(std::lround(wanted * n))]);
             check_model(model);
         }
     }
@@ -286,8 +302,8 @@ TEST_CASE("the nodes of a mesh that a face came with get none between them")
     one.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     one.quads = {{0, 1, 2, 3}};
     Model model = split_facets(one);
-    CHECK(code_of([&] { split_edge(model, EdgeId(std::size_t(0)), 0.5); }, name_of(model, EdgeId(std::size_t(0)))) ==
-          "topology.split_kept_mesh");
+    CHECK(code_of([&] { split_edge(model, EdgeId(std::size_t(0)), 0.5); },
+                  name_of(model, EdgeId(std::size_t(0)))) == "topology.split_kept_mesh");
 }
 
 TEST_CASE("a split at an end of the edge is refused by the edge's name, and nothing has changed")
@@ -295,8 +311,8 @@ TEST_CASE("a split at an end of the edge is refused by the edge's name, and noth
     const Model whole = test::prism({.sides = 3, .cuts = 1}).model;
     for (const double f : {0.0, 1.0, -1.0, 2.0, 1e-12, 1 - 1e-12, std::nan("")}) {
         Model model = whole;
-        CHECK(code_of([&] { split_edge(model, EdgeId(std::size_t(1)), f); }, name_of(whole, EdgeId(std::size_t(1)))) ==
-              "topology.split_at_end");
+        CHECK(code_of([&] { split_edge(model, EdgeId(std::size_t(1)), f); },
+                      name_of(whole, EdgeId(std::size_t(1)))) == "topology.split_at_end");
         CHECK(model.points.size() == whole.points.size());
         CHECK(model.edges.size() == whole.edges.size());
     }

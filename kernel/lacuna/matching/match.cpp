@@ -6,6 +6,7 @@
 #include <lacuna/matching/arc_pairs.h>
 #include <lacuna/matching/assignment.h>
 #include <lacuna/matching/loop_shape.h>
+#include <lacuna/matching/nearest.h>
 #include <lacuna/matching/side_lines.h>
 
 #include <algorithm>
@@ -289,15 +290,27 @@ void read_options(Problem& problem)
         }
         force(problem, s, t, "as the recipe asks");
     }
+    const std::map<VertexId, VertexId> by_walls = problem.hard;
     for (const auto& [s, t] : problem.options.vertices) {
         const VertexId from = vertex_with_tag(model, problem.source, s, "source");
         const VertexId to = vertex_with_tag(model, problem.target, t, "target");
         const auto known = problem.hard.find(from);
         if (known != problem.hard.end() && known->second != to) {
             throw InvalidInput("matching.vertices_contradict",
-                               "vertex " + std::to_string(s) + " is joined by walls to vertex " +
-                                   std::to_string(model[known->second].tag) + " and cannot go to vertex " +
-                                   std::to_string(t));
+                               "vertex " + std::to_string(s) +
+                                   (by_walls.contains(from) ? " is joined by walls" : " goes by the recipe") +
+                                   " to vertex " + std::to_string(model[known->second].tag) +
+                                   " and cannot go to vertex " + std::to_string(t));
+        }
+        const auto taken = std::find_if(problem.hard.begin(), problem.hard.end(), [&](const auto& pair) {
+            return pair.second == to && pair.first != from;
+        });
+        if (taken != problem.hard.end()) {
+            throw InvalidInput(
+                "matching.vertices_contradict",
+                "vertices " + std::to_string(model[taken->first].tag) + " and " + std::to_string(s) +
+                    " of the source cannot both go to vertex " + std::to_string(t) +
+                    (by_walls.contains(taken->first) ? ", which walls join to the first" : ""));
         }
         problem.hard[from] = to;
         force(problem, loop_with(problem.source, from), loop_with(problem.target, to), "by its vertices");
@@ -456,6 +469,24 @@ void pair_vertices(const Problem& problem, Match& match, const Arrangement& arra
     }
 }
 
+/// The paper's own way.
+void by_nearest(const Problem& problem, Match& match)
+{
+    NearestInput input{match.source_loops,
+                       match.target_loops,
+                       problem.hard,
+                       problem.forced,
+                       std::vector<bool>(problem.source.size(), false),
+                       problem.backward};
+    for (const int s : problem.options.flip) input.turned[static_cast<std::size_t>(s)] = true;
+    NearestMatch found = match_nearest(problem.volume.model, input);
+    match.loops = std::move(found.loops);
+    match.vertices = std::move(found.vertices);
+    match.confidence = found.confidence;
+    match.notes = std::move(found.notes);
+    for (const auto& pair : match.vertices) match.hard.push_back(problem.hard.contains(pair.first));
+}
+
 /// Numbers as the recipe counts them, from 1.
 std::string numbers(const std::vector<int>& list)
 {
@@ -474,12 +505,8 @@ std::string loops_in_words(std::size_t count)
 Match match(const OpenVolume& volume, const MatchOptions& options)
 {
     const Model& model = volume.model;
-    if (options.method == Method::nearest) {
-        throw InvalidInput("matching.method",
-                           "match: method \"nearest\" is not available yet; use \"aligned\"");
-    }
     Match result;
-    result.method = "aligned";
+    result.method = options.method == Method::nearest ? "nearest" : "aligned";
     result.source_loops = rims(model, volume.faces(Role::source));
     result.target_loops = rims(model, volume.faces(Role::target));
     if (result.source_loops.empty() || result.target_loops.empty()) {
@@ -501,6 +528,10 @@ Match match(const OpenVolume& volume, const MatchOptions& options)
     problem.forced.assign(problem.source.size(), -1);
     read_walls(problem);
     read_options(problem);
+    if (options.method == Method::nearest) {
+        by_nearest(problem, result);
+        return result;
+    }
 
     const std::vector<Arrangement> found = arrange(problem);
     if (found.empty()) {

@@ -19,7 +19,8 @@ std::vector<FaceId> users_of(const Model& model, EdgeId edge)
     std::vector<FaceId> users;
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         for (const Loop& loop : model.faces[f].loops) {
-            const bool uses = std::any_of(loop.uses.begin(), loop.uses.end(), [&](const EdgeUse& use) { return use.edge == edge; });
+            const bool uses = std::any_of(loop.uses.begin(), loop.uses.end(),
+                                          [&](const EdgeUse& use) { return use.edge == edge; });
             if (uses && (users.empty() || users.back() != FaceId(f))) users.emplace_back(f);
         }
     }
@@ -42,7 +43,8 @@ std::size_t nearest_inner(const std::vector<double>& arc, double at)
 }
 
 /// Put a point into side `segment` of an edge, and into the facets beside it.
-void insert_point(Model& model, EdgeId id, const std::vector<FaceId>& users, std::size_t segment, double fraction)
+void insert_point(Model& model, EdgeId id, const std::vector<FaceId>& users, std::size_t segment,
+                  double fraction)
 {
     Edge& edge = model[id];
     const Index a = edge.points[segment], b = edge.points[segment + 1];
@@ -118,7 +120,8 @@ EdgeSplit divide(Model& model, EdgeId id, const std::vector<FaceId>& users, std:
 EdgeSplit split_edge(Model& model, EdgeId id, double fraction)
 {
     if (!(fraction > 0 && fraction < 1)) {
-        refuse(model, id, "split_at_end", "at " + std::to_string(fraction) + " of its length: give a fraction between 0 and 1");
+        refuse(model, id, "split_at_end",
+               "at " + std::to_string(fraction) + " of its length: give a fraction between 0 and 1");
     }
     const std::vector<FaceId> users = users_of(model, id);
     std::vector<Vec3> places;
@@ -127,16 +130,20 @@ EdgeSplit split_edge(Model& model, EdgeId id, double fraction)
     const double wanted = fraction * arc.back();
     const bool has_inner = arc.size() > 2;
 
-    const auto with_mesh = std::find_if(users.begin(), users.end(), [&](FaceId f) { return !model[f].given_quads.empty(); });
+    const auto with_mesh = std::find_if(users.begin(), users.end(),
+                                        [&](FaceId f) { return !model[f].given_quads.empty(); });
     if (with_mesh != users.end() && !has_inner) {
-        refuse(model, id, "split_kept_mesh", "without changing the mesh that " + name_of(model, *with_mesh) +
-                                                 " came with, which has no node inside the edge; leave that mesh out, or pair the edge's own vertices");
+        refuse(model, id, "split_kept_mesh",
+               "without changing the mesh that " + name_of(model, *with_mesh) +
+                   " came with, which has no node inside the edge; leave that mesh out, or pair the edge's "
+                   "own vertices");
     }
     const std::size_t nearest = has_inner ? nearest_inner(arc, wanted) : 0;
     if (has_inner && (with_mesh != users.end() || std::abs(arc[nearest] - wanted) <= model.tolerance))
         return divide(model, id, users, nearest);
     if (std::min(wanted, arc.back() - wanted) <= model.tolerance) {
-        refuse(model, id, "split_at_end", "at " + std::to_string(fraction) + " of its length: that is its end, within the tolerance");
+        refuse(model, id, "split_at_end",
+               "at " + std::to_string(fraction) + " of its length: that is its end, within the tolerance");
     }
     const geometry::PolylinePlace place = geometry::place_at(arc, wanted);
     insert_point(model, id, users, place.segment, place.fraction);

@@ -8,7 +8,8 @@ namespace lacuna::topology {
 /// What `split_edge()` made.
 struct EdgeSplit {
     VertexId vertex; ///< the new one; tag: the next that no vertex has; origin void
-    EdgeId behind;   ///< from it to the end of the old edge; tag: the next that no given edge has, or no void one
+    EdgeId
+        behind; ///< from it to the end of the old edge; tag: the next that no given edge has, or no void one
 };
 
 /// Split an edge at a fraction of its polyline's length, counted as the edge runs.
