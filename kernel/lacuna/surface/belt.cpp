@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/matching/corners.h>
+#include <lacuna/surface/common_turn.h>
 #include <lacuna/surface/wall_map.h>
 
 #include <algorithm>
@@ -231,7 +232,7 @@ Belt make_belt(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& s
 
 } // namespace
 
-std::vector<Belt> belts(const OpenVolume& volume)
+std::vector<Belt> belts(const OpenVolume& volume, Turning turning)
 {
     const Model& model = volume.model;
     const RimOf source = rims_of(volume, Role::source);
@@ -263,6 +264,14 @@ std::vector<Belt> belts(const OpenVolume& volume)
                                                       ", has no walls; close the volume first");
         }
         result.push_back(std::move(*by_rim[s]));
+    }
+    if (turning == Turning::each) return result;
+    const std::vector<std::optional<double>> starts = common_turn_starts(result);
+    for (std::size_t b = 0; b < result.size(); ++b) {
+        if (!starts[b]) continue;
+        Belt& belt = result[b];
+        belt.stretches.clear();
+        add_stretches(model, belt, 0, belt.source.length(), *starts[b], *starts[b] + belt.target.length());
     }
     return result;
 }

@@ -35,8 +35,12 @@ struct Belt {
     std::vector<Stretch> stretches; ///< in walking order, the first from source length 0
 };
 
+/// How belts without side lines turn: each so that its own walls are sheared least, or all loops as one body, which holes
+/// that go round each other need.
+enum class Turning { each, together };
+
 /// The belts of a sealed volume, one a loop of the source; in order of the source's loops.
 /// @throw NotSweepable  walls that join a source loop to none or several of the target's; names them.
-std::vector<Belt> belts(const topology::OpenVolume& volume);
+std::vector<Belt> belts(const topology::OpenVolume& volume, Turning turning = Turning::each);
 
 } // namespace lacuna::surface

@@ -208,23 +208,12 @@ quality::Quality prove_or_mend(Swept& swept, const SweepOptions& options, const 
     return quality::prove(swept.mesh, options.min_scaled_jacobian, context);
 }
 
-} // namespace
-
-Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
+/// Seeds, quads, walls, target, layers and proof between the rims of belts that say what goes with what.
+Swept sweep_between(const OpenVolume& volume, const std::vector<surface::Belt>& belts,
+                    const std::vector<double>& heights, const surface::SizeField& size,
+                    const SweepOptions& options, const RunContext& context)
 {
-    check_cancelled(context);
-    std::vector<double> heights = layer_heights(options.layers);
-    if (volume.turned_round) {
-        std::reverse(heights.begin(), heights.end());
-        for (double& h : heights) h = 1 - h;
-    }
-    if (!closure::is_watertight(volume)) {
-        throw NotSweepable("sweep.not_closed",
-                           "the volume is not sealed; close it first with volume:close()");
-    }
-    const surface::SizeField size = checked_size(volume, options);
     Swept result;
-    const std::vector<surface::Belt> belts = surface::belts(volume);
     const surface::Seeds seeds = surface::seed_source(volume, belts, size, style_of(options.quads));
     surface::SourceMesh source = surface::mesh_source(volume, belts, seeds, size, options.quad_mesher,
                                                       context);
@@ -260,6 +249,45 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
                             std::to_string(quality.min_scaled_jacobian) + " at least, " +
                             std::to_string(quality.mean_scaled_jacobian) + " on average");
     return result;
+}
+
+/// Round walls do not say how far they turn; several loops together may.
+bool can_turn_together(const std::vector<surface::Belt>& belts)
+{
+    return belts.size() > 1 && std::any_of(belts.begin(), belts.end(),
+                                           [](const surface::Belt& belt) { return belt.lines.empty(); });
+}
+
+} // namespace
+
+Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
+{
+    check_cancelled(context);
+    std::vector<double> heights = layer_heights(options.layers);
+    if (volume.turned_round) {
+        std::reverse(heights.begin(), heights.end());
+        for (double& h : heights) h = 1 - h;
+    }
+    if (!closure::is_watertight(volume)) {
+        throw NotSweepable("sweep.not_closed",
+                           "the volume is not sealed; close it first with volume:close()");
+    }
+    const surface::SizeField size = checked_size(volume, options);
+    const std::vector<surface::Belt> belts = surface::belts(volume);
+    try {
+        return sweep_between(volume, belts, heights, size, options, context);
+    } catch (const NotSweepable& error) {
+        if (!is_poor(error) || !can_turn_together(belts)) throw;
+        try {
+            Swept turned = sweep_between(volume, surface::belts(volume, surface::Turning::together), heights,
+                                         size, options, context);
+            turned.report.insert(turned.report.begin(), "loops: turned as one body; each by its own walls "
+                                                        "the cells fold");
+            return turned;
+        } catch (const NotSweepable&) {
+        }
+        throw; // What went wrong first says more.
+    }
 }
 
 } // namespace lacuna::sweep
