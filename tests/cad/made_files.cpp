@@ -35,7 +35,8 @@ void with_gmsh(const std::string& path, const std::function<void()>& build)
 TempFolder::TempFolder()
 {
     std::random_device dice;
-    folder_ = std::filesystem::temp_directory_path() / ("lacuna_cad_" + std::to_string(dice()) + std::to_string(dice()));
+    folder_ = std::filesystem::temp_directory_path() /
+              ("lacuna_cad_" + std::to_string(dice()) + std::to_string(dice()));
     std::filesystem::create_directories(folder_);
 }
 
@@ -82,19 +83,23 @@ std::vector<KnownShape> known_shapes()
         {"box", [] { occ::addBox(1, 2, 3, 1, 2, 3); }, 6, 22, 6},
         {"cylinder", [] { occ::addCylinder(0, 0, 0, 0, 0, 2, 1); }, 3, 2 * pi + 4 * pi, 2 * pi},
         {"half cylinder", [] { occ::addCylinder(0, 0, 0, 0, 0, 2, 1, -1, pi); }, 5, pi + 2 * pi + 4, pi},
-        {"frustum", [] { occ::addCone(0, 0, 0, 0, 0, 1, 2, 1); }, 3, 5 * pi + 3 * pi * std::sqrt(2.0), 7 * pi / 3},
-        {"cone to its apex", [] { occ::addCone(0, 0, 0, 0, 0, 2, 1, 0); }, 2, pi + pi * std::sqrt(5.0), 2 * pi / 3},
+        {"frustum", [] { occ::addCone(0, 0, 0, 0, 0, 1, 2, 1); }, 3, 5 * pi + 3 * pi * std::sqrt(2.0),
+         7 * pi / 3},
+        {"cone to its apex", [] { occ::addCone(0, 0, 0, 0, 0, 2, 1, 0); }, 2, pi + pi * std::sqrt(5.0),
+         2 * pi / 3},
         {"sphere", [] { occ::addSphere(1, 1, 1, 2); }, 1, 16 * pi, 32 * pi / 3},
         {"half sphere", [] { occ::addSphere(0, 0, 0, 1, -1, 0); }, 2, 3 * pi, 2 * pi / 3},
         {"torus", [] { occ::addTorus(0, 0, 0, 3, 1); }, 1, 12 * pi * pi, 6 * pi * pi},
-        {"quarter torus", [] { occ::addTorus(0, 0, 0, 3, 1, -1, pi / 2); }, 3, 3 * pi * pi + 2 * pi, 1.5 * pi * pi},
+        {"quarter torus", [] { occ::addTorus(0, 0, 0, 3, 1, -1, pi / 2); }, 3, 3 * pi * pi + 2 * pi,
+         1.5 * pi * pi},
         {"tilted cylinder", [=] { tilt(3, occ::addCylinder(5, 0, 0, 0, 0, 2, 1)); }, 3, 6 * pi, 2 * pi},
         {"tilted sphere", [=] { tilt(3, occ::addSphere(1, 0, 0, 1)); }, 1, 4 * pi, 4 * pi / 3},
         {"plate with a hole",
          [] {
              ::gmsh::vectorpair out;
              std::vector<::gmsh::vectorpair> map;
-             occ::cut({{3, occ::addBox(-2, -2, 0, 4, 4, 1)}}, {{3, occ::addCylinder(0, 0, -1, 0, 0, 3, 1)}}, out, map);
+             occ::cut({{3, occ::addBox(-2, -2, 0, 4, 4, 1)}}, {{3, occ::addCylinder(0, 0, -1, 0, 0, 3, 1)}},
+                      out, map);
          },
          7, 2 * (16 - pi) + 16 + 2 * pi, 16 - pi},
     };
@@ -111,7 +116,8 @@ double enclosed_volume(const topology::Model& model)
 {
     double sum = 0;
     for (const topology::Face& face : model.faces) {
-        for (const Triangle& t : face.triangles) sum += model.at(t[0]).dot(model.at(t[1]).cross(model.at(t[2]))) / 6;
+        for (const Triangle& t : face.triangles)
+            sum += model.at(t[0]).dot(model.at(t[1]).cross(model.at(t[2]))) / 6;
     }
     return sum;
 }
@@ -150,17 +156,20 @@ void check_model(const topology::Model& model)
                 --net[{t[(k + 1) % 3], t[k]}];
             }
         }
-        const bool bordered = std::any_of(net.begin(), net.end(), [](const auto& side) { return side.second != 0; });
+        const bool bordered = std::any_of(net.begin(), net.end(),
+                                          [](const auto& side) { return side.second != 0; });
         if (bordered) CHECK(!face.loops.empty());
         if (face.surface) CHECK(face.uv.size() == face.triangles.size());
         for (const Triangle& t : face.triangles) {
             for (const Index p : t) used[static_cast<std::size_t>(p)] = true;
-            const double area = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])).norm();
+            const double area =
+                (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])).norm();
             CHECK(area > 0);
         }
         for (const topology::Loop& loop : face.loops) {
             for (std::size_t i = 0; i < loop.uses.size(); ++i) {
-                CHECK(topology::use_to(model, loop.uses[i]) == topology::use_from(model, loop.uses[(i + 1) % loop.uses.size()]));
+                CHECK(topology::use_to(model, loop.uses[i]) ==
+                      topology::use_from(model, loop.uses[(i + 1) % loop.uses.size()]));
             }
         }
     }

@@ -34,7 +34,7 @@ private:
 /// A shape with what is known about it.
 struct KnownShape {
     std::string name;
-    std::function<void()> build;  ///< with gmsh::model::occ
+    std::function<void()> build; ///< with gmsh::model::occ
     int faces = 0;
     double area = 0, volume = 0;
 };

@@ -13,7 +13,7 @@ namespace occ = gmsh::model::occ;
 namespace {
 
 const std::vector<std::string> kEndings{".step", ".stp", ".iges", ".igs", ".brep", ".geo", ".stl",
-                                        ".obj", ".msh", ".bdf", ".nas", ".unv", ".vtk", ".mesh"};
+                                        ".obj",  ".msh", ".bdf",  ".nas", ".unv",  ".vtk", ".mesh"};
 
 /// The message of the error that loading gives, after its code.
 std::string failure(const std::string& path, const cad::LoadOptions& options = {})
@@ -69,7 +69,8 @@ TEST_CASE("text that is no file of its kind is refused, whatever the ending")
 {
     const test::TempFolder folder;
     for (const std::string& ending : kEndings) {
-        for (const std::string& text : {std::string("hello world\nfoo bar\n"), std::string(300, '\0'), std::string(5000, 'x')}) {
+        for (const std::string& text :
+             {std::string("hello world\nfoo bar\n"), std::string(300, '\0'), std::string(5000, 'x')}) {
             CAPTURE(ending);
             const std::string path = folder.write("bad" + ending, text);
             const std::string message = failure(path);
@@ -97,7 +98,8 @@ TEST_CASE("a file cut off in the middle is refused or read without harm")
             std::fclose(file);
         }
         for (const double part : {0.2, 0.5, 0.8}) {
-            const std::string path = folder.write("cut" + std::string(ending), text.substr(0, std::size_t(part * double(text.size()))));
+            const std::string path = folder.write("cut" + std::string(ending),
+                                                  text.substr(0, std::size_t(part * double(text.size()))));
             try {
                 test::check_model(cad::load({path}));
             } catch (const Error& error) {
@@ -110,11 +112,15 @@ TEST_CASE("a file cut off in the middle is refused or read without harm")
 TEST_CASE("a file without faces says so")
 {
     const test::TempFolder folder;
-    CHECK(has(failure(folder.gmsh("line.brep", [] { occ::addLine(occ::addPoint(0, 0, 0), occ::addPoint(1, 0, 0)); })), "cad.no_faces"));
+    CHECK(has(failure(folder.gmsh("line.brep",
+                                  [] { occ::addLine(occ::addPoint(0, 0, 0), occ::addPoint(1, 0, 0)); })),
+              "cad.no_faces"));
     CHECK(has(failure(folder.write("point.geo", "Point(1) = {0, 0, 0};\n")), "cad.no_faces"));
     CHECK(has(failure(folder.write("points.obj", "v 0 0 0\nv 1 0 0\n")), "cad.no_faces"));
-    CHECK(has(failure(folder.write("tetra.bdf", "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"
-                                                "CTETRA,1,1,1,2,3,4\nENDDATA\n")),
+    CHECK(has(failure(folder.write(
+                  "tetra.bdf",
+                  "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"
+                  "CTETRA,1,1,1,2,3,4\nENDDATA\n")),
               "only solid cells"));
 }
 
@@ -130,7 +136,9 @@ TEST_CASE("options out of range are refused")
 {
     const test::TempFolder folder;
     const std::string path = folder.gmsh("box.step", [] { occ::addBox(0, 0, 0, 1, 1, 1); });
-    for (const double scale : {0.0, -1.0, double(NAN), double(INFINITY)}) CHECK(has(failure(path, {.scale = scale}), "cad.scale"));
-    for (const double tolerance : {-1.0, double(NAN)}) CHECK(has(failure(path, {.tolerance = tolerance}), "cad.tolerance"));
+    for (const double scale : {0.0, -1.0, double(NAN), double(INFINITY)})
+        CHECK(has(failure(path, {.scale = scale}), "cad.scale"));
+    for (const double tolerance : {-1.0, double(NAN)})
+        CHECK(has(failure(path, {.tolerance = tolerance}), "cad.tolerance"));
     CHECK_THROWS_AS(cad::load({}), InvalidInput);
 }

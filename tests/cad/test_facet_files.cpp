@@ -47,18 +47,21 @@ std::string obj_cube(Corner&& corner)
 {
     std::ostringstream text;
     text << "# a cube\nmtllib none.mtl\n";
-    for (int i = 0; i < 8; ++i) text << "v " << (i & 1) << ".0 " << ((i >> 1) & 1) << "e0 " << (i >> 2) << "\n";
+    for (int i = 0; i < 8; ++i)
+        text << "v " << (i & 1) << ".0 " << ((i >> 1) & 1) << "e0 " << (i >> 2) << "\n";
     text << "vt 0 0\nvn 0 0 1\n";
-    for (const Quad& q : {Quad{0, 2, 3, 1}, Quad{4, 5, 7, 6}, Quad{0, 1, 5, 4}, Quad{2, 6, 7, 3}, Quad{0, 4, 6, 2}, Quad{1, 3, 7, 5}}) {
-        text << "f " << corner(q[0]) << ' ' << corner(q[1]) << ' ' << corner(q[2]) << "\nf " << corner(q[0]) << ' ' << corner(q[2])
-             << ' ' << corner(q[3]) << "\n";
+    for (const Quad& q : {Quad{0, 2, 3, 1}, Quad{4, 5, 7, 6}, Quad{0, 1, 5, 4}, Quad{2, 6, 7, 3},
+                          Quad{0, 4, 6, 2}, Quad{1, 3, 7, 5}}) {
+        text << "f " << corner(q[0]) << ' ' << corner(q[1]) << ' ' << corner(q[2]) << "\nf " << corner(q[0])
+             << ' ' << corner(q[2]) << ' ' << corner(q[3]) << "\n";
     }
     return text.str();
 }
 
 } // namespace
 
-TEST_CASE("a mesh made from geometry comes back with its quads, its surface tags and its group names, in every MSH version")
+TEST_CASE("a mesh made from geometry comes back with its quads, its surface tags and its group names, in "
+          "every MSH version")
 {
     const test::TempFolder folder;
     for (const double version : {2.2, 4.1}) {
@@ -75,7 +78,8 @@ TEST_CASE("a mesh made from geometry comes back with its quads, its surface tags
             CHECK(quads_of(model) == 6 * 9);
             CHECK(model.edges.size() == 12);
             CHECK(test::total_area(model) == doctest::Approx(10));
-            for (const topology::Face& face : model.faces) CHECK(face.name == "side " + std::to_string(face.tag));
+            for (const topology::Face& face : model.faces)
+                CHECK(face.name == "side " + std::to_string(face.tag));
         }
     }
 }
@@ -155,15 +159,17 @@ TEST_CASE("an OBJ file is read whichever way its corners are written")
     check(obj_cube([](Index i) { return std::to_string(i + 1) + "/1/1"; }));
     check(obj_cube([](Index i) { return std::to_string(i - 8); }));
     std::string dos = obj_cube([](Index i) { return std::to_string(i + 1); });
-    for (std::size_t at = 0; (at = dos.find('\n', at)) != std::string::npos; at += 2) dos.replace(at, 1, "\r\n");
+    for (std::size_t at = 0; (at = dos.find('\n', at)) != std::string::npos; at += 2)
+        dos.replace(at, 1, "\r\n");
     check(dos);
 }
 
 TEST_CASE("groups and polygons of an OBJ file become names and facets")
 {
     const test::TempFolder folder;
-    const topology::Model model = cad::load({folder.write("two.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2.5 0.5 0\nv 2 1 0\n"
-                                                                     "g left part\nf 1 2 3 4\ng right\nf 2 5 \\\n6 7 3\n")});
+    const topology::Model model = cad::load(
+        {folder.write("two.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2.5 0.5 0\nv 2 1 0\n"
+                                 "g left part\nf 1 2 3 4\ng right\nf 2 5 \\\n6 7 3\n")});
     test::check_model(model);
     REQUIRE(model.faces.size() == 2);
     for (const topology::Face& face : model.faces) {
@@ -181,7 +187,8 @@ TEST_CASE("a bad line of an OBJ file is named by its number")
     const test::TempFolder folder;
     for (const char* line : {"f 1 2 9", "f 1 2", "f a b c", "f 0 1 2", "v 1 x 2", "f -9 1 2"}) {
         CAPTURE(line);
-        const std::string path = folder.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + std::string(line) + "\nf 1 2 3\n");
+        const std::string path = folder.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + std::string(line) +
+                                                             "\nf 1 2 3\n");
         try {
             (void)cad::load({path});
             FAIL("accepted");
@@ -197,18 +204,21 @@ TEST_CASE("numbers are read with a point for the decimals, whatever the locale")
     const std::string before = std::setlocale(LC_NUMERIC, nullptr);
     for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8"}) {
         if (!std::setlocale(LC_NUMERIC, name)) continue;
-        const topology::Model model = cad::load({folder.write("t.obj", "v 0 0 0\nv 1.5 0 0\nv 0 1.5 0\nf 1 2 3\n")});
+        const topology::Model model = cad::load(
+            {folder.write("t.obj", "v 0 0 0\nv 1.5 0 0\nv 0 1.5 0\nf 1 2 3\n")});
         CHECK(test::total_area(model) == doctest::Approx(1.125));
     }
     std::setlocale(LC_NUMERIC, before.c_str());
-    CHECK(test::total_area(cad::load({folder.write("t.obj", "v 0 0 0\nv 1.5 0 0\nv 0 1.5 0\nf 1 2 3\n")})) == doctest::Approx(1.125));
+    CHECK(test::total_area(cad::load({folder.write("t.obj", "v 0 0 0\nv 1.5 0 0\nv 0 1.5 0\nf 1 2 3\n")})) ==
+          doctest::Approx(1.125));
 }
 
 TEST_CASE("facets are scaled, and parts with a gap welded, before they are cut")
 {
     const test::TempFolder folder;
-    const std::string path = folder.write("gap.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1.001 0 0\nv 2 0 0\nv 2 1 0\nv 1.001 1 0\n"
-                                                     "f 1 2 3 4\nf 5 6 7 8\n");
+    const std::string path = folder.write(
+        "gap.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1.001 0 0\nv 2 0 0\nv 2 1 0\nv 1.001 1 0\n"
+                   "f 1 2 3 4\nf 5 6 7 8\n");
     CHECK(cad::load({path}).faces.size() == 2);
     const topology::Model sewn = cad::load({path}, {.tolerance = 0.02, .scale = 10});
     test::check_model(sewn);

@@ -26,7 +26,8 @@ TEST_CASE("a solid of any known shape and file format encloses its volume, outwa
         for (const char* ending : {".step", ".brep"}) {
             CAPTURE(shape.name);
             CAPTURE(ending);
-            const topology::Model model = cad::load({folder.gmsh("shape" + std::string(ending), shape.build)});
+            const topology::Model model = cad::load(
+                {folder.gmsh("shape" + std::string(ending), shape.build)});
             test::check_model(model);
             CHECK(int(model.faces.size()) == shape.faces);
             CHECK(test::total_area(model) == doctest::Approx(shape.area).epsilon(kChord));
@@ -57,7 +58,8 @@ TEST_CASE("face tags, areas and centres are those of the plain import in Gmsh")
             occ::getMass(2, faces[f].second, area);
             occ::getCenterOfMass(2, faces[f].second, x, y, z);
             CHECK(topology::face_area(model, FaceId(f)) == doctest::Approx(area).epsilon(kChord));
-            CHECK((topology::face_centroid(model, FaceId(f)) - Vec3(x, y, z)).norm() < kChord * model.diagonal);
+            CHECK((topology::face_centroid(model, FaceId(f)) - Vec3(x, y, z)).norm() <
+                  kChord * model.diagonal);
         }
         gmsh::finalize();
     }
@@ -68,7 +70,8 @@ TEST_CASE("the kind of a face is known, also where Gmsh does not say it")
     const test::TempFolder folder;
     const auto kinds = [&](const std::function<void()>& build) {
         std::set<std::string> found;
-        for (const topology::Face& face : cad::load({folder.gmsh("shape.brep", build)}).faces) found.insert(face.kind);
+        for (const topology::Face& face : cad::load({folder.gmsh("shape.brep", build)}).faces)
+            found.insert(face.kind);
         return found;
     };
     CHECK(kinds([] { occ::addCylinder(0, 0, 0, 0, 0, 2, 1); }) == std::set<std::string>{"cylinder", "plane"});
@@ -113,7 +116,8 @@ TEST_CASE("every coordinate is multiplied by the scale, the exact geometry inclu
             }
             const std::vector<Vec3> before = points;
             face.surface->project(points, uv);
-            for (std::size_t i = 0; i < points.size(); ++i) CHECK((points[i] - before[i]).norm() < 1e-9 * scaled.diagonal);
+            for (std::size_t i = 0; i < points.size(); ++i)
+                CHECK((points[i] - before[i]).norm() < 1e-9 * scaled.diagonal);
         }
         for (const topology::Edge& edge : scaled.edges) {
             std::vector<Vec3> points(edge.params.size());
@@ -128,10 +132,11 @@ TEST_CASE("every coordinate is multiplied by the scale, the exact geometry inclu
 TEST_CASE("scripts of both of Gmsh's kernels are read, names of physical groups with them")
 {
     const test::TempFolder folder;
-    const std::string square = "Point(1) = {0,0,0}; Point(2) = {2,0,0}; Point(3) = {2,1,0}; Point(4) = {0,1,0};\n"
-                               "Line(1) = {1,2}; Line(2) = {2,3}; Line(3) = {3,4}; Line(4) = {4,1};\n"
-                               "Curve Loop(1) = {1,2,3,4}; Plane Surface(7) = {1};\n"
-                               "Physical Surface(\"lid\") = {7};\n";
+    const std::string square =
+        "Point(1) = {0,0,0}; Point(2) = {2,0,0}; Point(3) = {2,1,0}; Point(4) = {0,1,0};\n"
+        "Line(1) = {1,2}; Line(2) = {2,3}; Line(3) = {3,4}; Line(4) = {4,1};\n"
+        "Curve Loop(1) = {1,2,3,4}; Plane Surface(7) = {1};\n"
+        "Physical Surface(\"lid\") = {7};\n";
     for (const std::string kernel : {"", "SetFactory(\"OpenCASCADE\");\n"}) {
         CAPTURE(kernel);
         const topology::Model model = cad::load({folder.write("square.geo", kernel + square)});
@@ -144,9 +149,9 @@ TEST_CASE("scripts of both of Gmsh's kernels are read, names of physical groups 
         CHECK(model.edges.size() == 4);
     }
     // A quarter of a cylinder, as the built-in kernel makes it.
-    const topology::Model swept = cad::load({folder.write(
-        "quarter.geo", "Point(1) = {0,0,0}; Point(2) = {1,0,0}; Point(3) = {0,1,0};\n"
-                       "Circle(1) = {2,1,3}; Extrude {0,0,2} { Curve{1}; }\n")});
+    const topology::Model swept = cad::load(
+        {folder.write("quarter.geo", "Point(1) = {0,0,0}; Point(2) = {1,0,0}; Point(3) = {0,1,0};\n"
+                                     "Circle(1) = {2,1,3}; Extrude {0,0,2} { Curve{1}; }\n")});
     test::check_model(swept);
     CHECK(test::total_area(swept) == doctest::Approx(std::numbers::pi).epsilon(kChord));
 }
@@ -159,9 +164,11 @@ TEST_CASE("facets turn little from one to the next, and a small face of a large 
         occ::addCylinder(50, 50, 100, 0, 0, 1, 0.5);
     })});
     test::check_model(model);
-    const auto wall = std::find_if(model.faces.begin(), model.faces.end(), [](const auto& f) { return f.kind == "cylinder"; });
+    const auto wall = std::find_if(model.faces.begin(), model.faces.end(),
+                                   [](const auto& f) { return f.kind == "cylinder"; });
     REQUIRE(wall != model.faces.end());
-    CHECK(topology::face_area(model, FaceId(std::size_t(wall - model.faces.begin()))) == doctest::Approx(std::numbers::pi).epsilon(kChord));
+    CHECK(topology::face_area(model, FaceId(std::size_t(wall - model.faces.begin()))) ==
+          doctest::Approx(std::numbers::pi).epsilon(kChord));
     for (const Triangle& t : wall->triangles) {
         const Vec3 n = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])).normalized();
         const Vec3 c = (model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3 - Vec3(50, 50, 0);

@@ -25,7 +25,8 @@ Cloud around_facets(const topology::Model& model, const topology::Face& face, do
         const Vec3 n = (model.at(f[1]) - model.at(f[0])).cross(model.at(f[2]) - model.at(f[0])).normalized();
         for (const Vec3& w : {Vec3(1, 1, 1), Vec3(8, 1, 1), Vec3(1, 8, 1), Vec3(1, 1, 8)}) {
             const Vec3 b = w / w.sum();
-            cloud.points.push_back(b[0] * model.at(f[0]) + b[1] * model.at(f[1]) + b[2] * model.at(f[2]) + offset * n);
+            cloud.points.push_back(b[0] * model.at(f[0]) + b[1] * model.at(f[1]) + b[2] * model.at(f[2]) +
+                                   offset * n);
             cloud.uv.push_back(b[0] * face.uv[t][0] + b[1] * face.uv[t][1] + b[2] * face.uv[t][2]);
         }
     }
@@ -37,7 +38,8 @@ using Closest = std::function<Vec3(const Vec3&)>;
 
 } // namespace
 
-TEST_CASE("projection finds the closest point of round surfaces, from either side, all around seams and poles")
+TEST_CASE(
+    "projection finds the closest point of round surfaces, from either side, all around seams and poles")
 {
     const test::TempFolder folder;
     struct Case {
@@ -48,9 +50,13 @@ TEST_CASE("projection finds the closest point of round surfaces, from either sid
     };
     const Vec3 axis = Vec3::UnitZ();
     const std::vector<Case> cases{
-        {"sphere", [] { occ::addSphere(0, 0, 0, 2); }, "sphere", [](const Vec3& p) { return Vec3(2 * p.normalized()); }},
+        {"sphere", [] { occ::addSphere(0, 0, 0, 2); }, "sphere",
+         [](const Vec3& p) { return Vec3(2 * p.normalized()); }},
         {"cylinder", [] { occ::addCylinder(0, 0, 0, 0, 0, 9, 2); }, "cylinder",
-         [](const Vec3& p) { return Vec3(2 * Vec3(p.x(), p.y(), 0).normalized() + std::clamp(p.z(), 0.0, 9.0) * Vec3::UnitZ()); }},
+         [](const Vec3& p) {
+             return Vec3(2 * Vec3(p.x(), p.y(), 0).normalized() +
+                         std::clamp(p.z(), 0.0, 9.0) * Vec3::UnitZ());
+         }},
         {"torus", [] { occ::addTorus(0, 0, 0, 5, 2); }, "torus",
          [](const Vec3& p) {
              const Vec3 ring = 5 * Vec3(p.x(), p.y(), 0).normalized();
@@ -82,7 +88,8 @@ TEST_CASE("projection finds the closest point of round surfaces, from either sid
                 // What came out goes back to itself from its own parameters.
                 std::vector<Vec3> again = cloud.points;
                 face.surface->project(again, cloud.uv);
-                for (std::size_t i = 0; i < again.size(); ++i) CHECK((again[i] - cloud.points[i]).norm() < 1e-9 * model.diagonal);
+                for (std::size_t i = 0; i < again.size(); ++i)
+                    CHECK((again[i] - cloud.points[i]).norm() < 1e-9 * model.diagonal);
             }
         }
         CHECK(found);
@@ -109,7 +116,8 @@ TEST_CASE("the parameters of a facet corner evaluate to the corner, on the facet
                     uv.push_back(face.uv[t][k]);
                     // A facet that took the wrong side of a seam would span the rectangle.
                     const Vec2 side = face.uv[t][(k + 1) % 3] - face.uv[t][k];
-                    if (face.triangles.size() > 16) CHECK((side.cwiseAbs().cwiseQuotient(box.sizes())).maxCoeff() < 0.7);
+                    if (face.triangles.size() > 16)
+                        CHECK((side.cwiseAbs().cwiseQuotient(box.sizes())).maxCoeff() < 0.7);
                 }
                 const Vec2 a = face.uv[t][1] - face.uv[t][0];
                 const Vec2 b = face.uv[t][2] - face.uv[t][0];
@@ -117,7 +125,8 @@ TEST_CASE("the parameters of a facet corner evaluate to the corner, on the facet
             }
             const std::vector<Vec3> before = points;
             face.surface->project(points, uv);
-            for (std::size_t i = 0; i < points.size(); ++i) CHECK((points[i] - before[i]).norm() < 1e-9 * model.diagonal);
+            for (std::size_t i = 0; i < points.size(); ++i)
+                CHECK((points[i] - before[i]).norm() < 1e-9 * model.diagonal);
         }
     }
 }
@@ -133,7 +142,9 @@ TEST_CASE("edge points lie on their exact curve at their own parameters, which r
             edge.curve->evaluate(edge.params, points);
             for (std::size_t i = 0; i < points.size(); ++i) {
                 CHECK((points[i] - model.at(edge.points[i])).norm() < 1e-9 * model.diagonal);
-                if (i > 0) CHECK((edge.params[i] - edge.params[i - 1]) * (edge.params.back() - edge.params.front()) > 0);
+                if (i > 0)
+                    CHECK((edge.params[i] - edge.params[i - 1]) * (edge.params.back() - edge.params.front()) >
+                          0);
             }
         }
     }

@@ -66,18 +66,35 @@ std::vector<Region> regions(double quads)
         r.region.size = [size](const Vec2&) { return size; };
         all.push_back(std::move(r));
     };
-    add("disc", std::numbers::pi, [](auto& r, double h) { add_loop(r, circle({0, 0}, 1, 2 * std::max(3, int(std::numbers::pi / h)))); });
-    add("L", 3, [](auto& r, double h) { add_loop(r, along({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, h)); });
+    add("disc", std::numbers::pi, [](auto& r, double h) {
+        add_loop(r, circle({0, 0}, 1, 2 * std::max(3, int(std::numbers::pi / h))));
+    });
+    add("L", 3, [](auto& r, double h) {
+        add_loop(r, along({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, h));
+    });
     add("plate", 7.4, [](auto& r, double h) {
         add_loop(r, along({{0, 0}, {4, 0}, {4, 2}, {0, 2}}, h));
         for (const double x : {1.0, 3.0}) add_loop(r, circle({x, 1}, 0.3, 2 * std::max(3, int(1 / h)), true));
     });
     add("plate with odd holes", 7.4, [](auto& r, double h) {
         add_loop(r, along({{0, 0}, {4, 0}, {4, 2}, {0, 2}}, h));
-        for (const double x : {1.0, 3.0}) add_loop(r, circle({x, 1}, 0.3, 2 * std::max(3, int(1 / h)) + 1, true));
+        for (const double x : {1.0, 3.0})
+            add_loop(r, circle({x, 1}, 0.3, 2 * std::max(3, int(1 / h)) + 1, true));
     });
     add("comb", 15, [](auto& r, double h) {
-        add_loop(r, along({{0, 0}, {5, 0}, {5, 4}, {4, 4}, {4, 1}, {3, 1}, {3, 4}, {2, 4}, {2, 1}, {1, 1}, {1, 4}, {0, 4}}, h));
+        add_loop(r, along({{0, 0},
+                           {5, 0},
+                           {5, 4},
+                           {4, 4},
+                           {4, 1},
+                           {3, 1},
+                           {3, 4},
+                           {2, 4},
+                           {2, 1},
+                           {1, 1},
+                           {1, 4},
+                           {0, 4}},
+                          h));
     });
     return all;
 }

@@ -83,8 +83,9 @@ TEST_CASE("a host's session, models and options are left as they were")
     std::string current;
     gmsh::model::getCurrent(current);
     CHECK(current == "host");
-    for (const auto& [name, expected] : {std::pair("General.Verbosity", 4.0), std::pair("Mesh.Algorithm", 5.0),
-                                         std::pair("Geometry.OCCSewFaces", 1.0), std::pair("General.Terminal", 0.0)}) {
+    for (const auto& [name, expected] :
+         {std::pair("General.Verbosity", 4.0), std::pair("Mesh.Algorithm", 5.0),
+          std::pair("Geometry.OCCSewFaces", 1.0), std::pair("General.Terminal", 0.0)}) {
         double value = -1;
         gmsh::option::getNumber(name, value);
         CHECK(value == expected);
@@ -114,8 +115,10 @@ TEST_CASE("locale and PYTHONPATH come back as they were, and nothing is printed"
     const std::string path = folder.gmsh("box.step", [] { occ::addBox(0, 0, 0, 1, 1, 1); });
     const std::string locale = std::setlocale(LC_NUMERIC, nullptr);
     for (const char* python_path : {static_cast<const char*>(nullptr), "/some/where"}) {
-        if (python_path) ::setenv("PYTHONPATH", python_path, 1);
-        else ::unsetenv("PYTHONPATH");
+        if (python_path)
+            ::setenv("PYTHONPATH", python_path, 1);
+        else
+            ::unsetenv("PYTHONPATH");
         const std::string before = value_of("PYTHONPATH");
         std::ostringstream printed;
         std::streambuf* cout = std::cout.rdbuf(printed.rdbuf());
@@ -156,10 +159,12 @@ TEST_CASE("whatever Gmsh throws becomes a BackendError that names the file")
         }
         return std::string();
     };
-    CHECK(message_of([] { throw std::string("of string"); }).find("part.step: Gmsh failed: of string") != std::string::npos);
+    CHECK(message_of([] { throw std::string("of string"); }).find("part.step: Gmsh failed: of string") !=
+          std::string::npos);
     CHECK(message_of([] { throw "of chars"; }).find("of chars") != std::string::npos);
     CHECK(message_of([] { throw std::runtime_error("of runtime"); }).find("of runtime") != std::string::npos);
     CHECK(message_of([] { throw 1; }).find("part.step") != std::string::npos);
-    CHECK(message_of([] { gmsh::model::setCurrent("no such model"); }).find("no such model") != std::string::npos);
+    CHECK(message_of([] { gmsh::model::setCurrent("no such model"); }).find("no such model") !=
+          std::string::npos);
     CHECK_THROWS_AS(session.run([] { throw InvalidInput("a.b", "ours"); }), InvalidInput);
 }

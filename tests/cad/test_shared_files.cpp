@@ -49,8 +49,11 @@ struct Solid {
     std::size_t faces, edges;
 };
 
-const std::vector<Solid> kSolids{{"cad/tuyau_bent_pipe.brep", 8, 16}, {"cad/mambo_S24.step", 24, 65}, {"cad/7pin.step", 70, 84},
-                                 {"cad/holycyl.stp", 12, 30}, {"cad/Welle_stepped_shaft.step", 11, 15}};
+const std::vector<Solid> kSolids{{"cad/tuyau_bent_pipe.brep", 8, 16},
+                                 {"cad/mambo_S24.step", 24, 65},
+                                 {"cad/7pin.step", 70, 84},
+                                 {"cad/holycyl.stp", 12, 30},
+                                 {"cad/Welle_stepped_shaft.step", 11, 15}};
 
 } // namespace
 
@@ -61,7 +64,8 @@ TEST_CASE("faces of real CAD files have the tags, kinds, areas and centres Open 
         CAPTURE(m.file);
         CAPTURE(m.tag);
         const topology::Model model = cad::load({kShared + m.file});
-        const auto face = std::find_if(model.faces.begin(), model.faces.end(), [&](const auto& f) { return f.tag == m.tag; });
+        const auto face = std::find_if(model.faces.begin(), model.faces.end(),
+                                       [&](const auto& f) { return f.tag == m.tag; });
         REQUIRE(face != model.faces.end());
         const FaceId id(std::size_t(face - model.faces.begin()));
         CHECK(face->kind == m.kind);
@@ -142,7 +146,10 @@ TEST_CASE("real facet and FE files are read with their parts")
     if (missing("fem/nested_cubes.msh")) return;
     // The inner top is surface 8 of the file.
     const topology::Model cubes = cad::load({kShared + "fem/nested_cubes.msh"});
-    const auto top = std::find_if(cubes.faces.begin(), cubes.faces.end(), [](const auto& f) { return f.tag == 8; });
+    const auto top = std::find_if(cubes.faces.begin(), cubes.faces.end(),
+                                  [](const auto& f) { return f.tag == 8; });
     REQUIRE(top != cubes.faces.end());
-    CHECK((topology::face_centroid(cubes, FaceId(std::size_t(top - cubes.faces.begin()))) - Vec3(0.5, 0.5, 0.75)).norm() < 1e-9);
+    CHECK((topology::face_centroid(cubes, FaceId(std::size_t(top - cubes.faces.begin()))) -
+           Vec3(0.5, 0.5, 0.75))
+              .norm() < 1e-9);
 }

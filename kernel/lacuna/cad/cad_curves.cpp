@@ -98,7 +98,8 @@ void read_faces(CadWire& wire)
             const std::size_t curve = place->second;
             if (fresh) wire.curves.emplace_back().tag = std::abs(signed_tag);
             ++wire.curves[curve].uses;
-            const auto side = std::find_if(face.sides.begin(), face.sides.end(), [&](const auto& s) { return s.curve == curve; });
+            const auto side = std::find_if(face.sides.begin(), face.sides.end(),
+                                           [&](const auto& s) { return s.curve == curve; });
             if (side == face.sides.end()) {
                 face.sides.push_back({curve, 1});
             } else {
@@ -112,7 +113,8 @@ void read_faces(CadWire& wire)
 void read_curves(CadWire& wire)
 {
     std::unordered_map<int, int> vertex_of_tag;
-    for (std::size_t i = 0; i < wire.vertices.size(); ++i) vertex_of_tag[wire.vertices[i].tag] = static_cast<int>(i);
+    for (std::size_t i = 0; i < wire.vertices.size(); ++i)
+        vertex_of_tag[wire.vertices[i].tag] = static_cast<int>(i);
     for (CadCurveInfo& curve : wire.curves) {
         std::vector<double> low, high;
         gmsh::model::getParametrizationBounds(1, curve.tag, low, high);
@@ -121,8 +123,8 @@ void read_curves(CadWire& wire)
         std::vector<int> up, down;
         gmsh::model::getAdjacencies(1, curve.tag, up, down);
         if (down.empty()) {
-            throw BackendError("cad.curve_without_ends",
-                               "curve " + std::to_string(curve.tag) + " has no end points; export the file anew");
+            throw BackendError("cad.curve_without_ends", "curve " + std::to_string(curve.tag) +
+                                                             " has no end points; export the file anew");
         }
         curve.from = vertex_of_tag.at(down.front());
         curve.to = vertex_of_tag.at(down.back());
@@ -151,7 +153,9 @@ OnCurve closest_on_curve(const CadCurveInfo& curve, const Vec3& p, double low, d
     for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
         if (curve.params[i + 1] < low || curve.params[i] > high) continue;
         const Vec3 side = curve.points[i + 1] - curve.points[i];
-        const double s = side.squaredNorm() > 0 ? std::clamp((p - curve.points[i]).dot(side) / side.squaredNorm(), 0.0, 1.0) : 0;
+        const double s = side.squaredNorm() > 0
+                             ? std::clamp((p - curve.points[i]).dot(side) / side.squaredNorm(), 0.0, 1.0)
+                             : 0;
         const double d = (curve.points[i] + s * side - p).squaredNorm();
         if (d >= best) continue;
         best = d;
@@ -203,7 +207,8 @@ void cut_into_pieces(CadWire& wire, double tolerance)
     std::vector<Index> loose_points;
     for (const CadCurveInfo& curve : wire.curves) {
         if (curve.uses != 1) continue;
-        for (const int v : {curve.from, curve.to}) loose_points.push_back(wire.vertices[static_cast<std::size_t>(v)].point);
+        for (const int v : {curve.from, curve.to})
+            loose_points.push_back(wire.vertices[static_cast<std::size_t>(v)].point);
     }
     std::sort(loose_points.begin(), loose_points.end());
     loose_points.erase(std::unique(loose_points.begin(), loose_points.end()), loose_points.end());
@@ -293,16 +298,20 @@ FineCurve weigh(const CadCurveInfo& curve, double low, double high, const Finene
         const std::vector<Vec3> at = curve_points(curve.tag, params);
         const std::vector<Vec3> tangent = curve_tangents(curve.tag, params);
         std::vector<Sample> samples(params.size());
-        for (std::size_t i = 0; i < params.size(); ++i) samples[i] = {params[i], at[i], tangent[i].normalized()};
+        for (std::size_t i = 0; i < params.size(); ++i)
+            samples[i] = {params[i], at[i], tangent[i].normalized()};
         return samples;
     };
-    const auto turn = [](const Sample& a, const Sample& b) { return std::atan2(a.tangent.cross(b.tangent).norm(), a.tangent.dot(b.tangent)); };
+    const auto turn = [](const Sample& a, const Sample& b) {
+        return std::atan2(a.tangent.cross(b.tangent).norm(), a.tangent.dot(b.tangent));
+    };
     std::vector<Sample> samples = sample(evenly(low, high, kFineSides / 2));
     constexpr int kRounds = 6;
     for (int round = 0; round < kRounds; ++round) {
         std::vector<double> between;
         for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
-            if (turn(samples[i], samples[i + 1]) > fineness.turn) between.push_back((samples[i].t + samples[i + 1].t) / 2);
+            if (turn(samples[i], samples[i + 1]) > fineness.turn)
+                between.push_back((samples[i].t + samples[i + 1].t) / 2);
         }
         if (between.empty()) break;
         const std::vector<Sample> more = sample(between);
@@ -335,7 +344,8 @@ std::vector<double> share_out(const FineCurve& fine, double refinement, std::siz
         const double goal = total * static_cast<double>(k) / static_cast<double>(sides);
         while (i + 1 < fine.params.size() && passed + fine.weight[i] < goal) passed += fine.weight[i++];
         const double part = fine.weight[i] > 0 ? (goal - passed) / fine.weight[i] : 0.5;
-        params.push_back(fine.params[i - 1] + std::clamp(part, 0.0, 1.0) * (fine.params[i] - fine.params[i - 1]));
+        params.push_back(fine.params[i - 1] +
+                         std::clamp(part, 0.0, 1.0) * (fine.params[i] - fine.params[i - 1]));
     }
     params.push_back(fine.params.back());
     return params;

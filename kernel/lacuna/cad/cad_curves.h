@@ -12,37 +12,37 @@ namespace lacuna::cad {
 /// A curve of the current Gmsh model, as far as its topology goes.
 struct CadCurveInfo {
     int tag = 0;
-    double low = 0, high = 0;       ///< parameters
-    int from = 0, to = 0;           ///< indices in CadWire::vertices
-    int uses = 0;                   ///< by faces; a seam counts twice
-    double length = 0;              ///< of a fine polyline [file length]
-    std::vector<double> params;     ///< of that fine polyline, rising
+    double low = 0, high = 0;   ///< parameters
+    int from = 0, to = 0;       ///< indices in CadWire::vertices
+    int uses = 0;               ///< by faces; a seam counts twice
+    double length = 0;          ///< of a fine polyline [file length]
+    std::vector<double> params; ///< of that fine polyline, rising
     std::vector<Vec3> points;
     std::vector<std::size_t> pieces; ///< in CadWire::pieces, as the curve runs; empty where it is but a point
 };
 
-/// A stretch of a curve between two vertices, and the edge of the model it belongs to. Curves that lie on each
-/// other within tolerance have pieces of one edge.
+/// A stretch of a curve between two vertices, and the edge of the model it belongs to. Curves that lie on
+/// each other within tolerance have pieces of one edge.
 struct CadPiece {
     std::size_t curve = 0;
     double low = 0, high = 0;
-    Index from = -1, to = -1;       ///< points of the model: sewn vertices
+    Index from = -1, to = -1; ///< points of the model: sewn vertices
     std::size_t edge = 0;
-    bool reversed = false;          ///< runs against the edge
+    bool reversed = false; ///< runs against the edge
 };
 
 /// The edge of a sewn set of pieces; the first of them gives it its shape.
 struct CadEdge {
-    std::size_t master = 0;         ///< in CadWire::pieces
+    std::size_t master = 0; ///< in CadWire::pieces
     int tag = 0;
-    std::vector<double> params;     ///< of the master's curve, both ends included
-    std::vector<Index> points;      ///< of the model
+    std::vector<double> params; ///< of the master's curve, both ends included
+    std::vector<Index> points;  ///< of the model
 };
 
 struct CadVertex {
     int tag = 0;
     Vec3 at = Vec3::Zero();
-    Index point = -1;               ///< of the model: vertices closer than the tolerance share it
+    Index point = -1; ///< of the model: vertices closer than the tolerance share it
 };
 
 /// The curves around a face, each once.
@@ -50,7 +50,7 @@ struct CadFaceInfo {
     int tag = 0;
     struct Side {
         std::size_t curve;
-        int uses;  ///< 2: a seam, or a slit
+        int uses; ///< 2: a seam, or a slit
     };
     std::vector<Side> sides;
 };
@@ -62,14 +62,14 @@ struct CadWire {
     std::vector<CadCurveInfo> curves;
     std::vector<CadPiece> pieces;
     std::vector<CadEdge> edges;
-    std::vector<int> point_tag;     ///< tag of the lowest vertex at each sewn vertex
-    std::vector<Vec3> points;       ///< of the model [file length]: sewn vertices, then what `divide()` added
+    std::vector<int> point_tag; ///< tag of the lowest vertex at each sewn vertex
+    std::vector<Vec3> points;   ///< of the model [file length]: sewn vertices, then what `divide()` added
 };
 
 /// How fine curves and faces are cut.
 struct Fineness {
-    double turn = 0;      ///< of the tangent or the normal, from one side to the next [radians]
-    double max_size = 0;  ///< [file length]
+    double turn = 0;     ///< of the tangent or the normal, from one side to the next [radians]
+    double max_size = 0; ///< [file length]
 };
 
 /// Read the curves of the current model and sew them: vertices closer than the tolerance become one; a curve

@@ -22,12 +22,13 @@ constexpr double kClearance = 0.5;
 /// A curve as the face's parameter rectangle sees it.
 struct BorderChain {
     std::vector<Vec2> uv;
-    std::vector<Index> points;  ///< of the model
-    bool pole = false;          ///< all one point
-    bool slit = false;          ///< the face on both sides, at the same place
+    std::vector<Index> points; ///< of the model
+    bool pole = false;         ///< all one point
+    bool slit = false;         ///< the face on both sides, at the same place
 };
 
-std::vector<Vec2> parameters_on_face(const CadCurveInfo& curve, const std::vector<double>& params, int face, int which)
+std::vector<Vec2> parameters_on_face(const CadCurveInfo& curve, const std::vector<double>& params, int face,
+                                     int which)
 {
     std::vector<double> values;
     gmsh::model::reparametrizeOnSurface(1, curve.tag, params, face, values, which);
@@ -71,9 +72,10 @@ double outside(const std::vector<Vec2>& uv, const Eigen::AlignedBox2d& bounds)
     return sum;
 }
 
-/// A curve that was a seam before the face was cut knows two places on the surface. The face has it on the side
-/// that is within its rectangle or, where both are, at which it meets the other curves.
-void choose_sides(std::vector<BorderChain>& border, const std::vector<std::vector<Vec2>>& other_side, int face)
+/// A curve that was a seam before the face was cut knows two places on the surface. The face has it on the
+/// side that is within its rectangle or, where both are, at which it meets the other curves.
+void choose_sides(std::vector<BorderChain>& border, const std::vector<std::vector<Vec2>>& other_side,
+                  int face)
 {
     std::vector<double> low, high;
     gmsh::model::getParametrizationBounds(2, face, low, high);
@@ -85,7 +87,8 @@ void choose_sides(std::vector<BorderChain>& border, const std::vector<std::vecto
             double nearest = bounds.diagonal().norm();
             for (std::size_t c = 0; c < border.size(); ++c) {
                 if (c == own || !other_side[c].empty()) continue;
-                nearest = std::min({nearest, (border[c].uv.front() - end).norm(), (border[c].uv.back() - end).norm()});
+                nearest = std::min(
+                    {nearest, (border[c].uv.front() - end).norm(), (border[c].uv.back() - end).norm()});
             }
             sum += nearest;
         }
@@ -96,7 +99,8 @@ void choose_sides(std::vector<BorderChain>& border, const std::vector<std::vecto
         const double here = outside(border[c].uv, bounds);
         const double there = outside(other_side[c], bounds);
         const bool decided = std::abs(here - there) > near;
-        if (decided ? there < here : gap(other_side[c], c) < gap(border[c].uv, c)) border[c].uv = other_side[c];
+        if (decided ? there < here : gap(other_side[c], c) < gap(border[c].uv, c))
+            border[c].uv = other_side[c];
     }
 }
 
@@ -104,7 +108,7 @@ void choose_sides(std::vector<BorderChain>& border, const std::vector<std::vecto
 std::vector<BorderChain> border_of(const CadWire& wire, const CadFaceInfo& face, double allowed)
 {
     std::vector<BorderChain> border;
-    std::vector<std::vector<Vec2>> other_side;  // of each chain; empty where there is but one
+    std::vector<std::vector<Vec2>> other_side; // of each chain; empty where there is but one
     for (const CadFaceInfo::Side& side : face.sides) {
         const CadCurveInfo& curve = wire.curves[side.curve];
         BorderChain chain;
@@ -119,16 +123,20 @@ std::vector<BorderChain> border_of(const CadWire& wire, const CadFaceInfo& face,
         for (const std::size_t p : curve.pieces) {
             PieceNodes nodes = nodes_of(wire, p);
             const std::size_t shared = params.empty() ? 0 : 1;
-            params.insert(params.end(), nodes.params.begin() + static_cast<std::ptrdiff_t>(shared), nodes.params.end());
-            chain.points.insert(chain.points.end(), nodes.points.begin() + static_cast<std::ptrdiff_t>(shared), nodes.points.end());
+            params.insert(params.end(), nodes.params.begin() + static_cast<std::ptrdiff_t>(shared),
+                          nodes.params.end());
+            chain.points.insert(chain.points.end(),
+                                nodes.points.begin() + static_cast<std::ptrdiff_t>(shared),
+                                nodes.points.end());
         }
         for (const Index p : chain.points) at.push_back(wire.points[static_cast<std::size_t>(p)]);
         chain.uv = parameters_on_face(curve, params, face.tag, 0);
         if (!chain.pole) mend_parameters(face.tag, at, chain.uv, allowed);
         if (chain.uv.size() != params.size()) continue;
-        std::vector<Vec2> other = chain.pole ? std::vector<Vec2>{} : parameters_on_face(curve, params, face.tag, 1);
-        const bool two_sided = other.size() == chain.uv.size() &&
-                               (other.front() - chain.uv.front()).norm() > 1e-9 * (1 + chain.uv.front().norm());
+        std::vector<Vec2> other = chain.pole ? std::vector<Vec2>{}
+                                             : parameters_on_face(curve, params, face.tag, 1);
+        const bool two_sided = other.size() == chain.uv.size() && (other.front() - chain.uv.front()).norm() >
+                                                                      1e-9 * (1 + chain.uv.front().norm());
         if (!two_sided) other.clear();
         chain.slit = side.uses > 1 && !two_sided && !chain.pole;
         if (side.uses > 1 && two_sided) {
@@ -162,7 +170,8 @@ ParameterBox box_of(const std::vector<BorderChain>& border, const CadFaceInfo& f
         for (int k = 0; k < 2; ++k) {
             // A seam's two sides are one period apart, and nothing of the face lies beyond.
             const double apart = std::abs(a[0][k] - b[0][k]);
-            if (apart > 0.99 * (box.high[k] - box.low[k]) && apart > 0) box.closed[static_cast<std::size_t>(k)] = true;
+            if (apart > 0.99 * (box.high[k] - box.low[k]) && apart > 0)
+                box.closed[static_cast<std::size_t>(k)] = true;
         }
     }
     return box;
@@ -172,7 +181,7 @@ ParameterBox box_of(const std::vector<BorderChain>& border, const CadFaceInfo& f
 struct GridDomain {
     struct Node {
         Vec2 grid, uv;
-        Index point;  ///< of the model
+        Index point; ///< of the model
     };
     struct Segment {
         Index a, b;
@@ -192,7 +201,8 @@ public:
         if (chain.pole) {
             const Vec2 a = grid_.to_grid(chain.uv.front());
             const Vec2 b = grid_.to_grid(chain.uv.back());
-            join(node(a, chain.uv.front(), chain.points.front()), node(b, chain.uv.back(), chain.points.back()));
+            join(node(a, chain.uv.front(), chain.points.front()),
+                 node(b, chain.uv.back(), chain.points.back()));
             return;
         }
         Index last = -1;
@@ -270,7 +280,8 @@ private:
 double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b)
 {
     const Vec2 side = b - a;
-    const double t = side.squaredNorm() > 0 ? std::clamp((p - a).dot(side) / side.squaredNorm(), 0.0, 1.0) : 0;
+    const double t = side.squaredNorm() > 0 ? std::clamp((p - a).dot(side) / side.squaredNorm(), 0.0, 1.0)
+                                            : 0;
     return (a + t * side - p).norm();
 }
 
@@ -279,7 +290,9 @@ void add_grid_points(GridDomain& domain, const FaceGrid& grid)
 {
     const int nu = grid.axis[0].cells();
     const int nv = grid.axis[1].cells();
-    const auto at = [&](int i, int j) { return static_cast<std::size_t>(j) * static_cast<std::size_t>(nu + 1) + static_cast<std::size_t>(i); };
+    const auto at = [&](int i, int j) {
+        return static_cast<std::size_t>(j) * static_cast<std::size_t>(nu + 1) + static_cast<std::size_t>(i);
+    };
     std::vector<char> near(static_cast<std::size_t>(nu + 1) * static_cast<std::size_t>(nv + 1), 0);
     std::vector<std::vector<double>> crossings(static_cast<std::size_t>(nv + 1));
     for (const GridDomain::Segment& s : domain.segments) {
@@ -288,14 +301,17 @@ void add_grid_points(GridDomain& domain, const FaceGrid& grid)
         const Vec2 low = a.cwiseMin(b);
         const Vec2 high = a.cwiseMax(b);
         const auto clip = [](double value, int most) { return std::clamp(static_cast<int>(value), 0, most); };
-        for (int j = clip(std::ceil(low.y() - kClearance), nv); j <= clip(std::floor(high.y() + kClearance), nv); ++j) {
-            for (int i = clip(std::ceil(low.x() - kClearance), nu); i <= clip(std::floor(high.x() + kClearance), nu); ++i) {
+        for (int j = clip(std::ceil(low.y() - kClearance), nv);
+             j <= clip(std::floor(high.y() + kClearance), nv); ++j) {
+            for (int i = clip(std::ceil(low.x() - kClearance), nu);
+                 i <= clip(std::floor(high.x() + kClearance), nu); ++i) {
                 if (distance_to_segment(Vec2(i, j), a, b) < kClearance) near[at(i, j)] = 1;
             }
             if (s.slit) continue;
             // Half open, so that a corner on the line counts once.
             if ((a.y() <= j) == (b.y() <= j)) continue;
-            crossings[static_cast<std::size_t>(j)].push_back(a.x() + (j - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+            crossings[static_cast<std::size_t>(j)].push_back(a.x() +
+                                                             (j - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
         }
     }
     for (int j = 1; j < nv; ++j) {
@@ -344,19 +360,22 @@ std::vector<Triangle> triangulate(const GridDomain& domain)
 
 } // namespace
 
-std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo& face, const FacetOptions& options,
-                                         Index first_added)
+std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo& face,
+                                         const FacetOptions& options, Index first_added)
 {
     const double allowed = std::max(10 * options.tolerance, 1e-3 * options.fineness.max_size);
     const std::vector<BorderChain> border = border_of(wire, face, allowed);
     if (border.empty()) {
-        throw BackendError("cad.no_border", "face " + std::to_string(face.tag) +
-                                                " has no boundary curves; split it in the CAD system, or export the file anew");
+        throw BackendError(
+            "cad.no_border",
+            "face " + std::to_string(face.tag) +
+                " has no boundary curves; split it in the CAD system, or export the file anew");
     }
     CadFacets facets;
     facets.box = box_of(border, face, wire);
     facets.kind = kind_of_face(face.tag, facets.box);
-    const FaceGrid grid = lay_grid(face.tag, facets.kind == "plane", facets.box, options.fineness, options.max_cells);
+    const FaceGrid grid = lay_grid(face.tag, facets.kind == "plane", facets.box, options.fineness,
+                                   options.max_cells);
 
     DomainBuilder builder(grid);
     for (const BorderChain& chain : border) builder.add(chain);

@@ -25,7 +25,8 @@ std::vector<double> flat(const std::vector<Vec2>& uv)
 std::vector<Vec3> unflat(const std::vector<double>& values)
 {
     std::vector<Vec3> points(values.size() / 3);
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+    for (std::size_t i = 0; i < points.size(); ++i)
+        points[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
     return points;
 }
 
@@ -41,7 +42,7 @@ struct Iterate {
     Vec3 target;
     Vec2 uv;
     Vec3 at;
-    double damping = 0;  ///< Levenberg's, relative to the derivatives
+    double damping = 0; ///< Levenberg's, relative to the derivatives
     bool done = false;
 };
 
@@ -84,19 +85,21 @@ std::pair<Vec2, double> step_of(const Iterate& it, const SurfaceFrame& frame, co
         step = normal.inverse() * descent;
     } else {
         const int k = open[0] ? 0 : 1;
-        if (open[static_cast<std::size_t>(k)] && normal(k, k) > 0) step[k] = descent[k] / (normal(k, k) * (1 + it.damping));
+        if (open[static_cast<std::size_t>(k)] && normal(k, k) > 0)
+            step[k] = descent[k] / (normal(k, k) * (1 + it.damping));
     }
     return {step, (frame.du * step.x() + frame.dv * step.y()).norm()};
 }
 
 /// One step of every iterate that is not done. @return how many are left.
-std::size_t advance(std::vector<Iterate>& all, std::vector<std::size_t>& active, int tag, const ParameterBox& box,
-                    double precision, bool with_second)
+std::size_t advance(std::vector<Iterate>& all, std::vector<std::size_t>& active, int tag,
+                    const ParameterBox& box, double precision, bool with_second)
 {
     std::vector<Vec2> uv;
     for (const std::size_t i : active) uv.push_back(all[i].uv);
     const std::vector<SurfaceFrame> frames = surface_frames(tag, uv);
-    const std::vector<SecondDerivatives> second = with_second ? surface_second(tag, uv) : std::vector<SecondDerivatives>{};
+    const std::vector<SecondDerivatives> second = with_second ? surface_second(tag, uv)
+                                                              : std::vector<SecondDerivatives>{};
     for (std::size_t k = 0; k < active.size(); ++k) {
         Iterate& it = all[active[k]];
         const auto [step, length] = step_of(it, frames[k], with_second ? &second[k] : nullptr, box);
@@ -198,7 +201,8 @@ void CadSurface::project(std::span<Vec3> points, std::span<Vec2> uv) const
         }
         for (const std::size_t i : active) {
             std::vector<double> closest, parameters;
-            gmsh::model::getClosestPoint(2, tag_, {all[i].target.x(), all[i].target.y(), all[i].target.z()}, closest, parameters);
+            gmsh::model::getClosestPoint(2, tag_, {all[i].target.x(), all[i].target.y(), all[i].target.z()},
+                                         closest, parameters);
             if (closest.size() != 3 || parameters.size() != 2) fail_projection(*source_, tag_, points[i]);
             all[i].at = {closest[0], closest[1], closest[2]};
             all[i].uv = {parameters[0], parameters[1]};
@@ -217,7 +221,8 @@ void CadCurve::evaluate(std::span<const double> params, std::span<Vec3> points) 
     source_->model->activate(session);
     session.run([&] {
         const std::vector<Vec3> at = curve_points(tag_, {params.begin(), params.end()});
-        std::transform(at.begin(), at.end(), points.begin(), [&](const Vec3& p) { return Vec3(p * source_->scale); });
+        std::transform(at.begin(), at.end(), points.begin(),
+                       [&](const Vec3& p) { return Vec3(p * source_->scale); });
     });
 }
 

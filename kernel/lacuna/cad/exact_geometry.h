@@ -15,8 +15,8 @@ namespace lacuna::cad {
 struct CadSource {
     std::shared_ptr<const GmshModel> model;
     std::string path;
-    double scale = 1;     ///< model length / file length
-    double diagonal = 0;  ///< of the bounding box [file length]
+    double scale = 1;    ///< model length / file length
+    double diagonal = 0; ///< of the bounding box [file length]
 };
 
 /// A rectangle of surface parameters. Where the surface closes on itself, the period is the rectangle's side.
@@ -38,6 +38,9 @@ public:
     /// Damped Gauss-Newton in the parameters, all points at once; second derivatives where that is too slow.
     void project(std::span<Vec3> points, std::span<Vec2> uv) const override;
 
+    [[nodiscard]] const std::shared_ptr<const CadSource>& source() const { return source_; }
+    [[nodiscard]] int tag() const { return tag_; } ///< in the source's Gmsh model
+
 private:
     std::shared_ptr<const CadSource> source_;
     int tag_;
@@ -49,6 +52,9 @@ class CadCurve final : public geometry::ExactCurve {
 public:
     CadCurve(std::shared_ptr<const CadSource> source, int tag) : source_(std::move(source)), tag_(tag) {}
     void evaluate(std::span<const double> params, std::span<Vec3> points) const override;
+
+    [[nodiscard]] const std::shared_ptr<const CadSource>& source() const { return source_; }
+    [[nodiscard]] int tag() const { return tag_; } ///< in the source's Gmsh model
 
 private:
     std::shared_ptr<const CadSource> source_;

@@ -19,7 +19,7 @@ constexpr double kCellsAlong = 4;
 struct Lattice {
     std::size_t sides;
     std::array<std::vector<double>, 2> knots;
-    std::vector<SurfaceFrame> frames;  ///< at u index i, v index j: i · (sides + 1) + j
+    std::vector<SurfaceFrame> frames; ///< at u index i, v index j: i · (sides + 1) + j
 
     [[nodiscard]] const SurfaceFrame& at(int axis, std::size_t along, std::size_t across) const
     {
@@ -33,7 +33,8 @@ Lattice sample(int tag, const ParameterBox& box, std::size_t sides)
     for (int k = 0; k < 2; ++k) {
         for (std::size_t i = 0; i <= sides; ++i) {
             const double part = static_cast<double>(i) / static_cast<double>(sides);
-            lattice.knots[static_cast<std::size_t>(k)].push_back(box.low[k] + part * (box.high[k] - box.low[k]));
+            lattice.knots[static_cast<std::size_t>(k)].push_back(box.low[k] +
+                                                                 part * (box.high[k] - box.low[k]));
         }
     }
     std::vector<Vec2> uv;

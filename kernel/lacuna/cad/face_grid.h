@@ -29,7 +29,10 @@ private:
 struct FaceGrid {
     std::array<GridAxis, 2> axis;
 
-    [[nodiscard]] Vec2 to_grid(const Vec2& uv) const { return {axis[0].to_grid(uv.x()), axis[1].to_grid(uv.y())}; }
+    [[nodiscard]] Vec2 to_grid(const Vec2& uv) const
+    {
+        return {axis[0].to_grid(uv.x()), axis[1].to_grid(uv.y())};
+    }
     [[nodiscard]] Vec2 to_uv(const Vec2& grid) const
     {
         return {axis[0].to_parameter(grid.x()), axis[1].to_parameter(grid.y())};

@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
-#define LACUNA_GMSH_AT_LEAST(major, minor)                                                                        \
-    (GMSH_API_VERSION_MAJOR > (major) || (GMSH_API_VERSION_MAJOR == (major) && GMSH_API_VERSION_MINOR >= (minor)))
+#define LACUNA_GMSH_AT_LEAST(major, minor)                                                                   \
+    (GMSH_API_VERSION_MAJOR > (major) ||                                                                     \
+     (GMSH_API_VERSION_MAJOR == (major) && GMSH_API_VERSION_MINOR >= (minor)))
 
 namespace lacuna::cad {
 

@@ -45,7 +45,8 @@ std::string head_of(const std::string& path)
 
 [[noreturn]] void throw_not_of_kind(const std::string& path, const std::string& kind)
 {
-    throw InvalidInput("cad.unreadable", path + " does not hold what its ending promises: this is no " + kind +
+    throw InvalidInput("cad.unreadable", path + " does not hold what its ending promises: this is no " +
+                                             kind +
                                              " file; check the file, or give it the ending of what it holds");
 }
 
@@ -57,9 +58,11 @@ void check_head(const std::string& path, const std::string& ending)
         if (head.find("ISO-10303-21") == std::string::npos) throw_not_of_kind(path, "STEP");
     } else if (ending == ".iges" || ending == ".igs") {
         // Every line of an IGES file has its section's letter in column 73.
-        if (head.size() < 73 || (head[72] != 'S' && head[72] != 'C' && head[72] != 'B')) throw_not_of_kind(path, "IGES");
+        if (head.size() < 73 || (head[72] != 'S' && head[72] != 'C' && head[72] != 'B'))
+            throw_not_of_kind(path, "IGES");
     } else if (ending == ".brep") {
-        if (head.find("CASCADE Topology") == std::string::npos && head.find("DBRep_DrawableShape") == std::string::npos) {
+        if (head.find("CASCADE Topology") == std::string::npos &&
+            head.find("DBRep_DrawableShape") == std::string::npos) {
             throw_not_of_kind(path, "BREP");
         }
     }
@@ -68,8 +71,9 @@ void check_head(const std::string& path, const std::string& ending)
 /// Tags and coordinates must be those of a plain import, whatever the host has set.
 void set_import_defaults(Session& session)
 {
-    for (const char* off : {"Geometry.OCCFixDegenerated", "Geometry.OCCFixSmallEdges", "Geometry.OCCFixSmallFaces",
-                            "Geometry.OCCSewFaces", "Geometry.OCCMakeSolids", "Geometry.OCCBoundsUseStl"}) {
+    for (const char* off :
+         {"Geometry.OCCFixDegenerated", "Geometry.OCCFixSmallEdges", "Geometry.OCCFixSmallFaces",
+          "Geometry.OCCSewFaces", "Geometry.OCCMakeSolids", "Geometry.OCCBoundsUseStl"}) {
         session.set(off, 0);
     }
     session.set("Geometry.OCCScaling", 1);
@@ -94,7 +98,8 @@ void import_file(Session& session, const std::string& path)
         });
     } catch (const BackendError& error) {
         const std::string words = output.text();
-        throw InvalidInput("cad.unreadable", std::string(error.what()) + (words.empty() ? "" : " (" + words + ")"));
+        throw InvalidInput("cad.unreadable",
+                           std::string(error.what()) + (words.empty() ? "" : " (" + words + ")"));
     }
 }
 
@@ -129,7 +134,8 @@ struct Cut {
 Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const RunContext& context)
 {
     std::vector<double> refinement(wire.edges.size(), 1.0);
-    options.max_cells = std::clamp(kMaxCells / static_cast<double>(wire.faces.size()), kMinCellsOfFace, kMaxCellsOfFace);
+    options.max_cells = std::clamp(kMaxCells / static_cast<double>(wire.faces.size()), kMinCellsOfFace,
+                                   kMaxCellsOfFace);
     for (int division = 1;; ++division) {
         divide(wire, options.fineness, refinement);
         Cut cut;
@@ -141,21 +147,25 @@ Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const 
             if (!facets) {
                 failed = &face;
                 for (const CadFaceInfo::Side& side : face.sides) {
-                    for (const std::size_t p : wire.curves[side.curve].pieces) refinement[wire.pieces[p].edge] = 1 << division;
+                    for (const std::size_t p : wire.curves[side.curve].pieces)
+                        refinement[wire.pieces[p].edge] = 1 << division;
                 }
                 continue;
             }
             cut.point_count += facets->added.size();
             cut.faces.push_back(std::move(*facets));
             if (context.progress) {
-                context.progress("load", static_cast<double>(cut.faces.size()) / static_cast<double>(wire.faces.size()));
+                context.progress("load", static_cast<double>(cut.faces.size()) /
+                                             static_cast<double>(wire.faces.size()));
             }
         }
         if (failed == nullptr) return cut;
         if (division == kDivisions) {
-            throw BackendError("cad.face_failed", path + ": face " + std::to_string(failed->tag) +
-                                                      " could not be cut into facets: its boundary crosses itself or does not close; "
-                                                      "repair the face in the CAD system");
+            throw BackendError(
+                "cad.face_failed",
+                path + ": face " + std::to_string(failed->tag) +
+                    " could not be cut into facets: its boundary crosses itself or does not close; "
+                    "repair the face in the CAD system");
         }
     }
 }
@@ -289,13 +299,15 @@ std::string ending_of(const std::string& path)
 
 bool is_cad_ending(std::string_view ending)
 {
-    for (const std::string_view known : {".step", ".stp", ".iges", ".igs", ".brep", ".geo", ".geo_unrolled"}) {
+    for (const std::string_view known :
+         {".step", ".stp", ".iges", ".igs", ".brep", ".geo", ".geo_unrolled"}) {
         if (ending == known) return true;
     }
     return false;
 }
 
-topology::Model import_cad(const std::vector<std::string>& paths, const LoadOptions& options, const RunContext& context)
+topology::Model import_cad(const std::vector<std::string>& paths, const LoadOptions& options,
+                           const RunContext& context)
 {
     Session session(joined(paths));
     set_import_defaults(session);
@@ -309,7 +321,9 @@ topology::Model import_cad(const std::vector<std::string>& paths, const LoadOpti
         gmsh::vectorpair faces;
         gmsh::model::getEntities(faces, 2);
         if (faces.empty()) {
-            throw InvalidInput("cad.no_faces", joined(paths) + " holds no faces; export surfaces or solids, not curves alone");
+            throw InvalidInput("cad.no_faces",
+                               joined(paths) +
+                                   " holds no faces; export surfaces or solids, not curves alone");
         }
         auto source = std::make_shared<CadSource>();
         source->model = gmsh_model;
@@ -318,7 +332,8 @@ topology::Model import_cad(const std::vector<std::string>& paths, const LoadOpti
         source->diagonal = diagonal_of_model();
 
         FacetOptions facets;
-        facets.tolerance = options.tolerance > 0 ? options.tolerance / options.scale : 1e-6 * source->diagonal;
+        facets.tolerance = options.tolerance > 0 ? options.tolerance / options.scale
+                                                 : 1e-6 * source->diagonal;
         facets.fineness = {2 * std::numbers::pi / kSidesPerTurn, kLongestSide * source->diagonal};
         CadWire wire = read_wire(facets.tolerance);
         Cut cut = cut_all(wire, facets, source->path, context);

@@ -62,7 +62,8 @@ public:
         std::vector<std::size_t> tags;
         std::vector<double> at, parameters;
         gmsh::model::mesh::getNodes(tags, at, parameters, -1, -1, false, false);
-        for (std::size_t i = 0; i < tags.size(); ++i) node_at_[tags[i]] = {at[3 * i], at[3 * i + 1], at[3 * i + 2]};
+        for (std::size_t i = 0; i < tags.size(); ++i)
+            node_at_[tags[i]] = {at[3 * i], at[3 * i + 1], at[3 * i + 2]};
         gmsh::vectorpair entities;
         gmsh::model::getEntities(entities, 2);
         for (const auto& [dim, tag] : entities) collect_entity(tag, ending);
@@ -78,7 +79,8 @@ private:
             std::string type_name;
             int dim = 0, order = 0, node_count = 0, corners = 0;
             std::vector<double> local;
-            gmsh::model::mesh::getElementProperties(types[t], type_name, dim, order, node_count, local, corners);
+            gmsh::model::mesh::getElementProperties(types[t], type_name, dim, order, node_count, local,
+                                                    corners);
             if (corners != 3 && corners != 4) continue;
             for (std::size_t e = 0; e < elements[t].size(); ++e) {
                 const int label = label_of(elements[t][e], tag, ending);
@@ -87,7 +89,8 @@ private:
                     into_.soup.triangles.push_back({point(node[0]), point(node[1]), point(node[2])});
                     into_.soup.triangle_label.push_back(label);
                 } else {
-                    into_.soup.quads.push_back({point(node[0]), point(node[1]), point(node[2]), point(node[3])});
+                    into_.soup.quads.push_back(
+                        {point(node[0]), point(node[1]), point(node[2]), point(node[3])});
                     into_.soup.quad_label.push_back(label);
                 }
             }
@@ -104,7 +107,8 @@ private:
 
     int label(int tag, bool of_group, const std::string& name)
     {
-        const auto [found, fresh] = labels_.try_emplace({tag, of_group}, static_cast<int>(into_.label_tag.size()));
+        const auto [found, fresh] = labels_.try_emplace({tag, of_group},
+                                                        static_cast<int>(into_.label_tag.size()));
         if (fresh) {
             into_.label_tag.push_back(tag + tag_offset_);
             into_.soup.label_name.push_back(name);
@@ -130,8 +134,9 @@ private:
 void read_with_gmsh(const std::string& path, const std::string& ending, LabelledSoup& into)
 {
     if (!begins_as(path, ending)) {
-        throw InvalidInput("cad.unreadable", path + " does not hold what its ending promises; check the file, or give it the "
-                                                    "ending of what it holds");
+        throw InvalidInput("cad.unreadable",
+                           path + " does not hold what its ending promises; check the file, or give it the "
+                                  "ending of what it holds");
     }
     int tag_offset = 0;
     for (const int tag : into.label_tag) tag_offset = std::max(tag_offset, tag);
@@ -151,9 +156,13 @@ void read_with_gmsh(const std::string& path, const std::string& ending, Labelled
     session.run([&] { gmsh::model::getEntities(solids, 3); });
     std::string words;
     for (const std::string& error : session.logged_errors()) words += "; Gmsh says: " + error;
-    throw InvalidInput("cad.no_faces", path + " holds no faces" +
-                                           (solids.empty() ? " that can be read; check that it is what its ending says, and holds triangles or quads"
-                                                           : ", only solid cells; export their skin as shells") + words);
+    throw InvalidInput(
+        "cad.no_faces",
+        path + " holds no faces" +
+            (solids.empty()
+                 ? " that can be read; check that it is what its ending says, and holds triangles or quads"
+                 : ", only solid cells; export their skin as shells") +
+            words);
 }
 
 /// Quads as two triangles each, for those who want them meshed anew.
@@ -162,7 +171,9 @@ void split_quads(topology::FacetSoup& soup)
     for (std::size_t q = 0; q < soup.quads.size(); ++q) {
         const Quad& quad = soup.quads[q];
         // Along the shorter diagonal.
-        const auto at = [&](std::size_t k) -> const Vec3& { return soup.points[static_cast<std::size_t>(quad[k])]; };
+        const auto at = [&](std::size_t k) -> const Vec3& {
+            return soup.points[static_cast<std::size_t>(quad[k])];
+        };
         const std::size_t k = (at(0) - at(2)).squaredNorm() <= (at(1) - at(3)).squaredNorm() ? 0 : 1;
         soup.triangles.push_back({quad[k], quad[k + 1], quad[k + 2]});
         soup.triangles.push_back({quad[k], quad[k + 2], quad[(k + 3) % 4]});
@@ -172,8 +183,10 @@ void split_quads(topology::FacetSoup& soup)
     soup.quad_label.clear();
 }
 
-/// Give faces their labels' names and, where a label is one face, its tag; the others count on from the highest tag.
-void name_faces(topology::Model& model, const std::vector<std::string>& names, const std::vector<int>& label_tag)
+/// Give faces their labels' names and, where a label is one face, its tag; the others count on from the
+/// highest tag.
+void name_faces(topology::Model& model, const std::vector<std::string>& names,
+                const std::vector<int>& label_tag)
 {
     std::vector<std::size_t> label_of_face;
     std::vector<int> faces_of_label(names.size(), 0);
@@ -202,7 +215,8 @@ bool is_facet_ending(std::string_view ending)
     return false;
 }
 
-topology::Model import_facets(const std::vector<std::string>& paths, const LoadOptions& options, const RunContext& context)
+topology::Model import_facets(const std::vector<std::string>& paths, const LoadOptions& options,
+                              const RunContext& context)
 {
     LabelledSoup all;
     std::string source;
@@ -214,7 +228,9 @@ topology::Model import_facets(const std::vector<std::string>& paths, const LoadO
             const std::size_t before = all.soup.triangles.size() + all.soup.quads.size();
             read_obj(path, all);
             if (all.soup.triangles.size() + all.soup.quads.size() == before) {
-                throw InvalidInput("cad.no_faces", path + " holds no faces; check that it is a Wavefront OBJ file with f lines");
+                throw InvalidInput("cad.no_faces",
+                                   path +
+                                       " holds no faces; check that it is a Wavefront OBJ file with f lines");
             }
         } else {
             read_with_gmsh(path, ending, all);
@@ -224,7 +240,8 @@ topology::Model import_facets(const std::vector<std::string>& paths, const LoadO
     if (!options.keep_mesh) split_quads(all.soup);
     // Names may be alike or missing: faces carry the label's number through the cutting.
     const std::vector<std::string> names = std::exchange(all.soup.label_name, {});
-    for (std::size_t label = 0; label < names.size(); ++label) all.soup.label_name.push_back(std::to_string(label));
+    for (std::size_t label = 0; label < names.size(); ++label)
+        all.soup.label_name.push_back(std::to_string(label));
     topology::Model model = topology::split_facets(all.soup, {options.feature_angle, options.tolerance});
     name_faces(model, names, all.label_tag);
     model.source = source;

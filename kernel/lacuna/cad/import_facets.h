@@ -13,13 +13,14 @@ namespace lacuna::cad {
 /// Facets of files, with what their labels stand for in them.
 struct LabelledSoup {
     topology::FacetSoup soup;
-    std::vector<int> label_tag;  ///< tag each label has in its file: of a surface entity, a part, a group
+    std::vector<int> label_tag; ///< tag each label has in its file: of a surface entity, a part, a group
 };
 
-/// Read the facets of STL, OBJ, MSH, BDF, UNV, VTK and Medit files and cut them into faces. A face that is all of
-/// a label has the tag of that label in its file.
+/// Read the facets of STL, OBJ, MSH, BDF, UNV, VTK and Medit files and cut them into faces. A face that is
+/// all of a label has the tag of that label in its file.
 /// @pre every path has one of the endings of `is_facet_ending()`.
-topology::Model import_facets(const std::vector<std::string>& paths, const LoadOptions& options, const RunContext& context);
+topology::Model import_facets(const std::vector<std::string>& paths, const LoadOptions& options,
+                              const RunContext& context);
 
 /// .stl .obj .msh .bdf .nas .unv .vtk .mesh, in lower case.
 bool is_facet_ending(std::string_view ending);

@@ -22,14 +22,16 @@ void check_file(const std::string& path)
     namespace fs = std::filesystem;
     std::error_code ignored;
     if (!fs::exists(path, ignored)) {
-        throw InvalidInput("cad.missing_file", "there is no file " + path + "; check the name and the folder");
+        throw InvalidInput("cad.missing_file",
+                           "there is no file " + path + "; check the name and the folder");
     }
     if (fs::is_directory(path, ignored)) {
         throw InvalidInput("cad.is_directory", path + " is a folder; name a file in it");
     }
     if (!is_cad_ending(ending_of(path)) && !is_facet_ending(ending_of(path))) {
         throw InvalidInput("cad.unknown_ending", path + ": the ending \"" + ending_of(path) +
-                                                     "\" is unknown; files are read that end in " + std::string(kKnownEndings));
+                                                     "\" is unknown; files are read that end in " +
+                                                     std::string(kKnownEndings));
     }
     if (fs::file_size(path, ignored) == 0) {
         throw InvalidInput("cad.empty_file", path + " is empty; export it anew");
@@ -39,10 +41,12 @@ void check_file(const std::string& path)
 void check_options(const LoadOptions& options)
 {
     if (!(options.scale > 0) || !std::isfinite(options.scale)) {
-        throw InvalidInput("cad.scale", "the scale must be a number above 0, not " + std::to_string(options.scale));
+        throw InvalidInput("cad.scale",
+                           "the scale must be a number above 0, not " + std::to_string(options.scale));
     }
     if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance)) {
-        throw InvalidInput("cad.tolerance", "the tolerance must be a length of 0 or more, not " + std::to_string(options.tolerance));
+        throw InvalidInput("cad.tolerance", "the tolerance must be a length of 0 or more, not " +
+                                                std::to_string(options.tolerance));
     }
 }
 
@@ -105,7 +109,8 @@ void stitch(topology::Model& model, const RunContext& context)
 
 } // namespace
 
-topology::Model load(const std::vector<std::string>& paths, const LoadOptions& options, const RunContext& context)
+topology::Model load(const std::vector<std::string>& paths, const LoadOptions& options,
+                     const RunContext& context)
 {
     check_options(options);
     if (paths.empty()) throw InvalidInput("cad.no_file", "no file was named; name at least one");
@@ -114,8 +119,10 @@ topology::Model load(const std::vector<std::string>& paths, const LoadOptions& o
     for (const std::string& path : paths) (is_cad_ending(ending_of(path)) ? cad : facets).push_back(path);
     topology::Model model;
     if (!cad.empty()) model = import_cad(cad, options, context);
-    if (!facets.empty() && cad.empty()) model = import_facets(facets, options, context);
-    else if (!facets.empty()) append(model, import_facets(facets, options, context));
+    if (!facets.empty() && cad.empty())
+        model = import_facets(facets, options, context);
+    else if (!facets.empty())
+        append(model, import_facets(facets, options, context));
     topology::build_loops(model);
     stitch(model, context);
     return model;

@@ -12,16 +12,17 @@
 namespace lacuna::cad {
 
 struct LoadOptions {
-    double tolerance = 0;       ///< gaps below it are sewn [model length]; 0: 1e-6 × the diagonal
-    double feature_angle = 40;  ///< where facets are cut into faces [degrees]
-    bool keep_mesh = true;      ///< quads of FE formats stay as they are
-    double scale = 1;           ///< every coordinate times this, > 0 [-]
+    double tolerance = 0;      ///< gaps below it are sewn [model length]; 0: 1e-6 × the diagonal
+    double feature_angle = 40; ///< where facets are cut into faces [degrees]
+    bool keep_mesh = true;     ///< quads of FE formats stay as they are
+    double scale = 1;          ///< every coordinate times this, > 0 [-]
 };
 
 /// Read files into one model: STEP, IGES, BREP, GEO, STL, OBJ, MSH and what else Gmsh reads as faces.
 ///
-/// CAD faces get facets (chord error and turn bounded by curvature), exact curves and surfaces, and the tags Gmsh shows for the
-/// file; loose faces are sewn; orientation is made consistent. Facets are cut into faces by topology::split_facets().
+/// CAD faces get facets (chord error and turn bounded by curvature), exact curves and surfaces, and the tags
+/// Gmsh shows for the file; loose faces are sewn; orientation is made consistent. Facets are cut into faces
+/// by topology::split_facets().
 /// @throw InvalidInput  a missing, empty or unreadable file, an unknown ending; names the file.
 /// @throw BackendError  Gmsh's own words, with the file.
 topology::Model load(const std::vector<std::string>& paths, const LoadOptions& options = {},

@@ -80,7 +80,8 @@ private:
         long value = 0;
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
         const auto count = static_cast<long>(into_.soup.points.size()) - first_;
-        if (error != std::errc{} || end != word.data() + word.size()) fail("the corner \"" + std::string(word) + '"');
+        if (error != std::errc{} || end != word.data() + word.size())
+            fail("the corner \"" + std::string(word) + '"');
         const long place = value > 0 ? value - 1 : count + value;
         if (value == 0 || place < 0 || place >= count) {
             fail("the corner " + std::to_string(value) + ", of " + std::to_string(count) + " points so far,");
@@ -103,7 +104,8 @@ private:
         double value = 0;
         if (word.starts_with('+')) word.remove_prefix(1);
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        if (error != std::errc{} || end != word.data() + word.size()) fail("the coordinate \"" + std::string(word) + '"');
+        if (error != std::errc{} || end != word.data() + word.size())
+            fail("the coordinate \"" + std::string(word) + '"');
         return value;
     }
 

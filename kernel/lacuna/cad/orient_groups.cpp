@@ -57,7 +57,8 @@ struct Part {
     bool closed = true;
 };
 
-Part flood(std::size_t start, const std::map<std::size_t, std::vector<std::pair<std::size_t, bool>>>& neighbours,
+Part flood(std::size_t start,
+           const std::map<std::size_t, std::vector<std::pair<std::size_t, bool>>>& neighbours,
            std::map<std::size_t, bool>& turned)
 {
     Part part{{start}, true, true};

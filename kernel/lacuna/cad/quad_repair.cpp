@@ -1,162 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <lacuna/cad/quad_repair.h>
 
-#include <algorithm>
+#include <lacuna/cad/quad_sides.h>
+
 #include <cmath>
-#include <cstdint>
-#include <functional>
-#include <limits>
 #include <numbers>
-#include <tuple>
-#include <unordered_map>
 
 namespace lacuna::cad {
 
 namespace {
-
-std::uint64_t side_key(Index a, Index b)
-{
-    const auto [low, high] = std::minmax(a, b);
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(low)) << 32) | static_cast<std::uint32_t>(high);
-}
-
-std::size_t corner_count(const Quad& cell) { return MixedMesh::is_triangle(cell) ? 3 : 4; }
-
-std::size_t place_of(const Quad& cell, Index point)
-{
-    std::size_t k = 0;
-    while (cell[k] != point) ++k;
-    return k;
-}
-
-/// The one or two cells at every side.
-class Sides {
-public:
-    explicit Sides(const MixedMesh& mesh)
-    {
-        for (std::size_t c = 0; c < mesh.cells.size(); ++c) add(mesh.cells[c], static_cast<Index>(c));
-    }
-    void add(const Quad& cell, Index c)
-    {
-        for (std::size_t k = 0, n = corner_count(cell); k < n; ++k) {
-            auto& both = cells_.try_emplace(side_key(cell[k], cell[(k + 1) % n]), std::array<Index, 2>{-1, -1}).first->second;
-            both[both[0] < 0 ? 0 : 1] = c;
-        }
-    }
-    void remove(const Quad& cell, Index c)
-    {
-        for (std::size_t k = 0, n = corner_count(cell); k < n; ++k) {
-            auto& both = cells_.at(side_key(cell[k], cell[(k + 1) % n]));
-            if (both[0] == c) both[0] = both[1];
-            else if (both[1] != c) continue;
-            both[1] = -1;
-        }
-    }
-    [[nodiscard]] Index across(Index a, Index b, Index c) const
-    {
-        const auto found = cells_.find(side_key(a, b));
-        if (found == cells_.end()) return -1;
-        return found->second[0] == c ? found->second[1] : found->second[0];
-    }
-
-private:
-    std::unordered_map<std::uint64_t, std::array<Index, 2>> cells_;
-};
-
-/// The cell path from a triangle to the nearest other one, both included; empty where there is none.
-std::vector<Index> path_to_triangle(const MixedMesh& mesh, const Sides& sides, Index start)
-{
-    std::unordered_map<Index, Index> from{{start, -1}};
-    std::vector<Index> queue{start};
-    for (std::size_t i = 0; i < queue.size(); ++i) {
-        const Index c = queue[i];
-        const Quad& cell = mesh.cells[static_cast<std::size_t>(c)];
-        if (c != start && MixedMesh::is_triangle(cell)) {
-            std::vector<Index> path;
-            for (Index step = c; step >= 0; step = from.at(step)) path.push_back(step);
-            std::reverse(path.begin(), path.end());
-            return path;
-        }
-        for (std::size_t k = 0, n = corner_count(cell); k < n; ++k) {
-            const Index other = sides.across(cell[k], cell[(k + 1) % n], c);
-            if (other >= 0 && from.try_emplace(other, c).second) queue.push_back(other);
-        }
-    }
-    return {};
-}
-
-/// Corners of a triangle and a neighbour as one counter-clockwise ring. @pre they share a side.
-std::vector<Index> ring_of(const Quad& triangle, const Quad& cell)
-{
-    const std::size_t n = corner_count(cell);
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Index a = triangle[k];
-        const Index b = triangle[(k + 1) % 3];
-        for (std::size_t i = 0; i < n; ++i) {
-            if (cell[i] != b || cell[(i + 1) % n] != a) continue;
-            std::vector<Index> ring{a};
-            for (std::size_t j = 2; j < n; ++j) ring.push_back(cell[(i + j) % n]);
-            ring.push_back(b);
-            ring.push_back(triangle[(k + 2) % 3]);
-            return ring;
-        }
-    }
-    return {};
-}
-
-double triangle_quality(const MixedMesh& mesh, const Quad& t)
-{
-    double worst = 1;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Vec2 u = mesh.at(t[(k + 1) % 3]) - mesh.at(t[k]);
-        const Vec2 v = mesh.at(t[(k + 2) % 3]) - mesh.at(t[k]);
-        worst = std::min(worst, (u.x() * v.y() - u.y() * v.x()) / std::max(u.norm() * v.norm(), 1e-300));
-    }
-    return worst;
-}
-
-void replace(MixedMesh& mesh, Sides& sides, Index c, const Quad& cell)
-{
-    sides.add(cell, c);
-    mesh.cells[static_cast<std::size_t>(c)] = cell;
-}
-
-/// Divide the pentagon of a triangle and a quad so that the triangle lies at the side to `next`.
-void step_triangle(MixedMesh& mesh, Sides& sides, Index triangle, Index quad, Index next)
-{
-    const Quad t = mesh.cells[static_cast<std::size_t>(triangle)];
-    const Quad q = mesh.cells[static_cast<std::size_t>(quad)];
-    const std::vector<Index> ring = ring_of(t, q);
-    Quad best_triangle{}, best_quad{};
-    double best = -std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < 5; ++i) {
-        const Index a = ring[i];
-        const Index b = ring[(i + 1) % 5];
-        if (sides.across(a, b, quad) != next && sides.across(a, b, triangle) != next) continue;
-        for (const std::size_t first : {i, (i + 4) % 5}) {
-            const auto at = [&](std::size_t k) { return ring[(first + k) % 5]; };
-            const Quad cut{at(0), at(1), at(2), -1};
-            const Quad rest{at(2), at(3), at(4), at(0)};
-            const double quality = std::min(triangle_quality(mesh, cut), scaled_jacobian(mesh, rest));
-            if (quality <= best) continue;
-            best = quality;
-            best_triangle = cut;
-            best_quad = rest;
-        }
-    }
-    sides.remove(t, triangle);
-    sides.remove(q, quad);
-    // The quad's place takes the triangle, so that the path's next step finds it there.
-    replace(mesh, sides, quad, best_triangle);
-    replace(mesh, sides, triangle, best_quad);
-}
 
 /// Quads around every point.
 std::vector<std::vector<Index>> cells_around(const MixedMesh& mesh)
 {
     std::vector<std::vector<Index>> around(mesh.points.size());
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-        for (const Index p : mesh.cells[c]) around[static_cast<std::size_t>(p)].push_back(static_cast<Index>(c));
+        for (const Index p : mesh.cells[c])
+            around[static_cast<std::size_t>(p)].push_back(static_cast<Index>(c));
     }
     return around;
 }
@@ -209,116 +69,6 @@ bool remove_doublets(MixedMesh& mesh)
 /// A quad below it is worth work on its connections; half the sine of a right angle.
 constexpr double kWorthWork = 0.5;
 
-double corner_sine(const MixedMesh& mesh, const Quad& q, std::size_t k)
-{
-    const Vec2 u = mesh.at(q[(k + 1) % 4]) - mesh.at(q[k]);
-    const Vec2 v = mesh.at(q[(k + 3) % 4]) - mesh.at(q[k]);
-    const double product = u.norm() * v.norm();
-    return product > 0 ? (u.x() * v.y() - u.y() * v.x()) / product : -1;
-}
-
-/// Pairs of neighbouring triangles that make quads.
-class Matching {
-public:
-    explicit Matching(const MixedMesh& mesh) : mesh_(mesh), neighbours_(mesh.cells.size()), mate_(mesh.cells.size(), -1)
-    {
-        const Sides sides(mesh);
-        for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-            const Quad& cell = mesh.cells[c];
-            if (!MixedMesh::is_triangle(cell)) continue;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Index other = sides.across(cell[k], cell[(k + 1) % 3], static_cast<Index>(c));
-                if (other < 0 || !MixedMesh::is_triangle(mesh.cells[static_cast<std::size_t>(other)])) continue;
-                const double quality = scaled_jacobian(mesh, merged(static_cast<Index>(c), other));
-                if (quality > kLeast) neighbours_[c].emplace_back(quality, other);
-            }
-            std::sort(neighbours_[c].begin(), neighbours_[c].end(), std::greater<>());
-        }
-    }
-
-    /// The best pairs first.
-    void greedy()
-    {
-        std::vector<std::tuple<double, Index, Index>> pairs;
-        for (std::size_t c = 0; c < neighbours_.size(); ++c) {
-            for (const auto& [quality, other] : neighbours_[c]) {
-                if (static_cast<Index>(c) < other) pairs.emplace_back(-quality, static_cast<Index>(c), other);
-            }
-        }
-        std::sort(pairs.begin(), pairs.end());
-        for (const auto& [quality, a, b] : pairs) {
-            if (mate(a) >= 0 || mate(b) >= 0) continue;
-            mate(a) = b;
-            mate(b) = a;
-        }
-    }
-
-    /// Join two unpaired triangles by a path of pairs that all change partners. Odd rings of triangles are not
-    /// looked into, so a few may be left that could be paired.
-    void augment()
-    {
-        for (std::size_t c = 0; c < mate_.size(); ++c) {
-            if (mate_[c] < 0 && !neighbours_[c].empty()) augment_from(static_cast<Index>(c));
-        }
-    }
-
-    [[nodiscard]] std::vector<Quad> cells() const
-    {
-        std::vector<Quad> cells;
-        for (std::size_t c = 0; c < mate_.size(); ++c) {
-            if (mate_[c] < 0) cells.push_back(mesh_.cells[c]);
-            else if (static_cast<Index>(c) < mate_[c]) cells.push_back(merged(static_cast<Index>(c), mate_[c]));
-        }
-        return cells;
-    }
-
-private:
-    static constexpr double kLeast = 0.15;  ///< a flatter quad is no pair: smoothing cannot mend it at a boundary
-
-    Index& mate(Index c) { return mate_[static_cast<std::size_t>(c)]; }
-
-    [[nodiscard]] Quad merged(Index a, Index b) const
-    {
-        const std::vector<Index> ring = ring_of(mesh_.cells[static_cast<std::size_t>(a)], mesh_.cells[static_cast<std::size_t>(b)]);
-        return {ring[0], ring[1], ring[2], ring[3]};
-    }
-
-    void augment_from(Index start)
-    {
-        // Triangles reached over an even number of steps, with the one before each.
-        std::unordered_map<Index, Index> before{{start, -1}};
-        std::vector<Index> queue{start};
-        for (std::size_t i = 0; i < queue.size(); ++i) {
-            const Index here = queue[i];
-            for (const auto& [quality, other] : neighbours_[static_cast<std::size_t>(here)]) {
-                // Reached both ways: an odd ring.
-                if (before.contains(other)) continue;
-                const Index next = mate(other);
-                if (next < 0) {
-                    change_partners(here, other, before);
-                    return;
-                }
-                if (next >= 0 && before.try_emplace(next, here).second) queue.push_back(next);
-            }
-        }
-    }
-
-    void change_partners(Index here, Index other, const std::unordered_map<Index, Index>& before)
-    {
-        while (here >= 0) {
-            const Index left = mate(here);
-            mate(here) = other;
-            mate(other) = here;
-            other = left;
-            here = before.at(here);
-        }
-    }
-
-    const MixedMesh& mesh_;
-    std::vector<std::vector<std::pair<double, Index>>> neighbours_;
-    std::vector<Index> mate_;
-};
-
 class Smoother {
 public:
     explicit Smoother(MixedMesh& mesh) : mesh_(mesh), around_(cells_around(mesh)) {}
@@ -350,7 +100,8 @@ public:
         for (std::size_t p = mesh_.fixed; p < mesh_.points.size(); ++p) optimise(p);
     }
 
-    /// Where quads around an inner point are bad, move it to where the worst is best, by trial in eight directions.
+    /// Where quads around an inner point are bad, move it to where the worst is best, by trial in eight
+    /// directions.
     void optimise(std::size_t p)
     {
         double best = worst_around(p);
@@ -402,7 +153,8 @@ public:
         for (const Index c : cells) {
             // By corner: otherwise one quad shrunk to a line would look better than two with a flat corner.
             for (std::size_t k = 0; k < 4; ++k) {
-                const double lack = std::max(0.0, kGood - corner_sine(mesh_, mesh_.cells[static_cast<std::size_t>(c)], k));
+                const double lack = std::max(
+                    0.0, kGood - corner_sine(mesh_, mesh_.cells[static_cast<std::size_t>(c)], k));
                 sum += lack * lack;
             }
         }
@@ -410,12 +162,13 @@ public:
     }
 
 private:
-    static constexpr double kGood = 0.7;  ///< a quad from which smoothness counts more than the worst corner
+    static constexpr double kGood = 0.7; ///< a quad from which smoothness counts more than the worst corner
 
     [[nodiscard]] double worst_around(std::size_t p) const
     {
         double worst = 1;
-        for (const Index c : around_[p]) worst = std::min(worst, scaled_jacobian(mesh_, mesh_.cells[static_cast<std::size_t>(c)]));
+        for (const Index c : around_[p])
+            worst = std::min(worst, scaled_jacobian(mesh_, mesh_.cells[static_cast<std::size_t>(c)]));
         return worst;
     }
 
@@ -435,7 +188,8 @@ bool turn_side(MixedMesh& mesh, Sides& sides, Smoother& smoother, Index c, std::
     const std::size_t m = place_of(two, b);
     if (two[(m + 1) % 4] != a) return false;
     // Counter-clockwise: a, two's far corners, b, one's far corners.
-    const std::array<Index, 6> ring{a, two[(m + 2) % 4], two[(m + 3) % 4], b, one[(k + 2) % 4], one[(k + 3) % 4]};
+    const std::array<Index, 6> ring{a, two[(m + 2) % 4], two[(m + 3) % 4],
+                                    b, one[(k + 2) % 4], one[(k + 3) % 4]};
     const double before = smoother.lack_around(ring);
     for (const std::size_t turn : {1, 2}) {
         const auto at = [&](std::size_t i) { return ring[(turn + i) % 6]; };
@@ -477,8 +231,8 @@ bool turn_sides(MixedMesh& mesh)
     return any;
 }
 
-/// Gives boundary points that lie flat in one quad alone a second one, taken over from the nearest point along the
-/// boundary that can spare one, point by point.
+/// Gives boundary points that lie flat in one quad alone a second one, taken over from the nearest point
+/// along the boundary that can spare one, point by point.
 class FlatCorners {
 public:
     explicit FlatCorners(MixedMesh& mesh) : mesh_(mesh), sides_(mesh), count_(mesh.points.size(), 0)
@@ -545,7 +299,9 @@ private:
         const Index c = forward ? sides_.across(to, from, -2) : sides_.across(from, to, -2);
         const Quad one = mesh_.cells[static_cast<std::size_t>(c)];
         // Going round from the boundary side: from, then away from `to`.
-        const auto step = [&](const Quad& q, std::size_t k, std::size_t i) { return forward ? q[(k + i) % 4] : q[(k + 4 - i) % 4]; };
+        const auto step = [&](const Quad& q, std::size_t k, std::size_t i) {
+            return forward ? q[(k + i) % 4] : q[(k + 4 - i) % 4];
+        };
         const std::size_t k = place_of(one, from);
         const Index far = step(one, k, 1);
         const Index last = step(one, k, 2);
@@ -586,76 +342,6 @@ double scaled_jacobian(const MixedMesh& mesh, const Quad& q)
     double worst = 1;
     for (std::size_t k = 0; k < 4; ++k) worst = std::min(worst, corner_sine(mesh, q, k));
     return worst;
-}
-
-void match_triangles(MixedMesh& mesh)
-{
-    Matching matching(mesh);
-    matching.greedy();
-    matching.augment();
-    mesh.cells = matching.cells();
-}
-
-void pair_triangles(MixedMesh& mesh)
-{
-    Sides sides(mesh);
-    std::vector<Index> triangles;
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-        if (MixedMesh::is_triangle(mesh.cells[c])) triangles.push_back(static_cast<Index>(c));
-    }
-    std::vector<bool> gone(mesh.cells.size(), false);
-    for (const Index start : triangles) {
-        if (gone[static_cast<std::size_t>(start)] || !MixedMesh::is_triangle(mesh.cells[static_cast<std::size_t>(start)])) continue;
-        const std::vector<Index> path = path_to_triangle(mesh, sides, start);
-        if (path.empty()) break;
-        for (std::size_t i = 0; i + 2 < path.size(); ++i) step_triangle(mesh, sides, path[i], path[i + 1], path[i + 2]);
-        const Index last = path[path.size() - 2];
-        const Index goal = path.back();
-        const Quad a = mesh.cells[static_cast<std::size_t>(last)];
-        const Quad b = mesh.cells[static_cast<std::size_t>(goal)];
-        const std::vector<Index> ring = ring_of(a, b);
-        sides.remove(a, last);
-        sides.remove(b, goal);
-        replace(mesh, sides, last, {ring[0], ring[1], ring[2], ring[3]});
-        gone[static_cast<std::size_t>(goal)] = true;
-    }
-    std::vector<Quad> kept;
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-        if (!gone[c]) kept.push_back(mesh.cells[c]);
-    }
-    mesh.cells = std::move(kept);
-}
-
-MixedMesh subdivide(const MixedMesh& mesh, const std::vector<Triangle>& middles, const std::vector<Vec2>& fixed,
-                    const std::vector<Index>& points_of)
-{
-    MixedMesh fine;
-    fine.fixed = fixed.size();
-    fine.points = fixed;
-    std::vector<Index> place = points_of;
-    for (std::size_t p = mesh.fixed; p < mesh.points.size(); ++p) {
-        place.push_back(static_cast<Index>(fine.points.size()));
-        fine.points.push_back(mesh.points[p]);
-    }
-    std::unordered_map<std::uint64_t, Index> middle;
-    for (const Triangle& m : middles) middle[side_key(m[0], m[1])] = m[2];
-    const auto middle_of = [&](Index a, Index b) {
-        const auto [found, fresh] = middle.try_emplace(side_key(a, b), static_cast<Index>(fine.points.size()));
-        if (fresh) fine.points.push_back((mesh.at(a) + mesh.at(b)) / 2);
-        return found->second;
-    };
-    for (const Quad& cell : mesh.cells) {
-        const std::size_t n = corner_count(cell);
-        Vec2 centre = Vec2::Zero();
-        for (std::size_t k = 0; k < n; ++k) centre += mesh.at(cell[k]) / static_cast<double>(n);
-        const auto c = static_cast<Index>(fine.points.size());
-        fine.points.push_back(centre);
-        for (std::size_t k = 0; k < n; ++k) {
-            fine.cells.push_back({place[static_cast<std::size_t>(cell[k])], middle_of(cell[k], cell[(k + 1) % n]), c,
-                                  middle_of(cell[(k + n - 1) % n], cell[k])});
-        }
-    }
-    return fine;
 }
 
 void improve(MixedMesh& mesh)

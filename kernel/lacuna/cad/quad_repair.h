@@ -30,11 +30,12 @@ void match_triangles(MixedMesh& mesh);
 void pair_triangles(MixedMesh& mesh);
 
 /// Cut every cell at its centre and the middles of its sides: 4 quads of a quad, 3 of a triangle.
-/// @param middles  of the boundary sides (a, b): triples a, b, middle; the middle is the number of a fixed point.
+/// @param middles  of the boundary sides (a, b): triples a, b, middle; the middle is the number of a fixed
+///                  point.
 /// @param fixed    the boundary points of the result, those numbers refer to; `points_of` tells which of
 ///                 them each fixed point of `mesh` is.
-MixedMesh subdivide(const MixedMesh& mesh, const std::vector<Triangle>& middles, const std::vector<Vec2>& fixed,
-                    const std::vector<Index>& points_of);
+MixedMesh subdivide(const MixedMesh& mesh, const std::vector<Triangle>& middles,
+                    const std::vector<Vec2>& fixed, const std::vector<Index>& points_of);
 
 /// Better quads without touching the boundary: points with two quads alone go, sides turn where that helps
 /// the worst of the two quads, and inner points move to where the worst around them is best.

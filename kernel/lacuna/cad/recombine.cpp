@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -54,19 +53,25 @@ public:
         const int j = std::clamp(static_cast<int>(q.y()), 0, std::max(0, ny_ - 2));
         const double s = std::clamp(q.x() - i, 0.0, 1.0);
         const double t = std::clamp(q.y() - j, 0.0, 1.0);
-        return (1 - t) * ((1 - s) * value(i, j) + s * value(i + 1, j)) + t * ((1 - s) * value(i, j + 1) + s * value(i + 1, j + 1));
+        return (1 - t) * ((1 - s) * value(i, j) + s * value(i + 1, j)) +
+               t * ((1 - s) * value(i, j + 1) + s * value(i + 1, j + 1));
     }
 
 private:
     static constexpr double kLeastCells = 8, kMostCells = 128;
-    static constexpr double kGrowth = 0.3;  ///< of the edge length, per length away from the rim
+    static constexpr double kGrowth = 0.3; ///< of the edge length, per length away from the rim
 
-    static const Vec2& at(const surface::PlanarRegion& region, Index p) { return region.points[static_cast<std::size_t>(p)]; }
+    static const Vec2& at(const surface::PlanarRegion& region, Index p)
+    {
+        return region.points[static_cast<std::size_t>(p)];
+    }
 
-    static double wanted(const surface::PlanarRegion& region, const std::vector<std::pair<Vec2, double>>& rim, const Vec2& p)
+    static double wanted(const surface::PlanarRegion& region, const std::vector<std::pair<Vec2, double>>& rim,
+                         const Vec2& p)
     {
         double size = std::numeric_limits<double>::infinity();
-        for (const auto& [place, spacing] : rim) size = std::min(size, spacing + kGrowth * (place - p).norm());
+        for (const auto& [place, spacing] : rim)
+            size = std::min(size, spacing + kGrowth * (place - p).norm());
         if (!region.size) return size;
         const double asked = region.size(p);
         return std::isfinite(asked) && asked > 0 ? std::min(size, asked) : size;
@@ -76,7 +81,8 @@ private:
     {
         i = std::min(i, nx_ - 1);
         j = std::min(j, ny_ - 1);
-        return values_[static_cast<std::size_t>(j) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(i)];
+        return values_[static_cast<std::size_t>(j) * static_cast<std::size_t>(nx_) +
+                       static_cast<std::size_t>(i)];
     }
 
     Vec2 low_;
@@ -92,20 +98,24 @@ bool inside(const surface::PlanarRegion& region, const Vec2& p)
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const Vec2& a = region.points[static_cast<std::size_t>(loop[i])];
             const Vec2& b = region.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
-            if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) in = !in;
+            if ((a.y() > p.y()) != (b.y() > p.y()) &&
+                p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+                in = !in;
         }
     }
     return in;
 }
 
 /// About how many quads the sizes will make.
-double expected_quads(const surface::PlanarRegion& region, const SizeRaster& size, const Eigen::AlignedBox2d& box)
+double expected_quads(const surface::PlanarRegion& region, const SizeRaster& size,
+                      const Eigen::AlignedBox2d& box)
 {
     constexpr int kSamples = 48;
     double sum = 0;
     for (int i = 0; i < kSamples; ++i) {
         for (int j = 0; j < kSamples; ++j) {
-            const Vec2 p = box.min() + box.sizes().cwiseProduct(Vec2((i + 0.5) / kSamples, (j + 0.5) / kSamples));
+            const Vec2 p = box.min() +
+                           box.sizes().cwiseProduct(Vec2((i + 0.5) / kSamples, (j + 0.5) / kSamples));
             if (inside(region, p)) sum += 1 / (size(p) * size(p));
         }
     }
@@ -114,23 +124,22 @@ double expected_quads(const surface::PlanarRegion& region, const SizeRaster& siz
 
 /// How Gmsh is asked.
 struct Attempt {
-    int algorithm;  ///< Gmsh's 6: frontal, 5: Delaunay, 1: adaptive
-    int halvings;   ///< the boundary's every 2^halvings-th node is meshed, the cells then cut so many times
-    bool blossom;   ///< Gmsh pairs the triangles, rather than `match_triangles()`
-    double size;    ///< of what is wanted: finer cells leave more freedom between coarse sides
+    int algorithm; ///< Gmsh's 6: frontal, 5: Delaunay, 1: adaptive
+    int halvings;  ///< the boundary's every 2^halvings-th node is meshed, the cells then cut so many times
+    bool blossom;  ///< Gmsh pairs the triangles, rather than `match_triangles()`
+    double size;   ///< of what is wanted: finer cells leave more freedom between coarse sides
 };
 
 /// Triangles and quads over the loops given, nodes on them kept, nothing added there.
-MixedMesh mesh_with_gmsh(Session& session, const std::vector<Vec2>& points, const Loops& loops, const SizeRaster& size,
-                         const Attempt& attempt)
+MixedMesh mesh_with_gmsh(Session& session, const std::vector<Vec2>& points, const Loops& loops,
+                         const SizeRaster& size, const Attempt& attempt)
 {
     GmshModel model(session);
     const double factor = attempt.size * (1 << attempt.halvings);
-    std::exception_ptr thrown;
     MixedMesh mesh;
     session.run([&] {
-        // 8, which is made for quads, gives other coordinates each time: its cross field is solved in an order
-        // that depends on addresses.
+        // 8, which is made for quads, gives other coordinates each time: its cross field is solved in an
+        // order that depends on addresses.
         session.set("Mesh.Algorithm", attempt.algorithm);
         std::vector<int> wires;
         std::vector<std::pair<Index, int>> tags;
@@ -151,11 +160,9 @@ MixedMesh mesh_with_gmsh(Session& session, const std::vector<Vec2>& points, cons
         gmsh::model::geo::synchronize();
         if (attempt.blossom) gmsh::model::mesh::setRecombine(2, face);
         const auto wanted = [&](double x, double y) { return factor * size(Vec2(x, y)); };
-#if LACUNA_GMSH_AT_LEAST(4, 9)
-        gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double, double) { return wanted(x, y); });
-#else
-        gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double) { return wanted(x, y); });
-#endif
+        // Later versions hand over their own wish as well.
+        gmsh::model::mesh::setSizeCallback(
+            [&](int, int, double x, double y, double, auto...) { return wanted(x, y); });
         gmsh::model::mesh::generate(2);
         gmsh::model::mesh::removeSizeCallback();
 
@@ -181,7 +188,8 @@ MixedMesh mesh_with_gmsh(Session& session, const std::vector<Vec2>& points, cons
             for (std::size_t e = 0; e < elements.size(); ++e) {
                 Quad cell{-1, -1, -1, -1};
                 for (int k = 0; k < corners; ++k) {
-                    cell[static_cast<std::size_t>(k)] = place.at(of[e * static_cast<std::size_t>(corners) + static_cast<std::size_t>(k)]);
+                    cell[static_cast<std::size_t>(k)] = place.at(
+                        of[e * static_cast<std::size_t>(corners) + static_cast<std::size_t>(k)]);
                 }
                 mesh.cells.push_back(cell);
             }
@@ -203,7 +211,8 @@ void orient(MixedMesh& mesh)
         }
     }
     if (area >= 0) return;
-    for (Quad& cell : mesh.cells) std::reverse(cell.begin(), MixedMesh::is_triangle(cell) ? cell.end() - 1 : cell.end());
+    for (Quad& cell : mesh.cells)
+        std::reverse(cell.begin(), MixedMesh::is_triangle(cell) ? cell.end() - 1 : cell.end());
 }
 
 /// Every loop with each second node only, starting so that what is dropped turns least.
@@ -214,8 +223,10 @@ Loops halve(const std::vector<Vec2>& points, const Loops& loops)
         const std::size_t n = loop.size();
         std::array<double, 2> turning{0, 0};
         for (std::size_t i = 0; i < n; ++i) {
-            const Vec2 in = points[static_cast<std::size_t>(loop[i])] - points[static_cast<std::size_t>(loop[(i + n - 1) % n])];
-            const Vec2 out = points[static_cast<std::size_t>(loop[(i + 1) % n])] - points[static_cast<std::size_t>(loop[i])];
+            const Vec2 in = points[static_cast<std::size_t>(loop[i])] -
+                            points[static_cast<std::size_t>(loop[(i + n - 1) % n])];
+            const Vec2 out = points[static_cast<std::size_t>(loop[(i + 1) % n])] -
+                             points[static_cast<std::size_t>(loop[i])];
             const double turn = std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
             turning[i % 2] += turn * turn;
         }
@@ -236,9 +247,11 @@ bool can_halve(const std::vector<Vec2>& points, const Loops& loops, const Loops&
         const std::size_t first = loop[0] == half[l][0] ? 1 : 0;
         for (std::size_t i = first; i < loop.size(); i += 2) {
             const Vec2& here = points[static_cast<std::size_t>(loop[i])];
-            const Vec2 in = here - points[static_cast<std::size_t>(loop[(i + loop.size() - 1) % loop.size()])];
+            const Vec2 in = here -
+                            points[static_cast<std::size_t>(loop[(i + loop.size() - 1) % loop.size()])];
             const Vec2 out = points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])] - here;
-            if (std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out))) > kSharpest) return false;
+            if (std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out))) > kSharpest)
+                return false;
         }
     }
     return !geometry::find_crossing(points, half);
@@ -253,7 +266,8 @@ std::vector<Index> in_order(const Loops& loops)
 }
 
 /// Cut the cells of a mesh over `half` so that its boundary becomes that of `loops`.
-MixedMesh refine(const MixedMesh& mesh, const std::vector<Vec2>& points, const Loops& loops, const Loops& half)
+MixedMesh refine(const MixedMesh& mesh, const std::vector<Vec2>& points, const Loops& loops,
+                 const Loops& half)
 {
     std::vector<Vec2> fixed;
     std::vector<Index> points_of;
@@ -267,7 +281,8 @@ MixedMesh refine(const MixedMesh& mesh, const std::vector<Vec2>& points, const L
         for (Index i = 0; i < count; ++i) {
             const std::size_t at = first + 2 * static_cast<std::size_t>(i);
             points_of.push_back(start + static_cast<Index>(at));
-            middles.push_back({coarse + i, coarse + (i + 1) % count, start + static_cast<Index>((at + 1) % n)});
+            middles.push_back(
+                {coarse + i, coarse + (i + 1) % count, start + static_cast<Index>((at + 1) % n)});
         }
         for (const Index p : loops[l]) fixed.push_back(points[static_cast<std::size_t>(p)]);
         start += static_cast<Index>(n);
@@ -317,14 +332,16 @@ void check_region(const surface::PlanarRegion& region)
     std::size_t sides = 0;
     for (const std::vector<Index>& loop : region.loops) sides += loop.size();
     if (region.loops.empty() || sides % 2 != 0 || sides < 4) {
-        throw NotSweepable("cad.odd_rim", "a region with " + std::to_string(sides) +
-                                              " boundary sides cannot be filled with quads; their number must be even and 4 at least");
+        throw NotSweepable(
+            "cad.odd_rim",
+            "a region with " + std::to_string(sides) +
+                " boundary sides cannot be filled with quads; their number must be even and 4 at least");
     }
 }
 
 /// The nodes in the region's own order; points in no loop are kept, unused.
-surface::PlanarQuads deliver(const MixedMesh& mesh, const surface::PlanarRegion& region, const Loops& loops, const Vec2& origin,
-                             double scale)
+surface::PlanarQuads deliver(const MixedMesh& mesh, const surface::PlanarRegion& region, const Loops& loops,
+                             const Vec2& origin, double scale)
 {
     surface::PlanarQuads result;
     result.points = region.points;
@@ -359,23 +376,26 @@ surface::PlanarQuads recombine(const surface::PlanarRegion& given, const RunCont
     const Eigen::AlignedBox2d box(Vec2::Zero(), Vec2(bounds.sizes() / scale));
     const SizeRaster size(region, box);
 
-    // Cells cut from coarser ones are more regular, so regions are meshed coarser and cut as long as this many
-    // quads are left.
+    // Cells cut from coarser ones are more regular, so regions are meshed coarser and cut as long as this
+    // many quads are left.
     constexpr double kWorthHalving = 1500;
     std::vector<Loops> coarser{region.loops};
     double quads = expected_quads(region, size, box);
     for (; quads > kWorthHalving; quads /= 4) {
-        if (std::any_of(coarser.back().begin(), coarser.back().end(), [](const auto& loop) { return loop.size() % 2 != 0; })) break;
+        if (std::any_of(coarser.back().begin(), coarser.back().end(),
+                        [](const auto& loop) { return loop.size() % 2 != 0; }))
+            break;
         Loops half = halve(region.points, coarser.back());
         if (!can_halve(region.points, coarser.back(), half)) break;
         coarser.push_back(std::move(half));
     }
 
     Session session("a region to be filled with quads");
-    session.set("Mesh.RecombinationAlgorithm", 1);  // Blossom
-    session.set("Mesh.CrossFieldClosestPoint", 0);  // without ANN the default crashes
-    for (const char* off : {"Mesh.MeshSizeFromPoints", "Mesh.MeshSizeFromCurvature", "Mesh.MeshSizeExtendFromBoundary",
-                            "Mesh.MeshSizeFromParametricPoints", "Mesh.SubdivisionAlgorithm", "Mesh.SecondOrderLinear"}) {
+    session.set("Mesh.RecombinationAlgorithm", 1); // Blossom
+    session.set("Mesh.CrossFieldClosestPoint", 0); // without ANN the default crashes
+    for (const char* off :
+         {"Mesh.MeshSizeFromPoints", "Mesh.MeshSizeFromCurvature", "Mesh.MeshSizeExtendFromBoundary",
+          "Mesh.MeshSizeFromParametricPoints", "Mesh.SubdivisionAlgorithm", "Mesh.SecondOrderLinear"}) {
         session.set(off, 0);
     }
     session.set("Mesh.MeshSizeMin", 0);
@@ -392,12 +412,14 @@ surface::PlanarQuads recombine(const surface::PlanarRegion& given, const RunCont
     MixedMesh best;
     double best_quality = -2;
     const int most = static_cast<int>(coarser.size()) - 1;
-    for (const Attempt& attempt : {Attempt{6, most, quads < kMostBlossom, kPairSize}, Attempt{5, most, false, kPairSize}, Attempt{6, 0, false, 0.7},
-          Attempt{6, 0, false, 0.5}}) {
+    for (const Attempt& attempt :
+         {Attempt{6, most, quads < kMostBlossom, kPairSize}, Attempt{5, most, false, kPairSize},
+          Attempt{6, 0, false, 0.7}, Attempt{6, 0, false, 0.5}}) {
         check_cancelled(context);
         MixedMesh mesh;
         try {
-            mesh = mesh_with_gmsh(session, region.points, coarser[static_cast<std::size_t>(attempt.halvings)], size, attempt);
+            mesh = mesh_with_gmsh(session, region.points, coarser[static_cast<std::size_t>(attempt.halvings)],
+                                  size, attempt);
         } catch (const BackendError& error) {
             log_line(context, error.what());
             continue;
@@ -419,8 +441,10 @@ surface::PlanarQuads recombine(const surface::PlanarRegion& given, const RunCont
         if (best_quality > 0) break;
     }
     if (best_quality == -2) {
-        throw NotSweepable("cad.recombine", "Gmsh could not fill a region of " + std::to_string(in_order(region.loops).size()) +
-                                                " boundary nodes with quads alone; use quads = \"paved\", or other edge counts");
+        throw NotSweepable(
+            "cad.recombine",
+            "Gmsh could not fill a region of " + std::to_string(in_order(region.loops).size()) +
+                " boundary nodes with quads alone; use quads = \"paved\", or other edge counts");
     }
     return deliver(best, given, region.loops, origin, scale);
 }

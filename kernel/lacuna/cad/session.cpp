@@ -90,7 +90,8 @@ public:
     {
         if (gmsh_is_initialized()) return;
         const EnvironmentGuard environment;
-        // Without arguments, as an unknown word there ends the process; without the user's own start-up files.
+        // Without arguments, as an unknown word there ends the process; without the user's own start-up
+        // files.
         gmsh::initialize(0, nullptr, false);
         gmsh::option::setNumber("General.Terminal", 0);
         ours_ = true;
@@ -113,8 +114,8 @@ Session::Session(std::string subject) : lock_(gmsh_mutex()), subject_(std::move(
         if (locale_ != "C") std::setlocale(LC_NUMERIC, "C");
         gmsh::model::getCurrent(host_model_);
         set("General.Terminal", 0);
-        set("General.Verbosity", 2);     // warnings and errors
-        set("General.AbortOnError", 2);  // throw
+        set("General.Verbosity", 2);    // warnings and errors
+        set("General.AbortOnError", 2); // throw
         // When the host has a logger running, that says so in its own log, and we read on from there.
         gmsh::logger::start();
         std::vector<std::string> log;
@@ -190,7 +191,8 @@ void Session::fail(const std::string& message) const
         const std::vector<std::string> errors = logged_errors();
         words = errors.empty() ? "it gave no reason" : errors.back();
     }
-    throw BackendError("cad.gmsh", (subject_.empty() ? "" : subject_ + ": ") + std::string("Gmsh failed: ") + words);
+    throw BackendError("cad.gmsh",
+                       (subject_.empty() ? "" : subject_ + ": ") + std::string("Gmsh failed: ") + words);
 }
 
 GmshModel::GmshModel(Session& session) : life_(session.life())
@@ -222,8 +224,8 @@ void GmshModel::activate(Session& session) const
 {
     session.run([&] {
         if (!model_exists(name_)) {
-            throw BackendError("cad.model_gone",
-                               "the CAD model has been removed from Gmsh by the program that hosts Lacuna; load the file again");
+            throw BackendError("cad.model_gone", "the CAD model has been removed from Gmsh by the program "
+                                                 "that hosts Lacuna; load the file again");
         }
         gmsh::model::setCurrent(name_);
     });

@@ -18,7 +18,8 @@ class GmshLife;
 ///
 /// Between construction and destruction this thread has Gmsh to itself, initialised, silent, with LC_NUMERIC
 /// "C". At the end the host's current model, options, locale and PYTHONPATH are as they were. Gmsh is
-/// finalised only if no host had initialised it, and only when no stay and no `GmshModel` is left. Stays nest.
+/// finalised only if no host had initialised it, and only when no stay and no `GmshModel` is left. Stays
+/// nest.
 class Session {
 public:
     /// @param subject  what messages name: the file, as a rule.

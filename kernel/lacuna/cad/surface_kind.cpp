@@ -14,7 +14,7 @@ namespace {
 /// What a surface is like at a place; |first| >= |second|.
 struct Bend {
     Vec3 at, normal;
-    double first = 0, second = 0;  ///< principal curvatures, positive where the centre is on the normal's side
+    double first = 0, second = 0; ///< principal curvatures, positive where the centre is on the normal's side
     [[nodiscard]] Vec3 centre(double curvature) const { return at + normal / curvature; }
 };
 
@@ -24,7 +24,8 @@ std::vector<Bend> bends_of(int tag, const ParameterBox& box)
     std::vector<Vec2> uv;
     for (int i = 0; i < kSamples; ++i) {
         for (int j = 0; j < kSamples; ++j) {
-            uv.push_back(box.low + (box.high - box.low).cwiseProduct(Vec2((i + 0.4) / kSamples, (j + 0.6) / kSamples)));
+            uv.push_back(box.low +
+                         (box.high - box.low).cwiseProduct(Vec2((i + 0.4) / kSamples, (j + 0.6) / kSamples)));
         }
     }
     const std::vector<Vec3> at = surface_points(tag, uv);
@@ -38,7 +39,8 @@ std::vector<Bend> bends_of(int tag, const ParameterBox& box)
         metric << f.du.dot(f.du), f.du.dot(f.dv), f.du.dot(f.dv), f.dv.dot(f.dv);
         shape << n.dot(second[i].uu), n.dot(second[i].uv), n.dot(second[i].uv), n.dot(second[i].vv);
         if (!(metric.determinant() > 0)) continue;
-        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> solver(shape, metric, Eigen::EigenvaluesOnly);
+        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> solver(shape, metric,
+                                                                               Eigen::EigenvaluesOnly);
         double a = solver.eigenvalues()[0];
         double b = solver.eigenvalues()[1];
         if (std::abs(a) < std::abs(b)) std::swap(a, b);
@@ -55,7 +57,8 @@ bool collinear(const std::vector<Vec3>& points, double size, double precision)
     for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
     for (const Vec3& p : points) spread += (p - mean) * (p - mean).transpose();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread, Eigen::EigenvaluesOnly);
-    return std::sqrt(std::max(0.0, solver.eigenvalues()[1])) <= precision * size * std::sqrt(static_cast<double>(points.size()));
+    return std::sqrt(std::max(0.0, solver.eigenvalues()[1])) <=
+           precision * size * std::sqrt(static_cast<double>(points.size()));
 }
 
 std::string kind_by_bending(int tag, const ParameterBox& box)
@@ -68,7 +71,9 @@ std::string kind_by_bending(int tag, const ParameterBox& box)
     for (const Bend& b : bends) bounds.extend(b.at);
     const double size = bounds.diagonal().norm();
     const auto none = [&](double curvature) { return std::abs(curvature) * size < kPrecision; };
-    const auto alike = [&](double a, double b) { return std::abs(a - b) <= kPrecision * std::max(std::abs(a), std::abs(b)); };
+    const auto alike = [&](double a, double b) {
+        return std::abs(a - b) <= kPrecision * std::max(std::abs(a), std::abs(b));
+    };
     const auto all = [&](auto&& test) { return std::all_of(bends.begin(), bends.end(), test); };
     const Bend& one = bends.front();
 
@@ -82,7 +87,8 @@ std::string kind_by_bending(int tag, const ParameterBox& box)
         }
         return collinear(centres, size, kPrecision) ? "cone" : "surface";
     }
-    if (all([&](const Bend& b) { return alike(b.first, one.first) && alike(b.second, one.first); })) return "sphere";
+    if (all([&](const Bend& b) { return alike(b.first, one.first) && alike(b.second, one.first); }))
+        return "sphere";
     // A torus bends one way the same everywhere, and the other way around its axis.
     for (const double constant : {one.first, one.second}) {
         if (none(constant)) continue;
@@ -107,9 +113,10 @@ std::string kind_by_bending(int tag, const ParameterBox& box)
 std::string kind_of_face(int tag, const ParameterBox& box)
 {
     const std::string type = gmsh_type(2, tag);
-    for (const auto& [word, kind] : {std::pair("Plane", "plane"), std::pair("Cylinder", "cylinder"), std::pair("Cone", "cone"),
-                                     std::pair("Sphere", "sphere"), std::pair("Torus", "torus"),
-                                     std::pair("BSpline surface", "bspline"), std::pair("Bezier surface", "bspline")}) {
+    for (const auto& [word, kind] :
+         {std::pair("Plane", "plane"), std::pair("Cylinder", "cylinder"), std::pair("Cone", "cone"),
+          std::pair("Sphere", "sphere"), std::pair("Torus", "torus"), std::pair("BSpline surface", "bspline"),
+          std::pair("Bezier surface", "bspline")}) {
         if (type == word) return kind;
     }
     return kind_by_bending(tag, box);

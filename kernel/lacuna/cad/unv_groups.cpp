@@ -17,7 +17,11 @@ constexpr std::array kGroupDatasets{2429, 2430, 2432, 2435, 2452, 2467, 2477};
 /// What an entity of a group must be to count.
 constexpr int kElement = 8;
 
-bool is_mark(const std::string& line) { return std::atoi(line.c_str()) == -1 && line.find_first_not_of(" -1\r\t") == std::string::npos && line.find("-1") != std::string::npos; }
+bool is_mark(const std::string& line)
+{
+    return std::atoi(line.c_str()) == -1 && line.find_first_not_of(" -1\r\t") == std::string::npos &&
+           line.find("-1") != std::string::npos;
+}
 
 std::vector<long> numbers_in(const std::string& line)
 {
@@ -36,12 +40,14 @@ void read_dataset(std::ifstream& file, std::map<std::size_t, UnvGroup>& groups)
         const std::vector<long> head = numbers_in(line);
         if (head.size() < 8 || !std::getline(file, line)) return;
         UnvGroup group{static_cast<int>(head[0]), line};
-        while (!group.name.empty() && std::isspace(static_cast<unsigned char>(group.name.back()))) group.name.pop_back();
+        while (!group.name.empty() && std::isspace(static_cast<unsigned char>(group.name.back())))
+            group.name.pop_back();
         group.name.erase(0, group.name.find_first_not_of(" \t"));
         for (long left = head[7]; left > 0 && std::getline(file, line); left -= 2) {
             const std::vector<long> entities = numbers_in(line);
             for (std::size_t i = 0; i + 1 < entities.size(); i += 4) {
-                if (entities[i] == kElement) groups.try_emplace(static_cast<std::size_t>(entities[i + 1]), group);
+                if (entities[i] == kElement)
+                    groups.try_emplace(static_cast<std::size_t>(entities[i + 1]), group);
             }
         }
     }
