@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "surface/sealed.h"
+
+#include <lacuna/core/error.h>
+#include <lacuna/surface/seeds.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace lacuna;
+using namespace lacuna::topology;
+using surface::QuadStyle;
+using surface::Seeds;
+using test::PrismOptions;
+using test::without;
+
+namespace {
+
+surface::SizeField even(double size)
+{
+    return [size](const Vec3&) { return size; };
+}
+
+int total(const Model& model, FaceId face, const Seeds& seeds)
+{
+    int sum = 0;
+    for (const Loop& loop : model[face].loops) {
+        for (const EdgeUse& use : loop.uses) sum += seeds.count(use.edge);
+    }
+    return sum;
+}
+
+/// Mapped faces: as many sides opposite each other. Free ones: an even number in all. Pieces run over each edge without a gap.
+void check_seeds(const OpenVolume& volume, const Seeds& seeds)
+{
+    const Model& model = volume.model;
+    for (const FaceId face : volume.faces(Role::source)) {
+        const auto corners = seeds.corners.find(face);
+        if (corners == seeds.corners.end()) {
+            CHECK(total(model, face, seeds) % 2 == 0);
+            continue;
+        }
+        REQUIRE(corners->second.size() == 4);
+        const Loop& loop = model[face].loops.front();
+        std::array<int, 4> side{};
+        for (std::size_t s = 0; s < 4; ++s) {
+            for (std::size_t i = corners->second[s]; i != corners->second[(s + 1) % 4]; i = (i + 1) % loop.uses.size())
+                side[s] += seeds.count(loop.uses[i].edge);
+        }
+        CHECK(side[0] == side[2]);
+        CHECK(side[1] == side[3]);
+    }
+    for (const auto& [edge, pieces] : seeds.pieces) {
+        double at = 0;
+        for (const auto& piece : pieces) {
+            CHECK(piece.from == doctest::Approx(at));
+            CHECK(piece.count >= 1);
+            at = piece.to;
+        }
+        CHECK(at == doctest::Approx(1));
+        const auto fractions = seeds.fractions(edge);
+        CHECK(fractions.size() == static_cast<std::size_t>(seeds.count(edge)) + 1);
+        CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+        CHECK(fractions.front() == 0);
+        CHECK(fractions.back() == 1);
+    }
+}
+
+} // namespace
+
+TEST_CASE("seeds follow the size, are even in all where faces are free, and equal on opposite sides where mapped")
+{
+    int combinations = 0;
+    for (const int sides : {0, 3, 4, 5, 7}) {
+        for (const int holes : {0, 1, 3}) {
+            for (const int hole_sides : {0, 3, 4}) {
+                for (const double size : {0.03, 0.11, 0.4, 5.0}) {
+                    for (const QuadStyle style : {QuadStyle::automatic, QuadStyle::free}) {
+                        const auto volume = test::sealed({.sides = sides, .holes = holes, .hole_sides = hole_sides});
+                        const auto belts = surface::belts(volume);
+                        const Seeds seeds = surface::seed_source(volume, belts, even(size), style);
+                        CAPTURE(sides);
+                        CAPTURE(holes);
+                        CAPTURE(hole_sides);
+                        CAPTURE(size);
+                        check_seeds(volume, seeds);
+                        CHECK((!seeds.corners.empty()) == (sides == 4 && holes == 0 && style == QuadStyle::automatic));
+                        int raised = 0;
+                        for (const auto& [edge, pieces] : seeds.pieces) {
+                            const double wanted = edge_length(volume.model, edge) / size;
+                            const bool round = volume.model[edge].from == volume.model[edge].to;
+                            const int least = round ? 8 : 1;
+                            const int plain = std::max(least, static_cast<int>(std::lround(wanted - 1e-6)));
+                            CHECK(seeds.count(edge) >= plain);
+                            raised += seeds.count(edge) - plain;
+                        }
+                        CHECK(raised <= 1);
+                        ++combinations;
+                    }
+                }
+            }
+        }
+    }
+    MESSAGE(combinations << " sources");
+}
+
+TEST_CASE("boards of source faces agree along the edges they share")
+{
+    int combinations = 0;
+    for (const auto& [n, m] : std::vector<std::pair<int, int>>{{1, 2}, {3, 2}, {4, 4}, {5, 3}}) {
+        for (const bool hole : {false, true}) {
+            if (hole && (n < 3 || m < 3)) continue;
+            const auto volume = test::board_box(n, m, 1, [&](int i, int j) { return hole && i == 1 && j == 1; });
+            const auto belts = surface::belts(volume);
+            for (const QuadStyle style : {QuadStyle::automatic, QuadStyle::free, QuadStyle::mapped}) {
+                const auto graded = [](const Vec3& p) { return 0.15 + 0.1 * p.x() + 0.03 * p.y() * p.y(); };
+                CAPTURE(n);
+                CAPTURE(m);
+                CAPTURE(hole);
+                check_seeds(volume, surface::seed_source(volume, belts, graded, style));
+                check_seeds(volume, surface::seed_source(volume, belts, even(0.37), style));
+                combinations += 2;
+            }
+        }
+    }
+    MESSAGE(combinations << " boards");
+}
+
+TEST_CASE("a face that is to be mapped and has not four corners is refused by name")
+{
+    for (const int sides : {3, 5, 0}) {
+        const auto volume = test::sealed({.sides = sides});
+        const auto belts = surface::belts(volume);
+        try {
+            surface::seed_source(volume, belts, even(0.2), QuadStyle::mapped);
+            FAIL("it was mapped");
+        } catch (const NotSweepable& error) {
+            CHECK(error.code() == "surface.not_four_sided");
+            CHECK(std::string(error.what()).find("face ") != std::string::npos);
+        }
+    }
+    // Four corners, and a hole.
+    const auto holed = test::sealed({.sides = 4, .holes = 1});
+    CHECK_THROWS_AS(surface::seed_source(holed, surface::belts(holed), even(0.2), QuadStyle::mapped), NotSweepable);
+}
+
+TEST_CASE("a size that varies is followed along an edge")
+{
+    const auto volume = test::sealed({.sides = 4});
+    const auto belts = surface::belts(volume);
+    const auto graded = [](const Vec3& p) { return p.x() > 0 ? 0.05 : 0.2; };
+    const Seeds seeds = surface::seed_source(volume, belts, graded, QuadStyle::free);
+    int fine = 0, coarse = 0;
+    for (const auto& [edge, pieces] : seeds.pieces) {
+        const Vec3 a = volume.model.at(volume.model[edge].points.front()), b = volume.model.at(volume.model[edge].points.back());
+        ((a + b).x() > 0 ? fine : coarse) += seeds.count(edge);
+    }
+    CHECK(fine == doctest::Approx(4 * coarse).epsilon(0.1));
+}
+
+TEST_CASE("the spacing of the rim is the mean of its facets' sides")
+{
+    for (const int cuts : {1, 4}) {
+        const auto volume = test::sealed({.sides = 6, .cuts = cuts});
+        CHECK(surface::rim_spacing(volume) == doctest::Approx(1.0 / cuts));
+    }
+}
