@@ -107,20 +107,7 @@ void divide_sides(Model& model, unsigned seed)
         }
         edge = finer;
     }
-    for (Face& face : model.faces) {
-        std::vector<Triangle> triangles;
-        std::vector<std::array<Vec2, 3>> uv;
-        for (std::size_t t = 0; t < face.triangles.size(); ++t) {
-            ParamFacet facet{face.triangles[t]};
-            if (!face.uv.empty()) facet.uv = face.uv[t];
-            for (const ParamFacet& part : cut_at_sides(model.points, facet, sides)) {
-                triangles.push_back(part.corner);
-                if (!face.uv.empty()) uv.push_back(part.uv);
-            }
-        }
-        face.triangles = triangles;
-        face.uv = uv;
-    }
+    for (Face& face : model.faces) cut_at_sides(model.points, face, sides);
 }
 
 void divide_edges(Model& model, std::size_t every)

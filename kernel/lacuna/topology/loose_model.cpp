@@ -188,22 +188,11 @@ void LooseModel::cut(const SidePoints& sides, const std::vector<EdgeId>& edges)
     for (std::size_t f = 0; f < concerned.size(); ++f) {
         if (!concerned[f] || face_gone_[f]) continue;
         Face& face = model_.faces[f];
-        std::vector<Triangle> triangles;
-        std::vector<std::array<Vec2, 3>> uv;
-        for (std::size_t t = 0; t < face.triangles.size(); ++t) {
-            ParamFacet facet{face.triangles[t]};
-            if (!face.uv.empty()) facet.uv = face.uv[t];
-            for (const ParamFacet& part : cut_at_sides(model_.points, facet, sides)) {
-                if (repeats(part.corner)) continue;
-                triangles.push_back(part.corner);
-                if (!face.uv.empty()) uv.push_back(part.uv);
-            }
+        for (const Triangle& t : face.triangles)
             for (std::size_t k = 0; k < 3; ++k)
-                for (const Index p : sides.on(facet.corner[k], facet.corner[(k + 1) % 3]))
-                    touched_[index(p)] = true;
-        }
-        face.triangles = std::move(triangles);
-        face.uv = std::move(uv);
+                for (const Index p : sides.on(t[k], t[(k + 1) % 3])) touched_[index(p)] = true;
+        cut_at_sides(model_.points, face, sides);
+        shrink(FaceId(f));
         if (drop_folds(face)) folded_ = true;
     }
 }
@@ -287,18 +276,7 @@ void LooseModel::part_shortcuts()
             inside_.push_back(true);
         }
         if (middles.empty()) continue;
-        std::vector<Triangle> triangles;
-        std::vector<std::array<Vec2, 3>> uv;
-        for (std::size_t t = 0; t < face.triangles.size(); ++t) {
-            ParamFacet facet{face.triangles[t]};
-            if (!face.uv.empty()) facet.uv = face.uv[t];
-            for (const ParamFacet& part : cut_at_sides(model_.points, facet, middles)) {
-                triangles.push_back(part.corner);
-                if (!face.uv.empty()) uv.push_back(part.uv);
-            }
-        }
-        face.triangles = std::move(triangles);
-        face.uv = std::move(uv);
+        cut_at_sides(model_.points, face, middles);
     }
 }
 

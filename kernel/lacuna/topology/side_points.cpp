@@ -74,6 +74,22 @@ std::vector<ParamFacet> cut_at_sides(std::span<const Vec3> points, const ParamFa
     return result;
 }
 
+void cut_at_sides(std::span<const Vec3> points, Face& face, const SidePoints& sides)
+{
+    std::vector<Triangle> triangles;
+    std::vector<std::array<Vec2, 3>> uv;
+    for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+        ParamFacet facet{face.triangles[t]};
+        if (!face.uv.empty()) facet.uv = face.uv[t];
+        for (const ParamFacet& part : cut_at_sides(points, facet, sides)) {
+            triangles.push_back(part.corner);
+            if (!face.uv.empty()) uv.push_back(part.uv);
+        }
+    }
+    face.triangles = std::move(triangles);
+    face.uv = std::move(uv);
+}
+
 std::vector<NearSegment> near_segments(std::span<const Vec3> points,
                                        std::span<const std::array<Vec3, 2>> segments, double reach)
 {

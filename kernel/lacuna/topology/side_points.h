@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/core/types.h>
+#include <lacuna/topology/model.h>
 
 #include <span>
 #include <unordered_map>
@@ -33,6 +33,9 @@ struct ParamFacet {
 /// @pre  no point to be put on a side is a corner of the facet.
 std::vector<ParamFacet> cut_at_sides(std::span<const Vec3> points, const ParamFacet& facet,
                                      const SidePoints& sides);
+
+/// Cut the facets of a face; its given quads stay as they are.
+void cut_at_sides(std::span<const Vec3> points, Face& face, const SidePoints& sides);
 
 /// A point close to a segment.
 struct NearSegment {

@@ -60,21 +60,7 @@ void insert_point(Model& model, EdgeId id, const std::vector<FaceId>& users, std
 
     SidePoints sides;
     sides.add(a, b, {point});
-    for (const FaceId f : users) {
-        Face& face = model[f];
-        std::vector<Triangle> triangles;
-        std::vector<std::array<Vec2, 3>> uv;
-        for (std::size_t t = 0; t < face.triangles.size(); ++t) {
-            ParamFacet facet{face.triangles[t]};
-            if (!face.uv.empty()) facet.uv = face.uv[t];
-            for (const ParamFacet& part : cut_at_sides(model.points, facet, sides)) {
-                triangles.push_back(part.corner);
-                if (!face.uv.empty()) uv.push_back(part.uv);
-            }
-        }
-        face.triangles = std::move(triangles);
-        face.uv = std::move(uv);
-    }
+    for (const FaceId f : users) cut_at_sides(model.points, model[f], sides);
 }
 
 /// Make inner point `at` a vertex, and two edges of one.

@@ -6,13 +6,12 @@
 #include <lacuna/topology/stitch.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/topology/coincident_faces.h>
 #include <lacuna/topology/edge_track.h>
 #include <lacuna/topology/loose_model.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/surplus_faces.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -24,17 +23,6 @@ namespace {
 
 /// Points on an exact curve closer than this part of a side become one: facets between them would be slivers.
 constexpr double kJoinOnCurve = 0.25;
-/// Two free edges with the same ends look like a gap where they are no further apart than this part of the
-/// shorter one. The half circles round a hole are 0.45 of their length apart.
-constexpr double kLooksLikeGap = 0.25;
-
-std::string number(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
-
 std::size_t index(Index i) { return static_cast<std::size_t>(i); }
 
 class Stitcher {
@@ -46,9 +34,9 @@ public:
         join_vertices();
         split_at_vertices();
         merge_edges();
-        leave_out_thin_faces();
-        leave_out_repeated_faces();
-        note_gaps();
+        leave_out_thin_faces(loose_, tolerance_, report_);
+        leave_out_repeated_faces(loose_, tolerance_, report_);
+        note_gaps(loose_, tolerance_, report_);
         return std::move(report_);
     }
     Model result() { return loose_.settled(); }
@@ -92,11 +80,6 @@ private:
     std::vector<Bundle> bundles_of(std::vector<EdgeId> group);
     bool try_add(Bundle& bundle, EdgeId e);
     bool add_nodes(Bundle& bundle, EdgeId e, bool reversed, const std::vector<EdgeTrack::Place>& places);
-    void leave_out_thin_faces();
-    void leave_out_repeated_faces();
-    void leave_out_copies(const std::vector<FaceId>& alike, const std::vector<int>& class_of,
-                          const std::vector<std::vector<EdgeId>>& edges);
-    void note_gaps();
 
     const Model& model() const { return loose_.model(); }
     std::string edge_name(EdgeId e) const { return "edge " + std::to_string(model()[e].tag); }
@@ -147,10 +130,10 @@ void Stitcher::join_vertices()
         far = v;
     }
     if (furthest > 2 * tolerance_) {
-        report_.notes.push_back("vertices stand closer than the tolerance of " + number(tolerance_) +
+        report_.notes.push_back("vertices stand closer than the tolerance of " + in_words(tolerance_) +
                                 " in a chain; all became one, and vertex " +
-                                std::to_string(model().vertices[far].tag) + " moved by " + number(furthest) +
-                                "; give a smaller tolerance if they are to stay apart");
+                                std::to_string(model().vertices[far].tag) + " moved by " +
+                                in_words(furthest) + "; give a smaller tolerance if they are to stay apart");
     }
     settle_points();
     collapse_short_edges();
@@ -183,13 +166,13 @@ void Stitcher::settle_points()
     for (const FaceId f : shrunk.faces) {
         ++report_.faces_left_out;
         report_.notes.push_back(name_of(model(), f) + " is no wider than the tolerance of " +
-                                number(tolerance_) +
+                                in_words(tolerance_) +
                                 " and is left out; give a smaller tolerance if it is to stay");
     }
     for (const FaceId f : shrunk.meshes) {
         report_.notes.push_back("the mesh of " + name_of(model(), f) +
                                 " cannot be kept: it has quads with sides no longer than the tolerance of " +
-                                number(tolerance_) + "; give a smaller tolerance");
+                                in_words(tolerance_) + "; give a smaller tolerance");
     }
     tracks_.clear();
 }
@@ -554,125 +537,6 @@ bool Stitcher::add_nodes(Bundle& bundle, EdgeId e, bool reversed, const std::vec
     return true;
 }
 
-// --- faces too many -------------------------------------------------------------------------------------------
-
-/// Faces whose border lies on itself everywhere and that have next to no area.
-void Stitcher::leave_out_thin_faces()
-{
-    const std::vector<std::vector<EdgeId>> edges = loose_.edges_of_faces();
-    for (std::size_t f = 0; f < edges.size(); ++f) {
-        const FaceId face(f);
-        if (loose_.is_gone(face) || edges[f].empty()) continue;
-        std::map<EdgeId, int> uses;
-        double border = 0;
-        for (const EdgeId e : edges[f]) {
-            ++uses[e];
-            border += edge_length(model(), e);
-        }
-        const bool folded = std::all_of(uses.begin(), uses.end(),
-                                        [](const auto& use) { return use.second % 2 == 0; });
-        if (!folded || face_area(model(), face) > tolerance_ * border) continue;
-        report_.notes.push_back(name_of(model(), face) + " is no wider than the tolerance of " +
-                                number(tolerance_) +
-                                " and is left out; give a smaller tolerance if it is to stay");
-        ++report_.faces_left_out;
-        loose_.remove(face);
-    }
-}
-
-void Stitcher::leave_out_repeated_faces()
-{
-    const std::vector<std::vector<EdgeId>> edges = loose_.edges_of_faces();
-    std::map<std::vector<EdgeId>, std::vector<FaceId>> by_border;
-    for (std::size_t f = 0; f < edges.size(); ++f)
-        if (!loose_.is_gone(FaceId(f))) by_border[edges[f]].emplace_back(f);
-    // Many faces may have no border at all: spheres here and there. Their boxes tell most of them apart; those of
-    // other facets of the same surface differ by far less than a tenth.
-    std::map<FaceId, Eigen::AlignedBox3d> boxes;
-    const auto box_of = [&](FaceId f) -> const Eigen::AlignedBox3d& {
-        auto [box, fresh] = boxes.try_emplace(f);
-        if (!fresh) return box->second;
-        for (const Triangle& t : model()[f].triangles)
-            for (const Index p : t) box->second.extend(model().at(p));
-        return box->second;
-    };
-    const auto same_box = [&](FaceId a, FaceId b) {
-        const auto& of_a = box_of(a);
-        const auto& of_b = box_of(b);
-        const double apart = std::max((of_a.min() - of_b.min()).norm(), (of_a.max() - of_b.max()).norm());
-        return apart <= tolerance_ + of_a.diagonal().norm() / 10;
-    };
-    // Faces that lie on each other are of one class.
-    std::vector<int> class_of(edges.size(), -1);
-    std::vector<std::vector<FaceId>> classes;
-    for (std::size_t f = 0; f < edges.size(); ++f) {
-        if (loose_.is_gone(FaceId(f)) || class_of[f] >= 0) continue;
-        class_of[f] = static_cast<int>(classes.size());
-        classes.push_back({FaceId(f)});
-        const std::vector<FaceId>& rivals = by_border[edges[f]];
-        if (rivals.size() < 2) continue;
-        for (const FaceId other : rivals) {
-            if (class_of[other.index()] >= 0 || !same_box(FaceId(f), other)) continue;
-            if (!faces_coincide(model(), model().faces[f], model()[other], tolerance_)) continue;
-            class_of[other.index()] = class_of[f];
-            classes.back().push_back(other);
-        }
-    }
-    for (const std::vector<FaceId>& alike : classes)
-        if (alike.size() > 1) leave_out_copies(alike, class_of, edges);
-}
-
-void Stitcher::leave_out_copies(const std::vector<FaceId>& alike, const std::vector<int>& class_of,
-                                const std::vector<std::vector<EdgeId>>& edges)
-{
-    const int own = class_of[alike.front().index()];
-    std::size_t stay = 1;
-    for (const EdgeId e : edges[alike.front().index()]) {
-        std::set<int> others;
-        for (const FaceId f : loose_.users(e))
-            if (class_of[f.index()] != own) others.insert(class_of[f.index()]);
-        if (others.size() > 1) stay = 2; // each of two has a face that goes on from it
-    }
-    const auto worth = [&](FaceId f) {
-        return (model()[f].given_quads.empty() ? 0 : 2) + (model()[f].surface ? 1 : 0);
-    };
-    std::vector<FaceId> order = alike;
-    std::stable_sort(order.begin(), order.end(), [&](FaceId a, FaceId b) { return worth(a) > worth(b); });
-    for (std::size_t i = stay; i < order.size(); ++i) {
-        report_.notes.push_back(name_of(model(), order[i]) + " lies on " + name_of(model(), order[0]) +
-                                " everywhere: one face is listed twice, and " + name_of(model(), order[i]) +
-                                " is left out");
-        ++report_.faces_left_out;
-        loose_.remove(order[i]);
-    }
-}
-
-void Stitcher::note_gaps()
-{
-    std::map<std::pair<VertexId, VertexId>, std::vector<EdgeId>> groups;
-    for (std::size_t e = 0; e < model().edges.size(); ++e) {
-        const Edge& edge = model().edges[e];
-        if (loose_.is_free(EdgeId(e)) && edge.from != edge.to)
-            groups[std::minmax(edge.from, edge.to)].emplace_back(e);
-    }
-    for (const auto& [ends, group] : groups) {
-        for (std::size_t i = 0; i < group.size(); ++i) {
-            for (std::size_t k = i + 1; k < group.size(); ++k) {
-                const EdgeTrack& a = track(group[i]);
-                const EdgeTrack& b = track(group[k]);
-                const double gap = greatest_gap(a, b, tolerance_);
-                if (gap <= tolerance_ || gap > kLooksLikeGap * std::min(a.length(), b.length())) continue;
-                report_.notes.push_back(
-                    edge_name(group[i]) + " of " + name_of(model(), loose_.users(group[i])[0]) + " and " +
-                    edge_name(group[k]) + " of " + name_of(model(), loose_.users(group[k])[0]) +
-                    " have the same ends and part by " + number(gap) +
-                    " between them, more than the tolerance of " + number(tolerance_) +
-                    "; a gap stays there; give a larger tolerance to close it");
-            }
-        }
-    }
-}
-
 } // namespace
 
 std::string StitchReport::summary() const
@@ -694,11 +558,11 @@ StitchReport stitch(Model& model, double tolerance)
 {
     if (!(tolerance > 0)) {
         throw InvalidInput("topology.bad_tolerance",
-                           "the tolerance to stitch by is " + number(tolerance) + "; it must be above 0");
+                           "the tolerance to stitch by is " + in_words(tolerance) + "; it must be above 0");
     }
     const bool has_loops = std::any_of(model.faces.begin(), model.faces.end(),
                                        [](const Face& face) { return !face.loops.empty(); });
-    if (!has_loops) build_loops(model);
+    if (!has_loops && !model.edges.empty()) build_loops(model);
     Stitcher stitcher(model, tolerance);
     StitchReport report = stitcher.run();
     if (!report.changed()) return report;
