@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "made_files.h"
 
+#include <lacuna/cad/session.h>
+
 #include <doctest/doctest.h>
 #include <gmsh.h>
 
@@ -26,7 +28,10 @@ void with_gmsh(const std::string& path, const std::function<void()>& build)
     gmsh::model::add("made");
     build();
     occ::synchronize();
-    gmsh::write(path);
+    {
+        const cad::CapturedOutput quiet; // Open CASCADE reports every STEP file it writes
+        gmsh::write(path);
+    }
     gmsh::finalize();
 }
 

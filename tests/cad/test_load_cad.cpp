@@ -65,6 +65,85 @@ TEST_CASE("face tags, areas and centres are those of the plain import in Gmsh")
     }
 }
 
+TEST_CASE(
+    "machined and freeform solids keep each face's area: seams cut open, fillets, tangent bores, thin rings")
+{
+    using Shapes = std::vector<std::pair<const char*, std::function<void()>>>;
+    const auto cut = [](int body, const std::vector<int>& tools) {
+        gmsh::vectorpair of, out;
+        for (const int tool : tools) of.emplace_back(3, tool);
+        std::vector<gmsh::vectorpair> map;
+        occ::cut({{3, body}}, of, out, map);
+    };
+    const Shapes shapes{
+        {"crossing bores",
+         [&] { cut(occ::addCylinder(0, 0, -2, 0, 0, 4, 1), {occ::addCylinder(-2, 0, 0, 4, 0, 0, 0.5)}); }},
+        {"tangent bore",
+         [&] { cut(occ::addCylinder(0, 0, -2, 0, 0, 4, 1), {occ::addCylinder(-2, 0, 0, 4, 0, 0, 1)}); }},
+        {"cut torus",
+         [&] {
+             cut(occ::addTorus(0, 0, 0, 2, 0.7),
+                 {occ::addBox(0, 0.3, -2, 4, 4, 4), occ::addCylinder(-2, 0, -2, 0, 0, 4, 0.3)});
+         }},
+        {"sphere with a corner out",
+         [&] { cut(occ::addSphere(0, 0, 0, 1), {occ::addBox(0.2, 0.1, -2, 2, 2, 4)}); }},
+        {"thin eccentric ring",
+         [&] {
+             cut(occ::addCylinder(0, 0, 0, 0, 0, 1, 1), {occ::addCylinder(0.0008, 0, -1, 0, 0, 3, 0.999)});
+         }},
+        {"filleted box",
+         [] {
+             gmsh::vectorpair out;
+             occ::fillet({occ::addBox(0, 0, 0, 3, 2, 1)}, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, {0.2},
+                         out);
+         }},
+        {"ellipsoid",
+         [] {
+             occ::dilate({{3, occ::addSphere(0, 0, 0, 1)}}, 0, 0, 0, 1, 1.5, 2);
+         }},
+        {"loft",
+         [] {
+             std::vector<int> wires;
+             for (int k = 0; k < 4; ++k) {
+                 wires.push_back(
+                     occ::addCurveLoop({occ::addEllipse(0.1 * k, 0, k, 1 + 0.2 * k, 0.8 - 0.1 * k)}));
+             }
+             gmsh::vectorpair out;
+             occ::addThruSections(wires, out);
+         }},
+    };
+    const test::TempFolder folder;
+    for (const auto& [name, build] : shapes) {
+        for (const char* ending : {".brep", ".step"}) {
+            CAPTURE(name);
+            CAPTURE(ending);
+            const std::string path = folder.gmsh("shape" + std::string(ending), build);
+            const topology::Model model = cad::load({path});
+            test::check_model(model);
+            for (const int uses : test::uses_of_edges(model)) CHECK(uses == 2);
+            gmsh::initialize(0, nullptr, false);
+            gmsh::option::setNumber("General.Terminal", 0);
+            gmsh::vectorpair all, solids;
+            occ::importShapes(path, all, false);
+            occ::synchronize();
+            for (std::size_t f = 0; f < model.faces.size(); ++f) {
+                double area = 0;
+                occ::getMass(2, model.faces[f].tag, area);
+                CHECK(topology::face_area(model, FaceId(f)) == doctest::Approx(area).epsilon(kChord));
+            }
+            double volume = 0;
+            gmsh::model::getEntities(solids, 3);
+            for (const auto& solid : solids) {
+                double own = 0;
+                occ::getMass(3, solid.second, own);
+                volume += own;
+            }
+            CHECK(test::enclosed_volume(model) == doctest::Approx(volume).epsilon(2 * kChord));
+            gmsh::finalize();
+        }
+    }
+}
+
 TEST_CASE("the kind of a face is known, also where Gmsh does not say it")
 {
     const test::TempFolder folder;
