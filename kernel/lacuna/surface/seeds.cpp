@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -167,6 +169,14 @@ private:
             at.push_back(piece.from + (i + 0.5) / kSizeSamples * (piece.to - piece.from));
         double sides = 0;
         for (const Vec3& p : edge_points(model_, edge, at)) sides += piece.length / kSizeSamples / size_(p);
+        if (sides > std::numeric_limits<Index>::max() / 8) {
+            char count[32];
+            std::snprintf(count, sizeof count, "%.3g", sides);
+            throw NotSweepable("surface.too_many_sides",
+                               name_of(model_, edge) + " would have " + count +
+                                   " sides by the size asked for, more than nodes can be numbered; "
+                                   "give a larger size");
+        }
         const double bend = turning(model_, edge) * (piece.to - piece.from) / kTurnPerSide;
         return std::max({1, static_cast<int>(std::lround(sides)), static_cast<int>(std::ceil(bend - 1e-6))});
     }

@@ -10,7 +10,10 @@
 #include <lacuna/sweep/untangle.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <map>
 
 namespace lacuna::sweep {
@@ -55,6 +58,36 @@ surface::SizeField checked_size(const OpenVolume& volume, const SweepOptions& op
         }
         return h;
     };
+}
+
+/// Refuse at once what could never be numbered, instead of filling the memory first.
+void check_amount(const OpenVolume& volume, const surface::SizeField& size, const LayerSpec& layers)
+{
+    constexpr std::size_t kSamples = 64;
+    double quads = 0;
+    for (const FaceId face : volume.faces(Role::source)) {
+        const std::vector<Triangle>& triangles = volume.model[face].triangles;
+        const std::size_t step = std::max<std::size_t>(1, triangles.size() / kSamples);
+        double sum = 0, samples = 0;
+        for (std::size_t t = 0; t < triangles.size(); t += step) {
+            const double h = size(volume.model.at(triangles[t][0]));
+            sum += 1 / (h * h);
+            ++samples;
+        }
+        quads += face_area(volume.model, face) * sum / std::max(samples, 1.0);
+    }
+    const double levels = static_cast<double>(
+        std::max<std::size_t>(layers.heights.size(), static_cast<std::size_t>(std::max(layers.count, 1))));
+    if (quads < 1 || quads * levels < std::numeric_limits<Index>::max()) {
+        if (levels < std::numeric_limits<Index>::max() / 16.0) return;
+    }
+    std::array<char, 160> words{};
+    std::snprintf(
+        words.data(), words.size(),
+        "about %.2g quads on the source and %.0f layers make %.2g hexahedra, more than can be numbered",
+        quads, levels, std::max(quads, 1.0) * levels);
+    throw InvalidInput("sweep.too_many",
+                       std::string(words.data()) + "; ask for a larger 'size' or fewer 'layers'");
 }
 
 Columns columns_of(const OpenVolume& volume, const std::vector<surface::Belt>& belts,
@@ -263,6 +296,11 @@ bool can_turn_together(const std::vector<surface::Belt>& belts)
 Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
 {
     check_cancelled(context);
+    if (!(options.min_scaled_jacobian >= -1 && options.min_scaled_jacobian <= 1)) {
+        throw InvalidInput("sweep.min_scaled_jacobian", "min_scaled_jacobian is " +
+                                                            std::to_string(options.min_scaled_jacobian) +
+                                                            "; a scaled Jacobian lies between -1 and 1");
+    }
     std::vector<double> heights = layer_heights(options.layers);
     if (volume.turned_round) {
         std::reverse(heights.begin(), heights.end());
@@ -272,7 +310,6 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
         throw NotSweepable("sweep.not_closed",
                            "the volume is not sealed; close it first with volume:close()");
     }
-    const surface::SizeField size = checked_size(volume, options);
     const std::vector<surface::Belt> belts = surface::belts(volume);
     try {
         return sweep_between(volume, belts, heights, size, options, context);
