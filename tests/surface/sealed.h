@@ -12,13 +12,15 @@ namespace lacuna::test {
 inline topology::OpenVolume sealed(const PrismOptions& options, const closure::CloseOptions& close = {})
 {
     topology::OpenVolume volume = prism(options).open();
-    const bool ends = !volume.faces(topology::Role::source).empty() && !volume.faces(topology::Role::target).empty();
+    const bool ends = !volume.faces(topology::Role::source).empty() &&
+                      !volume.faces(topology::Role::target).empty();
     closure::close(volume, ends ? matching::match(volume) : matching::Match{}, close);
     return volume;
 }
 
 /// A box whose source is a board of n × m faces, and whose walls are one face a side; `gone` squares make holes, which have walls too.
-inline topology::OpenVolume board_box(int n, int m, double height, const std::function<bool(int, int)>& gone = nullptr)
+inline topology::OpenVolume board_box(int n, int m, double height,
+                                      const std::function<bool(int, int)>& gone = nullptr)
 {
     topology::FacetSoup soup;
     std::vector<topology::Role> role;
@@ -31,7 +33,9 @@ inline topology::OpenVolume board_box(int n, int m, double height, const std::fu
         soup.triangles.push_back({q[0], q[2], q[3]});
         soup.triangle_label.insert(soup.triangle_label.end(), 2, label);
     };
-    const auto left_out = [&](int i, int j) { return i < 0 || j < 0 || i >= n || j >= m || (gone && gone(i, j)); };
+    const auto left_out = [&](int i, int j) {
+        return i < 0 || j < 0 || i >= n || j >= m || (gone && gone(i, j));
+    };
     int label = 0;
     const auto face = [&](topology::Role r) {
         role.push_back(r);
@@ -45,8 +49,10 @@ inline topology::OpenVolume board_box(int n, int m, double height, const std::fu
         for (int j = 0; j < m; ++j) {
             if (left_out(i, j)) continue;
             const auto corner = [&](int di, int dj, double z) { return point(i + di, j + dj, z); };
-            add({corner(0, 0, 0), corner(0, 1, 0), corner(1, 1, 0), corner(1, 0, 0)}, face(topology::Role::source));
-            add({corner(0, 0, height), corner(1, 0, height), corner(1, 1, height), corner(0, 1, height)}, top);
+            add({corner(0, 0, 0), corner(0, 1, 0), corner(1, 1, 0), corner(1, 0, 0)},
+                face(topology::Role::source));
+            add({corner(0, 0, height), corner(1, 0, height), corner(1, 1, height), corner(0, 1, height)},
+                top);
             const std::array<std::array<int, 2>, 4> step{{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
             const std::array<std::array<int, 2>, 4> at{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
             for (std::size_t k = 0; k < 4; ++k) {
@@ -55,7 +61,8 @@ inline topology::OpenVolume board_box(int n, int m, double height, const std::fu
                 const bool rim = a < 0 || b < 0 || a >= n || b >= m;
                 const auto& p = at[k];
                 const auto& q = at[(k + 1) % 4];
-                add({corner(p[0], p[1], 0), corner(q[0], q[1], 0), corner(q[0], q[1], height), corner(p[0], p[1], height)},
+                add({corner(p[0], p[1], 0), corner(q[0], q[1], 0), corner(q[0], q[1], height),
+                     corner(p[0], p[1], height)},
                     rim ? outside[k] : face(topology::Role::wall));
             }
         }
@@ -66,7 +73,10 @@ inline topology::OpenVolume board_box(int n, int m, double height, const std::fu
     topology::Roles roles;
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         const auto r = role[static_cast<std::size_t>(std::stoi(model.faces[f].name.substr(1)))];
-        (r == topology::Role::source ? roles.source : r == topology::Role::target ? roles.target : roles.walls).emplace_back(f);
+        (r == topology::Role::source   ? roles.source
+         : r == topology::Role::target ? roles.target
+                                       : roles.walls)
+            .emplace_back(f);
     }
     return topology::open_volume(model, roles);
 }

@@ -31,7 +31,8 @@ void check_belt(const Belt& belt)
     REQUIRE(!belt.stretches.empty());
     CHECK(belt.stretches.front().source_from == 0);
     CHECK(belt.stretches.back().source_to == doctest::Approx(belt.source.length()));
-    CHECK(belt.stretches.back().target_to - belt.stretches.front().target_from == doctest::Approx(belt.target.length()));
+    CHECK(belt.stretches.back().target_to - belt.stretches.front().target_from ==
+          doctest::Approx(belt.target.length()));
     for (std::size_t i = 0; i < belt.stretches.size(); ++i) {
         const auto& s = belt.stretches[i];
         CHECK(s.source_from < s.source_to);
@@ -55,7 +56,14 @@ TEST_CASE("there is a belt a loop, its lines in order round both ends, and toget
                 for (const int rows : {1, 3}) {
                     for (const int pieces : {1, 2}) {
                         for (const double bend : {0.0, 80.0}) {
-                            const auto volume = test::sealed({.sides = sides, .height = 4, .holes = holes, .hole_sides = hole_sides, .rows = rows, .pieces = pieces, .levels = 4, .bend = bend});
+                            const auto volume = test::sealed({.sides = sides,
+                                                              .height = 4,
+                                                              .holes = holes,
+                                                              .hole_sides = hole_sides,
+                                                              .rows = rows,
+                                                              .pieces = pieces,
+                                                              .levels = 4,
+                                                              .bend = bend});
                             CAPTURE(sides);
                             CAPTURE(holes);
                             CAPTURE(hole_sides);
@@ -88,8 +96,11 @@ TEST_CASE("belts of void walls are like those of given ones")
     int combinations = 0;
     for (const int sides : {0, 3, 4, 5}) {
         for (const int holes : {0, 2}) {
-            for (const auto& drop : {without(false, false, true), without(false, false, false, {0}), without(false, false, false, {0, 1}), without(true, true, false), without(false, true, false)}) {
-                const auto volume = test::sealed({.sides = sides, .holes = holes, .taper = 0.7, .drop = drop});
+            for (const auto& drop : {without(false, false, true), without(false, false, false, {0}),
+                                     without(false, false, false, {0, 1}), without(true, true, false),
+                                     without(false, true, false)}) {
+                const auto volume = test::sealed(
+                    {.sides = sides, .holes = holes, .taper = 0.7, .drop = drop});
                 const auto belts = surface::belts(volume);
                 REQUIRE(belts.size() == static_cast<std::size_t>(holes) + 1);
                 for (const Belt& belt : belts) check_belt(belt);
@@ -104,12 +115,21 @@ TEST_CASE("without side lines the target is started where the walls lead straigh
 {
     for (const double twist : {0.0, 40.0, -100.0}) {
         for (const int hole_sides : {0}) {
-            const auto volume = test::sealed({.sides = 0, .height = 3, .holes = 1, .hole_sides = hole_sides, .cuts = 4, .levels = 12, .twist = twist});
+            const auto volume = test::sealed({.sides = 0,
+                                              .height = 3,
+                                              .holes = 1,
+                                              .hole_sides = hole_sides,
+                                              .cuts = 4,
+                                              .levels = 12,
+                                              .twist = twist});
             for (const Belt& belt : surface::belts(volume)) {
                 REQUIRE(belt.lines.empty());
-                const std::vector<double> low{0}, high{std::fmod(belt.stretches.front().target_from, belt.target.length())};
+                const std::vector<double> low{0},
+                    high{std::fmod(belt.stretches.front().target_from, belt.target.length())};
                 const Vec3 a = belt.source.points(low)[0], b = belt.target.points(high)[0];
-                const double turn = std::remainder(std::atan2(b.y(), b.x()) - std::atan2(a.y(), a.x()), 2 * std::numbers::pi) * 180 / std::numbers::pi;
+                const double turn = std::remainder(std::atan2(b.y(), b.x()) - std::atan2(a.y(), a.x()),
+                                                   2 * std::numbers::pi) *
+                                    180 / std::numbers::pi;
                 // Walls that turn their facets lead half of the way round with them; a smooth round wall does not turn anything.
                 CAPTURE(twist);
                 CHECK(std::abs(turn) <= std::abs(twist) + 2);
@@ -132,14 +152,22 @@ TEST_CASE("walls that do not join one loop to one are refused")
     }
 }
 
-TEST_CASE("the strip of a belt is one to one: neighbours stay neighbours, and it turns once round and once up")
+TEST_CASE(
+    "the strip of a belt is one to one: neighbours stay neighbours, and it turns once round and once up")
 {
     int combinations = 0;
     for (const int sides : {0, 3, 4}) {
         for (const int rows : {1, 3}) {
             for (const int pieces : {1, 2}) {
                 for (const double twist : {0.0, 30.0}) {
-                    const auto volume = test::sealed({.sides = sides, .height = 2, .cuts = 3, .rows = rows, .pieces = pieces, .levels = 4, .twist = twist, .taper = 0.8});
+                    const auto volume = test::sealed({.sides = sides,
+                                                      .height = 2,
+                                                      .cuts = 3,
+                                                      .rows = rows,
+                                                      .pieces = pieces,
+                                                      .levels = 4,
+                                                      .twist = twist,
+                                                      .taper = 0.8});
                     const Belt belt = surface::belts(volume).front();
                     const surface::WallMap map(volume, belt);
                     CAPTURE(sides);
@@ -157,8 +185,10 @@ TEST_CASE("the strip of a belt is one to one: neighbours stay neighbours, and it
                     for (int k = 0; k <= kUp; ++k) {
                         double round = 0;
                         for (int i = 0; i < kRound; ++i) {
-                            const Vec3 a = at(double(i) / kRound, double(k) / kUp), b = at(double(i + 1) / kRound, double(k) / kUp);
-                            const double step = std::remainder(std::atan2(b.y(), b.x()) - std::atan2(a.y(), a.x()), 2 * std::numbers::pi);
+                            const Vec3 a = at(double(i) / kRound, double(k) / kUp),
+                                       b = at(double(i + 1) / kRound, double(k) / kUp);
+                            const double step = std::remainder(
+                                std::atan2(b.y(), b.x()) - std::atan2(a.y(), a.x()), 2 * std::numbers::pi);
                             backward += step < 0 ? 1 : 0;
                             round += step;
                             if (k < kUp) {

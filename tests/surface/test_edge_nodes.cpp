@@ -24,15 +24,18 @@ class Circle final : public geometry::ExactCurve {
 public:
     void evaluate(std::span<const double> params, std::span<Vec3> points) const override
     {
-        for (std::size_t i = 0; i < params.size(); ++i) points[i] = Vec3(std::cos(params[i]), std::sin(params[i]), 0);
+        for (std::size_t i = 0; i < params.size(); ++i)
+            points[i] = Vec3(std::cos(params[i]), std::sin(params[i]), 0);
     }
 };
 
 } // namespace
 
-TEST_CASE("points of an edge keep its ends to the bit, and lie on it in order at their fractions of its length")
+TEST_CASE(
+    "points of an edge keep its ends to the bit, and lie on it in order at their fractions of its length")
 {
-    const auto prism = test::prism({.sides = 5, .holes = 1, .hole_sides = 0, .cuts = 3, .levels = 5, .twist = 30, .bend = 30});
+    const auto prism = test::prism(
+        {.sides = 5, .holes = 1, .hole_sides = 0, .cuts = 3, .levels = 5, .twist = 30, .bend = 30});
     const std::vector<double> fractions{-1, 0, 1e-17, 0.1, 0.25, 0.5, 0.9, 1 - 1e-17, 1, 2};
     for (std::size_t e = 0; e < prism.model.edges.size(); ++e) {
         const Edge& edge = prism.model.edges[e];
@@ -78,7 +81,8 @@ TEST_CASE("points of an edge with an exact curve lie on the curve, not on the ch
     const auto points = surface::edge_points(model, EdgeId(std::size_t(0)), fractions);
     for (std::size_t i = 0; i < points.size(); ++i) {
         CHECK(points[i].norm() == doctest::Approx(1).epsilon(1e-14));
-        CHECK(std::atan2(points[i].y(), points[i].x()) == doctest::Approx(std::numbers::pi * fractions[i]).epsilon(1e-9));
+        CHECK(std::atan2(points[i].y(), points[i].x()) ==
+              doctest::Approx(std::numbers::pi * fractions[i]).epsilon(1e-9));
     }
     CHECK(same_bits(points.front(), model.points.front()));
     CHECK(same_bits(points.back(), model.points.back()));
@@ -96,7 +100,9 @@ TEST_CASE("a chain runs through its edges in the direction they are used, and it
                     CHECK(chain.start(i) == doctest::Approx(sum));
                     sum += edge_length(volume.model, rim.uses[i].edge);
                     const std::vector<double> at{chain.start(i)};
-                    CHECK((chain.points(at)[0] - volume.model.at(volume.model[use_from(volume.model, rim.uses[i])].point)).norm() < 1e-12);
+                    CHECK((chain.points(at)[0] -
+                           volume.model.at(volume.model[use_from(volume.model, rim.uses[i])].point))
+                              .norm() < 1e-12);
                 }
                 CHECK(chain.length() == doctest::Approx(sum));
                 std::vector<double> at;
@@ -108,7 +114,8 @@ TEST_CASE("a chain runs through its edges in the direction they are used, and it
                     CHECK(place.fraction >= 0);
                     CHECK(place.fraction <= 1);
                     const std::vector<double> f{place.fraction};
-                    CHECK((surface::edge_points(volume.model, chain.uses()[place.use].edge, f)[0] - points[k]).norm() < 1e-12);
+                    CHECK((surface::edge_points(volume.model, chain.uses()[place.use].edge, f)[0] - points[k])
+                              .norm() < 1e-12);
                 }
             }
         }

@@ -46,7 +46,8 @@ void check_seeds(const OpenVolume& volume, const Seeds& seeds)
         const Loop& loop = model[face].loops.front();
         std::array<int, 4> side{};
         for (std::size_t s = 0; s < 4; ++s) {
-            for (std::size_t i = corners->second[s]; i != corners->second[(s + 1) % 4]; i = (i + 1) % loop.uses.size())
+            for (std::size_t i = corners->second[s]; i != corners->second[(s + 1) % 4];
+                 i = (i + 1) % loop.uses.size())
                 side[s] += seeds.count(loop.uses[i].edge);
         }
         CHECK(side[0] == side[2]);
@@ -70,7 +71,8 @@ void check_seeds(const OpenVolume& volume, const Seeds& seeds)
 
 } // namespace
 
-TEST_CASE("seeds follow the size, are even in all where faces are free, and equal on opposite sides where mapped")
+TEST_CASE(
+    "seeds follow the size, are even in all where faces are free, and equal on opposite sides where mapped")
 {
     int combinations = 0;
     for (const int sides : {0, 3, 4, 5, 7}) {
@@ -78,7 +80,8 @@ TEST_CASE("seeds follow the size, are even in all where faces are free, and equa
             for (const int hole_sides : {0, 3, 4}) {
                 for (const double size : {0.03, 0.11, 0.4, 5.0}) {
                     for (const QuadStyle style : {QuadStyle::automatic, QuadStyle::free}) {
-                        const auto volume = test::sealed({.sides = sides, .holes = holes, .hole_sides = hole_sides});
+                        const auto volume = test::sealed(
+                            {.sides = sides, .holes = holes, .hole_sides = hole_sides});
                         const auto belts = surface::belts(volume);
                         const Seeds seeds = surface::seed_source(volume, belts, even(size), style);
                         CAPTURE(sides);
@@ -86,7 +89,8 @@ TEST_CASE("seeds follow the size, are even in all where faces are free, and equa
                         CAPTURE(hole_sides);
                         CAPTURE(size);
                         check_seeds(volume, seeds);
-                        CHECK((!seeds.corners.empty()) == (sides == 4 && holes == 0 && style == QuadStyle::automatic));
+                        CHECK((!seeds.corners.empty()) ==
+                              (sides == 4 && holes == 0 && style == QuadStyle::automatic));
                         int raised = 0;
                         for (const auto& [edge, pieces] : seeds.pieces) {
                             const double wanted = edge_length(volume.model, edge) / size;
@@ -112,7 +116,8 @@ TEST_CASE("boards of source faces agree along the edges they share")
     for (const auto& [n, m] : std::vector<std::pair<int, int>>{{1, 2}, {3, 2}, {4, 4}, {5, 3}}) {
         for (const bool hole : {false, true}) {
             if (hole && (n < 3 || m < 3)) continue;
-            const auto volume = test::board_box(n, m, 1, [&](int i, int j) { return hole && i == 1 && j == 1; });
+            const auto volume = test::board_box(n, m, 1,
+                                                [&](int i, int j) { return hole && i == 1 && j == 1; });
             const auto belts = surface::belts(volume);
             for (const QuadStyle style : {QuadStyle::automatic, QuadStyle::free, QuadStyle::mapped}) {
                 const auto graded = [](const Vec3& p) { return 0.15 + 0.1 * p.x() + 0.03 * p.y() * p.y(); };
@@ -143,7 +148,8 @@ TEST_CASE("a face that is to be mapped and has not four corners is refused by na
     }
     // Four corners, and a hole.
     const auto holed = test::sealed({.sides = 4, .holes = 1});
-    CHECK_THROWS_AS(surface::seed_source(holed, surface::belts(holed), even(0.2), QuadStyle::mapped), NotSweepable);
+    CHECK_THROWS_AS(surface::seed_source(holed, surface::belts(holed), even(0.2), QuadStyle::mapped),
+                    NotSweepable);
 }
 
 TEST_CASE("a size that varies is followed along an edge")
@@ -154,7 +160,8 @@ TEST_CASE("a size that varies is followed along an edge")
     const Seeds seeds = surface::seed_source(volume, belts, graded, QuadStyle::free);
     int fine = 0, coarse = 0;
     for (const auto& [edge, pieces] : seeds.pieces) {
-        const Vec3 a = volume.model.at(volume.model[edge].points.front()), b = volume.model.at(volume.model[edge].points.back());
+        const Vec3 a = volume.model.at(volume.model[edge].points.front()),
+                   b = volume.model.at(volume.model[edge].points.back());
         ((a + b).x() > 0 ? fine : coarse) += seeds.count(edge);
     }
     CHECK(fine == doctest::Approx(4 * coarse).epsilon(0.1));

@@ -67,14 +67,19 @@ void check_walls(const OpenVolume& volume, const Meshed& mesh, std::size_t layer
         std::size_t folded = 0;
         for (std::size_t k = 0; k < layers; ++k) {
             for (std::size_t i = 0; i < n; ++i) {
-                const auto at = [&](std::size_t row, std::size_t column) { return wall.points[row * n + column % n]; };
+                const auto at = [&](std::size_t row, std::size_t column) {
+                    return wall.points[row * n + column % n];
+                };
                 const std::array<Vec3, 4> c{at(k, i), at(k, i + 1), at(k + 1, i + 1), at(k + 1, i)};
                 const Vec3 normal = (c[2] - c[0]).cross(c[3] - c[1]);
-                for (std::size_t j = 0; j < 4; ++j) folded += (c[(j + 1) % 4] - c[j]).cross(c[(j + 3) % 4] - c[j]).dot(normal) <= 0 ? 1 : 0;
+                for (std::size_t j = 0; j < 4; ++j)
+                    folded += (c[(j + 1) % 4] - c[j]).cross(c[(j + 3) % 4] - c[j]).dot(normal) <= 0 ? 1 : 0;
             }
         }
         CHECK(folded == 0);
-        for (const FaceId face : wall.face) CHECK(std::find(mesh.belts[b].walls.begin(), mesh.belts[b].walls.end(), face) != mesh.belts[b].walls.end());
+        for (const FaceId face : wall.face)
+            CHECK(std::find(mesh.belts[b].walls.begin(), mesh.belts[b].walls.end(), face) !=
+                  mesh.belts[b].walls.end());
     }
 }
 
@@ -89,14 +94,25 @@ TEST_CASE("nodes of walls lie on them, unfolded, whatever the walls are made of"
                 for (const int pieces : {1, 2}) {
                     for (const double twist : {0.0, 25.0}) {
                         for (const double bend : {0.0, 60.0}) {
-                            const auto volume = test::sealed({.sides = sides, .height = 4, .holes = holes, .hole_sides = sides, .cuts = 3, .rows = rows, .pieces = pieces, .levels = 8, .twist = twist, .taper = 0.8, .bend = bend});
+                            const auto volume = test::sealed({.sides = sides,
+                                                              .height = 4,
+                                                              .holes = holes,
+                                                              .hole_sides = sides,
+                                                              .cuts = 3,
+                                                              .rows = rows,
+                                                              .pieces = pieces,
+                                                              .levels = 8,
+                                                              .twist = twist,
+                                                              .taper = 0.8,
+                                                              .bend = bend});
                             CAPTURE(sides);
                             CAPTURE(holes);
                             CAPTURE(rows);
                             CAPTURE(pieces);
                             CAPTURE(twist);
                             CAPTURE(bend);
-                            check_walls(volume, meshed(volume, levels(6), sides == 0 && pieces == 1 ? 16 : 4), 6, 1e-9);
+                            check_walls(volume, meshed(volume, levels(6), sides == 0 && pieces == 1 ? 16 : 4),
+                                        6, 1e-9);
                             ++combinations;
                         }
                     }
@@ -114,8 +130,17 @@ TEST_CASE("nodes of void walls lie near their facets, unfolded")
         for (const int holes : {0, 1}) {
             for (const double twist : {0.0, 20.0}) {
                 for (const double bend : {0.0, 40.0}) {
-                    for (const auto& drop : {without(false, false, true), without(false, false, false, {0}), without(false, false, false, {0, 1})}) {
-                        const auto volume = test::sealed({.sides = sides, .height = 4, .holes = holes, .cuts = 4, .levels = 8, .twist = twist, .taper = 0.8, .bend = bend, .drop = drop});
+                    for (const auto& drop : {without(false, false, true), without(false, false, false, {0}),
+                                             without(false, false, false, {0, 1})}) {
+                        const auto volume = test::sealed({.sides = sides,
+                                                          .height = 4,
+                                                          .holes = holes,
+                                                          .cuts = 4,
+                                                          .levels = 8,
+                                                          .twist = twist,
+                                                          .taper = 0.8,
+                                                          .bend = bend,
+                                                          .drop = drop});
                         CAPTURE(sides);
                         CAPTURE(holes);
                         CAPTURE(twist);
@@ -135,19 +160,23 @@ TEST_CASE("rows of straight walls lie at their heights, whatever the spacing")
     const std::vector<double> heights{0, 0.05, 0.3, 0.35, 0.9, 1};
     for (const int sides : {0, 4, 5}) {
         for (const bool missing : {false, true}) {
-            const auto volume = test::sealed({.sides = sides, .height = 3, .taper = 0.9, .drop = without(false, false, missing)});
+            const auto volume = test::sealed(
+                {.sides = sides, .height = 3, .taper = 0.9, .drop = without(false, false, missing)});
             const auto mesh = meshed(volume, heights, sides == 0 ? 16 : 3);
             const std::size_t n = mesh.nodes[0].source_at.size();
             CAPTURE(sides);
             CAPTURE(missing);
             for (std::size_t k = 0; k < heights.size(); ++k) {
-                for (std::size_t i = 0; i < n; ++i) CHECK(mesh.walls[0].points[k * n + i].z() == doctest::Approx(3 * heights[k]).epsilon(1e-6));
+                for (std::size_t i = 0; i < n; ++i)
+                    CHECK(mesh.walls[0].points[k * n + i].z() ==
+                          doctest::Approx(3 * heights[k]).epsilon(1e-6));
             }
         }
     }
 }
 
-TEST_CASE("an edge between stacked walls is met by a layer, and quads on either side belong to the wall there")
+TEST_CASE(
+    "an edge between stacked walls is met by a layer, and quads on either side belong to the wall there")
 {
     int combinations = 0;
     for (const int sides : {0, 4}) {
@@ -155,7 +184,8 @@ TEST_CASE("an edge between stacked walls is met by a layer, and quads on either 
             for (const int layers : {3, 4, 7, 12}) {
                 if (layers < rows) continue;
                 const double height = 3;
-                const auto volume = test::sealed({.sides = sides, .height = height, .rows = rows, .levels = 2});
+                const auto volume = test::sealed(
+                    {.sides = sides, .height = height, .rows = rows, .levels = 2});
                 const auto mesh = meshed(volume, levels(layers), sides == 0 ? 16 : 3);
                 const std::size_t n = mesh.nodes[0].source_at.size();
                 CAPTURE(sides);
@@ -176,7 +206,8 @@ TEST_CASE("an edge between stacked walls is met by a layer, and quads on either 
                 for (std::size_t k = 0; k < static_cast<std::size_t>(layers); ++k) {
                     for (std::size_t i = 0; i < n; ++i) {
                         const auto [low, high] = span.at(mesh.walls[0].face[k * n + i]);
-                        for (const std::size_t corner : {k * n + i, k * n + (i + 1) % n, (k + 1) * n + i, (k + 1) * n + (i + 1) % n}) {
+                        for (const std::size_t corner :
+                             {k * n + i, k * n + (i + 1) % n, (k + 1) * n + i, (k + 1) * n + (i + 1) % n}) {
                             const double z = mesh.walls[0].points[corner].z();
                             across += z < low - 1e-6 || z > high + 1e-6 ? 1 : 0;
                         }
