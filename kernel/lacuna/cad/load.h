@@ -23,6 +23,7 @@ struct LoadOptions {
 /// CAD faces get facets (chord error and turn bounded by curvature), exact curves and surfaces, and the tags
 /// Gmsh shows for the file; loose faces are sewn; orientation is made consistent. Facets are cut into faces
 /// by topology::split_facets().
+/// What then still does not share edges is joined by topology::stitch(); what it left out or apart is in Model::notes.
 /// @throw InvalidInput  a missing, empty or unreadable file, an unknown ending; names the file.
 /// @throw BackendError  Gmsh's own words, with the file.
 topology::Model load(const std::vector<std::string>& paths, const LoadOptions& options = {},
