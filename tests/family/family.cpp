@@ -57,9 +57,9 @@ bool is_void(const mesh::SkinPatch& patch)
                        [](const std::string& group) { return group.starts_with("void:"); });
 }
 
-/// What lies between the mesh's skin and the facets. Nodes of given faces belong on their facets; those of void faces, on
-/// the surface that the facets cut roughly, and the middles of quads stray by what a side can on a curve: a quarter
-/// of its length. The distance times the area bounds the volume between.
+/// What lies between the mesh's skin and the facets. Nodes of given faces belong on their facets;
+/// those of void faces, on the surface that the facets cut roughly, and the middles of quads stray by what a
+/// side can on a curve: a quarter of its length. The distance times the area bounds the volume between.
 void compare_with_facets(const OpenVolume& volume, const mesh::HexMesh& mesh,
                          std::vector<std::string>& faults)
 {
@@ -166,7 +166,7 @@ PrismOptions options_of(const Member& member)
     return o;
 }
 
-Ending run(const Member& member)
+Ending run(const Member& member, closure::EdgeShape shape)
 {
     const Prism whole = prism(options_of(member));
     Ending ending;
@@ -176,13 +176,13 @@ Ending run(const Member& member)
         if (found != member.value)
             ending.faults.push_back("taken for class " + std::string(to_string(found)));
         const bool ends = !volume.faces(Role::source).empty() && !volume.faces(Role::target).empty();
-        const closure::Closure closed = closure::close(volume,
-                                                       ends ? matching::match(volume) : matching::Match{});
+        const closure::Closure closed = closure::close(
+            volume, ends ? matching::match(volume) : matching::Match{}, {.edge_shape = shape});
         if (!closed.watertight || !closure::is_watertight(volume))
             ending.faults.push_back("closed, and not watertight");
-        // Straight and parallel or tilted: what was left out is known. Elsewhere void faces may differ from what was there.
+        // Straight and parallel or tilted: what was left out is known. Elsewhere void faces may differ.
         const double off = std::abs(closure::enclosed_volume(volume) - whole.facet_volume);
-        // A tilted circle is an ellipse, and the facets between it and the circle below may join other points of theirs.
+        // A tilted circle is an ellipse; the facets between it and the circle below may join other points.
         const double known = member.edges == 1 && member.target == End::tilted ? 2e-3 : 1e-9;
         if (member.twist == 0 && member.target != End::bowed && off > known * whole.facet_volume)
             ending.faults.push_back("the closed volume is off by " + std::to_string(off));

@@ -3,14 +3,14 @@
 
 #include "support/volumes.h"
 
-#include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/closure/close.h>
 
 #include <string>
 #include <vector>
 
 namespace lacuna::test {
 
-/// One open volume of the family: every class with every number of loops, kind of target, edges a loop and twist.
+/// One open volume of the family: every class with all numbers of loops, targets, edges and twists.
 struct Member {
     topology::VolumeClass value = topology::VolumeClass::I;
     int loops = 1; ///< the outer one and holes
@@ -37,6 +37,6 @@ struct Ending {
 };
 
 /// Open, match, close and sweep a member, and look for faults at every stage.
-Ending run(const Member& member);
+Ending run(const Member& member, closure::EdgeShape shape = closure::EdgeShape::automatic);
 
 } // namespace lacuna::test
