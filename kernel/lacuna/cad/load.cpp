@@ -101,6 +101,13 @@ void append(topology::Model& model, topology::Model more)
 /// What reading the files has not joined: T-junctions, faces of different files, faces listed twice.
 void stitch(topology::Model& model, const RunContext& context)
 {
+    constexpr double kMostTolerance = 0.01; // of the diagonal: more than this joins what was drawn apart
+    if (model.tolerance > kMostTolerance * model.diagonal) {
+        throw InvalidInput("cad.tolerance", "the tolerance " + std::to_string(model.tolerance) +
+                                                " is more than a hundredth of the model's diagonal (" +
+                                                std::to_string(model.diagonal) +
+                                                "), so faces would fall together; give a smaller one");
+    }
     const topology::StitchReport report = topology::stitch(model, model.tolerance);
     if (report.changed()) log_line(context, report.summary());
     model.notes.insert(model.notes.end(), report.notes.begin(), report.notes.end());

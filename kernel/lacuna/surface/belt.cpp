@@ -106,7 +106,8 @@ std::vector<double> corners_between(const Model& model, const Chain& chain, doub
         for (std::size_t i = 0; i < chain.uses().size(); ++i) {
             const double at = chain.start(i) + turn * length;
             const double margin = 1e-9 * length;
-            if (at > from + margin && at < to - margin && (all || matching::is_corner(model, chain.uses(), i)))
+            if (at > from + margin && at < to - margin &&
+                (all || matching::is_corner(model, chain.uses(), i)))
                 result.push_back(at);
         }
     }
@@ -230,6 +231,23 @@ Belt make_belt(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& s
     return belt;
 }
 
+/// The walls of a loop are a ring. With a tunnel through them (a bore from one wall to another) no strip covers them.
+void check_ring(const Model& model, const std::vector<FaceId>& part)
+{
+    if (euler_number(model, part) == 0) return;
+    std::vector<FaceId> pierced;
+    for (const FaceId face : part) {
+        if (model[face].loops.size() > 1) pierced.push_back(face);
+    }
+    throw NotSweepable(
+        "surface.wall_pierced",
+        "the walls " + names(model, part) + " do not form a plain ring between source and target" +
+            (pierced.empty()
+                 ? std::string()
+                 : ": " + names(model, pierced) + " have openings that other walls lead through") +
+            "; sweep along the openings instead, or leave out the walls inside them so that they are closed");
+}
+
 } // namespace
 
 std::vector<Belt> belts(const OpenVolume& volume, Turning turning)
@@ -248,6 +266,7 @@ std::vector<Belt> belts(const OpenVolume& volume, Turning turning)
     for (std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
         const std::size_t s = only_rim(model, part, source, "source");
         const std::size_t t = only_rim(model, part, target, "target");
+        check_ring(model, part);
         if (by_rim[s]) {
             throw NotSweepable(
                 "surface.belt_twice",

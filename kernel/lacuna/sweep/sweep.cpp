@@ -301,6 +301,8 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
                                                             std::to_string(options.min_scaled_jacobian) +
                                                             "; a scaled Jacobian lies between -1 and 1");
     }
+    const surface::SizeField size = checked_size(volume, options);
+    check_amount(volume, size, options.layers);
     std::vector<double> heights = layer_heights(options.layers);
     if (volume.turned_round) {
         std::reverse(heights.begin(), heights.end());

@@ -107,24 +107,6 @@ int rim_with(const Patch& patch, EdgeId edge)
     return -1;
 }
 
-/// V − E + F of a set of faces' facets: 0 for a tube, 1 for a disc.
-long euler(const Model& model, const std::vector<FaceId>& faces)
-{
-    std::set<Index> points;
-    std::set<std::pair<Index, Index>> sides;
-    long triangles = 0;
-    for (const FaceId face : faces) {
-        for (const Triangle& t : model[face].triangles) {
-            ++triangles;
-            for (std::size_t i = 0; i < 3; ++i) {
-                points.insert(t[i]);
-                sides.emplace(std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3]));
-            }
-        }
-    }
-    return static_cast<long>(points.size()) - static_cast<long>(sides.size()) + triangles;
-}
-
 class Reader {
 public:
     explicit Reader(const Model& model)
@@ -211,6 +193,9 @@ private:
         candidate.roles = {s.faces, t.faces, others(a, b)};
         std::map<int, int> joined;
         for (const std::vector<FaceId>& part : connected_parts(model_, candidate.roles.walls)) {
+            // Walls with a tunnel through them are no ring, whatever is done about what is missing.
+            if (euler_number(model_, part) != 2 - static_cast<long>(rims(model_, part).size()))
+                return std::nullopt;
             const std::set<int> on_s = rims_touched(s, part), on_t = rims_touched(t, part);
             if (on_s.size() != 1 || on_t.size() != 1) return std::nullopt;
             const auto [found, fresh] = joined.try_emplace(*on_s.begin(), *on_t.begin());
@@ -246,7 +231,7 @@ private:
         for (const std::vector<FaceId>& part : connected_parts(model_, candidate.roles.walls)) {
             const std::set<int> on_s = rims_touched(s, part);
             if (on_s.size() != 1 || !served.insert(*on_s.begin()).second) return std::nullopt;
-            if (rims(model_, part).size() != 2 || euler(model_, part) != 0) return std::nullopt;
+            if (rims(model_, part).size() != 2 || euler_number(model_, part) != 0) return std::nullopt;
         }
         candidate.cost = kOneEnd + bend(s) + slant(s);
         candidate.reasons = {names(s.faces) + " has walls on its whole rim, and each ring of walls ends in "
@@ -262,7 +247,7 @@ private:
         const auto parts = connected_parts(model_, candidate.roles.walls);
         for (const std::vector<FaceId>& part : parts) {
             const std::vector<Rim> open = rims(model_, part);
-            if (open.size() != 2 || euler(model_, part) != 0) return std::nullopt;
+            if (open.size() != 2 || euler_number(model_, part) != 0) return std::nullopt;
             const auto cap = cap_cost(open[0], open[1]);
             if (!cap) return std::nullopt;
             cost += *cap;

@@ -79,6 +79,30 @@ void check_walls_touch(const OpenVolume& volume)
     }
 }
 
+/// Source and target are the two ends of a sweep: what belongs to both would have no height.
+void check_ends_apart(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    std::vector<FaceId> owner(model.vertices.size());
+    for (const FaceId face : volume.faces(Role::source)) {
+        for (const Loop& loop : model[face].loops) {
+            for (const EdgeUse& use : loop.uses) owner[use_from(model, use).index()] = face;
+        }
+    }
+    for (const FaceId face : volume.faces(Role::target)) {
+        for (const Loop& loop : model[face].loops) {
+            for (const EdgeUse& use : loop.uses) {
+                const VertexId vertex = use_from(model, use);
+                if (!owner[vertex.index()].valid()) continue;
+                throw InvalidInput("topology.ends_touch",
+                                   "source " + name_of(model, owner[vertex.index()]) + " and target " +
+                                       name_of(model, face) + " meet in " + name_of(model, vertex) +
+                                       "; a sweep needs a way between its ends: choose faces that lie apart");
+            }
+        }
+    }
+}
+
 void check_override(const OpenVolume& volume, const Classification& found)
 {
     if (!volume.override_class || *volume.override_class == found.value) return;
@@ -241,6 +265,7 @@ OpenVolume open_volume(const Model& model, const Roles& roles)
     volume.model = extract(model, faces);
     orient_consistently(volume.model);
     check_walls_touch(volume);
+    check_ends_apart(volume);
     if (roles.source.empty() && !roles.target.empty()) {
         // Class IV turned round: the end that is there is swept from, and the names change back when the mesh is made.
         for (Role& role : volume.role) role = role == Role::target ? Role::source : role;

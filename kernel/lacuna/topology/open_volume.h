@@ -59,6 +59,9 @@ std::vector<std::vector<FaceUse>> edge_uses(const Model& model);
 /// The faces named, as parts that hang together by shared edges; in order of their first face.
 std::vector<std::vector<FaceId>> connected_parts(const Model& model, const std::vector<FaceId>& faces);
 
+/// V − E + F of the faces' facets: 0 for a tube, 1 for a disc; 2 less the number of rims for anything without handles.
+long euler_number(const Model& model, const std::vector<FaceId>& faces);
+
 /// Turn faces over.
 void flip_faces(Model& model, const std::vector<FaceId>& faces);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace lacuna::topology {
 
@@ -62,6 +63,23 @@ std::vector<Rim> rims(const Model& model, const std::vector<FaceId>& faces)
     std::stable_sort(result.begin(), result.end(),
                      [&](const Rim& a, const Rim& b) { return length_of(model, a) > length_of(model, b); });
     return result;
+}
+
+long euler_number(const Model& model, const std::vector<FaceId>& faces)
+{
+    std::set<Index> points;
+    std::set<std::pair<Index, Index>> sides;
+    long triangles = 0;
+    for (const FaceId face : faces) {
+        for (const Triangle& t : model[face].triangles) {
+            ++triangles;
+            for (std::size_t i = 0; i < 3; ++i) {
+                points.insert(t[i]);
+                sides.emplace(std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3]));
+            }
+        }
+    }
+    return static_cast<long>(points.size()) - static_cast<long>(sides.size()) + triangles;
 }
 
 std::vector<EdgeId> free_edges(const OpenVolume& volume)
