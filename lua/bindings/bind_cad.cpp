@@ -6,6 +6,7 @@
 
 #ifdef LACUNA_WITH_CAD
 #include <lacuna/cad/load.h>
+#include <lacuna/cad/write_cad.h>
 #endif
 
 namespace lacuna::lua {
@@ -64,6 +65,31 @@ int load(lua_State* L)
     return 1;
 }
 
+const Option<cad::WriteCadOptions> kWriteOptions[] = {
+    {"tolerance", positive<&cad::WriteCadOptions::tolerance>},
+    {"deviation", positive<&cad::WriteCadOptions::deviation>},
+};
+
+/// { volume=, faces=, planes=, fitted=, tolerance= } = volume:write_cad(path [, options])
+int write_cad(lua_State* L)
+{
+    lua_settop(L, 3);
+    const auto& state = check<VolumeState>(L, 1);
+    const char* path = push_output_path(L, 2, "write_cad");
+    cad::WriteCadOptions options;
+    read_options(L, 3, "write_cad", kWriteOptions, options);
+    RunContext& context = push_context(L);
+    cad::WrittenCad written;
+    guard(L, [&] { written = cad::write_cad(state.volume, path, options, context); });
+    lua_createtable(L, 0, 5);
+    set_number(L, "volume", written.volume);
+    set_number(L, "tolerance", written.tolerance);
+    set_count(L, "faces", written.faces);
+    set_count(L, "planes", written.planes);
+    set_count(L, "fitted", written.fitted);
+    return 1;
+}
+
 } // namespace
 
 /// Push the version of Gmsh.
@@ -83,6 +109,11 @@ int load(lua_State* L)
             "lacuna.model():add_face");
 }
 
+int write_cad(lua_State* L)
+{
+    fail(L, "write_cad: this build writes no CAD files, it was made with LACUNA_WITH_CAD=OFF; write the facets with write_facets");
+}
+
 } // namespace
 
 int gmsh_version(lua_State* L)
@@ -95,8 +126,13 @@ int gmsh_version(lua_State* L)
 
 namespace {
 const luaL_Reg kFunctions[] = {{"load", load}, {nullptr, nullptr}};
-}
+const luaL_Reg kVolumeMethods[] = {{"write_cad", write_cad}, {nullptr, nullptr}};
+} // namespace
 
-void bind_cad(lua_State* L) { luaL_setfuncs(L, kFunctions, 0); }
+void bind_cad(lua_State* L)
+{
+    luaL_setfuncs(L, kFunctions, 0);
+    add_methods(L, kClassName<VolumeState>, kVolumeMethods);
+}
 
 } // namespace lacuna::lua

@@ -114,10 +114,6 @@ int write_facets(lua_State* L)
     return 0;
 }
 
-int write_cad(lua_State* L)
-{
-    return not_yet<VolumeState>(L, "write_cad", "sweep the volume and write the mesh");
-}
 
 /// quality = lacuna.check(path): of the hexahedra of a .msh file
 int check_file(lua_State* L)
@@ -139,8 +135,7 @@ int check_file(lua_State* L)
 }
 
 const luaL_Reg kMeshMethods[] = {{"write", write}, {"view", view}, {nullptr, nullptr}};
-const luaL_Reg kVolumeMethods[] = {
-    {"write_facets", write_facets}, {"write_cad", write_cad}, {nullptr, nullptr}};
+const luaL_Reg kVolumeMethods[] = {{"write_facets", write_facets}, {nullptr, nullptr}};
 
 const luaL_Reg kFunctions[] = {{"check", check_file}, {nullptr, nullptr}};
 
