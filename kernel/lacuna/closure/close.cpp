@@ -2,7 +2,6 @@
 #include <lacuna/closure/close.h>
 
 #include <lacuna/closure/class_five.h>
-#include <lacuna/closure/cut_edges.h>
 #include <lacuna/closure/follow.h>
 #include <lacuna/closure/sealing.h>
 #include <lacuna/closure/stubs.h>
@@ -79,8 +78,7 @@ void close_class_one_or_two(OpenVolume& volume, matching::Match match, const Fol
 {
     if (closure.value == VolumeClass::II) note(closure, "Algorithm 8");
     turn_target_to_source(volume, match);
-    const auto made = cut_edges(volume, match);
-    match.vertices.insert(match.vertices.end(), made.begin(), made.end());
+    matching::apply_splits(volume, match);
     check_matched(volume, match);
     closure.void_edges = make_void_edges(volume, match, follower);
     note(closure, "Algorithm 2");

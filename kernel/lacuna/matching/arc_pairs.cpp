@@ -1,27 +1,45 @@
 // SPDX-License-Identifier: MIT
+//
+// Everything is counted in shares of the source: a target vertex stands where the stretch between the loops takes it.
 #include <lacuna/matching/arc_pairs.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <tuple>
 
 namespace lacuna::matching {
 
 namespace {
 
-/// Vertices no further apart than this stand in one place: how far a loop may have been laid, of its length.
-constexpr double kSame = 1.0 / 128;
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Corners further apart than this share of a side are nearer to another place than to each other.
+constexpr double kFarCorner = 0.5;
+/// Vertices nearer than this share of the side beside them are paired, rather than a piece that short cut off.
+constexpr double kNear = 0.25;
 
-double share(double x) { return x - std::floor(x); }
+double share(double x)
+{
+    const double s = x - std::floor(x);
+    return s < 1 ? s : 0; // of a tiny negative number
+}
 
-/// A map of the circle that takes the target's shares to the source's: piecewise linear between hard pairs, a turn without them.
+double round_distance(double a, double b)
+{
+    const double apart = share(a - b);
+    return std::min(apart, 1 - apart);
+}
+
+/// A map of the circle that takes the target's shares to the source's: piecewise linear between pairs, a turn without them.
 class Stretch {
 public:
-    Stretch(double offset, bool backward, std::vector<std::pair<double, double>> fixed)
+    Stretch(double offset, bool backward, const std::vector<std::pair<double, double>>& fixed)
         : sign_(backward ? -1 : 1), offset_(offset)
     {
-        for (auto& [s, t] : fixed) knots_.emplace_back(s, turned(t));
+        for (const auto& [s, t] : fixed) knots_.emplace_back(s, turned(t));
         std::sort(knots_.begin(), knots_.end());
     }
 
@@ -56,57 +74,253 @@ private:
     std::vector<std::pair<double, double>> knots_; ///< (source, turned target)
 };
 
+/// Give each of `few` one of `many`, both rising, none crossing, with the least sum of squared distances. As many at most.
+/// @return which, and the sum.
+std::pair<std::vector<std::size_t>, double> in_line(const std::vector<double>& few,
+                                                    const std::vector<double>& many)
+{
+    const std::size_t n = few.size(), m = many.size();
+    std::vector<std::vector<double>> cost(n + 1, std::vector<double>(m + 1, kInfinity));
+    cost[0].assign(m + 1, 0);
+    for (std::size_t i = 1; i <= n; ++i) {
+        for (std::size_t j = i; j <= m; ++j)
+            cost[i][j] = std::min(cost[i][j - 1], cost[i - 1][j - 1] + std::pow(few[i - 1] - many[j - 1], 2));
+    }
+    std::vector<std::size_t> chosen(n);
+    for (std::size_t i = n, j = m; i > 0; --j) {
+        if (cost[i][j] == cost[i][j - 1]) continue;
+        chosen[--i] = j - 1;
+    }
+    return {chosen, cost[n][m]};
+}
+
+/// The same on a circle: wherever the first one goes, the others follow in line.
+std::vector<std::size_t> round_about(const std::vector<double>& few, const std::vector<double>& many)
+{
+    std::vector<std::size_t> best;
+    double least = kInfinity;
+    for (std::size_t r = 0; r < many.size(); ++r) {
+        const double first = many[r] + std::round(few[0] - many[r]);
+        const double alone = std::pow(few[0] - first, 2);
+        if (alone >= least) continue;
+        std::vector<double> rest(few.begin() + 1, few.end()), onward;
+        for (std::size_t k = 1; k < many.size(); ++k)
+            onward.push_back(first + share(many[(r + k) % many.size()] - many[r]));
+        const auto [chosen, cost] = in_line(rest, onward);
+        if (alone + cost >= least) continue;
+        least = alone + cost;
+        best = {r};
+        for (const std::size_t k : chosen) best.push_back((r + 1 + k) % many.size());
+    }
+    return best;
+}
+
+/// The two loops while they are being paired.
+class Pairing {
+public:
+    Pairing(const ArcLoop& source, const ArcLoop& target, double offset, bool backward, double most_twist)
+        : source_(source),
+          target_(target),
+          offset_(offset),
+          backward_(backward),
+          most_twist_(most_twist),
+          partner_(source.vertices.size(), kNone),
+          taken_(target.vertices.size(), kNone)
+    {
+        stretch();
+    }
+
+    void pair(VertexId s, VertexId t)
+    {
+        const auto index = [](const ArcLoop& loop, VertexId v) {
+            return static_cast<std::size_t>(std::find(loop.vertices.begin(), loop.vertices.end(), v) -
+                                            loop.vertices.begin());
+        };
+        const std::size_t i = index(source_, s), j = index(target_, t);
+        if (i < partner_.size() && j < taken_.size()) pair(i, j);
+    }
+
+    /// The places of the target by the pairs there are.
+    void stretch()
+    {
+        std::vector<std::pair<double, double>> knots;
+        for (std::size_t i = 0; i < partner_.size(); ++i) {
+            if (partner_[i] != kNone) knots.emplace_back(source_.at[i], target_.at[partner_[i]]);
+        }
+        stretch_.emplace(offset_, backward_, knots);
+        place_.clear();
+        for (const double t : target_.at) place_.push_back(stretch_->to_source(t));
+    }
+
+    void pair_corners()
+    {
+        std::vector<std::size_t> knots;
+        for (std::size_t i = 0; i < partner_.size(); ++i) {
+            if (partner_[i] != kNone) knots.push_back(i);
+        }
+        if (knots.empty()) pair_corners(0, 1, true);
+        for (std::size_t k = 0; k < knots.size(); ++k) {
+            const double from = source_.at[knots[k]];
+            const double run = knots.size() == 1 ? 1
+                                                 : share(source_.at[knots[(k + 1) % knots.size()]] - from);
+            pair_corners(from, run, false);
+        }
+        stretch();
+    }
+
+    void pair_near()
+    {
+        std::vector<std::tuple<double, std::size_t, std::size_t>> near;
+        for (std::size_t i = 0; i < partner_.size(); ++i) {
+            for (std::size_t j = 0; j < taken_.size(); ++j) {
+                if (!wants(source_, partner_, i) || !wants(target_, taken_, j)) continue;
+                const double reach = std::min(
+                    most_twist_, kNear * std::min(side(source_, i, true), side(target_, j, true)));
+                const double distance = round_distance(source_.at[i], place_[j]);
+                if (distance <= reach) near.emplace_back(distance, i, j);
+            }
+        }
+        std::sort(near.begin(), near.end());
+        for (const auto& [distance, i, j] : near) {
+            if (partner_[i] == kNone && taken_[j] == kNone) pair(i, j);
+        }
+        stretch();
+    }
+
+    ArcPairs result() const
+    {
+        ArcPairs found;
+        for (std::size_t i = 0; i < partner_.size(); ++i) {
+            if (partner_[i] != kNone)
+                found.vertices.emplace_back(source_.vertices[i], target_.vertices[partner_[i]]);
+            else if (source_.corner[i] && wants(source_, partner_, i))
+                found.split_target.emplace_back(source_.vertices[i], to_target(i));
+        }
+        for (std::size_t j = 0; j < taken_.size(); ++j) {
+            if (target_.corner[j] && wants(target_, taken_, j))
+                found.split_source.emplace_back(target_.vertices[j], place_[j]);
+        }
+        if (found.vertices.empty() && found.split_target.empty() && found.split_source.empty())
+            add_one(found);
+        return found;
+    }
+
+private:
+    void pair(std::size_t i, std::size_t j)
+    {
+        partner_[i] = j;
+        taken_[j] = i;
+    }
+
+    [[nodiscard]] double to_target(std::size_t i) const { return stretch_->to_target(source_.at[i]); }
+
+    static bool wants(const ArcLoop& loop, const std::vector<std::size_t>& partner, std::size_t i)
+    {
+        return loop.open[i] && partner[i] == kNone;
+    }
+
+    /// The shorter or the longer of the sides beside a vertex.
+    static double side(const ArcLoop& loop, std::size_t i, bool shorter)
+    {
+        const std::size_t n = loop.at.size();
+        if (n == 1) return 1;
+        const double before = share(loop.at[i] - loop.at[(i + n - 1) % n]),
+                     after = share(loop.at[(i + 1) % n] - loop.at[i]);
+        return shorter ? std::min(before, after) : std::max(before, after);
+    }
+
+    /// Corners within a stretch of the loops.
+    void pair_corners(double from, double run, bool whole)
+    {
+        std::vector<std::pair<double, std::size_t>> low, high;
+        const auto add = [&](auto& list, double at, std::size_t i) {
+            const double along = share(at - from);
+            if (whole || (along > 0 && along < run)) list.emplace_back(along, i);
+        };
+        for (std::size_t i = 0; i < partner_.size(); ++i) {
+            if (source_.corner[i] && wants(source_, partner_, i)) add(low, source_.at[i], i);
+        }
+        for (std::size_t j = 0; j < taken_.size(); ++j) {
+            if (target_.corner[j] && wants(target_, taken_, j)) add(high, place_[j], j);
+        }
+        if (low.empty() || high.empty()) return;
+        std::sort(low.begin(), low.end());
+        std::sort(high.begin(), high.end());
+        const bool more_above = low.size() <= high.size();
+        const auto& few = more_above ? low : high;
+        const auto& many = more_above ? high : low;
+        const auto places = [](const auto& list) {
+            std::vector<double> at;
+            for (const auto& entry : list) at.push_back(entry.first);
+            return at;
+        };
+        const std::vector<std::size_t> chosen = whole ? round_about(places(few), places(many))
+                                                      : in_line(places(few), places(many)).first;
+        for (std::size_t k = 0; k < few.size(); ++k) {
+            const std::size_t a = few[k].second, b = many[chosen[k]].second;
+            const std::size_t i = more_above ? a : b, j = more_above ? b : a;
+            const double reach = kFarCorner * std::max(side(source_, i, false), side(target_, j, false));
+            if (round_distance(source_.at[i], place_[j]) <= reach) pair(i, j);
+        }
+    }
+
+    /// A loop hangs on one void edge at least.
+    void add_one(ArcPairs& found) const
+    {
+        std::size_t best = kNone;
+        double farthest = -1;
+        for (std::size_t i = 0; i < partner_.size(); ++i) {
+            if (!source_.open[i]) continue;
+            double nearest = 1;
+            for (const double place : place_)
+                nearest = std::min(nearest, round_distance(source_.at[i], place));
+            if (nearest <= farthest) continue;
+            farthest = nearest;
+            best = i;
+        }
+        if (best != kNone) found.split_target.emplace_back(source_.vertices[best], to_target(best));
+    }
+
+    const ArcLoop& source_;
+    const ArcLoop& target_;
+    double offset_;
+    bool backward_;
+    double most_twist_;
+    std::vector<std::size_t> partner_; ///< target of each source vertex
+    std::vector<std::size_t> taken_;   ///< source of each target vertex
+    std::optional<Stretch> stretch_;
+    std::vector<double> place_; ///< share of the source of each target vertex
+};
+
 } // namespace
 
 ArcPairs pair_by_arc(const ArcLoop& source, const ArcLoop& target, double offset, bool backward,
-                     const std::vector<std::pair<VertexId, VertexId>>& hard)
+                     const std::vector<std::pair<VertexId, VertexId>>& hard, double most_twist)
 {
-    const auto index_of = [](const ArcLoop& loop, VertexId v) {
-        return static_cast<std::size_t>(std::find(loop.vertices.begin(), loop.vertices.end(), v) -
-                                        loop.vertices.begin());
-    };
-    std::vector<std::size_t> partner(source.vertices.size(), target.vertices.size());
-    std::vector<bool> taken(target.vertices.size(), false);
-    std::vector<std::pair<double, double>> fixed;
-    for (const auto& [s, t] : hard) {
-        const std::size_t i = index_of(source, s), j = index_of(target, t);
-        if (i == source.vertices.size() || j == target.vertices.size()) continue;
-        partner[i] = j;
-        taken[j] = true;
-        fixed.emplace_back(source.at[i], target.at[j]);
-    }
-    const Stretch stretch(offset, backward, fixed);
+    Pairing pairing(source, target, offset, backward, most_twist);
+    for (const auto& [s, t] : hard) pairing.pair(s, t);
+    pairing.stretch();
+    pairing.pair_corners();
+    pairing.pair_near();
+    return pairing.result();
+}
 
-    std::vector<std::tuple<double, std::size_t, std::size_t>> near;
-    const double reach = 0.25 / static_cast<double>(std::max(source.vertices.size(), target.vertices.size()));
-    for (std::size_t i = 0; i < source.vertices.size(); ++i) {
-        for (std::size_t j = 0; j < target.vertices.size(); ++j) {
-            if (partner[i] < target.vertices.size() || taken[j]) continue;
-            const double apart = share(stretch.to_source(target.at[j]) - source.at[i]);
-            const double distance = std::min(apart, 1 - apart);
-            if (distance < (source.corner[i] && target.corner[j] ? reach : kSame))
-                near.emplace_back(distance, i, j);
+bool keeps_order(const ArcLoop& source, const ArcLoop& target, bool backward,
+                 const std::vector<std::pair<VertexId, VertexId>>& pairs)
+{
+    std::vector<std::size_t> places;
+    for (const VertexId s : source.vertices) {
+        for (const auto& [from, to] : pairs) {
+            const auto found = std::find(target.vertices.begin(), target.vertices.end(), to);
+            if (from == s && found != target.vertices.end())
+                places.push_back(static_cast<std::size_t>(found - target.vertices.begin()));
         }
     }
-    std::sort(near.begin(), near.end());
-    for (const auto& [distance, i, j] : near) {
-        if (partner[i] < target.vertices.size() || taken[j]) continue;
-        partner[i] = j;
-        taken[j] = true;
-    }
-
-    ArcPairs result;
-    for (std::size_t i = 0; i < source.vertices.size(); ++i) {
-        if (partner[i] < target.vertices.size())
-            result.vertices.emplace_back(source.vertices[i], target.vertices[partner[i]]);
-        else
-            result.split_target.emplace_back(source.vertices[i], stretch.to_target(source.at[i]));
-    }
-    for (std::size_t j = 0; j < target.vertices.size(); ++j) {
-        if (!taken[j] && target.corner[j])
-            result.split_source.emplace_back(target.vertices[j], stretch.to_source(target.at[j]));
-    }
-    return result;
+    if (backward) std::reverse(places.begin(), places.end());
+    std::size_t falls = 0;
+    for (std::size_t k = 0; k < places.size(); ++k)
+        falls += places[(k + 1) % places.size()] <= places[k] ? 1 : 0;
+    return falls <= 1;
 }
 
 } // namespace lacuna::matching

@@ -12,9 +12,6 @@ namespace lacuna::matching {
 
 using namespace topology;
 
-namespace {
-
-/// Sample a loop evenly from a running length on.
 std::vector<Vec3> even_samples(const LoopShape& shape, double start, bool backward)
 {
     std::vector<Vec3> result;
@@ -26,7 +23,6 @@ std::vector<Vec3> even_samples(const LoopShape& shape, double start, bool backwa
     return result;
 }
 
-/// Sample a loop from vertex `start` on, as many points on each edge, so that vertex meets vertex.
 std::vector<Vec3> edge_samples(const LoopShape& shape, std::size_t start, bool backward)
 {
     std::vector<Vec3> result;
@@ -44,8 +40,6 @@ std::vector<Vec3> edge_samples(const LoopShape& shape, std::size_t start, bool b
     }
     return result;
 }
-
-} // namespace
 
 LoopShape shape_of(const Model& model, const Rim& rim)
 {
@@ -70,40 +64,6 @@ LoopShape shape_of(const Model& model, const Rim& rim)
     }
     shape.centroid /= shape.length > 0 ? shape.length : 1;
     return shape;
-}
-
-bool by_length(const LoopShape& source, const LoopShape& target)
-{
-    return source.vertices.size() != target.vertices.size() || source.vertices.size() == 1;
-}
-
-double overturned(const LoopShape& source, const LoopShape& target, bool backward)
-{
-    const Vec3 way = (target.centroid - source.centroid).stableNormalized();
-    const double low = source.area.stableNormalized().dot(way);
-    const double high = (backward ? -1 : 1) * target.area.stableNormalized().dot(way);
-    return low * high < 0 ? std::min(std::abs(low), std::abs(high)) : 0;
-}
-
-std::vector<Vec3> source_samples(const LoopShape& source, const LoopShape& target)
-{
-    return by_length(source, target) ? even_samples(source, 0, false) : edge_samples(source, 0, false);
-}
-
-std::vector<Vec3> target_samples(const LoopShape& source, const LoopShape& target, std::size_t shift,
-                                 bool backward)
-{
-    if (!by_length(source, target)) return edge_samples(target, shift, backward);
-    return even_samples(target, target.length * static_cast<double>(shift) / kSamples, backward);
-}
-
-bool differ(const LoopShape& source, const LoopShape& target, const Lay& a, const Lay& b)
-{
-    if (a.backward != b.backward || !by_length(source, target))
-        return a.backward != b.backward || a.shift != b.shift;
-    const std::size_t apart = (a.shift + kSamples - b.shift) % kSamples;
-    return 2 * std::min(apart, kSamples - apart) * std::max(source.vertices.size(), target.vertices.size()) >=
-           kSamples;
 }
 
 } // namespace lacuna::matching

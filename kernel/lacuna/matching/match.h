@@ -25,12 +25,12 @@ struct LoopPair {
     bool flipped = false; ///< the target loop has to be walked against its own direction
 };
 
-/// A vertex of one end that has no partner on the other: an edge there is cut at one of its points to make one.
+/// A vertex of one end that has no partner on the other: an edge there is to be split to make one.
 struct Split {
     VertexId vertex;
     bool on_target = true; ///< the edge is the target's, the vertex the source's; else the other way round
     EdgeId edge;
-    std::size_t point = 0; ///< of the edge; where it is an end, the partner is that vertex
+    double fraction = 0; ///< of the edge's length, as it runs
 };
 
 /// Which loop and vertex of the source goes to which of the target (Algorithm 1).
@@ -40,7 +40,7 @@ struct Match {
     std::vector<std::pair<VertexId, VertexId>>
         vertices;              ///< (source, target), source loop by source loop in walking order
     std::vector<bool> hard;    ///< of each vertex pair: joined by a chain of wall edges
-    std::vector<Split> splits; ///< loops with unequal vertices, and round ones whose vertex says nothing
+    std::vector<Split> splits; ///< vertices still to be made: apply_splits()
     std::string method;
     double confidence = 1; ///< 0…1: 1 − best / second best residual; 1 where nothing had to be guessed
     std::vector<std::string> notes;
@@ -50,8 +50,18 @@ struct Match {
 ///
 /// Algorithm: paper's Algorithm 1. `aligned` (default): hard pairs from the walls, loops by assignment, vertices by
 /// the rigid fit of every cyclic shift and direction. `nearest`: the paper's own vertex distances.
+///
+/// `aligned` pairs vertices by how far along the loops they stand, pair_by_arc(), where the vertices themselves do not tell: loops
+/// with unlike numbers of them, closed edges, loops without corners whose vertices would turn the void edges by more than 1/32 of
+/// the loop, and those where a corner would meet no corner; choose_how(). Real corners get a partner always, by a split of
+/// the other loop if need be; a vertex that only says where a smooth run was cut may stay alone.
 /// @throw InvalidInput   a forced part that contradicts the faces.
-/// @throw NotClosed      loops that differ in number; names both counts.
+/// @throw NotClosed      loops that differ in number; forced parts that contradict each other; names them.
 Match match(const topology::OpenVolume& volume, const MatchOptions& options = {});
+
+/// Make the splits a match wants, by topology::split_edge(): its pairs and loops are whole then, and no splits are left. A place
+/// on an edge with a wall is passed over, with a note.
+/// @pre the match is of this volume.
+void apply_splits(topology::OpenVolume& volume, Match& match);
 
 } // namespace lacuna::matching

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/matching/arrange.h>
+
+#include <lacuna/matching/assignment.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lacuna::matching {
+
+namespace {
+
+double relative(double a, double b)
+{
+    const double most = std::max(std::abs(a), std::abs(b));
+    return most > 0 ? std::abs(a - b) / most : 0;
+}
+
+/// How far a loop's middle lands from another's once the source has been moved by `fit`.
+double misfit(const Problem& problem, std::size_t s, std::size_t t, const geometry::RigidFit& fit,
+              double reach)
+{
+    return (fit(problem.source[s].centroid) - problem.target[t].centroid).norm() / reach;
+}
+
+/// What it costs to send loop s to loop t once the source has been moved by `fit`.
+double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geometry::RigidFit& fit,
+                 double reach)
+{
+    if (problem.forced[s] >= 0 && problem.forced[s] != static_cast<int>(t))
+        return std::numeric_limits<double>::infinity();
+    const double place = misfit(problem, s, t, fit, reach);
+    if (problem.forced[s] >= 0) return place;
+    const LoopShape& a = problem.source[s];
+    const LoopShape& b = problem.target[t];
+    const double counts = relative(static_cast<double>(a.vertices.size()),
+                                   static_cast<double>(b.vertices.size()));
+    return place + relative(a.length * fit.scale, b.length) +
+           relative(a.area.norm() * fit.scale * fit.scale, b.area.norm()) + counts;
+}
+
+/// The arrangement that a lay of the anchor leads to; nothing where no complete one is cheaper than `limit`.
+std::optional<Arrangement> arrangement_of(const Problem& problem, std::size_t anchor, std::size_t t,
+                                          const Lay& lay, double reach, double limit)
+{
+    const std::size_t n = problem.source.size();
+    const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
+    Eigen::MatrixXd cost(at(n), at(n));
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) {
+            const bool fixed = (i == anchor) != (j == t);
+            cost(at(i), at(j)) = fixed ? std::numeric_limits<double>::infinity()
+                                       : loop_cost(problem, i, j, lay.fit, reach);
+        }
+    }
+    // However the loops are paired, each costs its least: most lays are out before they are assigned.
+    if (!(lay.score + cost.rowwise().minCoeff().sum() / static_cast<double>(n) < limit)) return std::nullopt;
+    Arrangement result{assign(cost), static_cast<int>(anchor), lay, {}, lay.score};
+    for (std::size_t i = 0; i < n; ++i) {
+        if (result.target[i] < 0) return std::nullopt;
+        result.score += cost(at(i), result.target[i]) / static_cast<double>(n);
+        result.lay.score += misfit(problem, i, static_cast<std::size_t>(result.target[i]), lay.fit, reach) /
+                            static_cast<double>(n);
+    }
+    return result.score < limit ? std::optional(result) : std::nullopt;
+}
+
+/// Keep the two best arrangements with different pairs, and of the lays of each the two best that differ.
+void keep(const Problem& problem, Arrangement candidate, std::vector<Arrangement>& best)
+{
+    const auto same = std::find_if(
+        best.begin(), best.end(), [&](const Arrangement& other) { return other.target == candidate.target; });
+    if (same == best.end()) {
+        best.push_back(std::move(candidate));
+    } else {
+        const auto s = static_cast<std::size_t>(candidate.anchor);
+        const auto t = static_cast<std::size_t>(candidate.target[s]);
+        std::vector<Lay> others{candidate.lay, same->lay};
+        if (same->next) others.push_back(*same->next);
+        if (candidate.score < same->score) std::swap(*same, candidate);
+        same->next.reset();
+        for (const Lay& lay : others) {
+            if (differ(problem, s, t, lay, same->lay) && (!same->next || lay.score < same->next->score))
+                same->next = lay;
+        }
+    }
+    std::stable_sort(best.begin(), best.end(),
+                     [](const Arrangement& a, const Arrangement& b) { return a.score < b.score; });
+    if (best.size() > 2) best.pop_back();
+}
+
+} // namespace
+
+std::vector<Arrangement> arrange(const Problem& problem)
+{
+    const std::size_t n = problem.source.size();
+    double reach = 0;
+    for (const LoopShape& shape : problem.target) reach = std::max(reach, shape.length);
+    const auto first_forced = std::find_if(problem.forced.begin(), problem.forced.end(),
+                                           [](int t) { return t >= 0; });
+    const auto anchor = first_forced == problem.forced.end()
+                            ? std::size_t{0}
+                            : static_cast<std::size_t>(first_forced - problem.forced.begin());
+    std::vector<Arrangement> best;
+    for (std::size_t t = 0; t < n; ++t) {
+        if (problem.forced[anchor] >= 0 && problem.forced[anchor] != static_cast<int>(t)) continue;
+        for (const bool with_scale : {false, true}) {
+            for (const Lay& lay : lays(problem, anchor, t, with_scale)) {
+                // With loops to spare for a second arrangement nothing worse than it matters.
+                const double limit = n > 2 && best.size() > 1 ? best.back().score
+                                                              : std::numeric_limits<double>::infinity();
+                auto found = arrangement_of(problem, anchor, t, lay, reach, limit);
+                if (found) keep(problem, std::move(*found), best);
+            }
+        }
+    }
+    return best;
+}
+
+} // namespace lacuna::matching

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/matching/problem.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/matching/side_lines.h>
+
+#include <algorithm>
+#include <string>
+
+namespace lacuna::matching {
+
+using namespace topology;
+
+namespace {
+
+/// Loop that holds a vertex; -1 for none.
+int loop_with(const std::vector<LoopShape>& loops, VertexId vertex)
+{
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        if (std::find(loops[l].vertices.begin(), loops[l].vertices.end(), vertex) != loops[l].vertices.end())
+            return static_cast<int>(l);
+    }
+    return -1;
+}
+
+void force(Problem& problem, int s, int t, const std::string& because)
+{
+    int& now = problem.forced[static_cast<std::size_t>(s)];
+    if (now >= 0 && now != t) {
+        throw NotClosed("matching.loops_contradict",
+                        "source loop " + std::to_string(s + 1) + " would go to target loop " +
+                            std::to_string(now + 1) + " and, " + because + ", to target loop " +
+                            std::to_string(t + 1) + "; give the pairs by hand with match{ loops = … }");
+    }
+    now = t;
+}
+
+/// Walls settle loops and vertices before anything is guessed.
+void read_walls(Problem& problem)
+{
+    const OpenVolume& volume = problem.volume;
+    const Model& model = volume.model;
+    for (const SideLine& line : side_lines(volume)) {
+        problem.hard[line.source] = problem.walls[line.source] = line.target;
+        force(problem, loop_with(problem.source, line.source), loop_with(problem.target, line.target),
+              "by its walls");
+    }
+    for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
+        std::vector<int> s, t;
+        for (const FaceId face : part) {
+            for (const Loop& loop : model[face].loops) {
+                for (const EdgeUse& use : loop.uses) {
+                    const int on_s = loop_with(problem.source, use_from(model, use));
+                    const int on_t = loop_with(problem.target, use_from(model, use));
+                    if (on_s >= 0 && std::find(s.begin(), s.end(), on_s) == s.end()) s.push_back(on_s);
+                    if (on_t >= 0 && std::find(t.begin(), t.end(), on_t) == t.end()) t.push_back(on_t);
+                }
+            }
+        }
+        if (!s.empty() && !t.empty())
+            problem.backward = true; // oriented through the walls: the rims run opposite ways
+        if (s.size() == 1 && t.size() == 1)
+            force(problem, s.front(), t.front(), "by " + name_of(model, part.front()));
+    }
+}
+
+VertexId vertex_with_tag(const Model& model, const std::vector<LoopShape>& loops, int tag,
+                         const std::string& end)
+{
+    std::string known;
+    for (const LoopShape& loop : loops) {
+        for (const VertexId v : loop.vertices) {
+            if (model[v].tag == tag) return v;
+            known += (known.empty() ? "" : ", ") + std::to_string(model[v].tag);
+        }
+    }
+    throw InvalidInput("matching.unknown_vertex", "vertex " + std::to_string(tag) +
+                                                      " is not on the rim of the " + end +
+                                                      ", whose vertices are " + known);
+}
+
+void read_options(Problem& problem)
+{
+    const Model& model = problem.volume.model;
+    for (const int s : problem.options.flip) {
+        if (s >= 0 && s < static_cast<int>(problem.source.size())) continue;
+        throw InvalidInput("matching.unknown_loop", "flip names source loop " + std::to_string(s + 1) +
+                                                        ": the loops are numbered from 1 to " +
+                                                        std::to_string(problem.source.size()));
+    }
+    for (const auto& [s, t] : problem.options.loops) {
+        if (s < 0 || t < 0 || s >= static_cast<int>(problem.source.size()) ||
+            t >= static_cast<int>(problem.target.size())) {
+            throw InvalidInput("matching.unknown_loop", "loop pair {" + std::to_string(s + 1) + ", " +
+                                                            std::to_string(t + 1) +
+                                                            "}: the loops are numbered from 1 to " +
+                                                            std::to_string(problem.source.size()));
+        }
+        force(problem, s, t, "as the recipe asks");
+        for (int other = 0; other < static_cast<int>(problem.source.size()); ++other) {
+            if (other == s || problem.forced[static_cast<std::size_t>(other)] != t) continue;
+            throw NotClosed("matching.loops_contradict",
+                            "source loops " + std::to_string(std::min(s, other) + 1) + " and " +
+                                std::to_string(std::max(s, other) + 1) + " would both go to target loop " +
+                                std::to_string(t + 1) + "; give each its own in match{ loops = … }");
+        }
+    }
+    for (const auto& [s, t] : problem.options.vertices) {
+        const VertexId from = vertex_with_tag(model, problem.source, s, "source");
+        const VertexId to = vertex_with_tag(model, problem.target, t, "target");
+        const auto known = problem.hard.find(from);
+        if (known != problem.hard.end() && known->second != to) {
+            throw InvalidInput(
+                "matching.vertices_contradict",
+                "vertex " + std::to_string(s) +
+                    (problem.walls.contains(from) ? " is joined by walls" : " goes by the recipe") +
+                    " to vertex " + std::to_string(model[known->second].tag) + " and cannot go to vertex " +
+                    std::to_string(t));
+        }
+        const auto taken = std::find_if(problem.hard.begin(), problem.hard.end(), [&](const auto& pair) {
+            return pair.second == to && pair.first != from;
+        });
+        if (taken != problem.hard.end()) {
+            throw InvalidInput(
+                "matching.vertices_contradict",
+                "vertices " + std::to_string(model[taken->first].tag) + " and " + std::to_string(s) +
+                    " of the source cannot both go to vertex " + std::to_string(t) +
+                    (problem.walls.contains(taken->first) ? ", which walls join to the first" : ""));
+        }
+        problem.hard[from] = to;
+        force(problem, loop_with(problem.source, from), loop_with(problem.target, to), "by its vertices");
+    }
+}
+
+} // namespace
+
+bool Problem::has_hard(std::size_t s) const
+{
+    const std::vector<VertexId>& vertices = source[s].vertices;
+    return std::any_of(vertices.begin(), vertices.end(), [&](VertexId v) { return hard.contains(v); });
+}
+
+Problem problem_of(const OpenVolume& volume, const MatchOptions& options, const Match& match)
+{
+    Problem problem{volume, options, {}, {}, {}, {}, {}, {}, {}, {}};
+    problem.on_wall.assign(volume.model.vertices.size(), false);
+    for (const FaceId wall : volume.faces(Role::wall)) {
+        for (const Loop& loop : volume.model[wall].loops) {
+            for (const EdgeUse& use : loop.uses) problem.on_wall[use_from(volume.model, use).index()] = true;
+        }
+    }
+    for (const Rim& rim : match.source_loops) problem.source.push_back(shape_of(volume.model, rim));
+    for (const Rim& rim : match.target_loops) problem.target.push_back(shape_of(volume.model, rim));
+    problem.forced.assign(problem.source.size(), -1);
+    read_walls(problem);
+    read_options(problem);
+    return problem;
+}
+
+} // namespace lacuna::matching

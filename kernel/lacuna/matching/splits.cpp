@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/matching/splits.h>
+
+#include <lacuna/topology/split_edge.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace lacuna::matching {
+
+using namespace topology;
+
+namespace {
+
+/// A walk goes on over both parts of an edge that was split.
+void go_on(std::vector<Rim>& rims, EdgeId edge, EdgeId behind)
+{
+    for (Rim& rim : rims) {
+        for (std::size_t i = 0; i < rim.uses.size(); ++i) {
+            if (rim.uses[i].edge != edge) continue;
+            const bool reversed = rim.uses[i].reversed;
+            rim.uses.insert(rim.uses.begin() + static_cast<std::ptrdiff_t>(reversed ? i : i + 1),
+                            {behind, reversed});
+            ++i;
+        }
+    }
+}
+
+/// Pairs in walking order of the source's loops, their flags with them.
+void sort_pairs(const Model& model, Match& match)
+{
+    std::map<VertexId, std::size_t> place;
+    for (const Rim& rim : match.source_loops) {
+        for (const EdgeUse& use : rim.uses) place.try_emplace(use_from(model, use), place.size());
+    }
+    std::vector<std::size_t> order(match.vertices.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return place[match.vertices[a].first] < place[match.vertices[b].first];
+    });
+    Match sorted;
+    for (const std::size_t i : order) {
+        sorted.vertices.push_back(match.vertices[i]);
+        sorted.hard.push_back(match.hard[i]);
+    }
+    match.vertices = std::move(sorted.vertices);
+    match.hard = std::move(sorted.hard);
+}
+
+} // namespace
+
+Split split_at(const Rim& rim, const LoopShape& shape, double share)
+{
+    const double wanted = share * shape.length;
+    std::size_t i = rim.uses.size() - 1;
+    while (i > 0 && shape.vertex_arc[i] > wanted) --i;
+    const double end = i + 1 < shape.vertex_arc.size() ? shape.vertex_arc[i + 1] : shape.length;
+    const double along = std::clamp((wanted - shape.vertex_arc[i]) / (end - shape.vertex_arc[i]), 0.0, 1.0);
+    Split split;
+    split.edge = rim.uses[i].edge;
+    split.fraction = rim.uses[i].reversed ? 1 - along : along;
+    return split;
+}
+
+void apply_splits(OpenVolume& volume, Match& match)
+{
+    if (match.splits.empty()) return;
+    Model& model = volume.model;
+    const auto uses = edge_uses(model);
+    // From the end of each edge, so that the part in front of a split stays the edge's own.
+    std::vector<Split> splits = std::move(match.splits);
+    match.splits.clear();
+    std::stable_sort(splits.begin(), splits.end(),
+                     [](const Split& a, const Split& b) { return a.fraction > b.fraction; });
+    std::map<EdgeId, double> length;
+    for (const Split& split : splits) length.try_emplace(split.edge, edge_length(model, split.edge));
+    for (const Split& split : splits) {
+        const double wanted = split.fraction * length[split.edge];
+        const bool on_wall = uses[split.edge.index()].size() != 1;
+        const bool at_end = std::min(wanted, length[split.edge] - wanted) <= model.tolerance;
+        if (on_wall || at_end) {
+            match.notes.push_back(
+                name_of(model, split.vertex) + " has no partner: its place is on " +
+                name_of(model, split.edge) +
+                (on_wall ? ", which has a wall" : ", at an end of it that has another partner"));
+            continue;
+        }
+        const EdgeSplit made = split_edge(model, split.edge, wanted / edge_length(model, split.edge));
+        go_on(split.on_target ? match.target_loops : match.source_loops, split.edge, made.behind);
+        match.vertices.emplace_back(split.on_target ? split.vertex : made.vertex,
+                                    split.on_target ? made.vertex : split.vertex);
+        match.hard.push_back(false);
+    }
+    sort_pairs(model, match);
+}
+
+} // namespace lacuna::matching
