@@ -74,7 +74,8 @@ void check_matched(const OpenVolume& volume, const matching::Match& match)
 }
 
 /// Class I has no algorithm of its own in the paper; its walls are those of class II with no wall given.
-void close_class_one_or_two(OpenVolume& volume, matching::Match match, const Follower* follower, Closure& closure)
+void close_class_one_or_two(OpenVolume& volume, matching::Match match, const Follower* follower,
+                            Closure& closure)
 {
     if (closure.value == VolumeClass::II) note(closure, "Algorithm 8");
     turn_target_to_source(volume, match);
@@ -204,17 +205,19 @@ Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value
                         "target, and there is none; use \"straight\"");
     }
 
+    // Left to itself, a bent volume is closed bent, and a straight one straight unless that cuts through what is given.
+    const bool bend_first = follow_at_once || (can_follow && follower->leads_astray(volume, match));
+    const Follower* const leader = can_follow ? &*follower : nullptr;
     OpenVolume sealed = volume;
-    Closure closure = close_as(sealed, match, value, follow_at_once ? &*follower : nullptr);
+    Closure closure = close_as(sealed, match, value, bend_first ? leader : nullptr);
     auto crossing = first_crossing(sealed);
     if (crossing && can_follow && !follow_at_once) {
-        // Straight closing cuts through what is given: bend with it.
-        OpenVolume bent = volume;
-        Closure followed = close_as(bent, match, value, &*follower);
-        if (!first_crossing(bent)) {
+        OpenVolume other = volume;
+        Closure otherwise = close_as(other, match, value, bend_first ? nullptr : leader);
+        if (!first_crossing(other)) {
             crossing.reset();
-            sealed = std::move(bent);
-            closure = std::move(followed);
+            sealed = std::move(other);
+            closure = std::move(otherwise);
         }
     }
     if (crossing) {

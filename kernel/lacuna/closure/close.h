@@ -12,9 +12,9 @@ namespace lacuna::closure {
 
 /// How a void edge runs between its two vertices.
 enum class EdgeShape {
-    automatic, ///< straight; bent as its neighbours where a straight one would cross the given faces
-    straight,  ///< the paper's
-    follow,    ///< as the side edges next to it
+    automatic, ///< straight; bent as its neighbours where a straight one would stray from them or cross the given faces
+    straight, ///< the paper's
+    follow,   ///< as the side edges next to it
 };
 
 struct CloseOptions {

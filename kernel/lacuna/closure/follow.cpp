@@ -11,6 +11,24 @@ namespace lacuna::closure {
 namespace {
 
 constexpr int kLevels = 64;
+/// How far a straight void edge may run from where the walls lead, of the rims' radius.
+constexpr double kAstray = 0.25;
+
+/// Mean distance of a rim's vertices from their middle: of all loops together.
+double radius_of(const topology::OpenVolume& volume, topology::Role end)
+{
+    const topology::Model& model = volume.model;
+    std::vector<Vec3> points;
+    for (const topology::Rim& rim : topology::rims(model, volume.faces(end))) {
+        for (const topology::EdgeUse& use : rim.uses) {
+            for (const Index p : model[use.edge].points) points.push_back(model.at(p));
+        }
+    }
+    const Vec3 middle = geometry::mean_point(points);
+    double sum = 0;
+    for (const Vec3& p : points) sum += (p - middle).norm();
+    return points.empty() ? 0 : sum / static_cast<double>(points.size());
+}
 
 } // namespace
 
@@ -36,6 +54,30 @@ Vec3 Follower::carry(const Vec3& source, const Vec3& target, double t) const
     const Vec3 up = (1 - f) * from_source_[low](source) + f * from_source_[low + 1](source);
     const Vec3 down = (1 - f) * from_target_[low](target) + f * from_target_[low + 1](target);
     return (1 - t) * up + t * down;
+}
+
+bool Follower::leads_astray(const topology::OpenVolume& volume, const matching::Match& match) const
+{
+    const topology::Model& model = volume.model;
+    std::vector<bool> on_wall(model.vertices.size(), false);
+    for (const FaceId wall : volume.faces(topology::Role::wall)) {
+        for (const topology::Loop& loop : model[wall].loops) {
+            for (const topology::EdgeUse& use : loop.uses)
+                on_wall[topology::use_from(model, use).index()] = true;
+        }
+    }
+    const double reach = kAstray * std::min(radius_of(volume, topology::Role::source),
+                                            radius_of(volume, topology::Role::target));
+    for (const auto& [source, target] : match.vertices) {
+        if (on_wall[source.index()] || on_wall[target.index()]) continue;
+        const Vec3 from = model.at(model[source].point), to = model.at(model[target].point);
+        const Vec3 way = (to - from).stableNormalized();
+        for (int k = 1; k < kLevels; ++k) {
+            const Vec3 off = carry(from, to, static_cast<double>(k) / kLevels) - from;
+            if ((off - off.dot(way) * way).norm() > reach) return true;
+        }
+    }
+    return false;
 }
 
 } // namespace lacuna::closure

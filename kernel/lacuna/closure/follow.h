@@ -3,6 +3,7 @@
 
 #include <lacuna/core/types.h>
 #include <lacuna/geometry/affine.h>
+#include <lacuna/matching/match.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <limits>
@@ -23,6 +24,10 @@ public:
 
     /// Where the point that starts at `source` and ends at `target` is at height t in [0, 1]. @pre leads()
     [[nodiscard]] Vec3 carry(const Vec3& source, const Vec3& target, double t) const;
+
+    /// True where a straight line between two matched vertices without walls would run further than a quarter of the rims' radius from
+    /// where the walls lead: what it closes would be squeezed on one side. @pre leads()
+    [[nodiscard]] bool leads_astray(const topology::OpenVolume& volume, const matching::Match& match) const;
 
     /// Height of a model point on a given wall; NaN elsewhere.
     [[nodiscard]] double height(Index point) const
