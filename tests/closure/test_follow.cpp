@@ -61,6 +61,37 @@ TEST_CASE("straight closing that would cut through a given wall is refused with 
     CHECK(closure::enclosed_volume(left) == doctest::Approx(prism.facet_volume).epsilon(0.04));
 }
 
+TEST_CASE("left to itself, a bend is closed bent and a straight prism straight")
+{
+    for (const auto& gone : std::vector<std::vector<int>>{{0, 1}, {1, 2}, {0, 1, 2}, {1, 2, 3}}) {
+        for (const double bend : {60.0, 90.0, 150.0}) {
+            const auto prism = test::prism(bent(bend, gone));
+            auto volume = prism.open();
+            test::seal(volume);
+            test::check_sealed(volume);
+            CAPTURE(bend);
+            CAPTURE(gone.size());
+            CHECK(closure::enclosed_volume(volume) == doctest::Approx(prism.facet_volume).epsilon(0.04));
+        }
+        for (const double taper : {1.0, 0.5}) {
+            const auto prism = test::prism({.sides = 4,
+                                            .height = 4,
+                                            .cuts = 3,
+                                            .levels = 8,
+                                            .taper = taper,
+                                            .drop = without(false, false, false, gone)});
+            auto volume = prism.open();
+            const auto closed = test::seal(volume);
+            for (const EdgeId edge : closed.void_edges) {
+                const auto& points = volume.model[edge].points;
+                const double chord =
+                    (volume.model.at(points.back()) - volume.model.at(points.front())).norm();
+                CHECK(edge_length(volume.model, edge) == doctest::Approx(chord).epsilon(1e-12));
+            }
+        }
+    }
+}
+
 TEST_CASE("a straight volume is closed alike however its void edges are to run")
 {
     for (const auto& gone : std::vector<std::vector<int>>{{0, 1}, {0, 1, 2}}) {
