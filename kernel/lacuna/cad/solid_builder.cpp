@@ -299,7 +299,10 @@ void SolidBuilder::forget_removed()
 /// Holes are cut out: Gmsh's own planes with holes depend on which way the holes' curves happen to run.
 int SolidBuilder::plane(FaceId id)
 {
-    const std::vector<Loop> loops = outermost_first(model_, model_[id].loops);
+    // Without seams, which mean nothing in a plane.
+    std::vector<Loop> walks;
+    for (const Rim& rim : rims(model_, {id})) walks.push_back({rim.uses});
+    const std::vector<Loop> loops = outermost_first(model_, std::move(walks));
     std::vector<int> parts;
     for (const Loop& loop : loops) parts.push_back(gmsh::model::occ::addPlaneSurface({wire(loop)}));
     if (parts.size() == 1) return parts.front();
@@ -323,17 +326,11 @@ int SolidBuilder::plane(FaceId id)
 
 int SolidBuilder::add_surface(const SplineSurface& surface)
 {
-    gmsh::vectorpair poles;
+    // The points stay: to take them away again costs time with their square, and what is written is the solid alone.
     std::vector<int> tags;
-    for (const Vec3& p : surface.poles) {
-        tags.push_back(gmsh::model::occ::addPoint(p.x(), p.y(), p.z()));
-        poles.emplace_back(0, tags.back());
-    }
-    const int tag = gmsh::model::occ::addBSplineSurface(tags, static_cast<int>(surface.u.poles()), -1, surface.u.degree,
-                                                        surface.v.degree, {}, surface.u.knots, surface.v.knots,
-                                                        surface.u.multiplicities, surface.v.multiplicities);
-    gmsh::model::occ::remove(poles);
-    return tag;
+    for (const Vec3& p : surface.poles) tags.push_back(gmsh::model::occ::addPoint(p.x(), p.y(), p.z()));
+    return gmsh::model::occ::addBSplineSurface(tags, static_cast<int>(surface.u.poles()), -1, surface.u.degree, surface.v.degree, {},
+                                               surface.u.knots, surface.v.knots, surface.u.multiplicities, surface.v.multiplicities);
 }
 
 std::vector<int> SolidBuilder::patches(FaceId face, const std::vector<std::vector<EdgeUse>>& sides)

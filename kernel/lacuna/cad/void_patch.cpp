@@ -120,6 +120,7 @@ public:
 
     /// Bend the patch to the facets, where their points are off it by more than their chords are off the sides.
     void follow(const Model& model, const Face& face);
+    [[nodiscard]] bool follows() const { return correction_.has_value(); }
 
 private:
     /// The sides at parameters across and along, and what the formula makes of them.
@@ -293,6 +294,8 @@ std::vector<SplineSurface> void_patches(const Model& model, const Face& face, co
 {
     Patch patch(model, sides);
     patch.follow(model, face);
+    // What is led by facets is no better known than they are.
+    if (patch.follows()) precision *= 10;
     std::vector<SplineSurface> surfaces;
     const std::vector<double>&u = patch.breaks_u(), &v = patch.breaks_v();
     for (std::size_t j = 0; j + 1 < v.size(); ++j) {

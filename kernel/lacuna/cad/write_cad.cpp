@@ -131,17 +131,23 @@ Sewn sew(const std::vector<int>& faces, const WriteCadOptions& options, const Mo
                                            " closed; load the file with a larger tolerance, or write the facets with write_facets");
 }
 
-/// Take all but one solid out of the current model.
-void keep_alone(int solid)
+/// Write one solid of the current model, and nothing else there is.
+void write_alone(Session& session, int solid, const std::string& folder, const std::string& file)
 {
-    for (int dim = 3; dim >= 0; --dim) {
-        gmsh::vectorpair others;
-        for (const int tag : tags_of(dim))
-            if (dim < 3 || tag != solid) others.emplace_back(dim, tag);
-        // What bounds the solid stays.
-        if (!others.empty()) gmsh::model::occ::remove(others);
-    }
+    gmsh::vectorpair others;
+    for (const int tag : tags_of(3))
+        if (tag != solid) others.emplace_back(3, tag);
+    if (!others.empty()) gmsh::model::occ::remove(others);
+    // Faces, curves and points are many; read on from a file, the solid comes without those that are not its own.
+    const std::string all = folder + "/all.brep";
     gmsh::model::occ::synchronize();
+    gmsh::write(all);
+    const GmshModel alone(session);
+    set_plain_import(session, 1);
+    gmsh::vectorpair found;
+    gmsh::model::occ::importShapes(all, found, true, "brep");
+    gmsh::model::occ::synchronize();
+    gmsh::write(file);
 }
 
 /// The bytes of a file; of a STEP file without the time it was written at.
@@ -231,8 +237,7 @@ WrittenCad write_cad(const OpenVolume& volume, const std::string& path, const Wr
         written.tolerance = sewn.tolerance;
         written.volume = volume_of(sewn.solid);
         check_volume(written, options);
-        keep_alone(sewn.solid);
-        gmsh::write(unfinished);
+        write_alone(session, sewn.solid, workshop.folder(), unfinished);
     });
     check_cancelled(context);
     std::tie(written.faces, written.volume) = read_back(session, unfinished, written.volume);
