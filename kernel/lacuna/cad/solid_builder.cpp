@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 #include <set>
 
 namespace lacuna::cad {
@@ -20,8 +20,10 @@ namespace {
 
 /// How exactly splines meet what they stand for, as a part of the diagonal: a hundredth of the tolerance there is by default.
 constexpr double kPrecision = 1e-8;
-/// Points of the facets a filled surface is led through at most: the time it takes grows with their cube.
+/// Points a filled surface is led through at most, of each inner loop and of the facets: the time it takes grows with their cube.
 constexpr std::size_t kLeadingPoints = 40;
+/// An inner loop no further from a filled surface than this part of the diagonal divides it.
+constexpr double kCloseBy = 1e-3;
 /// How closely a shape must be met to be the one it was before it went through a file, as a part of the diagonal.
 constexpr double kSame = 1e-7;
 
@@ -342,26 +344,53 @@ std::vector<int> SolidBuilder::patches(FaceId face, const std::vector<std::vecto
     return tags;
 }
 
-/// A smooth surface over the outer loop, led through points of the facets; inner loops trim it.
+/// A smooth surface over the outer loop, led through points of the facets and of inner loops, which divide it.
 int SolidBuilder::filling(FaceId id)
 {
     const Face& face = model_[id];
     const std::vector<Loop> loops = outermost_first(model_, face.loops);
-    std::set<Index> outer, inner;
-    for (const EdgeUse& use : loops.front().uses) outer.insert(model_[use.edge].points.begin(), model_[use.edge].points.end());
+    std::set<Index> taken;
+    std::vector<int> leading;
+    const auto lead = [&](const std::vector<Index>& points) {
+        const std::size_t step = points.size() / kLeadingPoints + 1;
+        for (std::size_t i = 0; i < points.size(); i += step) leading.push_back(point(points[i]));
+    };
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        std::vector<Index> on_loop;
+        for (const EdgeUse& use : loops[l].uses)
+            for (const Index p : model_[use.edge].points)
+                if (taken.insert(p).second) on_loop.push_back(p);
+        if (l > 0) lead(on_loop);
+    }
+    std::vector<Index> inside;
     for (const Triangle& t : face.triangles)
         for (const Index p : t)
-            if (!outer.contains(p)) inner.insert(p);
-    std::vector<int> leading;
-    const std::size_t step = inner.size() / kLeadingPoints + 1;
-    std::size_t count = 0;
-    for (const Index p : inner)
-        if (count++ % step == 0) leading.push_back(point(p));
-    std::vector<int> wires;
-    for (const Loop& loop : loops) wires.push_back(wire(loop));
-    const int filled = gmsh::model::occ::addSurfaceFilling(wires.front(), -1, leading);
+            if (taken.insert(p).second) inside.push_back(p);
+    lead(inside);
+    const int filled = gmsh::model::occ::addSurfaceFilling(wire(loops.front()), -1, leading);
     if (loops.size() == 1) return filled;
-    return gmsh::model::occ::addTrimmedSurface(filled, wires, true);
+
+    // The inner loops are close to the surface, not on it; where they divide it they become its edges.
+    gmsh::vectorpair inner, parts;
+    for (std::size_t l = 1; l < loops.size(); ++l)
+        for (const EdgeUse& use : loops[l].uses)
+            for (const int curve : curves_of(use.edge)) inner.emplace_back(1, curve);
+    std::vector<gmsh::vectorpair> map;
+    session_.set("Geometry.ToleranceBoolean", kCloseBy * model_.diagonal);
+    gmsh::model::occ::fragment({{2, filled}}, inner, parts, map, -1, true, false);
+    session_.set("Geometry.ToleranceBoolean", 0.0);
+    forget_removed();
+    int best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [dim, tag] : parts) {
+        double area = 0;
+        if (dim == 2) gmsh::model::occ::getMass(2, tag, area);
+        const double off = std::abs(std::abs(area) - face_area(model_, id));
+        if (dim != 2 || off >= least) continue;
+        least = off;
+        best = tag;
+    }
+    return best;
 }
 
 std::vector<int> SolidBuilder::make_face(FaceId id, Built& built)
