@@ -97,6 +97,27 @@ TEST_CASE("a host's session, models and options are left as they were")
     gmsh::finalize();
 }
 
+TEST_CASE("what a script sets does not outlast the load")
+{
+    const test::TempFolder folder;
+    const std::string path = folder.write(
+        "loud.geo", "Mesh.MeshSizeMax = 0.125; Mesh.Algorithm = 5; General.Terminal = 1;\n"
+                    "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1};\n");
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    const auto values = [] {
+        std::vector<double> found;
+        for (const char* name : {"Mesh.MeshSizeMax", "Mesh.Algorithm", "General.Terminal"}) {
+            gmsh::option::getNumber(name, found.emplace_back());
+        }
+        return found;
+    };
+    const std::vector<double> before = values();
+    CHECK(cad::load({path}).faces.size() == 6);
+    CHECK(values() == before);
+    gmsh::finalize();
+}
+
 TEST_CASE("a host that finalises Gmsh under the exact geometry gets an error in words, not a crash")
 {
     const test::TempFolder folder;

@@ -82,6 +82,36 @@ void set_import_defaults(Session& session)
     session.set("Geometry.OCCTargetUnit", std::string{});
 }
 
+/// Options that scripts are wont to set, which would outlast them.
+void keep_options(Session& session)
+{
+    for (const char* option : {"Mesh.MeshSizeMin",
+                               "Mesh.MeshSizeMax",
+                               "Mesh.MeshSizeFactor",
+                               "Mesh.MeshSizeFromCurvature",
+                               "Mesh.MeshSizeFromPoints",
+                               "Mesh.MeshSizeExtendFromBoundary",
+                               "Mesh.Algorithm",
+                               "Mesh.Algorithm3D",
+                               "Mesh.ElementOrder",
+                               "Mesh.RecombineAll",
+                               "Mesh.RecombinationAlgorithm",
+                               "Mesh.SubdivisionAlgorithm",
+                               "Mesh.Smoothing",
+                               "Mesh.Optimize",
+                               "Mesh.OptimizeNetgen",
+                               "Mesh.SaveAll",
+                               "Mesh.Binary",
+                               "Mesh.MshFileVersion",
+                               "Geometry.Tolerance",
+                               "Geometry.AutoCoherence",
+                               "General.Terminal",
+                               "General.Verbosity",
+                               "General.NumThreads"}) {
+        session.keep(option);
+    }
+}
+
 void import_file(Session& session, const std::string& path)
 {
     const std::string ending = ending_of(path);
@@ -91,7 +121,10 @@ void import_file(Session& session, const std::string& path)
     const CapturedOutput output;
     try {
         session.run([&] {
-            if (script) return gmsh::merge(path);
+            if (script) {
+                keep_options(session);
+                return gmsh::merge(path);
+            }
             gmsh::vectorpair all;
             gmsh::model::occ::importShapes(path, all, false, format);
             gmsh::model::occ::synchronize();

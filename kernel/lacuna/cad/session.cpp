@@ -168,6 +168,17 @@ void Session::set(const std::string& option, const std::string& value)
     strings_.push_back(std::move(saved));
 }
 
+void Session::keep(const std::string& option)
+{
+    SavedNumber saved{option, 0};
+    try {
+        gmsh::option::getNumber(option, saved.value);
+    } catch (...) {
+        return;
+    }
+    numbers_.push_back(std::move(saved));
+}
+
 std::vector<std::string> Session::logged_errors() const
 {
     std::vector<std::string> log;

@@ -31,6 +31,8 @@ public:
     /// Set an option until the stay ends; one this version of Gmsh does not have is passed over.
     void set(const std::string& option, double value);
     void set(const std::string& option, const std::string& value);
+    /// Have an option as it is now at the end of the stay, whatever a script sets meanwhile.
+    void keep(const std::string& option);
 
     /// Do work in Gmsh, its many ways of failing turned into one.
     /// @throw BackendError  Gmsh's own words, after the subject.
