@@ -233,11 +233,11 @@ Sections cut_sections(const OpenVolume& volume, int count)
 {
     const Model& model = volume.model;
     Sections result;
-    result.heights = wall_heights(volume);
+    const std::vector<SideLine> lines = side_lines(volume);
+    result.heights = wall_heights(volume, lines);
     const std::vector<Vec3> up = ways_up(volume, result.heights);
     result.levels.resize(static_cast<std::size_t>(count) + 1);
     std::map<Side, std::size_t> on_line;
-    const std::vector<SideLine> lines = side_lines(volume);
     for (std::size_t l = 0; l < lines.size(); ++l) {
         for (const EdgeUse& use : lines[l].uses) {
             const std::vector<Index>& points = model[use.edge].points;

@@ -112,14 +112,33 @@ std::optional<Path> climb_from(VertexId start, const Rises& graph, const std::se
     return std::nullopt;
 }
 
+/// Share of the length of its side line below each point between the rims.
+std::map<Index, double> heights_along(const Model& model, const std::vector<SideLine>& lines)
+{
+    std::map<Index, double> heights;
+    for (const SideLine& line : lines) {
+        std::vector<Index> chain;
+        for (const EdgeUse& use : line.uses) {
+            const std::vector<Index> points = use_points(model, use);
+            chain.insert(chain.end(), points.begin() + (chain.empty() ? 0 : 1), points.end());
+        }
+        std::vector<double> run{0};
+        for (std::size_t i = 1; i < chain.size(); ++i)
+            run.push_back(run.back() + (model.at(chain[i]) - model.at(chain[i - 1])).norm());
+        for (std::size_t i = 1; i + 1 < chain.size(); ++i) heights[chain[i]] = run[i] / run.back();
+    }
+    return heights;
+}
+
 } // namespace
 
-std::vector<double> wall_heights(const OpenVolume& volume)
+std::vector<double> wall_heights(const OpenVolume& volume, const std::vector<SideLine>& lines)
 {
     const Model& model = volume.model;
     std::vector<double> heights(model.points.size(), kNaN);
     const std::vector<Index> low = rim_points(model, volume.faces(Role::source));
     const std::vector<Index> high = rim_points(model, volume.faces(Role::target));
+    const std::map<Index, double> on_lines = heights_along(model, lines);
     for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
         std::vector<Triangle> triangles;
         std::set<Index> used;
@@ -142,6 +161,9 @@ std::vector<double> wall_heights(const OpenVolume& volume)
         const bool joins_source = fix(low, 0);
         const bool joins_target = fix(high, 1);
         if (!joins_source || !joins_target) continue;
+        for (const auto& [p, height] : on_lines) {
+            if (used.contains(p)) fix({p}, height);
+        }
         problem.points = model.points;
         problem.triangles = triangles;
         problem.fixed_values = Eigen::Map<const Eigen::MatrixXd>(values.data(),

@@ -15,7 +15,9 @@ struct SideLine {
 
 /// How far up the walls each model point lies: the harmonic function that is 0 on the source rim and 1 on the
 /// target rim. NaN off the walls and on wall parts that do not join both rims.
-std::vector<double> wall_heights(const topology::OpenVolume& volume);
+/// @param lines  side lines, where they are known: the share of their length below a point is its height. With open
+///               walls this keeps level what twists and bends; the free sides alone would let it lean.
+std::vector<double> wall_heights(const topology::OpenVolume& volume, const std::vector<SideLine>& lines = {});
 
 /// How steeply an edge climbs: its rise over the most it could rise along its length, 1 straight up, 0 along a
 /// level line. Signed: positive from `from` to `to`. NaN where the heights are.
