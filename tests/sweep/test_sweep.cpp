@@ -189,6 +189,41 @@ TEST_CASE("curved, twisted and bent volumes of every class become hexahedra")
     MESSAGE(combinations << " curved volumes");
 }
 
+TEST_CASE("bends with any of their walls missing are filled well, left to themselves and told to follow")
+{
+    int combinations = 0;
+    for (const double bend : {40.0, 90.0, 150.0}) {
+        for (const double taper : {1.0, 0.6}) {
+            for (const auto& gone :
+                 std::vector<std::vector<int>>{{0, 1, 2}, {1, 2, 3}, {1, 2}, {0, 3}, {0, 2}, {1}}) {
+                for (const auto shape : {closure::EdgeShape::automatic, closure::EdgeShape::follow}) {
+                    for (const End end : {End::planar, End::bowed}) {
+                        const PrismOptions options{.sides = 4,
+                                                   .height = 4,
+                                                   .cuts = 4,
+                                                   .levels = 12,
+                                                   .twist = 20,
+                                                   .taper = taper,
+                                                   .bend = bend,
+                                                   .target = end,
+                                                   .drop = without(false, false, false, gone)};
+                        CAPTURE(bend);
+                        CAPTURE(taper);
+                        CAPTURE(gone.size());
+                        CAPTURE(gone.front());
+                        CAPTURE(static_cast<int>(end));
+                        const auto volume = test::sealed(options, {shape});
+                        const Swept swept = check_swept(volume, layers_of(12, 0.3), 0.05);
+                        CHECK(quality::measure(swept.mesh).min_scaled_jacobian > 0.2);
+                        ++combinations;
+                    }
+                }
+            }
+        }
+    }
+    MESSAGE(combinations << " bends");
+}
+
 TEST_CASE("stacked walls and walls in rows become hexahedra, rows to rings")
 {
     int combinations = 0;
@@ -483,7 +518,7 @@ TEST_CASE("sources meshed by Gmsh become hexahedra as well")
     for (const int sides : {0, 3, 5}) {
         for (const int holes : {0, 3}) {
             for (const int hole_sides : {0, 3}) {
-                SweepOptions options = layers_of(3, 0.15);
+                SweepOptions options = layers_of(3, 0.1);
                 options.quad_mesher = cad::recombine;
                 const auto volume = test::sealed({.sides = sides,
                                                   .holes = holes,
