@@ -139,7 +139,8 @@ TEST_CASE("nearest undoes every motion that takes no vertex half way to the next
 
 TEST_CASE("a map that is not unique is cured by the reverse distances")
 {
-    // A target drawn to one side: several source vertices have the same nearest, each target vertex but one has its own.
+    // A target drawn to one side: several source vertices have the same nearest, each target vertex but one
+    // has its own.
     int cured = 0, refusals = 0;
     std::mt19937 dice(22);
     std::uniform_real_distribution<double> chance(-1, 1);
@@ -221,7 +222,8 @@ TEST_CASE("far, turned and concentric ends, which defeat the nearest vertex, are
     const auto grown = two_ends(inner, outer, lifted(1));
     CHECK(refused([&] { matching::match(grown, nearest()); }, {"source loop"}) == "matching.nearest_failed");
     CHECK_NOTHROW(matching::match(grown)); // aligned does not mind
-    // A turn of a step of a regular loop comes out as no turn: one-to-one, so it cannot know; half a step is a toss-up, and it says so.
+    // A turn of a step of a regular loop comes out as no turn: one-to-one, so it cannot know; half a step is
+    // a toss-up, and it says so.
     const auto half = two_ends(square, square, lifted(1, 1, kPi / 4 + 1e-9));
     const std::string code = refused([&] { CHECK(matching::match(half, nearest()).confidence < 0.01); });
     CHECK((code == "done" || code == "matching.nearest_failed"));

@@ -91,7 +91,8 @@ void check_pairs(const OpenVolume& volume, const Match& found)
     CHECK((listed == walked)); // source loop by source loop in walking order
 }
 
-/// Match, split, close, sweep: sealed, of the right volume, and a valid mesh. @return the match, its splits made.
+/// Match, split, close, sweep: sealed, of the right volume, and a valid mesh. @return the match, its splits
+/// made.
 Match check_swept(OpenVolume volume, double facet_volume, double closeness, const MatchOptions& options = {},
                   bool sweeps = true)
 {
@@ -247,7 +248,8 @@ TEST_CASE("every corner meets a corner or a vertex made for it, on both ends, an
                 const double fewer = std::min(low, high);
                 CHECK(static_cast<double>(found.vertices.size()) >= fewer - 0.5);
             }
-            // Quads at a source corner that is to lie on a straight side of the target have a straight angle there: not by this way.
+            // Quads at a source corner that is to lie on a straight side of the target have a straight angle
+            // there: not by this way.
             const bool sweeps = high < 3 || high >= low || low >= 5;
             check_swept(volume, frustum(bottom[0], top[0], scale, 1.5), 0.12, {}, sweeps);
             ++combinations;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Source and target with nothing between them, made of outlines whose vertices stand wherever a test wants them.
+// Source and target with nothing between them, made of outlines whose vertices stand wherever a test wants
+// them.
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/triangulate.h>
@@ -133,7 +134,8 @@ inline void add_end(topology::Model& model, const Ends& ends, const Place& place
     model.faces.push_back(face);
 }
 
-/// Source at z = 0, looking down, and target wherever `place` has it. Vertex tags count from 1 in the order of outlines, source first.
+/// Source at z = 0, looking down, and target wherever `place` has it. Vertex tags count from 1 in the order
+/// of outlines, source first.
 inline topology::OpenVolume two_ends(const Ends& low, const Ends& high, const Place& place)
 {
     topology::Model model;

@@ -42,7 +42,8 @@ std::vector<std::vector<EdgeUse>> canonical(const Face& face)
     return loops;
 }
 
-/// What any model must be: chains end in their vertices, walks are closed, loops are what the facets say, tags differ.
+/// What any model must be: chains end in their vertices, walks are closed, loops are what the facets say,
+/// tags differ.
 void check_model(const Model& model)
 {
     for (const Edge& edge : model.edges) {

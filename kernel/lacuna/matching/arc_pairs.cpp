@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Everything is counted in shares of the source: a target vertex stands where the stretch between the loops takes it.
+// Everything is counted in shares of the source: a target vertex stands where the stretch between the loops
+// takes it.
 #include <lacuna/matching/arc_pairs.h>
 
 #include <algorithm>
@@ -18,7 +19,8 @@ constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Corners further apart than this share of a side are nearer to another place than to each other.
 constexpr double kFarCorner = 0.5;
-/// Vertices nearer than this share of the side beside them are paired, rather than a piece that short cut off.
+/// Vertices nearer than this share of the side beside them are paired, rather than a piece that short cut
+/// off.
 constexpr double kNear = 0.25;
 
 double share(double x)
@@ -33,7 +35,8 @@ double round_distance(double a, double b)
     return std::min(apart, 1 - apart);
 }
 
-/// A map of the circle that takes the target's shares to the source's: piecewise linear between pairs, a turn without them.
+/// A map of the circle that takes the target's shares to the source's: piecewise linear between pairs, a turn
+/// without them.
 class Stretch {
 public:
     Stretch(double offset, bool backward, const std::vector<std::pair<double, double>>& fixed)
@@ -74,7 +77,8 @@ private:
     std::vector<std::pair<double, double>> knots_; ///< (source, turned target)
 };
 
-/// Give each of `few` one of `many`, both rising, none crossing, with the least sum of squared distances. As many at most.
+/// Give each of `few` one of `many`, both rising, none crossing, with the least sum of squared distances. As
+/// many at most.
 /// @return which, and the sum.
 std::pair<std::vector<std::size_t>, double> in_line(const std::vector<double>& few,
                                                     const std::vector<double>& many)

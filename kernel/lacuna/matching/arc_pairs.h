@@ -26,12 +26,14 @@ struct ArcPairs {
 /// Pair the vertices of two loops by how far along the loops they stand.
 ///
 /// Hard pairs hold, and shares between them are stretched to meet. Then, in this order:
-/// - Corners meet corners: of the loop with fewer all, the nearest ones that keep the order (least sum of squares); but none further
-///   apart than half a side of either, for which another corner is closer. Shares are stretched to meet there too.
-/// - Vertices left, of any kind, are paired where they are nearer than a quarter of the shortest side beside them, rather than cut
-///   off a short piece, and than `most_twist`.
+/// - Corners meet corners: of the loop with fewer all, the nearest ones that keep the order (least sum of
+///   squares); but none further apart than half a side of either, for which another corner is closer. Shares
+///   are stretched to meet there too.
+/// - Vertices left, of any kind, are paired where they are nearer than a quarter of the shortest side beside
+///   them, rather than cut off a short piece, and than `most_twist`.
 /// - A corner left wants a vertex at its share of the other loop. Smooth vertices need none.
-/// - A loop that has no pair so far gets one: the source vertex whose place is farthest from the target's vertices wants one there.
+/// - A loop that has no pair so far gets one: the source vertex whose place is farthest from the target's
+///   vertices wants one there.
 /// @param offset      share of the target's length where the source's start lies.
 /// @param backward    the target runs against the source.
 /// @param most_twist  share of a loop that smooth vertices may be apart.

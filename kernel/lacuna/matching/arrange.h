@@ -18,7 +18,8 @@ struct Arrangement {
     double score = std::numeric_limits<double>::infinity();
 };
 
-/// Pair the loops: lay one source loop on each target loop it may go to, in every way, and see how the others fall.
+/// Pair the loops: lay one source loop on each target loop it may go to, in every way, and see how the others
+/// fall.
 /// @return the two best arrangements with different pairs, best first.
 std::vector<Arrangement> arrange(const Problem& problem);
 

@@ -13,8 +13,8 @@ namespace lacuna::matching {
 
 namespace {
 
-/// What a turn of 180° counts in a score, against a residual as large as the loop: small, so that it only decides
-/// between fits that are about as good.
+/// What a turn of 180° counts in a score, against a residual as large as the loop: small, so that it only
+/// decides between fits that are about as good.
 constexpr double kTurnWeight = 0.1;
 /// Steps of a golden section: to a millionth of a sample.
 constexpr int kSections = 30;
@@ -40,8 +40,8 @@ double turn_of(const Eigen::Matrix3d& rotation)
     return std::abs(Eigen::AngleAxisd(rotation).angle()) / std::numbers::pi;
 }
 
-/// How much two loops, run as a lay has it, look opposite ways along the line between them, 0…1: a plain sweep goes
-/// into both alike.
+/// How much two loops, run as a lay has it, look opposite ways along the line between them, 0…1: a plain
+/// sweep goes into both alike.
 double overturned(const LoopShape& source, const LoopShape& target, bool backward)
 {
     const Vec3 way = (target.centroid - source.centroid).stableNormalized();

@@ -9,8 +9,8 @@
 
 namespace lacuna::matching {
 
-/// The most that void edges may turn in the mean against straight up, as a share of the loop: the waist of a round wall that
-/// is ruled so is 1 − cos(π/32), half a hundredth, narrower.
+/// The most that void edges may turn in the mean against straight up, as a share of the loop: the waist of a
+/// round wall that is ruled so is 1 − cos(π/32), half a hundredth, narrower.
 inline constexpr double kMostTwist = 1.0 / 32;
 
 /// One way to lay a source loop on a target loop.
@@ -29,8 +29,8 @@ struct PointPairs {
     std::vector<Vec3> from, to;
 };
 
-/// Every lay of source loop s on target loop t that hard pairs and direction allow, best first. Pairs matched already take part
-/// in the fit.
+/// Every lay of source loop s on target loop t that hard pairs and direction allow, best first. Pairs matched
+/// already take part in the fit.
 std::vector<Lay> lays(const Problem& problem, std::size_t s, std::size_t t, bool with_scale,
                       const PointPairs& known = {});
 
@@ -45,9 +45,9 @@ bool differ(const Problem& problem, std::size_t s, std::size_t t, const Lay& a, 
 
 /// Say of each two loops whether their vertices tell how they lie on each other, or lengths have to.
 ///
-/// Loops with unlike numbers of vertices go by length, and those with one each. Others go vertex to vertex, unless no
-/// way to do so keeps what walls join; or the best gives a corner a smooth partner though there are corners for
-/// it; or, where no corner meets a corner, it twists by more than `kMostTwist` in the mean.
+/// Loops with unlike numbers of vertices go by length, and those with one each. Others go vertex to vertex,
+/// unless no way to do so keeps what walls join; or the best gives a corner a smooth partner though there are
+/// corners for it; or, where no corner meets a corner, it twists by more than `kMostTwist` in the mean.
 void choose_how(Problem& problem);
 
 } // namespace lacuna::matching

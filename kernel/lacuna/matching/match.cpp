@@ -119,14 +119,15 @@ private:
             return differ(problem_, s, t, best, other);
         });
         if (second == found.end() || problem_.has_hard(s)) return;
-        // The pairs of the loops may have been chosen for their shapes, and not be the best by where they land.
+        // The pairs of the loops may have been chosen for their shapes, and not be the best by where they
+        // land.
         const double ratio = std::min(1.0, std::max(best.score, 1e-12) / std::max(second->score, 1e-12));
         match_.confidence = std::min(match_.confidence, 1 - ratio);
         if (1 - ratio < kUnsure) note_candidates(problem_, s, t, best, *second, match_);
     }
 
-    /// Samples lie where they happen to: slide a loop that goes by length to where all the others want it. Those that
-    /// can slide themselves count by their middles, as much as the loop.
+    /// Samples lie where they happen to: slide a loop that goes by length to where all the others want it.
+    /// Those that can slide themselves count by their middles, as much as the loop.
     void slide(std::size_t s)
     {
         const std::size_t t = target(s);

@@ -48,19 +48,21 @@ struct Match {
 
 /// Match the rims of source and target.
 ///
-/// Algorithm: paper's Algorithm 1. `aligned` (default): hard pairs from the walls, loops by assignment, vertices by
-/// the rigid fit of every cyclic shift and direction. `nearest`: the paper's own vertex distances.
+/// Algorithm: paper's Algorithm 1. `aligned` (default): hard pairs from the walls, loops by assignment,
+/// vertices by the rigid fit of every cyclic shift and direction. `nearest`: the paper's own vertex
+/// distances.
 ///
-/// `aligned` pairs vertices by how far along the loops they stand, pair_by_arc(), where the vertices themselves do not tell: loops
-/// with unlike numbers of them, closed edges, loops without corners whose vertices would turn the void edges by more than 1/32 of
-/// the loop, and those where a corner would meet no corner; choose_how(). Real corners get a partner always, by a split of
-/// the other loop if need be; a vertex that only says where a smooth run was cut may stay alone.
+/// `aligned` pairs vertices by how far along the loops they stand, pair_by_arc(), where the vertices
+/// themselves do not tell: loops with unlike numbers of them, closed edges, loops without corners whose
+/// vertices would turn the void edges by more than 1/32 of the loop, and those where a corner would meet no
+/// corner; choose_how(). Real corners get a partner always, by a split of the other loop if need be; a vertex
+/// that only says where a smooth run was cut may stay alone.
 /// @throw InvalidInput   a forced part that contradicts the faces.
 /// @throw NotClosed      loops that differ in number; forced parts that contradict each other; names them.
 Match match(const topology::OpenVolume& volume, const MatchOptions& options = {});
 
-/// Make the splits a match wants, by topology::split_edge(): its pairs and loops are whole then, and no splits are left. A place
-/// on an edge with a wall is passed over, with a note.
+/// Make the splits a match wants, by topology::split_edge(): its pairs and loops are whole then, and no
+/// splits are left. A place on an edge with a wall is passed over, with a note.
 /// @pre the match is of this volume.
 void apply_splits(topology::OpenVolume& volume, Match& match);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Vertices are counted through, loop by loop in walking order: `Ends` says which loop and which place a number stands for.
+// Vertices are counted through, loop by loop in walking order: `Ends` says which loop and which place a
+// number stands for.
 #include <lacuna/matching/nearest.h>
 
 #include <lacuna/core/error.h>
@@ -19,7 +20,8 @@ namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Step 7: matches within this many standard deviations of the mean are no outliers, and this share of them must be none.
+/// Step 7: matches within this many standard deviations of the mean are no outliers, and this share of them
+/// must be none.
 constexpr double kDeviations = 2;
 constexpr double kShare = 0.5;
 
@@ -150,8 +152,8 @@ private:
     NearestMatch result_;
 };
 
-/// Steps 4 and 5: the nearest target vertex of each source vertex; where the map is not unique, the nearest source vertex of each
-/// target vertex that was met not at all or more than once.
+/// Steps 4 and 5: the nearest target vertex of each source vertex; where the map is not unique, the nearest
+/// source vertex of each target vertex that was met not at all or more than once.
 void Nearest::match_vertices()
 {
     std::vector<int> met(target_.vertex.size(), 0);
@@ -280,8 +282,8 @@ Nearest::Way Nearest::best_of(const std::vector<Way>& list)
     });
 }
 
-/// Step 6, the direction: one for all loops, as both ends are seen from one side. The order of one or two vertices says nothing of
-/// it; where no other loop does, the sides the ends are seen from count.
+/// Step 6, the direction: one for all loops, as both ends are seen from one side. The order of one or two
+/// vertices says nothing of it; where no other loop does, the sides the ends are seen from count.
 void Nearest::find_direction()
 {
     std::size_t backward = 0, forward = 0;
