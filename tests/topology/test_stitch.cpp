@@ -8,7 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -637,11 +637,11 @@ TEST_CASE("a thousand loose faces are stitched in well under a second")
                 add_box(model, Vec3(i, j, k) * 1.5, Vec3(i, j, k) * 1.5 + Vec3(1, 1, 1), 8);
     shake(model, 0.4 * kTolerance, 2);
     build_loops(model);
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     stitch(model, kTolerance);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    MESSAGE(taken.count() << " s for " << model.faces.size() << " faces");
-    CHECK(taken.count() < 2); // on a machine that is busy
+    const double taken = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    MESSAGE(taken << " s for " << model.faces.size() << " faces");
+    CHECK(taken < 2); // on a machine that is busy
     check_closed(model, 180, 1);
 }
 
