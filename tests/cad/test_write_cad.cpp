@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "made_files.h"
+#include "support/volumes.h"
 
 #include <lacuna/cad/session.h>
 #include <lacuna/cad/write_cad.h>
@@ -11,6 +12,7 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -19,6 +21,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <thread>
 
 using namespace lacuna;
 namespace occ = gmsh::model::occ;
@@ -37,7 +40,8 @@ topology::OpenVolume opened(const topology::Model& model, const Tags& tags)
     const auto ids = [&](const std::vector<int>& wanted) {
         std::vector<FaceId> found;
         for (const int tag : wanted) {
-            const auto face = std::find_if(model.faces.begin(), model.faces.end(), [&](const auto& f) { return f.tag == tag; });
+            const auto face = std::find_if(model.faces.begin(), model.faces.end(),
+                                           [&](const auto& f) { return f.tag == tag; });
             REQUIRE(face != model.faces.end());
             found.emplace_back(std::size_t(face - model.faces.begin()));
         }
@@ -46,10 +50,12 @@ topology::OpenVolume opened(const topology::Model& model, const Tags& tags)
     return topology::open_volume(model, {ids(tags.source), ids(tags.target), ids(tags.walls)});
 }
 
-topology::OpenVolume sealed(const topology::Model& model, const Tags& tags, const closure::CloseOptions& options = {})
+topology::OpenVolume sealed(const topology::Model& model, const Tags& tags,
+                            const closure::CloseOptions& options = {})
 {
     topology::OpenVolume volume = opened(model, tags);
-    const bool ends = !volume.faces(topology::Role::source).empty() && !volume.faces(topology::Role::target).empty();
+    const bool ends = !volume.faces(topology::Role::source).empty() &&
+                      !volume.faces(topology::Role::target).empty();
     closure::close(volume, ends ? matching::match(volume) : matching::Match{}, options);
     return volume;
 }
@@ -88,7 +94,9 @@ InFile read(const std::string& path)
 int face_at(const topology::Model& model, const Vec3& place)
 {
     std::size_t best = 0;
-    const auto distance = [&](std::size_t f) { return (topology::face_centroid(model, FaceId(f)) - place).norm(); };
+    const auto distance = [&](std::size_t f) {
+        return (topology::face_centroid(model, FaceId(f)) - place).norm();
+    };
     for (std::size_t f = 1; f < model.faces.size(); ++f)
         if (distance(f) < distance(best)) best = f;
     return model.faces[best].tag;
@@ -118,7 +126,8 @@ std::string bytes_of(const std::string& path)
 
 std::size_t entries(const std::string& folder)
 {
-    return std::size_t(std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator{}));
+    return std::size_t(
+        std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator{}));
 }
 
 /// A plate with a round and a square hole and one round corner, along z from 0 to 2.
@@ -132,7 +141,9 @@ struct Plate {
         const int box = occ::addBox(0, 0, 0, 4, 3, kHeight);
         gmsh::vectorpair out, bit;
         std::vector<gmsh::vectorpair> map;
-        occ::cut({{3, box}}, {{3, occ::addCylinder(1.2, 1.2, 0, 0, 0, kHeight, 0.5)}, {3, occ::addBox(2.4, 1.7, 0, 0.5, 0.5, kHeight)}},
+        occ::cut({{3, box}},
+                 {{3, occ::addCylinder(1.2, 1.2, 0, 0, 0, kHeight, 0.5)},
+                  {3, occ::addBox(2.4, 1.7, 0, 0.5, 0.5, kHeight)}},
                  out, map, 9);
         const int corner = occ::addBox(3, 0, 0, 1, 1, kHeight);
         occ::cut({{3, corner}}, {{3, occ::addCylinder(3, 1, 0, 0, 0, kHeight, 1)}}, bit, map);
@@ -142,10 +153,11 @@ struct Plate {
     static std::map<std::string, int> parts(const topology::Model& model, double scale)
     {
         const auto at = [&](double x, double y, double z) { return face_at(model, scale * Vec3(x, y, z)); };
-        std::map<std::string, int> tags{{"low", at(1.9, 1.5, 0)},   {"high", at(1.9, 1.5, 2)}, {"left", at(0, 1.5, 1)},
-                                        {"back", at(2, 3, 1)},      {"right", at(4, 2, 1)},    {"front", at(1.5, 0, 1)},
-                                        {"corner", at(3.7, 0.3, 1)}, {"round", at(1.2, 1.2, 1)}, {"s1", at(2.4, 1.95, 1)},
-                                        {"s2", at(2.9, 1.95, 1)},   {"s3", at(2.65, 1.7, 1)},  {"s4", at(2.65, 2.2, 1)}};
+        std::map<std::string, int> tags{
+            {"low", at(1.9, 1.5, 0)},    {"high", at(1.9, 1.5, 2)},  {"left", at(0, 1.5, 1)},
+            {"back", at(2, 3, 1)},       {"right", at(4, 2, 1)},     {"front", at(1.5, 0, 1)},
+            {"corner", at(3.7, 0.3, 1)}, {"round", at(1.2, 1.2, 1)}, {"s1", at(2.4, 1.95, 1)},
+            {"s2", at(2.9, 1.95, 1)},    {"s3", at(2.65, 1.7, 1)},   {"s4", at(2.65, 2.2, 1)}};
         return tags;
     }
 };
@@ -204,12 +216,14 @@ TEST_CASE("volumes opened in real CAD files come back as one solid of the volume
             const auto start = std::chrono::steady_clock::now();
             try {
                 const cad::WrittenCad written = cad::write_cad(volume, file);
-                const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+                const double seconds =
+                    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
                 const InFile found = read(file);
                 const double off = found.volume / c.volume - 1;
-                MESSAGE(c.name << ending << ": " << found.solids << " solid, " << found.faces << " faces (" << written.planes << " planes, "
-                               << written.fitted << " fitted), volume " << found.volume << ", off by " << off << ", facets "
-                               << written.facet_volume << ", sewn within " << written.tolerance << ", " << seconds << " s, "
+                MESSAGE(c.name << ending << ": " << found.solids << " solid, " << found.faces << " faces ("
+                               << written.planes << " planes, " << written.fitted << " fitted), volume "
+                               << found.volume << ", off by " << off << ", facets " << written.facet_volume
+                               << ", sewn within " << written.tolerance << ", " << seconds << " s, "
                                << std::filesystem::file_size(file) / 1024 << " KiB");
                 CHECK(found.solids == 1);
                 CHECK(found.faces == written.faces);
@@ -226,11 +240,19 @@ TEST_CASE("volumes opened in real CAD files come back as one solid of the volume
 TEST_CASE("a plate opened every way comes back to its volume: whole or in loose faces, at any scale")
 {
     const test::TempFolder folder;
-    const std::vector<std::pair<std::string, std::string>> files{{"solid", folder.gmsh("solid.step", Plate::build)},
-                                                                 {"loose", folder.loose("loose.step", Plate::build)}};
-    const std::vector<std::set<std::string>> ways{{"right", "corner"},         {"corner"},       {"round"},     {"high"},
-                                                  {"s1", "s2", "s3", "s4"},    {"low", "high"},  {"s2"},        {"left", "s1", "round"},
-                                                  {"left", "back", "right", "front", "corner", "round", "s1", "s2", "s3", "s4"}};
+    const std::vector<std::pair<std::string, std::string>> files{
+        {"solid", folder.gmsh("solid.step", Plate::build)},
+        {"loose", folder.loose("loose.step", Plate::build)}};
+    const std::vector<std::set<std::string>> ways{
+        {"right", "corner"},
+        {"corner"},
+        {"round"},
+        {"high"},
+        {"s1", "s2", "s3", "s4"},
+        {"low", "high"},
+        {"s2"},
+        {"left", "s1", "round"},
+        {"left", "back", "right", "front", "corner", "round", "s1", "s2", "s3", "s4"}};
     for (const auto& [kind, path] : files) {
         for (const double scale : {1.0, 25.4}) {
             const topology::Model model = cad::load({path}, {.scale = scale});
@@ -239,13 +261,18 @@ TEST_CASE("a plate opened every way comes back to its volume: whole or in loose 
             for (const std::set<std::string>& missing : ways) {
                 Tags tags;
                 for (const auto& [name, tag] : parts)
-                    if (!missing.contains(name)) (name == "low" ? tags.source : name == "high" ? tags.target : tags.walls).push_back(tag);
+                    if (!missing.contains(name))
+                        (name == "low"    ? tags.source
+                         : name == "high" ? tags.target
+                                          : tags.walls)
+                            .push_back(tag);
                 if (tags.source.empty()) tags.source.swap(tags.target);
                 CAPTURE(kind);
                 CAPTURE(scale);
                 CAPTURE(*missing.begin());
                 const topology::OpenVolume volume = sealed(model, tags);
-                const std::string file = folder.path(kind + *missing.begin() + (scale > 1 ? ".brep" : ".stp"));
+                const std::string file = folder.path(kind + *missing.begin() +
+                                                     (scale > 1 ? ".brep" : ".stp"));
                 const cad::WrittenCad written = cad::write_cad(volume, file);
                 const InFile found = read(file);
                 CHECK(found.solids == 1);
@@ -307,4 +334,189 @@ TEST_CASE("a cap over a bent rim is filled close to its facets")
         CHECK(read(folder.path("out.step")).solids == 1);
         CHECK(written.volume == doctest::Approx(written.facet_volume).epsilon(0.01));
     }
+}
+
+TEST_CASE("a bent duct with missing walls comes back close to what its void faces follow")
+{
+    const test::TempFolder folder;
+    // A square turned a third of a circle about an axis beside it; as large as its centre's way is long.
+    const double angle = 2 * std::numbers::pi / 3;
+    const std::string path = folder.gmsh("duct.brep", [&] {
+        gmsh::vectorpair out;
+        occ::revolve({{2, occ::addRectangle(3, 0, 0, 1, 1)}}, 0, 0, 0, 0, 1, 0, angle, out);
+    });
+    const topology::Model model = cad::load({path});
+    const auto turned = [&](double x, double y) {
+        return Vec3(x * std::cos(angle), y, -x * std::sin(angle));
+    };
+    const int source = face_at(model, {3.5, 0.5, 0}), target = face_at(model, turned(3.5, 0.5));
+    for (const int missing : {1, 2, 3}) {
+        CAPTURE(missing);
+        Tags tags{{source}, {target}, {}};
+        int dropped = 0;
+        for (const auto& face : model.faces) {
+            if (face.tag == source || face.tag == target) continue;
+            if (dropped++ >= missing) tags.walls.push_back(face.tag);
+        }
+        const topology::OpenVolume volume = sealed(model, tags, {closure::EdgeShape::follow});
+        const cad::WrittenCad written = cad::write_cad(volume, folder.path("out.step"));
+        CHECK(read(folder.path("out.step")).solids == 1);
+        CHECK(written.planes + written.fitted == std::size_t(missing));
+        CHECK(written.volume == doctest::Approx(3.5 * angle).epsilon(0.01));
+    }
+}
+
+TEST_CASE("faces of several files, the loose before the solid, are told apart")
+{
+    const test::TempFolder folder;
+    const std::string loose = folder.loose("loose.step", [] { occ::addBox(10, 0, 0, 1, 2, 3); });
+    const std::string solid = folder.gmsh("solid.step", Plate::build);
+    const topology::Model model = cad::load({loose, solid});
+    const std::map<std::string, int> parts = Plate::parts(model, 1);
+    Tags tags;
+    for (const auto& [name, tag] : parts)
+        if (name != "high" && name != "low") tags.walls.push_back(tag);
+    cad::write_cad(sealed(model, tags), folder.path("plate.brep"));
+    CHECK(read(folder.path("plate.brep")).volume == doctest::Approx(Plate::kVolume).epsilon(1e-9));
+    const Tags box{{face_at(model, {10.5, 1, 0})},
+                   {},
+                   {face_at(model, {10, 1, 1.5}), face_at(model, {11, 1, 1.5}),
+                    face_at(model, {10.5, 0, 1.5}), face_at(model, {10.5, 2, 1.5})}};
+    cad::write_cad(sealed(model, box), folder.path("box.brep"));
+    CHECK(read(folder.path("box.brep")).volume == doctest::Approx(6).epsilon(1e-9));
+}
+
+TEST_CASE("flat faces of facets become planes; bent ones are refused with what to do instead")
+{
+    const test::TempFolder folder;
+    for (const int holes : {0, 1, 2}) {
+        for (const auto& drop :
+             {test::without(false, false, false), test::without(false, false, false, {0, 1}),
+              test::without(false, true, false), test::without(true, true, false),
+              test::without(false, false, true)}) {
+            const test::Prism prism = test::prism({.sides = 5, .holes = holes, .drop = drop});
+            topology::OpenVolume volume = prism.open();
+            const bool ends = !volume.faces(topology::Role::source).empty() &&
+                              !volume.faces(topology::Role::target).empty();
+            closure::close(volume, ends ? matching::match(volume) : matching::Match{});
+            cad::write_cad(volume, folder.path("prism.step"));
+            const InFile found = read(folder.path("prism.step"));
+            CHECK(found.solids == 1);
+            CHECK(found.faces == volume.model.faces.size());
+            CHECK(found.volume == doctest::Approx(prism.volume).epsilon(1e-9));
+        }
+    }
+    const topology::OpenVolume round = test::prism({.sides = 0}).open();
+    const std::size_t before = entries(folder.path(""));
+    CHECK(refusal([&] { cad::write_cad(round, folder.path("round.step")); },
+                  {"facets alone", "write_facets"}) == "cad.facets_alone");
+    CHECK(entries(folder.path("")) == before);
+}
+
+TEST_CASE("two writings are alike to the byte, and a STEP file says mm whatever unit the host works in")
+{
+    const test::TempFolder folder;
+    const topology::Model model = cad::load({folder.gmsh("plate.step", Plate::build)});
+    Tags tags;
+    for (const auto& [name, tag] : Plate::parts(model, 1))
+        if (name != "round")
+            (name == "low" ? tags.source : name == "high" ? tags.target : tags.walls).push_back(tag);
+    const topology::OpenVolume volume = sealed(model, tags);
+    for (const std::string ending : {".step", ".brep"}) {
+        cad::write_cad(volume, folder.path("one" + ending));
+        std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // the time in the head would be another
+        {
+            cad::Session host;
+            host.set("Geometry.OCCTargetUnit", std::string("M"));
+            host.set("Geometry.OCCScaling", 3);
+            host.set("Geometry.OCCSewFaces", 1);
+            const cad::GmshModel own(host);
+            occ::addBox(0, 0, 0, 7, 7, 7);
+            occ::synchronize();
+            std::string name, after;
+            gmsh::model::getCurrent(name);
+            cad::write_cad(volume, folder.path("two" + ending));
+            gmsh::model::getCurrent(after);
+            CHECK(name == after);
+            double scaling = 0;
+            gmsh::option::getNumber("Geometry.OCCScaling", scaling);
+            CHECK(scaling == 3);
+            gmsh::vectorpair solids;
+            gmsh::model::getEntities(solids, 3);
+            CHECK(solids.size() == 1);
+        }
+        const std::string one = bytes_of(folder.path("one" + ending));
+        const bool alike = one == bytes_of(folder.path("two" + ending));
+        CHECK(alike);
+        if (ending == ".step") CHECK(one.find("SI_UNIT(.MILLI.,.METRE.)") != std::string::npos);
+    }
+}
+
+TEST_CASE("what cannot be written is refused, and what was there before stays")
+{
+    const test::TempFolder folder;
+    const topology::Model model = cad::load({folder.gmsh("plate.step", Plate::build)});
+    Tags tags;
+    for (const auto& [name, tag] : Plate::parts(model, 1))
+        if (name != "round")
+            (name == "low" ? tags.source : name == "high" ? tags.target : tags.walls).push_back(tag);
+    const topology::OpenVolume open = opened(model, tags);
+    const topology::OpenVolume volume = sealed(model, tags);
+    const std::string kept = folder.write("kept.step", "kept");
+    const std::size_t before = entries(folder.path(""));
+    CHECK(refusal([&] { cad::write_cad(open, kept); }, {"free", "close()"}) == "cad.not_sealed");
+    CHECK(refusal([&] { cad::write_cad(volume, folder.path("a.iges")); }, {".step"}) == "cad.unknown_ending");
+    CHECK(refusal([&] { cad::write_cad(volume, folder.path("no/a.step")); }, {"folder"}) == "io.no_folder");
+    CHECK(refusal([&] { cad::write_cad(volume, folder.path("a.step"), {.deviation = 0}); }, {"deviation"}) ==
+          "cad.deviation");
+    CHECK(refusal([&] { cad::write_cad(volume, kept, {.deviation = 1e-9}); }, {"facets"}) ==
+          "cad.volume_differs");
+    std::atomic<bool> cancel = true;
+    RunContext context;
+    context.cancel = &cancel;
+    CHECK(refusal([&] { cad::write_cad(volume, kept, {}, context); }) == "core.cancelled");
+    CHECK(bytes_of(kept) == "kept");
+    CHECK(entries(folder.path("")) == before);
+}
+
+TEST_CASE("facets written are read again with their faces and names")
+{
+    const test::TempFolder folder;
+    const topology::Model model = cad::load({folder.gmsh("plate.step", Plate::build)});
+    Tags tags;
+    for (const auto& [name, tag] : Plate::parts(model, 1))
+        if (name != "round")
+            (name == "low" ? tags.source : name == "high" ? tags.target : tags.walls).push_back(tag);
+    const topology::OpenVolume volume = sealed(model, tags);
+    const auto names_of = [](const topology::Model& read) {
+        std::set<std::string> names;
+        for (const auto& face : read.faces) names.insert(face.name);
+        return names;
+    };
+    for (const bool binary : {true, false}) {
+        io::write_facets(volume, folder.path("a.msh"), {binary});
+        const topology::Model msh = cad::load({folder.path("a.msh")}, {.feature_angle = 180});
+        CHECK(msh.faces.size() == volume.model.faces.size());
+        for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
+            const auto& face = volume.model.faces[f];
+            if (face.origin != topology::Origin::given) continue;
+            const auto same = std::find_if(msh.faces.begin(), msh.faces.end(),
+                                           [&](const auto& other) { return other.tag == face.tag; });
+            REQUIRE(same != msh.faces.end());
+            CHECK(topology::face_area(msh, FaceId(std::size_t(same - msh.faces.begin()))) ==
+                  doctest::Approx(topology::face_area(volume.model, FaceId(f))).epsilon(1e-12));
+        }
+        for (const char* name : {"source", "target", "void:1"}) CHECK(names_of(msh).contains(name));
+        CHECK(test::enclosed_volume(msh) == doctest::Approx(closure::enclosed_volume(volume)).epsilon(1e-12));
+
+        io::write_facets(volume, folder.path("a.stl"), {binary});
+        const topology::Model stl = cad::load({folder.path("a.stl")});
+        CHECK(test::enclosed_volume(stl) == doctest::Approx(closure::enclosed_volume(volume)).epsilon(1e-5));
+        for (const int uses : test::uses_of_edges(stl)) CHECK(uses == 2);
+    }
+    io::write_facets(volume, folder.path("a.obj"));
+    const topology::Model obj = cad::load({folder.path("a.obj")}, {.feature_angle = 180});
+    CHECK(obj.faces.size() == volume.model.faces.size());
+    CHECK(names_of(obj).size() == volume.model.faces.size());
+    CHECK(test::enclosed_volume(obj) == doctest::Approx(closure::enclosed_volume(volume)).epsilon(1e-12));
 }

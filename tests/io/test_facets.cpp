@@ -26,15 +26,17 @@ std::vector<std::pair<std::string, topology::OpenVolume>> sealed_volumes()
         const char* name;
         test::PrismOptions options;
     };
-    std::vector<Case> cases{{"II", {.sides = 5, .drop = test::without(false, false, false, {0, 1})}},
-                            {"III", {.sides = 0, .holes = 1, .drop = test::without(false, false, false, {0})}},
-                            {"IV", {.sides = 6, .holes = 2, .twist = 20, .drop = test::without(false, true, false)}},
-                            {"V", {.sides = 0, .holes = 1, .hole_sides = 0, .drop = test::without(true, true, false)}},
-                            {"I", {.sides = 4, .taper = 0.7, .drop = test::without(false, false, true)}}};
+    std::vector<Case> cases{
+        {"II", {.sides = 5, .drop = test::without(false, false, false, {0, 1})}},
+        {"III", {.sides = 0, .holes = 1, .drop = test::without(false, false, false, {0})}},
+        {"IV", {.sides = 6, .holes = 2, .twist = 20, .drop = test::without(false, true, false)}},
+        {"V", {.sides = 0, .holes = 1, .hole_sides = 0, .drop = test::without(true, true, false)}},
+        {"I", {.sides = 4, .taper = 0.7, .drop = test::without(false, false, true)}}};
     std::vector<std::pair<std::string, topology::OpenVolume>> sealed;
     for (const Case& c : cases) {
         topology::OpenVolume volume = test::prism(c.options).open();
-        const bool ends = !volume.faces(topology::Role::source).empty() && !volume.faces(topology::Role::target).empty();
+        const bool ends = !volume.faces(topology::Role::source).empty() &&
+                          !volume.faces(topology::Role::target).empty();
         closure::close(volume, ends ? matching::match(volume) : matching::Match{});
         sealed.emplace_back(c.name, std::move(volume));
     }
@@ -45,7 +47,8 @@ std::vector<std::pair<std::string, topology::OpenVolume>> sealed_volumes()
 template <class Number>
 using Places = std::vector<std::array<std::array<Number, 3>, 3>>;
 
-/// Every side of a facet is met once, run the other way, and what is enclosed is positive. @return that volume.
+/// Every side of a facet is met once, run the other way, and what is enclosed is positive. @return that
+/// volume.
 template <class Number>
 double check_watertight(const Places<Number>& facets)
 {
@@ -53,11 +56,14 @@ double check_watertight(const Places<Number>& facets)
     double volume = 0;
     for (const auto& f : facets) {
         for (std::size_t i = 0; i < 3; ++i) ++sides[{f[i], f[(i + 1) % 3]}];
-        const auto at = [&](std::size_t i) { return Vec3(double(f[i][0]), double(f[i][1]), double(f[i][2])); };
+        const auto at = [&](std::size_t i) {
+            return Vec3(double(f[i][0]), double(f[i][1]), double(f[i][2]));
+        };
         volume += at(0).dot(at(1).cross(at(2))) / 6;
     }
     std::size_t lone = 0;
-    for (const auto& [side, uses] : sides) lone += uses != 1 || !sides.contains({side.second, side.first}) ? 1 : 0;
+    for (const auto& [side, uses] : sides)
+        lone += uses != 1 || !sides.contains({side.second, side.first}) ? 1 : 0;
     CHECK(lone == 0);
     CHECK(volume > 0);
     return volume;
@@ -274,7 +280,8 @@ TEST_CASE("an MSH has a surface and physical groups for every face, named as in 
         REQUIRE(msh.facets.size() == volume.model.faces.size());
         Places<double> facets;
         for (const auto& [tag, list] : msh.facets) {
-            for (const auto& f : list) facets.push_back({msh.nodes.at(f[0]), msh.nodes.at(f[1]), msh.nodes.at(f[2])});
+            for (const auto& f : list)
+                facets.push_back({msh.nodes.at(f[0]), msh.nodes.at(f[1]), msh.nodes.at(f[2])});
         }
         CHECK(check_watertight(facets) == doctest::Approx(closure::enclosed_volume(volume)).epsilon(1e-12));
 
@@ -283,15 +290,20 @@ TEST_CASE("an MSH has a surface and physical groups for every face, named as in 
             REQUIRE(!groups.empty());
             std::set<std::string> names;
             for (const int group : groups) names.insert(msh.names.at({2, group}));
-            const auto given = std::find_if(volume.model.faces.begin(), volume.model.faces.end(), [tag = tag](const auto& f) {
-                return f.origin == topology::Origin::given && f.tag == tag;
-            });
+            const auto given = std::find_if(
+                volume.model.faces.begin(), volume.model.faces.end(),
+                [tag = tag](const auto& f) { return f.origin == topology::Origin::given && f.tag == tag; });
             const bool is_void = given == volume.model.faces.end();
-            const auto role = is_void ? topology::Role::wall : volume.role[std::size_t(given - volume.model.faces.begin())];
-            if (is_void) CHECK(names.contains("void:" + std::to_string(++voids)));
-            else if (role == topology::Role::source) CHECK(names.contains("source"));
-            else if (role == topology::Role::target) CHECK(names.contains("target"));
-            else CHECK(names.contains("wall:" + std::to_string(tag)));
+            const auto role = is_void ? topology::Role::wall
+                                      : volume.role[std::size_t(given - volume.model.faces.begin())];
+            if (is_void)
+                CHECK(names.contains("void:" + std::to_string(++voids)));
+            else if (role == topology::Role::source)
+                CHECK(names.contains("source"));
+            else if (role == topology::Role::target)
+                CHECK(names.contains("target"));
+            else
+                CHECK(names.contains("wall:" + std::to_string(tag)));
             if (given == volume.model.faces.begin()) CHECK(names.contains("a 'given' name"));
         }
         CHECK(voids > 0);
@@ -321,7 +333,8 @@ TEST_CASE("a binary MSH holds what the text one holds, and two writings are alik
             REQUIRE(at<std::uint64_t>(bytes, place + 12) == facets.size());
             place += 20;
             for (const auto& f : facets) {
-                CHECK(at<std::array<std::uint64_t, 3>>(bytes, place + 8) == std::array<std::uint64_t, 3>{f[0], f[1], f[2]});
+                CHECK(at<std::array<std::uint64_t, 3>>(bytes, place + 8) ==
+                      std::array<std::uint64_t, 3>{f[0], f[1], f[2]});
                 place += 32;
             }
         }

@@ -31,7 +31,8 @@ void divide_by_last(std::vector<double>& lengths)
 {
     const double total = lengths.back();
     for (std::size_t i = 0; i < lengths.size(); ++i)
-        lengths[i] = total > 0 ? lengths[i] / total : static_cast<double>(i) / static_cast<double>(lengths.size() - 1);
+        lengths[i] = total > 0 ? lengths[i] / total
+                               : static_cast<double>(i) / static_cast<double>(lengths.size() - 1);
     lengths.back() = 1;
 }
 
@@ -71,7 +72,8 @@ EdgeShape::EdgeShape(const Model& model, EdgeId id)
     }
 }
 
-/// Cubic through the four measured places around: what is left of kinks in the parameter is far below any tolerance.
+/// Cubic through the four measured places around: what is left of kinks in the parameter is far below any
+/// tolerance.
 double EdgeShape::parameter(double share) const
 {
     const std::size_t n = fine_shares_.size();
@@ -109,7 +111,8 @@ std::vector<Vec3> EdgeShape::at(std::span<const double> shares) const
         break;
     }
     case Kind::polyline:
-        for (std::size_t i = 0; i < shares.size(); ++i) places[i] = geometry::point_at(points_, shares_, shares[i]);
+        for (std::size_t i = 0; i < shares.size(); ++i)
+            places[i] = geometry::point_at(points_, shares_, shares[i]);
         break;
     }
     return places;
@@ -149,7 +152,8 @@ PatchSide::PatchSide(const Model& model, const std::vector<EdgeUse>& uses)
             points_.push_back(chain[k]);
             shares_.push_back(piece.low + own[k] * (piece.high - piece.low));
             const bool inner = k > 0 && k + 1 < chain.size();
-            if (inner ? piece.shape.is_polyline() : (k > 0 && i + 1 < uses.size())) breaks_.push_back(shares_.back());
+            if (inner ? piece.shape.is_polyline() : (k > 0 && i + 1 < uses.size()))
+                breaks_.push_back(shares_.back());
         }
     }
 }

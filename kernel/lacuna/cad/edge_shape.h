@@ -12,7 +12,8 @@ namespace lacuna::cad {
 /// An edge as exactly as it is known, over the share of its length.
 class EdgeShape {
 public:
-    /// A given edge with a curve is that curve; one without is its polyline; a void edge is straight, or smooth through its points.
+    /// A given edge with a curve is that curve; one without is its polyline; a void edge is straight, or
+    /// smooth through its points.
     EdgeShape(const topology::Model& model, EdgeId edge);
 
     /// Places at shares in [0, 1], from `from` to `to` of the edge.

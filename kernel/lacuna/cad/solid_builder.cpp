@@ -18,13 +18,16 @@ using namespace topology;
 
 namespace {
 
-/// How exactly splines meet what they stand for, as a part of the diagonal: a hundredth of the tolerance there is by default.
+/// How exactly splines meet what they stand for, as a part of the diagonal: a hundredth of the tolerance
+/// there is by default.
 constexpr double kPrecision = 1e-8;
-/// Points a filled surface is led through at most, of each inner loop and of the facets: the time it takes grows with their cube.
+/// Points a filled surface is led through at most, of each inner loop and of the facets: the time it takes
+/// grows with their cube.
 constexpr std::size_t kLeadingPoints = 40;
 /// An inner loop no further from a filled surface than this part of the diagonal divides it.
 constexpr double kCloseBy = 1e-3;
-/// How closely a shape must be met to be the one it was before it went through a file, as a part of the diagonal.
+/// How closely a shape must be met to be the one it was before it went through a file, as a part of the
+/// diagonal.
 constexpr double kSame = 1e-7;
 
 bool is_plane(const Model& model, const Face& face)
@@ -38,7 +41,9 @@ bool is_plane(const Model& model, const Face& face)
         }
     }
     const geometry::Plane plane = geometry::newell_plane(rims);
-    const auto on_plane = [&](const Vec3& p) { return std::abs(geometry::height(plane, p)) <= model.tolerance; };
+    const auto on_plane = [&](const Vec3& p) {
+        return std::abs(geometry::height(plane, p)) <= model.tolerance;
+    };
     for (const std::vector<Vec3>& rim : rims)
         if (!std::all_of(rim.begin(), rim.end(), on_plane)) return false;
     for (const Triangle& t : face.triangles)
@@ -56,7 +61,8 @@ std::vector<Loop> outermost_first(const Model& model, std::vector<Loop> loops)
             for (const Index p : model[use.edge].points) box.extend(model.at(p));
         return box.diagonal().norm();
     };
-    std::stable_sort(loops.begin(), loops.end(), [&](const Loop& a, const Loop& b) { return extent(a) > extent(b); });
+    std::stable_sort(loops.begin(), loops.end(),
+                     [&](const Loop& a, const Loop& b) { return extent(a) > extent(b); });
     return loops;
 }
 
@@ -71,7 +77,9 @@ std::vector<Vec3> probes_of(int dim, int tag)
             places.push_back(curve_points(tag, {low[0] + f * (high[0] - low[0])}).front());
         } else {
             const double g = 0.87 - 0.7 * f;
-            places.push_back(surface_points(tag, {Vec2(low[0] + f * (high[0] - low[0]), low[1] + g * (high[1] - low[1]))}).front());
+            places.push_back(
+                surface_points(tag, {Vec2(low[0] + f * (high[0] - low[0]), low[1] + g * (high[1] - low[1]))})
+                    .front());
         }
     }
     return places;
@@ -107,9 +115,10 @@ std::vector<int> tags_of(int dim)
 
 void set_plain_import(Session& session, double scale)
 {
-    for (const char* off : {"Geometry.OCCFixDegenerated", "Geometry.OCCFixSmallEdges", "Geometry.OCCFixSmallFaces",
-                            "Geometry.OCCSewFaces", "Geometry.OCCMakeSolids", "Geometry.OCCBoundsUseStl",
-                            "Geometry.OCCExportOnlyVisible", "Geometry.OCCParallel"}) {
+    for (const char* off :
+         {"Geometry.OCCFixDegenerated", "Geometry.OCCFixSmallEdges", "Geometry.OCCFixSmallFaces",
+          "Geometry.OCCSewFaces", "Geometry.OCCMakeSolids", "Geometry.OCCBoundsUseStl",
+          "Geometry.OCCExportOnlyVisible", "Geometry.OCCParallel"}) {
         session.set(off, 0);
     }
     session.set("Geometry.OCCAutoFix", 1);
@@ -117,8 +126,13 @@ void set_plain_import(Session& session, double scale)
     session.set("Geometry.OCCTargetUnit", std::string{});
 }
 
-SolidBuilder::SolidBuilder(Session& session, const GmshModel& scratch, const OpenVolume& volume, std::string workshop)
-    : session_(session), scratch_(scratch), volume_(volume), model_(volume.model), workshop_(std::move(workshop))
+SolidBuilder::SolidBuilder(Session& session, const GmshModel& scratch, const OpenVolume& volume,
+                           std::string workshop)
+    : session_(session),
+      scratch_(scratch),
+      volume_(volume),
+      model_(volume.model),
+      workshop_(std::move(workshop))
 {
     Eigen::AlignedBox3d box;
     for (const Vec3& p : model_.points) box.extend(p);
@@ -152,9 +166,11 @@ SolidBuilder::Imported SolidBuilder::import_source(const CadSource& source, cons
         gmsh::vectorpair all;
         gmsh::model::occ::importShapes(file, all, false, "brep");
         gmsh::model::occ::synchronize();
-        const auto match = [&](int dim, const std::map<int, Fingerprint>& prints, const std::vector<int>& before) {
+        const auto match = [&](int dim, const std::map<int, Fingerprint>& prints,
+                               const std::vector<int>& before) {
             std::vector<int> fresh = tags_of(dim);
-            std::erase_if(fresh, [&](int tag) { return std::binary_search(before.begin(), before.end(), tag); });
+            std::erase_if(fresh,
+                          [&](int tag) { return std::binary_search(before.begin(), before.end(), tag); });
             const int shift = before.empty() ? 0 : before.back();
             std::map<int, int> found;
             for (const auto& [tag, print] : prints) {
@@ -166,8 +182,10 @@ SolidBuilder::Imported SolidBuilder::import_source(const CadSource& source, cons
                 const auto place = is(tag + shift) ? std::find(fresh.begin(), fresh.end(), tag + shift)
                                                    : std::find_if(fresh.begin(), fresh.end(), is);
                 if (place == fresh.end())
-                    throw BackendError("cad.lost", (dim == 2 ? "face " : "curve ") + std::to_string(tag) + " of " + source.path +
-                                                       " got lost on its way through a file; repair it in the CAD system");
+                    throw BackendError(
+                        "cad.lost", (dim == 2 ? "face " : "curve ") + std::to_string(tag) + " of " +
+                                        source.path +
+                                        " got lost on its way through a file; repair it in the CAD system");
                 found[tag] = *place;
             }
             return found;
@@ -211,7 +229,8 @@ int SolidBuilder::exact_face(const Face& face) const
 int SolidBuilder::point(Index p)
 {
     const auto [place, fresh] = points_.try_emplace(p, 0);
-    if (fresh) place->second = gmsh::model::occ::addPoint(model_.at(p).x(), model_.at(p).y(), model_.at(p).z());
+    if (fresh)
+        place->second = gmsh::model::occ::addPoint(model_.at(p).x(), model_.at(p).y(), model_.at(p).z());
     return place->second;
 }
 
@@ -233,7 +252,9 @@ int SolidBuilder::exact_curve(const Edge& edge) const
     std::array<Vec3, 3> own;
     curve->evaluate(params, own);
     scratch_.activate(session_); // the curve's own model has become the current one
-    const auto near = [&](std::size_t a, std::size_t b) { return (own[a] - whole[b]).norm() <= 10 * precision_; };
+    const auto near = [&](std::size_t a, std::size_t b) {
+        return (own[a] - whole[b]).norm() <= 10 * precision_;
+    };
     const bool same = near(1, 1) && ((near(0, 0) && near(2, 2)) || (near(0, 2) && near(2, 0)));
     return same ? tag->second : 0;
 }
@@ -242,7 +263,8 @@ int SolidBuilder::add_curve(const SplineCurve& curve)
 {
     std::vector<int> tags;
     for (const Vec3& p : curve.poles) tags.push_back(gmsh::model::occ::addPoint(p.x(), p.y(), p.z()));
-    return gmsh::model::occ::addBSpline(tags, -1, curve.axis.degree, {}, curve.axis.knots, curve.axis.multiplicities);
+    return gmsh::model::occ::addBSpline(tags, -1, curve.axis.degree, {}, curve.axis.knots,
+                                        curve.axis.multiplicities);
 }
 
 std::vector<int> SolidBuilder::make_curves(EdgeId id)
@@ -251,14 +273,16 @@ std::vector<int> SolidBuilder::make_curves(EdgeId id)
     if (const int curve = exact_curve(edge); curve > 0) return {curve};
     const EdgeShape shape(model_, id);
     scratch_.activate(session_);
-    if (shape.is_straight()) return {gmsh::model::occ::addLine(point(edge.points.front()), point(edge.points.back()))};
+    if (shape.is_straight())
+        return {gmsh::model::occ::addLine(point(edge.points.front()), point(edge.points.back()))};
     if (shape.is_polyline()) {
         std::vector<int> lines;
         for (std::size_t k = 0; k + 1 < edge.points.size(); ++k)
             lines.push_back(gmsh::model::occ::addLine(point(edge.points[k]), point(edge.points[k + 1])));
         return lines;
     }
-    const SplineCurve spline = approximate([&](std::span<const double> at) { return shape.at(at); }, precision_);
+    const SplineCurve spline = approximate([&](std::span<const double> at) { return shape.at(at); },
+                                           precision_);
     scratch_.activate(session_);
     return {add_curve(spline)};
 }
@@ -278,8 +302,10 @@ int SolidBuilder::wire(const Loop& loop)
     std::vector<int> curves;
     for (const EdgeUse& use : loop.uses) {
         const std::vector<int> own = curves_of(use.edge);
-        if (use.reversed) curves.insert(curves.end(), own.rbegin(), own.rend());
-        else curves.insert(curves.end(), own.begin(), own.end());
+        if (use.reversed)
+            curves.insert(curves.end(), own.rbegin(), own.rend());
+        else
+            curves.insert(curves.end(), own.begin(), own.end());
     }
     return gmsh::model::occ::addCurveLoop(curves);
 }
@@ -291,7 +317,9 @@ void SolidBuilder::forget_removed()
     gmsh::model::occ::getEntities(left);
     const std::set<std::pair<int, int>> there(left.begin(), left.end());
     std::erase_if(curves_, [&](const auto& edge) {
-        return std::any_of(edge.second.begin(), edge.second.end(), [&](int tag) { return !there.contains({1, tag}); });
+        return std::any_of(edge.second.begin(), edge.second.end(), [&](int tag) {
+            return !there.contains({1, tag});
+        });
     });
     std::erase_if(points_, [&](const auto& p) { return !there.contains({0, p.second}); });
 }
@@ -321,18 +349,21 @@ int SolidBuilder::plane(FaceId id)
     gmsh::model::occ::cut({{2, parts.front()}}, holes, cut, map);
     double area = 0;
     if (cut.size() == 1) gmsh::model::occ::getMass(2, cut.front().second, area);
-    if (!(std::abs(area - wanted) <= 1e-6 * wanted)) throw BackendError("cad.plane_failed", "a plane could not be cut out along its inner loops");
+    if (!(std::abs(area - wanted) <= 1e-6 * wanted))
+        throw BackendError("cad.plane_failed", "a plane could not be cut out along its inner loops");
     forget_removed();
     return cut.front().second;
 }
 
 int SolidBuilder::add_surface(const SplineSurface& surface)
 {
-    // The points stay: to take them away again costs time with their square, and what is written is the solid alone.
+    // The points stay: to take them away again costs time with their square, and what is written is the solid
+    // alone.
     std::vector<int> tags;
     for (const Vec3& p : surface.poles) tags.push_back(gmsh::model::occ::addPoint(p.x(), p.y(), p.z()));
-    return gmsh::model::occ::addBSplineSurface(tags, static_cast<int>(surface.u.poles()), -1, surface.u.degree, surface.v.degree, {},
-                                               surface.u.knots, surface.v.knots, surface.u.multiplicities, surface.v.multiplicities);
+    return gmsh::model::occ::addBSplineSurface(
+        tags, static_cast<int>(surface.u.poles()), -1, surface.u.degree, surface.v.degree, {},
+        surface.u.knots, surface.v.knots, surface.u.multiplicities, surface.v.multiplicities);
 }
 
 std::vector<int> SolidBuilder::patches(FaceId face, const std::vector<std::vector<EdgeUse>>& sides)
@@ -344,7 +375,8 @@ std::vector<int> SolidBuilder::patches(FaceId face, const std::vector<std::vecto
     return tags;
 }
 
-/// A smooth surface over the outer loop, led through points of the facets and of inner loops, which divide it.
+/// A smooth surface over the outer loop, led through points of the facets and of inner loops, which divide
+/// it.
 int SolidBuilder::filling(FaceId id)
 {
     const Face& face = model_[id];
@@ -403,11 +435,14 @@ std::vector<int> SolidBuilder::make_face(FaceId id, Built& built)
         return {plane(id)};
     }
     if (!made) {
-        throw InvalidInput("cad.facets_alone", name_of(model_, id) + " is bent and has facets alone, no exact surface a CAD file could hold; "
-                                                                     "write the volume with write_facets (.stl, .msh, .obj)");
+        throw InvalidInput("cad.facets_alone",
+                           name_of(model_, id) +
+                               " is bent and has facets alone, no exact surface a CAD file could hold; "
+                               "write the volume with write_facets (.stl, .msh, .obj)");
     }
     ++built.fitted;
-    const auto sides = face.loops.size() == 1 ? closure::logical_sides(volume_, face.loops.front()) : std::vector<std::vector<EdgeUse>>{};
+    const auto sides = face.loops.size() == 1 ? closure::logical_sides(volume_, face.loops.front())
+                                              : std::vector<std::vector<EdgeUse>>{};
     if (!sides.empty()) return patches(id, sides);
     return {filling(id)};
 }
@@ -423,10 +458,13 @@ SolidBuilder::Built SolidBuilder::build(const RunContext& context)
         try {
             tags = session_.run([&] { return make_face(FaceId(f), built); });
         } catch (const BackendError& error) {
-            throw BackendError("cad.face_failed", name_of(model_, FaceId(f)) + " could not be made: " + error.what());
+            throw BackendError("cad.face_failed",
+                               name_of(model_, FaceId(f)) + " could not be made: " + error.what());
         }
         built.faces.insert(built.faces.end(), tags.begin(), tags.end());
-        if (context.progress) context.progress("write_cad", static_cast<double>(f + 1) / static_cast<double>(model_.faces.size()));
+        if (context.progress)
+            context.progress("write_cad",
+                             static_cast<double>(f + 1) / static_cast<double>(model_.faces.size()));
     }
     return built;
 }

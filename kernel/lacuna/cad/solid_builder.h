@@ -19,10 +19,11 @@ namespace lacuna::cad {
 class SolidBuilder {
 public:
     /// @param workshop  a folder for files on the way, with no separator at its end.
-    SolidBuilder(Session& session, const GmshModel& scratch, const topology::OpenVolume& volume, std::string workshop);
+    SolidBuilder(Session& session, const GmshModel& scratch, const topology::OpenVolume& volume,
+                 std::string workshop);
 
     struct Built {
-        std::vector<int> faces; ///< in the scratch model
+        std::vector<int> faces;             ///< in the scratch model
         std::size_t planes = 0, fitted = 0; ///< void faces made
     };
     /// Make every face of the volume. @throw InvalidInput, BackendError  names the face.

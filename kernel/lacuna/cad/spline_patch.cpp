@@ -19,7 +19,8 @@ constexpr std::size_t kProbes = 5;
 std::vector<double> evenly(std::size_t sides)
 {
     std::vector<double> parameters(sides + 1);
-    for (std::size_t i = 0; i <= sides; ++i) parameters[i] = static_cast<double>(i) / static_cast<double>(sides);
+    for (std::size_t i = 0; i <= sides; ++i)
+        parameters[i] = static_cast<double>(i) / static_cast<double>(sides);
     return parameters;
 }
 
@@ -36,7 +37,8 @@ Eigen::MatrixXd poles_through(const SplineAxis& axis, const Eigen::MatrixXd& val
     const auto count = static_cast<std::size_t>(values.rows());
     Eigen::MatrixXd collocation(values.rows(), values.rows());
     const std::vector<double> at = evenly(count - 1);
-    for (std::size_t i = 0; i < count; ++i) collocation.row(static_cast<Eigen::Index>(i)) = axis.basis(at[i]).transpose();
+    for (std::size_t i = 0; i < count; ++i)
+        collocation.row(static_cast<Eigen::Index>(i)) = axis.basis(at[i]).transpose();
     Eigen::MatrixXd poles = collocation.partialPivLu().solve(values);
     poles.row(0) = values.row(0); // the ends to the bit, as corners are shared
     poles.bottomRows(1) = values.bottomRows(1);
@@ -46,7 +48,8 @@ Eigen::MatrixXd poles_through(const SplineAxis& axis, const Eigen::MatrixXd& val
 Eigen::MatrixXd rows_of(std::span<const Vec3> points)
 {
     Eigen::MatrixXd rows(static_cast<Eigen::Index>(points.size()), 3);
-    for (std::size_t i = 0; i < points.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = points[i].transpose();
+    for (std::size_t i = 0; i < points.size(); ++i)
+        rows.row(static_cast<Eigen::Index>(i)) = points[i].transpose();
     return rows;
 }
 
@@ -58,7 +61,8 @@ double greatest_distance(std::span<const Vec3> a, std::span<const Vec3> b)
 }
 
 /// Sides a function of one parameter, with values of any number of places, must be divided into.
-std::size_t sides_for(const std::function<std::vector<std::vector<Vec3>>(std::span<const double>)>& lines, double precision)
+std::size_t sides_for(const std::function<std::vector<std::vector<Vec3>>(std::span<const double>)>& lines,
+                      double precision)
 {
     for (std::size_t sides = 1; sides < kMostSides; sides = sides == 1 ? 4 : 2 * sides) {
         const std::vector<double> at = evenly(sides);
@@ -106,13 +110,15 @@ SplineAxis SplineAxis::spans(std::size_t count, int degree)
 
 std::size_t SplineAxis::poles() const
 {
-    return static_cast<std::size_t>(std::accumulate(multiplicities.begin(), multiplicities.end(), 0) - degree - 1);
+    return static_cast<std::size_t>(std::accumulate(multiplicities.begin(), multiplicities.end(), 0) -
+                                    degree - 1);
 }
 
 Eigen::VectorXd SplineAxis::basis(double parameter) const
 {
     std::vector<double> flat;
-    for (std::size_t k = 0; k < knots.size(); ++k) flat.insert(flat.end(), static_cast<std::size_t>(multiplicities[k]), knots[k]);
+    for (std::size_t k = 0; k < knots.size(); ++k)
+        flat.insert(flat.end(), static_cast<std::size_t>(multiplicities[k]), knots[k]);
     const auto p = static_cast<std::size_t>(degree);
     std::size_t span = p;
     while (span + p + 2 < flat.size() && parameter >= flat[span + 1]) ++span;
@@ -162,19 +168,21 @@ SplineSurface interpolate(std::span<const Vec3> grid, std::size_t columns)
     const Eigen::MatrixXd along = poles_through(surface.u, values);
     Eigen::MatrixXd turned(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(3 * columns));
     for (Eigen::Index j = 0; j < turned.rows(); ++j) {
-        for (Eigen::Index i = 0; i < along.rows(); ++i) turned.block(j, 3 * i, 1, 3) = along.block(i, 3 * j, 1, 3);
+        for (Eigen::Index i = 0; i < along.rows(); ++i)
+            turned.block(j, 3 * i, 1, 3) = along.block(i, 3 * j, 1, 3);
     }
     const Eigen::MatrixXd poles = poles_through(surface.v, turned);
     for (Eigen::Index j = 0; j < poles.rows(); ++j) {
-        for (Eigen::Index i = 0; i < along.rows(); ++i) surface.poles.emplace_back(poles.block(j, 3 * i, 1, 3).transpose());
+        for (Eigen::Index i = 0; i < along.rows(); ++i)
+            surface.poles.emplace_back(poles.block(j, 3 * i, 1, 3).transpose());
     }
     return surface;
 }
 
 SplineCurve approximate(const CurveFunction& function, double precision)
 {
-    const std::size_t sides =
-        sides_for([&](std::span<const double> at) { return std::vector<std::vector<Vec3>>{function(at)}; }, precision);
+    const std::size_t sides = sides_for(
+        [&](std::span<const double> at) { return std::vector<std::vector<Vec3>>{function(at)}; }, precision);
     return interpolate(function(evenly(sides)));
 }
 

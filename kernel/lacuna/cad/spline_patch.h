@@ -49,7 +49,8 @@ SplineSurface interpolate(std::span<const Vec3> grid, std::size_t columns);
 /// Places wanted at parameters in [0, 1].
 using CurveFunction = std::function<std::vector<Vec3>(std::span<const double>)>;
 /// A grid of places: rows of u at each v.
-using SurfaceFunction = std::function<std::vector<Vec3>(std::span<const double> u, std::span<const double> v)>;
+using SurfaceFunction =
+    std::function<std::vector<Vec3>(std::span<const double> u, std::span<const double> v)>;
 
 /// Interpolate a function at so many even parameters that halfway between them the spline is within
 /// `precision` of it; the most there are where that is not to be had. A straight side gets degree 1.

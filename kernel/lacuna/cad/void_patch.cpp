@@ -18,14 +18,16 @@ using namespace topology;
 
 namespace {
 
-/// Spans of the correction along a side at most; powers of two, so that its knots are among those of the surface.
+/// Spans of the correction along a side at most; powers of two, so that its knots are among those of the
+/// surface.
 constexpr std::size_t kMostSpans = 16;
 
 /// Piecewise linear from the patch's parameter to a side's share, so that breaks of opposite sides meet.
 struct BreakMap {
     std::vector<double> patch{0}, side{0};
 
-    [[nodiscard]] static double through(const std::vector<double>& from, const std::vector<double>& to, double x)
+    [[nodiscard]] static double through(const std::vector<double>& from, const std::vector<double>& to,
+                                        double x)
     {
         const auto above = std::upper_bound(from.begin() + 1, from.end() - 1, x);
         const auto k = static_cast<std::size_t>(above - from.begin());
@@ -90,7 +92,10 @@ struct Correction {
 class Patch {
 public:
     Patch(const Model& model, const std::vector<std::vector<EdgeUse>>& sides)
-        : bottom_(model, sides[0]), right_(model, sides[1]), top_(model, backward(sides[2])), left_(model, backward(sides[3]))
+        : bottom_(model, sides[0]),
+          right_(model, sides[1]),
+          top_(model, backward(sides[2])),
+          left_(model, backward(sides[3]))
     {
         std::tie(on_bottom_, on_top_) = pair_breaks(bottom_.breaks(), top_.breaks());
         std::tie(on_left_, on_right_) = pair_breaks(left_.breaks(), right_.breaks());
@@ -105,20 +110,24 @@ public:
         std::vector<Vec3> places = coons(u, v);
         if (!correction_) return places;
         const auto basis = [](const SplineAxis& axis, std::span<const double> at) {
-            Eigen::MatrixXd rows(static_cast<Eigen::Index>(at.size()), static_cast<Eigen::Index>(axis.poles()));
-            for (std::size_t i = 0; i < at.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = axis.basis(at[i]).transpose();
+            Eigen::MatrixXd rows(static_cast<Eigen::Index>(at.size()),
+                                 static_cast<Eigen::Index>(axis.poles()));
+            for (std::size_t i = 0; i < at.size(); ++i)
+                rows.row(static_cast<Eigen::Index>(i)) = axis.basis(at[i]).transpose();
             return rows;
         };
         const Eigen::MatrixXd along = basis(correction_->u, u), across = basis(correction_->v, v);
         for (std::size_t d = 0; d < 3; ++d) {
             const Eigen::MatrixXd added = along * correction_->poles[d] * across.transpose();
             for (std::size_t k = 0; k < places.size(); ++k)
-                places[k][static_cast<Eigen::Index>(d)] += added(static_cast<Eigen::Index>(k % u.size()), static_cast<Eigen::Index>(k / u.size()));
+                places[k][static_cast<Eigen::Index>(d)] += added(static_cast<Eigen::Index>(k % u.size()),
+                                                                 static_cast<Eigen::Index>(k / u.size()));
         }
         return places;
     }
 
-    /// Bend the patch to the facets, where their points are off it by more than their chords are off the sides.
+    /// Bend the patch to the facets, where their points are off it by more than their chords are off the
+    /// sides.
     void follow(const Model& model, const Face& face);
     [[nodiscard]] bool follows() const { return correction_.has_value(); }
 
@@ -129,7 +138,8 @@ private:
         std::array<Vec3, 4> corner; ///< bottom's two, top's two
         [[nodiscard]] Vec3 at(std::size_t i, double u, std::size_t j, double v) const
         {
-            const Vec3 corners = (1 - v) * ((1 - u) * corner[0] + u * corner[1]) + v * ((1 - u) * corner[2] + u * corner[3]);
+            const Vec3 corners = (1 - v) * ((1 - u) * corner[0] + u * corner[1]) +
+                                 v * ((1 - u) * corner[2] + u * corner[3]);
             return (1 - v) * bottom[i] + v * top[i] + (1 - u) * left[j] + u * right[j] - corners;
         }
     };
@@ -137,8 +147,11 @@ private:
     {
         const std::array<double, 2> ends{0, 1};
         const std::vector<Vec3> low = bottom_.at(ends), high = top_.at(ends);
-        return {bottom_.at(on_bottom_.to_side(u)), top_.at(on_top_.to_side(u)), left_.at(on_left_.to_side(v)),
-                right_.at(on_right_.to_side(v)), {low[0], low[1], high[0], high[1]}};
+        return {bottom_.at(on_bottom_.to_side(u)),
+                top_.at(on_top_.to_side(u)),
+                left_.at(on_left_.to_side(v)),
+                right_.at(on_right_.to_side(v)),
+                {low[0], low[1], high[0], high[1]}};
     }
     [[nodiscard]] std::vector<Vec3> coons(std::span<const double> u, std::span<const double> v) const
     {
@@ -195,7 +208,8 @@ private:
     {
         std::map<Segment, std::size_t> facet_at; // directed sides
         for (std::size_t t = 0; t < face.triangles.size(); ++t)
-            for (std::size_t i = 0; i < 3; ++i) facet_at[{face.triangles[t][i], face.triangles[t][(i + 1) % 3]}] = t;
+            for (std::size_t i = 0; i < 3; ++i)
+                facet_at[{face.triangles[t][i], face.triangles[t][(i + 1) % 3]}] = t;
         std::map<Segment, int> rim; // sides the loops run along
         for (const Loop& loop : face.loops) {
             for (const EdgeUse& use : loop.uses) {
@@ -212,7 +226,8 @@ private:
         };
         const auto corner_of = [&](std::size_t t, Index p) {
             const Triangle& corners = face.triangles[t];
-            return 3 * t + static_cast<std::size_t>(std::find(corners.begin(), corners.end(), p) - corners.begin());
+            return 3 * t +
+                   static_cast<std::size_t>(std::find(corners.begin(), corners.end(), p) - corners.begin());
         };
         for (const auto& [side, t] : facet_at) {
             const auto other = facet_at.find({side[1], side[0]});
@@ -269,7 +284,8 @@ void Patch::follow(const Model& model, const Face& face)
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(unknowns, 3);
     for (std::size_t i = 0; i < off.size(); ++i) {
         if (laid.on_rim[i]) continue;
-        const Eigen::VectorXd bu = fit.u.basis(u[i]).segment(1, nu - 2), bv = fit.v.basis(v[i]).segment(1, nv - 2);
+        const Eigen::VectorXd bu = fit.u.basis(u[i]).segment(1, nu - 2),
+                              bv = fit.v.basis(v[i]).segment(1, nv - 2);
         const Eigen::MatrixXd product = bu * bv.transpose();
         const Eigen::Map<const Eigen::VectorXd> row(product.data(), unknowns);
         normal.selfadjointView<Eigen::Lower>().rankUpdate(row);
@@ -289,8 +305,8 @@ void Patch::follow(const Model& model, const Face& face)
 
 } // namespace
 
-std::vector<SplineSurface> void_patches(const Model& model, const Face& face, const std::vector<std::vector<EdgeUse>>& sides,
-                                        double precision)
+std::vector<SplineSurface> void_patches(const Model& model, const Face& face,
+                                        const std::vector<std::vector<EdgeUse>>& sides, double precision)
 {
     Patch patch(model, sides);
     patch.follow(model, face);

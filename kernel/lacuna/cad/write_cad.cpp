@@ -24,7 +24,8 @@ namespace {
 
 /// Free edges a message names before it only counts.
 constexpr std::size_t kNamedEdges = 4;
-/// Sewing bridges no wider gaps than this part of the diagonal: what is that far apart does not belong together.
+/// Sewing bridges no wider gaps than this part of the diagonal: what is that far apart does not belong
+/// together.
 constexpr double kWidestGap = 1e-3;
 /// What a file may change of the volume: STEP leaves it to the reader to lay edges on fitted surfaces anew.
 constexpr double kSameVolume = 1e-4;
@@ -37,7 +38,9 @@ public:
         std::error_code error;
         std::string name = (std::filesystem::temp_directory_path(error) / "lacuna-XXXXXX").string();
         if (error || ::mkdtemp(name.data()) == nullptr)
-            throw BackendError("cad.no_workshop", "there is no folder for temporary files; set TMPDIR to one that can be written to");
+            throw BackendError(
+                "cad.no_workshop",
+                "there is no folder for temporary files; set TMPDIR to one that can be written to");
         folder_ = name;
     }
     ~Workshop()
@@ -64,7 +67,8 @@ void check_sealed(const OpenVolume& volume)
             which += (i > 0 ? ", " : "") + name_of(volume.model, open[i]);
         if (open.size() > kNamedEdges) which += ", …";
     }
-    throw InvalidInput("cad.not_sealed", "the volume is not sealed, so it is no solid: " + which + "; close() it first");
+    throw InvalidInput("cad.not_sealed",
+                       "the volume is not sealed, so it is no solid: " + which + "; close() it first");
 }
 
 std::vector<int> tags_of(int dim)
@@ -83,7 +87,8 @@ double volume_of(int solid)
     return volume;
 }
 
-/// How many entities of the current model are not as they are in one closed solid; in words, empty where all are.
+/// How many entities of the current model are not as they are in one closed solid; in words, empty where all
+/// are.
 std::string faults_of_model()
 {
     gmsh::model::occ::synchronize();
@@ -91,7 +96,8 @@ std::string faults_of_model()
     if (solids.size() != 1) return std::to_string(solids.size()) + " solids";
     gmsh::vectorpair faces;
     gmsh::model::getBoundary({{3, solids.front()}}, faces, false, false, false);
-    if (faces.size() != tags_of(2).size()) return std::to_string(tags_of(2).size() - faces.size()) + " faces beside the solid";
+    if (faces.size() != tags_of(2).size())
+        return std::to_string(tags_of(2).size() - faces.size()) + " faces beside the solid";
     std::map<int, int> uses;
     for (const auto& face : faces) {
         gmsh::vectorpair curves;
@@ -123,12 +129,15 @@ Sewn sew(const std::vector<int>& faces, const WriteCadOptions& options, const Mo
         gmsh::model::occ::synchronize();
         gmsh::vectorpair boundary;
         if (out.size() == 1) gmsh::model::getBoundary(out, boundary, false, false, false);
-        if (boundary.size() == faces.size() && volume_of(out.front().second) > 0) return {out.front().second, tolerance};
+        if (boundary.size() == faces.size() && volume_of(out.front().second) > 0)
+            return {out.front().second, tolerance};
         gmsh::model::occ::remove(out);
     }
-    throw BackendError("cad.not_sewn", "the " + std::to_string(faces.size()) + " faces could not be sewn into one solid, with gaps up to " +
-                                           std::to_string(last) +
-                                           " closed; load the file with a larger tolerance, or write the facets with write_facets");
+    throw BackendError(
+        "cad.not_sewn",
+        "the " + std::to_string(faces.size()) + " faces could not be sewn into one solid, with gaps up to " +
+            std::to_string(last) +
+            " closed; load the file with a larger tolerance, or write the facets with write_facets");
 }
 
 /// Write one solid of the current model, and nothing else there is.
@@ -138,7 +147,8 @@ void write_alone(Session& session, int solid, const std::string& folder, const s
     for (const int tag : tags_of(3))
         if (tag != solid) others.emplace_back(3, tag);
     if (!others.empty()) gmsh::model::occ::remove(others);
-    // Faces, curves and points are many; read on from a file, the solid comes without those that are not its own.
+    // Faces, curves and points are many; read on from a file, the solid comes without those that are not its
+    // own.
     const std::string all = folder + "/all.brep";
     gmsh::model::occ::synchronize();
     gmsh::write(all);
@@ -150,14 +160,11 @@ void write_alone(Session& session, int solid, const std::string& folder, const s
     gmsh::write(file);
 }
 
-/// The bytes of a file; of a STEP file without the time it was written at.
-std::string bytes_of(const std::string& path)
+/// A STEP file's head without the time it was written at.
+void forget_time(std::string& bytes)
 {
-    std::ifstream file(path, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    const std::size_t name = bytes.find("FILE_NAME(");
-    const std::size_t end = bytes.find(';', name == std::string::npos ? 0 : name);
-    if (name == std::string::npos || end == std::string::npos) return bytes;
+    const std::size_t name = std::min(bytes.find("FILE_NAME("), bytes.size());
+    const std::size_t end = std::min(bytes.find(';', name), bytes.size());
     constexpr std::string_view kShape = "0000-00-00T00:00:00";
     for (std::size_t at = name; at + kShape.size() < end; ++at) {
         const auto fits = [&](std::size_t i) {
@@ -166,8 +173,23 @@ std::string bytes_of(const std::string& path)
         };
         std::size_t i = 0;
         while (i < kShape.size() && fits(i)) ++i;
-        if (i == kShape.size()) return bytes.replace(at, kShape.size(), "1970-01-01T00:00:00");
+        if (i < kShape.size()) continue;
+        bytes.replace(at, kShape.size(), "1970-01-01T00:00:00");
+        return;
     }
+}
+
+/// The bytes of a file; of a STEP file what they are every time: Open CASCADE notes when it wrote it, and
+/// names the product by how many it has written.
+std::string bytes_of(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    if (ending_of(path) == ".brep") return bytes;
+    forget_time(bytes);
+    constexpr std::string_view kCounted = "'Open CASCADE STEP translator ";
+    for (std::size_t at = bytes.find(kCounted); at != std::string::npos; at = bytes.find(kCounted, at + 1))
+        bytes.replace(at, bytes.find('\'', at + 1) + 1 - at, "'volume'");
     return bytes;
 }
 
@@ -181,11 +203,15 @@ std::pair<std::size_t, double> read_back(Session& session, const std::string& fi
         gmsh::model::occ::importShapes(file, all, false, ending_of(file) == ".brep" ? "brep" : "step");
         const std::string faults = faults_of_model();
         if (!faults.empty())
-            throw BackendError("cad.reads_back", "the solid reads back with " + faults + ", not as one closed solid; write the facets with write_facets");
+            throw BackendError("cad.reads_back",
+                               "the solid reads back with " + faults +
+                                   ", not as one closed solid; write the facets with write_facets");
         const double volume = volume_of(tags_of(3).front());
         if (!(std::abs(volume - expected) <= kSameVolume * expected)) {
-            throw BackendError("cad.reads_back", "the solid reads back with a volume of " + std::to_string(volume) + ", not " +
-                                                     std::to_string(expected) + "; check the unit Gmsh's host has set for STEP files");
+            throw BackendError("cad.reads_back", "the solid reads back with a volume of " +
+                                                     std::to_string(volume) + ", not " +
+                                                     std::to_string(expected) +
+                                                     "; check the unit Gmsh's host has set for STEP files");
         }
         return std::pair(tags_of(2).size(), volume);
     });
@@ -194,27 +220,34 @@ std::pair<std::size_t, double> read_back(Session& session, const std::string& fi
 void check_volume(const WrittenCad& written, const WriteCadOptions& options)
 {
     if (std::abs(written.volume - written.facet_volume) <= options.deviation * written.facet_volume) return;
-    throw BackendError("cad.volume_differs", "the solid has a volume of " + std::to_string(written.volume) + ", but the facets enclose " +
-                 std::to_string(written.facet_volume) + ": the surfaces fitted to void faces bulge; give more walls, or write the facets with write_facets");
+    throw BackendError("cad.volume_differs", "the solid has a volume of " + std::to_string(written.volume) +
+                                                 ", but the facets enclose " +
+                                                 std::to_string(written.facet_volume) +
+                                                 ": the surfaces fitted to void faces bulge; give more "
+                                                 "walls, or write the facets with write_facets");
 }
 
 void check_options(const WriteCadOptions& options)
 {
     if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
-        throw InvalidInput("cad.tolerance", "the tolerance must be a length of 0 or more, not " + std::to_string(options.tolerance));
+        throw InvalidInput("cad.tolerance", "the tolerance must be a length of 0 or more, not " +
+                                                std::to_string(options.tolerance));
     if (!(options.deviation > 0))
-        throw InvalidInput("cad.deviation", "the deviation must be a number above 0, not " + std::to_string(options.deviation));
+        throw InvalidInput("cad.deviation", "the deviation must be a number above 0, not " +
+                                                std::to_string(options.deviation));
 }
 
 } // namespace
 
-WrittenCad write_cad(const OpenVolume& volume, const std::string& path, const WriteCadOptions& options, const RunContext& context)
+WrittenCad write_cad(const OpenVolume& volume, const std::string& path, const WriteCadOptions& options,
+                     const RunContext& context)
 {
     check_options(options);
     const std::string ending = ending_of(path);
     if (ending != ".step" && ending != ".stp" && ending != ".brep") {
-        throw InvalidInput("cad.unknown_ending", "cannot write a solid to '" + path + "': the ending \"" + ending +
-                                                     "\" says no format; solids are written as .step, .stp and .brep");
+        throw InvalidInput("cad.unknown_ending",
+                           "cannot write a solid to '" + path + "': the ending \"" + ending +
+                               "\" says no format; solids are written as .step, .stp and .brep");
     }
     check_sealed(volume);
     io::WholeFile file(path);

@@ -23,7 +23,7 @@ constexpr std::size_t kNamedEdges = 4;
 /// The facets of the volume, face after face, and the points they use, numbered from 0 in order of first use.
 struct Skin {
     std::vector<Triangle> triangles;
-    std::vector<std::size_t> start;       ///< first facet of each face, and the end
+    std::vector<std::size_t> start; ///< first facet of each face, and the end
     std::vector<Vec3> points;
     std::vector<std::size_t> first_point; ///< first point each face brings in, and the end
 };
@@ -38,8 +38,8 @@ struct Skin {
             which += (i > 0 ? ", " : "") + name_of(volume.model, open[i]);
         if (open.size() > kNamedEdges) which += ", …";
     }
-    throw InvalidInput("io.not_sealed", "the volume is not sealed, so its facets would not be watertight: " + which +
-                                            "; close() it first");
+    throw InvalidInput("io.not_sealed", "the volume is not sealed, so its facets would not be watertight: " +
+                                            which + "; close() it first");
 }
 
 /// Every side of a facet must be met by another facet's, run the other way.
@@ -54,7 +54,8 @@ void check_sealed(const OpenVolume& volume)
             }
         }
     }
-    const bool met = std::all_of(balance.begin(), balance.end(), [](const auto& side) { return side.second == 0; });
+    const bool met = std::all_of(balance.begin(), balance.end(),
+                                 [](const auto& side) { return side.second == 0; });
     if (balance.empty() || !met || !free_edges(volume).empty()) throw_not_sealed(volume);
 }
 
@@ -123,14 +124,16 @@ std::vector<Section> stl_bytes(const Skin& skin)
         for (const double value : p) out = put(out, static_cast<float>(value));
         return out;
     };
-    return {{head, skin.triangles.size(), 50, [&skin, put_floats](std::size_t begin, std::size_t end, char* out) {
-                 for (std::size_t i = begin; i < end; ++i) {
-                     out = put_floats(out, normal_of(skin, skin.triangles[i]));
-                     for (const Index p : skin.triangles[i]) out = put_floats(out, skin.points[static_cast<std::size_t>(p)]);
-                     out = put(out, std::uint16_t{0});
-                 }
-                 return out;
-             }}};
+    return {
+        {head, skin.triangles.size(), 50, [&skin, put_floats](std::size_t begin, std::size_t end, char* out) {
+             for (std::size_t i = begin; i < end; ++i) {
+                 out = put_floats(out, normal_of(skin, skin.triangles[i]));
+                 for (const Index p : skin.triangles[i])
+                     out = put_floats(out, skin.points[static_cast<std::size_t>(p)]);
+                 out = put(out, std::uint16_t{0});
+             }
+             return out;
+         }}};
 }
 
 char* put_words(char* out, std::string_view words) { return std::copy(words.begin(), words.end(), out); }
@@ -178,7 +181,9 @@ std::string obj_groups(const OpenVolume& volume, std::size_t f)
     std::string line;
     for (std::string& group : groups) {
         for (char& c : group)
-            if (std::isspace(static_cast<unsigned char>(c)) != 0 || std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '_';
+            if (std::isspace(static_cast<unsigned char>(c)) != 0 ||
+                std::iscntrl(static_cast<unsigned char>(c)) != 0)
+                c = '_';
         line += " " + group;
     }
     return line;
@@ -186,7 +191,9 @@ std::string obj_groups(const OpenVolume& volume, std::size_t f)
 
 std::vector<Section> obj_text(const OpenVolume& volume, const Skin& skin)
 {
-    std::vector<Section> sections{{{}, skin.points.size(), 3 * kNumberBytes + 2,
+    std::vector<Section> sections{{{},
+                                   skin.points.size(),
+                                   3 * kNumberBytes + 2,
                                    [&skin](std::size_t begin, std::size_t end, char* out) {
                                        for (std::size_t i = begin; i < end; ++i) {
                                            *out++ = 'v';
@@ -197,7 +204,8 @@ std::vector<Section> obj_text(const OpenVolume& volume, const Skin& skin)
                                    }}};
     for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
         const std::size_t first = skin.start[f];
-        sections.push_back({"g" + obj_groups(volume, f) + "\n", skin.start[f + 1] - first, 3 * kNumberBytes + 2,
+        sections.push_back({"g" + obj_groups(volume, f) + "\n", skin.start[f + 1] - first,
+                            3 * kNumberBytes + 2,
                             [&skin, first](std::size_t begin, std::size_t end, char* out) {
                                 for (std::size_t i = first + begin; i < first + end; ++i) {
                                     *out++ = 'f';
@@ -245,7 +253,8 @@ std::vector<Surface> surfaces_of(const OpenVolume& volume, const Skin& skin, Gro
     for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
         Surface surface{tags[f], groups.tags_of(2, groups_of(volume, f), "surface"), {}};
         for (std::size_t i = skin.start[f]; i < skin.start[f + 1]; ++i)
-            for (const Index p : skin.triangles[i]) surface.box.extend(skin.points[static_cast<std::size_t>(p)]);
+            for (const Index p : skin.triangles[i])
+                surface.box.extend(skin.points[static_cast<std::size_t>(p)]);
         surfaces.push_back(std::move(surface));
     }
     return surfaces;
@@ -257,7 +266,10 @@ public:
     explicit Numbers(bool binary) : binary_(binary) {}
 
     Numbers& whole(int value) { return number(value, static_cast<long long>(value)); }
-    Numbers& count(std::size_t value) { return number(static_cast<std::uint64_t>(value), static_cast<long long>(value)); }
+    Numbers& count(std::size_t value)
+    {
+        return number(static_cast<std::uint64_t>(value), static_cast<long long>(value));
+    }
     Numbers& real(double value) { return number(value, value); }
     Numbers& end_line()
     {
@@ -283,7 +295,8 @@ private:
     std::string text_;
 };
 
-std::string msh_head(const std::vector<Surface>& surfaces, const std::vector<PhysicalName>& names, bool binary)
+std::string msh_head(const std::vector<Surface>& surfaces, const std::vector<PhysicalName>& names,
+                     bool binary)
 {
     std::string text = std::string("$MeshFormat\n4.1 ") + (binary ? "1" : "0") + " 8\n";
     if (binary) {
@@ -331,7 +344,9 @@ Section numbered(std::string text, std::size_t first, std::size_t count, bool bi
 
 Section coordinates(const Skin& skin, std::size_t first, std::size_t count, bool binary)
 {
-    return {{}, count, binary ? sizeof(Vec3) : 3 * kNumberBytes + 1,
+    return {{},
+            count,
+            binary ? sizeof(Vec3) : 3 * kNumberBytes + 1,
             [&skin, first, binary](std::size_t begin, std::size_t end, char* out) {
                 for (std::size_t i = first + begin; i < first + end; ++i) {
                     for (int d = 0; d < 3; ++d) {
@@ -346,11 +361,13 @@ Section coordinates(const Skin& skin, std::size_t first, std::size_t count, bool
 Section facets_of(const Skin& skin, std::string text, std::size_t f, bool binary)
 {
     const std::size_t first = skin.start[f];
-    return {std::move(text), skin.start[f + 1] - first, binary ? 4 * sizeof(std::uint64_t) : 4 * kNumberBytes + 1,
+    return {std::move(text), skin.start[f + 1] - first,
+            binary ? 4 * sizeof(std::uint64_t) : 4 * kNumberBytes + 1,
             [&skin, first, binary](std::size_t begin, std::size_t end, char* out) {
                 for (std::size_t i = first + begin; i < first + end; ++i) {
                     std::array<std::size_t, 4> record{i + 1};
-                    for (std::size_t k = 0; k < 3; ++k) record[k + 1] = static_cast<std::size_t>(skin.triangles[i][k]) + 1;
+                    for (std::size_t k = 0; k < 3; ++k)
+                        record[k + 1] = static_cast<std::size_t>(skin.triangles[i][k]) + 1;
                     for (std::size_t k = 0; k < 4; ++k) {
                         out = binary ? put(out, static_cast<std::uint64_t>(record[k]))
                                      : put_text(out, static_cast<long long>(record[k]));
@@ -404,13 +421,15 @@ void write_facets(const OpenVolume& volume, const std::string& path, const Facet
 {
     const std::string ending = ending_of(path);
     if (ending != ".stl" && ending != ".obj" && ending != ".msh")
-        throw InvalidInput("io.unknown_ending", "cannot write facets to '" + path + "': the ending \"" + ending +
-                                                    "\" says no format; facets are written as .stl, .obj and .msh");
+        throw InvalidInput("io.unknown_ending",
+                           "cannot write facets to '" + path + "': the ending \"" + ending +
+                               "\" says no format; facets are written as .stl, .obj and .msh");
     check_sealed(volume);
     const Skin skin = skin_of(volume);
     WholeFile file(path);
     if (ending == ".msh")
-        write_sections(file, msh_sections(volume, skin, options.binary), options.binary ? Sizes::exact : Sizes::varying, context);
+        write_sections(file, msh_sections(volume, skin, options.binary),
+                       options.binary ? Sizes::exact : Sizes::varying, context);
     else if (ending == ".obj")
         write_sections(file, obj_text(volume, skin), Sizes::varying, context);
     else if (options.binary)

@@ -14,15 +14,18 @@ struct FacetFileOptions {
 
 /// Write the facets of a sealed volume, oriented outward, whole or not at all. The ending says the format:
 ///
-/// - `.stl`: one solid. Binary files hold floats: points are rounded, each to the same place for all its facets.
-/// - `.obj`: the points once, a line of groups a face: one of its own (`wall:12`, `source:3`, `target:void:1`), then its names.
-/// - `.msh`: 4.1, a surface entity a face, with the physical groups its quads have in a mesh: `source`, `target`,
-///   `wall:<tag>`, `void:<n>`, and the name it was given. Given faces keep their tags, void faces count on from the highest.
+/// - `.stl`: one solid. Binary files hold floats: points are rounded, each to the same place for all its
+///   facets.
+/// - `.obj`: the points once, a line of groups a face: one of its own (`wall:12`, `source:3`,
+///   `target:void:1`), then its names.
+/// - `.msh`: 4.1, a surface entity a face, with the physical groups its quads have in a mesh: `source`,
+///   `target`, `wall:<tag>`, `void:<n>`, and the name it was given. Given faces keep their tags, void faces
+///   count on from the highest.
 ///
 /// @throw InvalidInput  the volume is not sealed (names free edges), an unknown ending, a missing folder.
 /// @throw BackendError  the disk is full or the file cannot be written; nothing is left behind.
 /// @note  The same volume gives the same bytes.
-void write_facets(const topology::OpenVolume& volume, const std::string& path, const FacetFileOptions& options = {},
-                  const RunContext& context = {});
+void write_facets(const topology::OpenVolume& volume, const std::string& path,
+                  const FacetFileOptions& options = {}, const RunContext& context = {});
 
 } // namespace lacuna::io
