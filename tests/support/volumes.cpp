@@ -25,21 +25,16 @@ struct SectionLoop {
     int sides = 1;
 };
 
-SectionLoop section_loop(int sides, double radius, const Vec2& centre, bool hole, const PrismOptions& options)
+/// A loop through corners, each straight side cut `between` times.
+SectionLoop loop_through(const std::vector<Vec2>& corners, int between, int sides,
+                         const PrismOptions& options)
 {
     SectionLoop loop;
-    const bool round = sides == 0;
-    loop.sides = round ? 1 : sides;
-    const int corners = round ? 12 * options.cuts * options.pieces : sides;
-    const int between = round ? 1 : options.cuts * options.pieces;
-    const auto corner = [&](int i) {
-        const double angle = (hole ? -2 : 2) * kPi * i / corners;
-        return Vec2(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
-    };
-    for (int i = 0; i < corners; ++i) {
+    loop.sides = sides;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
         for (int k = 0; k < between; ++k) {
             const double f = static_cast<double>(k) / between;
-            loop.points.push_back((1 - f) * corner(i) + f * corner((i + 1) % corners));
+            loop.points.push_back((1 - f) * corners[i] + f * corners[(i + 1) % corners.size()]);
         }
     }
     const std::size_t walls = static_cast<std::size_t>(loop.sides) * static_cast<std::size_t>(options.pieces);
@@ -47,9 +42,28 @@ SectionLoop section_loop(int sides, double radius, const Vec2& centre, bool hole
     return loop;
 }
 
+SectionLoop section_loop(int sides, double radius, const Vec2& centre, bool hole, const PrismOptions& options)
+{
+    const bool round = sides == 0;
+    std::vector<Vec2> corners(static_cast<std::size_t>(round ? 12 * options.cuts * options.pieces : sides));
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const double angle = (hole ? -2 : 2) * kPi * static_cast<double>(i) /
+                             static_cast<double>(corners.size());
+        corners[i] = centre + radius * Vec2(std::cos(angle), std::sin(angle));
+    }
+    return loop_through(corners, round ? 1 : options.cuts * options.pieces, round ? 1 : sides, options);
+}
+
 std::vector<SectionLoop> section_of(const PrismOptions& o)
 {
-    std::vector<SectionLoop> section{section_loop(o.sides, o.radius, Vec2(0, 0), false, o)};
+    std::vector<SectionLoop> section{
+        o.outline.empty() ? section_loop(o.sides, o.radius, Vec2(0, 0), false, o)
+                          : loop_through(o.outline, o.cuts * o.pieces, static_cast<int>(o.outline.size()), o)};
+    if (!o.hole_list.empty() || !o.outline.empty()) {
+        for (const RoundHole& hole : o.hole_list)
+            section.push_back(section_loop(0, hole.radius, hole.centre, true, o));
+        return section;
+    }
     const double inner = o.sides == 0 ? o.radius : o.radius * std::cos(kPi / o.sides);
     const double reach = o.holes == 1 ? 0 : 0.55 * inner;
     const double room = o.holes == 1 ? inner
@@ -67,12 +81,16 @@ std::vector<SectionLoop> section_of(const PrismOptions& o)
 Vec3 carried(const PrismOptions& o, const Vec2& p, double t)
 {
     const double angle = o.twist * kPi / 180 * t;
-    const double size = 1 + (o.taper - 1) * t;
+    const double size = (1 + (o.taper - 1) * t) * (1 + (o.belly - 1) * 4 * t * (1 - t));
     const Vec2 q(size * (std::cos(angle) * p.x() - std::sin(angle) * p.y()),
                  size * (std::sin(angle) * p.x() + std::cos(angle) * p.y()));
     double along = o.height * t;
     if (o.target == End::tilted) along += t * o.lift * p.x() / o.radius;
-    if (o.target == End::bowed) along += t * o.lift * (1 - p.squaredNorm() / (o.radius * o.radius));
+    const double outward = 1 - p.squaredNorm() / (o.radius * o.radius);
+    if (o.target == End::bowed) along += t * o.lift * outward;
+    if (o.target == End::saddle)
+        along += t * o.lift * (p.x() * p.x() - p.y() * p.y()) / (o.radius * o.radius);
+    if (o.source == End::bowed) along -= (1 - t) * o.lift * outward;
     const double bend = o.bend * kPi / 180;
     if (bend == 0) return {q.x(), q.y(), along};
     const double r = o.height / bend;
@@ -197,7 +215,8 @@ private:
                 moment += cross / 6 * (a + b);
             }
         }
-        if (o_.target == End::bowed) return result_.facet_volume;
+        if (o_.target == End::bowed || o_.target == End::saddle || o_.source == End::bowed || o_.belly != 1)
+            return result_.facet_volume;
         if (o_.target == End::tilted && (o_.twist != 0 || o_.taper != 1 || o_.bend != 0))
             return result_.facet_volume;
         const double k = o_.taper;

@@ -14,16 +14,24 @@ struct Part {
     int loop = 0, side = 0, row = 0, piece = 0;
 };
 
-/// How the target lies: parallel to the source, tilted about y, or bowed outward.
-enum class End { planar, tilted, bowed };
+/// How the target lies: parallel to the source, tilted about y, bowed outward, or a saddle.
+enum class End { planar, tilted, bowed, saddle };
+
+/// A round hole of a section.
+struct RoundHole {
+    Vec2 centre;
+    double radius;
+};
 
 /// A prism along z as faces of facets: a section of straight-sided or round loops carried up, and parts of it left out.
 struct PrismOptions {
     int sides = 4;     ///< corners of the outer loop; 0: a circle
     double radius = 1; ///< of the outer loop's corners
     double height = 2;
-    int holes = 0;      ///< loops within: one in the middle, several on a circle
-    int hole_sides = 4; ///< 0: circles
+    int holes = 0;             ///< loops within: one in the middle, several on a circle
+    int hole_sides = 4;        ///< 0: circles
+    std::vector<Vec2> outline{}; ///< corners of the outer loop, anticlockwise; instead of `sides` and `radius`
+    std::vector<RoundHole> hole_list{}; ///< instead of `holes`
     int cuts = 2;     ///< facets along a straight side and a piece; a circle has twelve times as many in all
     int rows = 1;     ///< walls stacked on each other
     int pieces = 1;   ///< walls side by side on each side
@@ -31,7 +39,9 @@ struct PrismOptions {
     double twist = 0; ///< of the target against the source [degrees]
     double taper = 1; ///< size of the target over the source's
     double bend = 0;  ///< of the axis towards +x, its length kept [degrees]
+    double belly = 1; ///< size halfway up over that of a straight wall: above 1 a barrel, below an hourglass
     End target = End::planar;
+    End source = End::planar;  ///< planar, or bowed outward
     double lift = 0.4;         ///< how much a tilted target rises at the rim, a bowed one in the middle
     double feature_angle = 40; ///< of the model; the corners of nine sides and more turn by less [degrees]
     std::function<bool(const Part&)> drop = nullptr; ///< parts left out

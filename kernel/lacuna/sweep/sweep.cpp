@@ -6,8 +6,8 @@
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/projector.h>
 #include <lacuna/surface/source_mesh.h>
+#include <lacuna/sweep/improve.h>
 #include <lacuna/sweep/layers.h>
-#include <lacuna/sweep/untangle.h>
 
 #include <algorithm>
 #include <array>
@@ -128,6 +128,14 @@ class Patches {
 public:
     Patches(const OpenVolume& volume, mesh::HexMesh& mesh) : volume_(volume), mesh_(mesh) {}
 
+    /// Face of each patch.
+    [[nodiscard]] std::vector<FaceId> faces() const
+    {
+        std::vector<FaceId> faces(patch_.size());
+        for (const auto& [face, patch] : patch_) faces[static_cast<std::size_t>(patch)] = face;
+        return faces;
+    }
+
     Index of(FaceId face)
     {
         const auto [found, fresh] = patch_.try_emplace(face, static_cast<Index>(mesh_.patches.size()));
@@ -176,9 +184,10 @@ std::vector<FaceId> faces_under_quads(const surface::Projector& projector, const
     return projector.closest_face(centres);
 }
 
-void set_patches(const OpenVolume& volume, const surface::SourceMesh& source,
-                 const surface::Projector& target, const std::vector<surface::WallMesh>& walls,
-                 mesh::HexMesh& mesh)
+/// @return  face of each patch.
+std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceMesh& source,
+                                const surface::Projector& target, const std::vector<surface::WallMesh>& walls,
+                                mesh::HexMesh& mesh)
 {
     Patches patches(volume, mesh);
     for (const Index face : source.quads.face) mesh.source_patch.push_back(patches.of(FaceId(face)));
@@ -213,31 +222,81 @@ void set_patches(const OpenVolume& volume, const surface::SourceMesh& source,
                 patches.of(walls[place.belt].face[static_cast<std::size_t>(layer) * n + place.side]));
         }
     }
+    return patches.faces();
 }
 
-/// What untangling can mend.
+/// Skin nodes within one face slide on it; those between faces stay.
+std::vector<Index> sliding_nodes(const mesh::HexMesh& mesh)
+{
+    constexpr Index kInside = -1, kLocked = -2;
+    std::vector<Index> surface(mesh.nodes.size(), kInside);
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        const mesh::SkinQuad quad = mesh::skin_quad(mesh, i);
+        for (const Index n : quad.nodes) {
+            Index& at = surface[static_cast<std::size_t>(n)];
+            at = at == kInside || at == quad.patch ? quad.patch : kLocked;
+        }
+    }
+    return surface;
+}
+
+/// Projectors made when first asked for.
+class FaceProjectors {
+public:
+    FaceProjectors(const Model& model, std::vector<FaceId> faces, const RunContext& context)
+        : model_(model), faces_(std::move(faces)), context_(context)
+    {
+    }
+
+    void project(Index patch, std::span<Vec3> points)
+    {
+        const FaceId face = faces_[static_cast<std::size_t>(patch)];
+        projector_.try_emplace(patch, model_, std::vector<FaceId>{face})
+            .first->second.project(points, context_);
+    }
+
+private:
+    const Model& model_;
+    std::vector<FaceId> faces_;
+    const RunContext& context_;
+    std::map<Index, surface::Projector> projector_;
+};
+
+/// What moving nodes can mend.
 bool is_poor(const NotSweepable& error)
 {
     return error.code() == "quality.inverted" || error.code() == "quality.not_certified" ||
            error.code() == "quality.below_limit";
 }
 
-/// Prove the mesh; where cells are folded or poor, untangle them and prove it again.
-quality::Quality prove_or_mend(Swept& swept, const SweepOptions& options, const RunContext& context)
+std::string in_words(const Improved& improved)
 {
-    UntangleOptions untangling;
-    untangling.good_enough = std::max(untangling.good_enough, options.min_scaled_jacobian);
+    std::array<char, 200> words{};
+    std::snprintf(
+        words.data(), words.size(),
+        "%s: %zu cells, %zu nodes, least scaled Jacobian %.3f before, %.3f after, mean %.3f and %.3f",
+        improved.untangled ? "untangled" : "improved", improved.cells, improved.moved, improved.before,
+        improved.after, improved.mean_before, improved.mean_after);
+    return words.data();
+}
+
+/// Prove the mesh; where cells are folded or poor, move nodes and prove it again.
+quality::Quality prove_or_mend(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
+                               const SweepOptions& options, const RunContext& context)
+{
+    ImproveOptions improving = options.improving;
+    improving.good_enough = std::max(improving.good_enough, options.min_scaled_jacobian);
     try {
         const quality::Quality quality = quality::prove(swept.mesh, options.min_scaled_jacobian, context);
-        if (!options.improve || quality.min_scaled_jacobian >= untangling.good_enough) return quality;
+        if (!options.improve || quality.min_scaled_jacobian >= improving.good_enough) return quality;
     } catch (const NotSweepable& error) {
         if (!options.improve || !is_poor(error)) throw;
     }
-    const Untangled mended = untangle(swept.mesh, untangling, context);
-    swept.report.push_back("untangled: " + std::to_string(mended.cells) + " cells, " +
-                           std::to_string(mended.moved) + " nodes, least scaled Jacobian " +
-                           std::to_string(mended.before) + " before, " + std::to_string(mended.after) +
-                           " after");
+    FaceProjectors projectors(model, faces, context);
+    const Sliding sliding{sliding_nodes(swept.mesh),
+                          [&](Index patch, std::span<Vec3> points) { projectors.project(patch, points); }};
+    const Improved improved = improve(swept.mesh, improving, sliding, context);
+    if (improved.cells > 0) swept.report.push_back(in_words(improved));
     return quality::prove(swept.mesh, options.min_scaled_jacobian, context);
 }
 
@@ -276,8 +335,8 @@ Swept sweep_between(const OpenVolume& volume, const std::vector<surface::Belt>& 
     mesh.quads = source.quads.quads;
     for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
         mesh.rim.push_back({side.from, side.to});
-    set_patches(volume, source, target, walls, mesh);
-    const quality::Quality quality = prove_or_mend(result, options, context);
+    const std::vector<FaceId> faces = set_patches(volume, source, target, walls, mesh);
+    const quality::Quality quality = prove_or_mend(result, volume.model, faces, options, context);
     result.report.push_back("cells: " + std::to_string(quality.hexes) + ", all certified, scaled Jacobian " +
                             std::to_string(quality.min_scaled_jacobian) + " at least, " +
                             std::to_string(quality.mean_scaled_jacobian) + " on average");

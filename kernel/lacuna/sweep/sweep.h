@@ -4,6 +4,7 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/surface/quad_mesher.h>
+#include <lacuna/sweep/improve.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <optional>
@@ -36,7 +37,8 @@ struct SweepOptions {
     Quads quads = Quads::automatic;
     surface::PlanarQuadMesher quad_mesher; ///< used where a source face is not mapped
     double min_scaled_jacobian = 0;        ///< below it the mesh is refused [-1, 1]
-    bool improve = true;
+    bool improve = true;                   ///< move nodes where cells are folded or poor
+    ImproveOptions improving;              ///< how far
 };
 
 /// Hexahedra and how they came about.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/quality.h>
-#include <lacuna/sweep/untangle.h>
+#include <lacuna/sweep/improve.h>
 
 #include "support/blocks.h"
 #include "support/check_valid.h"
@@ -42,7 +42,7 @@ TEST_CASE("a block with its inside shaken until cells fold is valid again after 
             mesh::HexMesh mesh = shaken(share, seed);
             const mesh::HexMesh before = mesh;
             REQUIRE(quality::measure(mesh).inverted > 0);
-            const sweep::Untangled report = sweep::untangle(mesh);
+            const sweep::Improved report = sweep::improve(mesh);
             CHECK(report.after > 0.2);
             test::check_valid(mesh);
             for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
@@ -58,12 +58,12 @@ TEST_CASE("untangling leaves a good mesh as it is, and never lowers the least sc
 {
     mesh::HexMesh good = test::block({6, 6, 6});
     const std::vector<Vec3> nodes = good.nodes;
-    sweep::untangle(good);
+    sweep::improve(good);
     CHECK(good.nodes == nodes);
     for (unsigned seed = 1; seed <= 5; ++seed) {
         mesh::HexMesh mesh = shaken(0.35, seed);
         const double before = quality::measure(mesh).min_scaled_jacobian;
-        sweep::untangle(mesh);
+        sweep::improve(mesh);
         CHECK(quality::measure(mesh).min_scaled_jacobian >= before);
     }
 }

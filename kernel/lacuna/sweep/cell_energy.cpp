@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/cell_energy.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lacuna::sweep {
+
+namespace {
+
+/// Weight of the volume term against the shape term, as Garanzha et al.
+constexpr double kVolumeShare = 1.0 / 128;
+
+/// Ends of the four edges along each of u, v, w.
+constexpr std::array<std::array<std::array<int, 2>, 4>, 3> kEdges{{
+    {{{0, 1}, {3, 2}, {4, 5}, {7, 6}}},
+    {{{0, 3}, {1, 2}, {4, 7}, {5, 6}}},
+    {{{0, 4}, {1, 5}, {2, 6}, {3, 7}}},
+}};
+/// Which of those edges meet at each corner.
+constexpr std::array<std::array<std::size_t, 3>, 8> kAt{
+    {{0, 0, 0}, {0, 1, 1}, {1, 1, 2}, {1, 0, 3}, {2, 2, 0}, {2, 3, 1}, {3, 3, 2}, {3, 2, 3}}};
+
+using Edges = std::array<std::array<Vec3, 4>, 3>;
+
+Edges edges_of(const std::array<Vec3, 8>& corners)
+{
+    Edges edges;
+    for (std::size_t d = 0; d < 3; ++d) {
+        for (std::size_t e = 0; e < 4; ++e) {
+            edges[d][e] = corners[static_cast<std::size_t>(kEdges[d][e][1])] -
+                          corners[static_cast<std::size_t>(kEdges[d][e][0])];
+        }
+    }
+    return edges;
+}
+
+/// The foldover-free energy of a corner by its determinant over the box's and the squares of its edges over the box's.
+struct Shape {
+    double value, by_determinant, by_squares;
+};
+
+Shape shape_energy(double epsilon, double determinant, double squares)
+{
+    const double root = std::sqrt(epsilon * epsilon + determinant * determinant);
+    const double chi = (determinant + root) / 2;
+    const double chi_slope = chi / root;
+    const double cube_root = std::cbrt(chi);
+    const double power = 1 / (cube_root * cube_root);
+    const double shape = squares * power;
+    const double volume = (1 + determinant * determinant) / chi;
+    return {(1 - kVolumeShare) * shape + kVolumeShare * volume,
+            (1 - kVolumeShare) * (-2.0 / 3) * shape / chi * chi_slope +
+                kVolumeShare * (2 * determinant - volume * chi_slope) / chi,
+            (1 - kVolumeShare) * power};
+}
+
+} // namespace
+
+Vec3 mean_edges(const std::array<Vec3, 8>& corners)
+{
+    const Edges edges = edges_of(corners);
+    Vec3 mean = Vec3::Zero();
+    for (int d = 0; d < 3; ++d) {
+        for (const Vec3& edge : edges[static_cast<std::size_t>(d)]) mean[d] += edge.norm() / 4;
+    }
+    return mean;
+}
+
+double least_determinant(const std::array<Vec3, 8>& corners, const Vec3& box)
+{
+    const Edges edges = edges_of(corners);
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& at : kAt) {
+        least = std::min(least, edges[0][at[0]].dot(edges[1][at[1]].cross(edges[2][at[2]])));
+    }
+    return least / box.prod();
+}
+
+double cell_energy(const CellEnergy& energy, const std::array<Vec3, 8>& corners, const Vec3& box,
+                   std::array<Vec3, 8>& slope)
+{
+    const Edges edges = edges_of(corners);
+    Edges by_edge;
+    for (auto& along : by_edge) along.fill(Vec3::Zero());
+    const double volume = box.prod();
+    const Vec3 by_square = box.cwiseAbs2().cwiseInverse();
+    double sum = 0;
+    for (const auto& at : kAt) {
+        const Vec3 &u = edges[0][at[0]], &v = edges[1][at[1]], &w = edges[2][at[2]];
+        const Vec3 vw = v.cross(w), wu = w.cross(u), uv = u.cross(v);
+        const double det = u.dot(vw);
+        const Vec3 squares(u.squaredNorm(), v.squaredNorm(), w.squaredNorm());
+        const Shape shape = shape_energy(energy.epsilon, det / volume, squares.dot(by_square));
+        sum += energy.shape * shape.value;
+        double by_det = energy.shape * shape.by_determinant / volume;
+        Vec3 by_edge_itself = 2 * energy.shape * shape.by_squares * by_square;
+        if (energy.sharpness > 0) {
+            const double lengths = std::sqrt(squares.prod());
+            if (lengths > 0) {
+                const double scaled = det / lengths;
+                const double term = std::exp(-energy.sharpness * scaled);
+                const double by_scaled = -energy.sharpness * term;
+                sum += term;
+                by_det += by_scaled / lengths;
+                by_edge_itself -= by_scaled * scaled * squares.cwiseInverse();
+            }
+        }
+        by_edge[0][at[0]] += by_det * vw + by_edge_itself[0] * u;
+        by_edge[1][at[1]] += by_det * wu + by_edge_itself[1] * v;
+        by_edge[2][at[2]] += by_det * uv + by_edge_itself[2] * w;
+    }
+    slope.fill(Vec3::Zero());
+    for (std::size_t d = 0; d < 3; ++d) {
+        for (std::size_t e = 0; e < 4; ++e) {
+            slope[static_cast<std::size_t>(kEdges[d][e][1])] += by_edge[d][e];
+            slope[static_cast<std::size_t>(kEdges[d][e][0])] -= by_edge[d][e];
+        }
+    }
+    return sum;
+}
+
+} // namespace lacuna::sweep

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/improve.h>
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/sweep/minimise.h>
+#include <lacuna/sweep/region.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+namespace lacuna::sweep {
+
+namespace {
+
+/// Smallest regularisation, of a cell's volume.
+constexpr double kLeastEpsilon = 1e-3;
+/// Rounds of untangling, each with a smaller regularisation, and how many may pass without gain.
+constexpr int kUntanglings = 40;
+constexpr int kPatience = 4;
+/// Sharpness of the second stage, round by round: at first all poor corners count, at last the worst alone.
+constexpr std::array<double, 6> kSharpness{6, 12, 20, 30, 45, 60};
+/// Weight of the shape energy in the second stage: enough to keep lengths and not to fold.
+constexpr double kShapeShare = 1e-3;
+/// How much the mean may fall for the least to rise.
+constexpr double kMeanGivenUp = 0.01;
+
+class Improver {
+public:
+    Improver(mesh::HexMesh& mesh, const Region& region, const ImproveOptions& options, const Sliding& sliding,
+             const RunContext& context)
+        : mesh_(mesh),
+          region_(region),
+          options_(options),
+          sliding_(sliding),
+          context_(context),
+          energy_(region, places_of(mesh, region), context),
+          best_(places_of(mesh, region)),
+          best_quality_(measure(region, best_, context))
+    {
+    }
+
+    Improved run()
+    {
+        Improved result;
+        result.cells = region_.cells.size();
+        result.moved = region_.free;
+        result.before = best_quality_.least;
+        result.mean_before = best_quality_.mean;
+        result.untangled = !(best_quality_.least > 0);
+        const bool folded = result.untangled;
+        if (folded) untangle();
+        if (best_quality_.least > 0 && best_quality_.least < options_.good_enough) optimise(folded);
+        result.after = best_quality_.least;
+        result.mean_after = best_quality_.mean;
+        if (result.after > result.before) {
+            for (std::size_t i = 0; i < region_.free; ++i)
+                mesh_.nodes[static_cast<std::size_t>(region_.node[i])] = best_[i];
+        }
+        return result;
+    }
+
+private:
+    static std::vector<Vec3> places_of(const mesh::HexMesh& mesh, const Region& region)
+    {
+        std::vector<Vec3> places;
+        for (const Index n : region.node) places.push_back(mesh.nodes[static_cast<std::size_t>(n)]);
+        return places;
+    }
+
+    [[nodiscard]] Eigen::VectorXd variables(const std::vector<Vec3>& places) const
+    {
+        Eigen::VectorXd x(3 * static_cast<Eigen::Index>(region_.free));
+        for (std::size_t i = 0; i < region_.free; ++i)
+            x.segment<3>(3 * static_cast<Eigen::Index>(i)) = places[i];
+        return x;
+    }
+
+    [[nodiscard]] bool out_of_time() const
+    {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() >
+               options_.seconds;
+    }
+
+    /// One minimisation from `x`; sliding nodes come back on their surfaces.
+    void descend(Eigen::VectorXd& x)
+    {
+        energy_.set_planes(x);
+        MinimiseOptions how;
+        how.iterations = options_.iterations;
+        how.stop = [&] {
+            check_cancelled(context_);
+            return out_of_time();
+        };
+        minimise([&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) { return energy_(at, gradient); },
+                 x, how);
+        put_on_surfaces(x);
+    }
+
+    void put_on_surfaces(Eigen::VectorXd& x) const
+    {
+        std::map<Index, std::vector<std::size_t>> on;
+        for (std::size_t i = 0; i < region_.free; ++i) {
+            if (region_.surface[i] >= 0) on[region_.surface[i]].push_back(i);
+        }
+        std::vector<Vec3> points;
+        for (const auto& [surface, nodes] : on) {
+            points.clear();
+            for (const std::size_t i : nodes)
+                points.emplace_back(x.segment<3>(3 * static_cast<Eigen::Index>(i)));
+            sliding_.project(surface, points);
+            for (std::size_t k = 0; k < nodes.size(); ++k)
+                x.segment<3>(3 * static_cast<Eigen::Index>(nodes[k])) = points[k];
+        }
+    }
+
+    /// Keep `x` where it is better. @return whether it was
+    bool keep(const Eigen::VectorXd& x, double mean_floor)
+    {
+        std::vector<Vec3> places = best_;
+        for (std::size_t i = 0; i < region_.free; ++i)
+            places[i] = x.segment<3>(3 * static_cast<Eigen::Index>(i));
+        const RegionQuality found = measure(region_, places, context_);
+        if (!(found.least > best_quality_.least) || found.mean < mean_floor) return false;
+        best_ = std::move(places);
+        best_quality_ = found;
+        return true;
+    }
+
+    void untangle()
+    {
+        Eigen::VectorXd x = variables(best_);
+        energy_.energy = {};
+        int without_gain = 0;
+        for (int round = 0; round < kUntanglings && without_gain < kPatience && !out_of_time(); ++round) {
+            const double determinant = energy_.least_determinant(x);
+            energy_.energy.epsilon = determinant > 0 ? kLeastEpsilon
+                                                     : std::sqrt(kLeastEpsilon * kLeastEpsilon +
+                                                                 0.04 * determinant * determinant);
+            const double before = best_quality_.least;
+            descend(x);
+            keep(x, -1);
+            without_gain = best_quality_.least > before + 1e-4 ? 0 : without_gain + 1;
+            if (best_quality_.least > options_.good_enough) return;
+        }
+    }
+
+    void optimise(bool was_folded)
+    {
+        // What was folded has no mean worth keeping.
+        const double floor = was_folded ? -1 : best_quality_.mean - kMeanGivenUp;
+        Eigen::VectorXd x = variables(best_);
+        for (const double sharpness : kSharpness) {
+            if (out_of_time() || best_quality_.least >= options_.good_enough) return;
+            energy_.energy = {kLeastEpsilon, kShapeShare, sharpness};
+            descend(x);
+            if (!keep(x, floor)) x = variables(best_);
+        }
+    }
+
+    mesh::HexMesh& mesh_;
+    const Region& region_;
+    const ImproveOptions& options_;
+    const Sliding& sliding_;
+    const RunContext& context_;
+    RegionEnergy energy_;
+    std::vector<Vec3> best_;
+    RegionQuality best_quality_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+Improved improve(mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
+                 const RunContext& context)
+{
+    const Region region = poor_region(mesh, options, sliding, context);
+    if (region.free == 0) return {};
+    return Improver(mesh, region, options, sliding, context).run();
+}
+
+} // namespace lacuna::sweep

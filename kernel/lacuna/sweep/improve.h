@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/mesh/hex_mesh.h>
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lacuna::sweep {
+
+struct ImproveOptions {
+    double good_enough = 0.5; ///< cells with a smaller scaled Jacobian are worked on [-1, 1]
+    int rings = 2;            ///< layers of neighbours that move with them
+    int iterations = 60;      ///< descent steps of each minimisation
+    double seconds = 20;      ///< no step is begun after this; a mesh better than it was is kept
+};
+
+/// Skin nodes that may slide, each along the surface its face lies on.
+struct Sliding {
+    std::vector<Index> surface; ///< of each node of the mesh; -1: inside, or locked. Empty: nothing slides
+    std::function<void(Index surface, std::span<Vec3> points)> project; ///< onto that surface
+};
+
+struct Improved {
+    std::size_t cells = 0;                  ///< that took part
+    std::size_t moved = 0;                  ///< nodes that took part
+    double before = 1, after = 1;           ///< least scaled Jacobian of the cells that took part
+    double mean_before = 1, mean_after = 1; ///< and their mean
+    bool untangled = false;                 ///< some were folded at first
+};
+
+/// Move nodes so that folded cells open up and poor ones grow better; nodes of edges stay, as do all of the skin that may not slide.
+///
+/// Two stages, both minimisations over the poor cells and their neighbours, by L-BFGS:
+/// 1. While a Jacobian is not positive: foldover-free maps (Garanzha et al. 2021), the energy tr(JᵀJ)/χ^⅔ and (1 + det²)/χ with
+///    χ = (D + √(ε² + D²))/2 at the eight corners of each cell, ε falling as the least determinant rises. Each cell's reference
+///    is a box of its own mean edge lengths, so that thin layers stay thin.
+/// 2. Then the sum of exp(-k s) over the corners' scaled Jacobians s, whose heaviest terms are the worst corners, with k rising;
+///    a share of the first energy keeps the edges' lengths and is the barrier against folding.
+/// @post  the least scaled Jacobian is not smaller than before, nor the mean by more than a hundredth: where nothing was won, nothing
+///        is changed. Sliding nodes lie on their surfaces.
+/// @note  The same for any thread count while the time lasts. O(iterations · cells of the region).
+Improved improve(mesh::HexMesh& mesh, const ImproveOptions& options = {}, const Sliding& sliding = {},
+                 const RunContext& context = {});
+
+} // namespace lacuna::sweep

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/minimise.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <utility>
+#include <vector>
+
+namespace lacuna::sweep {
+
+namespace {
+
+constexpr std::size_t kMemory = 10;
+constexpr int kHalvings = 30;
+constexpr double kEnough = 1e-4; ///< share of the promised descent that a step must bring (Armijo)
+
+struct Pair {
+    Eigen::VectorXd step, change;
+    double inverse;
+};
+
+/// The two loops of L-BFGS.
+Eigen::VectorXd direction_of(const std::deque<Pair>& memory, const Eigen::VectorXd& gradient)
+{
+    Eigen::VectorXd direction = -gradient;
+    std::vector<double> alpha(memory.size());
+    for (std::size_t i = memory.size(); i-- > 0;) {
+        alpha[i] = memory[i].inverse * memory[i].step.dot(direction);
+        direction -= alpha[i] * memory[i].change;
+    }
+    if (!memory.empty())
+        direction *= memory.back().step.dot(memory.back().change) / memory.back().change.squaredNorm();
+    for (std::size_t i = 0; i < memory.size(); ++i)
+        direction += (alpha[i] - memory[i].inverse * memory[i].change.dot(direction)) * memory[i].step;
+    return direction;
+}
+
+} // namespace
+
+double minimise(const Function& function, Eigen::VectorXd& x, const MinimiseOptions& options)
+{
+    std::deque<Pair> memory;
+    Eigen::VectorXd gradient(x.size()), next_gradient(x.size()), tried(x.size());
+    double value = function(x, gradient);
+    for (int step = 0; step < options.iterations; ++step) {
+        if (options.stop && options.stop()) break;
+        Eigen::VectorXd direction = direction_of(memory, gradient);
+        double slope = gradient.dot(direction);
+        if (!(slope < 0)) {
+            memory.clear();
+            direction = -gradient;
+            slope = -gradient.squaredNorm();
+        }
+        if (!(slope < 0)) break;
+        double length = memory.empty() ? 0.1 * std::abs(value) / -slope : 1;
+        double found = value;
+        bool won = false;
+        for (int half = 0; half < kHalvings && !won; ++half) {
+            tried = x + length * direction;
+            found = function(tried, next_gradient);
+            won = std::isfinite(found) && found <= value + kEnough * length * slope;
+            if (!won) length /= 2;
+        }
+        if (!won) {
+            if (memory.empty()) break;
+            memory.clear(); // What it learnt elsewhere misleads here: once more, straight down.
+            continue;
+        }
+        Pair pair{tried - x, next_gradient - gradient, 0};
+        const double curvature = pair.step.dot(pair.change);
+        if (curvature > 1e-12 * pair.step.norm() * pair.change.norm()) {
+            pair.inverse = 1 / curvature;
+            memory.push_back(std::move(pair));
+            if (memory.size() > kMemory) memory.pop_front();
+        }
+        const double won_by = value - found;
+        std::swap(x, tried);
+        std::swap(gradient, next_gradient);
+        value = found;
+        if (won_by < options.least_gain * std::abs(value)) break;
+    }
+    return value;
+}
+
+} // namespace lacuna::sweep

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/region.h>
+
+#include <lacuna/core/parallel.h>
+#include <lacuna/quality/quality.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace lacuna::sweep {
+
+namespace {
+
+/// Cells worked on at a time; sums are made chunk by chunk.
+constexpr std::size_t kChunk = 512;
+
+/// Neighbours of each corner along the cell's edges.
+constexpr std::array<std::array<std::size_t, 3>, 8> kNext{
+    {{1, 3, 4}, {0, 2, 5}, {3, 1, 6}, {2, 0, 7}, {5, 7, 0}, {4, 6, 1}, {7, 5, 2}, {6, 4, 3}}};
+
+std::array<Vec3, 8> corners_of(const std::vector<Vec3>& places, const Hex& hex)
+{
+    std::array<Vec3, 8> corners;
+    for (std::size_t i = 0; i < 8; ++i) corners[i] = places[static_cast<std::size_t>(hex[i])];
+    return corners;
+}
+
+std::vector<char> locked_nodes(const mesh::HexMesh& mesh, const Sliding& sliding)
+{
+    std::vector<char> locked(mesh.nodes.size(), 0);
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        for (const Index n : mesh::skin_quad(mesh, i).nodes) {
+            const auto node = static_cast<std::size_t>(n);
+            locked[node] = sliding.surface.empty() || sliding.surface[node] < 0 ? 1 : 0;
+        }
+    }
+    return locked;
+}
+
+/// The best a cell can become: the least sine of an angle between two edges that stay.
+double bound_of(const std::array<Vec3, 8>& corners, const Hex& hex, const std::vector<char>& locked)
+{
+    double bound = 1;
+    for (std::size_t c = 0; c < 8; ++c) {
+        if (locked[static_cast<std::size_t>(hex[c])] == 0) continue;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t a = kNext[c][i], b = kNext[c][(i + 1) % 3];
+            if (locked[static_cast<std::size_t>(hex[a])] == 0 ||
+                locked[static_cast<std::size_t>(hex[b])] == 0)
+                continue;
+            const Vec3 u = corners[a] - corners[c], v = corners[b] - corners[c];
+            const double lengths = u.norm() * v.norm();
+            bound = std::min(bound, lengths > 0 ? u.cross(v).norm() / lengths : 0.0);
+        }
+    }
+    return bound;
+}
+
+/// Whether each cell is poor and could be better.
+std::vector<char> poor_cells(const mesh::HexMesh& mesh, const std::vector<char>& locked, double good_enough,
+                             const RunContext& context)
+{
+    // A hundredth won is not worth the work.
+    constexpr double kWorthIt = 0.01;
+    std::vector<char> poor(mesh.hex_count(), 0);
+    parallel_for(context, poor.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            const Hex hex = mesh.hex(c);
+            const std::array<Vec3, 8> corners = corners_of(mesh.nodes, hex);
+            const double scaled = quality::scaled_jacobian(corners);
+            if (scaled >= good_enough) {
+                poor[c] = quality::certified_positive(corners) ? 0 : 1;
+            } else {
+                poor[c] = scaled <= 0 || scaled + kWorthIt < bound_of(corners, hex, locked) ? 1 : 0;
+            }
+        }
+    });
+    return poor;
+}
+
+/// Adds neighbours: all cells that share a node with one taken.
+void grow(const mesh::HexMesh& mesh, std::vector<char>& taken)
+{
+    std::vector<char> touched(mesh.nodes.size(), 0);
+    for (std::size_t c = 0; c < taken.size(); ++c) {
+        if (taken[c] == 0) continue;
+        for (const Index n : mesh.hex(c)) touched[static_cast<std::size_t>(n)] = 1;
+    }
+    for (std::size_t c = 0; c < taken.size(); ++c) {
+        const Hex hex = mesh.hex(c);
+        taken[c] = std::any_of(hex.begin(), hex.end(),
+                               [&](Index n) { return touched[static_cast<std::size_t>(n)] != 0; });
+    }
+}
+
+/// The uses of each free node.
+void index_uses(Region& region)
+{
+    region.use_begin.assign(region.free + 1, 0);
+    const auto each = [&](const auto& visit) {
+        for (std::size_t c = 0; c < region.cells.size(); ++c) {
+            for (std::size_t k = 0; k < 8; ++k) {
+                const auto node = static_cast<std::size_t>(region.cells[c][k]);
+                if (node < region.free) visit(node, static_cast<Index>(8 * c + k));
+            }
+        }
+    };
+    each([&](std::size_t node, Index) { ++region.use_begin[node + 1]; });
+    for (std::size_t i = 0; i < region.free; ++i) region.use_begin[i + 1] += region.use_begin[i];
+    region.uses.resize(static_cast<std::size_t>(region.use_begin.back()));
+    std::vector<Index> next(region.use_begin.begin(), region.use_begin.end() - 1);
+    each([&](std::size_t node, Index use) { region.uses[static_cast<std::size_t>(next[node]++)] = use; });
+}
+
+} // namespace
+
+Region poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
+                   const RunContext& context)
+{
+    Region region;
+    const std::vector<char> locked = locked_nodes(mesh, sliding);
+    std::vector<char> taken = poor_cells(mesh, locked, options.good_enough, context);
+    if (std::none_of(taken.begin(), taken.end(), [](char c) { return c != 0; })) return region;
+    for (int ring = 0; ring < options.rings; ++ring) grow(mesh, taken);
+
+    // Nodes that cells outside use stay, so that the region meets the rest as it was.
+    std::vector<char> held = locked;
+    std::vector<char> inside(mesh.nodes.size(), 0);
+    for (std::size_t c = 0; c < taken.size(); ++c) {
+        for (const Index n : mesh.hex(c)) (taken[c] != 0 ? inside : held)[static_cast<std::size_t>(n)] = 1;
+    }
+    std::vector<Index> number(mesh.nodes.size(), -1);
+    const auto number_those = [&](char wanted) {
+        for (std::size_t n = 0; n < number.size(); ++n) {
+            if (inside[n] == 0 || held[n] != wanted) continue;
+            number[n] = static_cast<Index>(region.node.size());
+            region.node.push_back(static_cast<Index>(n));
+        }
+    };
+    number_those(0);
+    region.free = region.node.size();
+    number_those(1);
+    region.surface.assign(region.free, -1);
+    for (std::size_t i = 0; i < region.free && !sliding.surface.empty(); ++i)
+        region.surface[i] = sliding.surface[static_cast<std::size_t>(region.node[i])];
+    for (std::size_t c = 0; c < taken.size(); ++c) {
+        if (taken[c] == 0) continue;
+        const Hex hex = mesh.hex(c);
+        Hex local{};
+        for (std::size_t k = 0; k < 8; ++k) local[k] = number[static_cast<std::size_t>(hex[k])];
+        region.cells.push_back(local);
+        region.box.push_back(mean_edges(corners_of(mesh.nodes, hex)));
+    }
+    index_uses(region);
+    return region;
+}
+
+RegionQuality measure(const Region& region, const std::vector<Vec3>& places, const RunContext& context)
+{
+    const std::size_t chunks = (region.cells.size() + kChunk - 1) / kChunk;
+    std::vector<RegionQuality> part(chunks);
+    parallel_for(context, region.cells.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+        RegionQuality& found = part[begin / kChunk];
+        found.mean = 0;
+        for (std::size_t c = begin; c < end; ++c) {
+            const std::array<Vec3, 8> corners = corners_of(places, region.cells[c]);
+            double scaled = quality::scaled_jacobian(corners);
+            found.mean += scaled;
+            // Valid at its corners is not yet valid.
+            if (scaled > 0 && !quality::certified_positive(corners)) scaled = 0;
+            found.least = std::min(found.least, scaled);
+        }
+    });
+    RegionQuality whole{1, 0};
+    for (const RegionQuality& found : part) {
+        whole.least = std::min(whole.least, found.least);
+        whole.mean += found.mean / static_cast<double>(std::max<std::size_t>(region.cells.size(), 1));
+    }
+    return whole;
+}
+
+RegionEnergy::RegionEnergy(const Region& region, std::vector<Vec3> places, const RunContext& context)
+    : region_(region),
+      context_(context),
+      places_(std::move(places)),
+      slopes_(8 * region.cells.size()),
+      normal_(region.free, Vec3::Zero())
+{
+}
+
+void RegionEnergy::put(const Eigen::VectorXd& x)
+{
+    for (std::size_t i = 0; i < region_.free; ++i)
+        places_[i] = x.segment<3>(3 * static_cast<Eigen::Index>(i));
+}
+
+double RegionEnergy::operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient)
+{
+    put(x);
+    std::vector<double> part((region_.cells.size() + kChunk - 1) / kChunk, 0.0);
+    parallel_for(context_, region_.cells.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+        std::array<Vec3, 8> slope;
+        for (std::size_t c = begin; c < end; ++c) {
+            part[begin / kChunk] += cell_energy(energy, corners_of(places_, region_.cells[c]), region_.box[c],
+                                                slope);
+            std::copy(slope.begin(), slope.end(), slopes_.begin() + static_cast<std::ptrdiff_t>(8 * c));
+        }
+    });
+    parallel_for(context_, region_.free, kChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            Vec3 sum = Vec3::Zero();
+            for (Index u = region_.use_begin[i]; u < region_.use_begin[i + 1]; ++u)
+                sum += slopes_[static_cast<std::size_t>(region_.uses[static_cast<std::size_t>(u)])];
+            sum -= normal_[i] * normal_[i].dot(sum);
+            gradient.segment<3>(3 * static_cast<Eigen::Index>(i)) = sum;
+        }
+    });
+    double sum = 0;
+    for (const double value : part) sum += value;
+    return sum;
+}
+
+double RegionEnergy::least_determinant(const Eigen::VectorXd& x)
+{
+    put(x);
+    std::vector<double> part((region_.cells.size() + kChunk - 1) / kChunk,
+                             std::numeric_limits<double>::infinity());
+    parallel_for(context_, region_.cells.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            double& least = part[begin / kChunk];
+            least = std::min(least,
+                             sweep::least_determinant(corners_of(places_, region_.cells[c]), region_.box[c]));
+        }
+    });
+    return *std::min_element(part.begin(), part.end());
+}
+
+void RegionEnergy::set_planes(const Eigen::VectorXd& x)
+{
+    put(x);
+    std::fill(normal_.begin(), normal_.end(), Vec3::Zero());
+    for (const Hex& cell : region_.cells) {
+        for (const Quad& side : mesh::kHexSides) {
+            std::array<std::size_t, 4> node{};
+            for (std::size_t k = 0; k < 4; ++k)
+                node[k] = static_cast<std::size_t>(cell[static_cast<std::size_t>(side[k])]);
+            const Vec3 area =
+                (places_[node[2]] - places_[node[0]]).cross(places_[node[3]] - places_[node[1]]);
+            // Sides within the region are met twice, from both: they cancel. What is left is the skin.
+            for (const std::size_t n : node) {
+                if (n < region_.free && region_.surface[n] >= 0) normal_[n] += area;
+            }
+        }
+    }
+    for (Vec3& normal : normal_) {
+        const double length = normal.norm();
+        normal = length > 0 ? Vec3(normal / length) : Vec3::Zero();
+    }
+}
+
+} // namespace lacuna::sweep
