@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/smooth_plane.h>
+
+#include <lacuna/surface/measure_plane.h>
+#include <lacuna/surface/plane_stars.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lacuna::surface {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// A move shorter than this share of the length of the sides around does not wake the neighbours.
+constexpr double kStill = 0.02;
+
+/// Energy of the corners at one point, with its slope and curvature as the point moves.
+struct Around {
+    double value = 0;
+    Vec2 slope{0, 0};
+    double xx = 0, xy = 0, yy = 0;
+    double sides = 0; ///< squared lengths of the sides at the point, each quad's two
+    double least = 1; ///< least sine squared, of the corners at hand
+
+    /// @param det    of the corner; linear in the point, slope `dx`, `dy`
+    /// @param sum    squared lengths of its sides, `aa` + `bb`; slope `sx`, `sy`, curvature `curve` in x and in y
+    /// @return  false where the corner is folded
+    bool add(double det, double dx, double dy, double aa, double bb, double sx, double sy, double curve,
+             double inverse_area, double area_weight)
+    {
+        if (!(det > 0)) return false;
+        const double over = 1 / det;
+        const double sum = aa + bb;
+        const double f = sum * over / 2;
+        // f = sum / 2 det
+        const double gx = (sx / 2 - f * dx) * over, gy = (sy / 2 - f * dy) * over;
+        double hxx = (curve / 2 - 2 * gx * dx) * over, hyy = (curve / 2 - 2 * gy * dy) * over;
+        double hxy = -(gx * dy + gy * dx) * over;
+        // f²: what is bad counts for more.
+        value += f * f;
+        slope.x() += 2 * f * gx;
+        slope.y() += 2 * f * gy;
+        hxx = 2 * (f * hxx + gx * gx);
+        hyy = 2 * (f * hyy + gy * gy);
+        hxy = 2 * (f * hxy + gx * gy);
+        if (area_weight > 0) {
+            const double u = det * inverse_area;
+            const double v = 1 / u;
+            const double first = area_weight * (inverse_area - v * over) / 2;
+            const double second = area_weight * v * over * over;
+            value += area_weight * (u + v) / 2;
+            slope.x() += first * dx;
+            slope.y() += first * dy;
+            hxx += second * dx * dx;
+            hyy += second * dy * dy;
+            hxy += second * dx * dy;
+        }
+        xx += hxx;
+        xy += hxy;
+        yy += hyy;
+        least = std::min(least, det * det / (aa * bb));
+        return true;
+    }
+};
+
+/// @return false where a corner is folded
+bool look_around(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x,
+                 double inverse_area, double area_weight, Around& around)
+{
+    around = {};
+    for (const Spoke& spoke : star) {
+        const Vec2& n = points[static_cast<std::size_t>(spoke.next)];
+        const Vec2& o = points[static_cast<std::size_t>(spoke.across)];
+        const Vec2& r = points[static_cast<std::size_t>(spoke.before)];
+        const Vec2 a = n - x, b = r - x, c = o - n, d = o - r;
+        const double aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm(), dd = d.squaredNorm();
+        around.sides += aa + bb;
+        if (!around.add(a.x() * b.y() - a.y() * b.x(), a.y() - b.y(), b.x() - a.x(), aa, bb,
+                        -2 * (a.x() + b.x()), -2 * (a.y() + b.y()), 4, inverse_area, area_weight) ||
+            !around.add(a.x() * c.y() - a.y() * c.x(), -c.y(), c.x(), aa, cc, -2 * a.x(), -2 * a.y(), 2,
+                        inverse_area, area_weight) ||
+            !around.add(d.x() * b.y() - d.y() * b.x(), d.y(), -d.x(), bb, dd, -2 * b.x(), -2 * b.y(), 2,
+                        inverse_area, area_weight))
+            return false;
+    }
+    return true;
+}
+
+struct Range {
+    double least = 1;
+    std::size_t folded = 0;
+};
+
+Range range_of(std::span<const Vec2> points, std::span<const Quad> quads)
+{
+    Range range;
+    for (const Quad& quad : quads) {
+        const double jacobian = scaled_jacobian(points, quad);
+        range.least = std::min(range.least, jacobian);
+        if (!(jacobian > 0)) ++range.folded;
+    }
+    return range;
+}
+
+class Smoother {
+public:
+    Smoother(std::vector<Vec2>& points, std::span<const Quad> quads, std::size_t fixed,
+             const SmoothPlaneOptions& options)
+        : points_(points),
+          quads_(quads),
+          fixed_(fixed),
+          options_(options),
+          stars_(points.size(), quads),
+          awake_(points.size(), 1)
+    {
+    }
+
+    /// One step for every point that is awake. @return how many moved by more than next to nothing.
+    std::size_t sweep(double floor)
+    {
+        std::size_t moved = 0;
+        const bool sized = !sizes_.empty();
+        Around here, there;
+        for (std::size_t p = fixed_; p < points_.size(); ++p) {
+            if (awake_[p] == 0) continue;
+            awake_[p] = 0;
+            const auto star = stars_[p];
+            const double inverse_area = sized ? 1 / (sizes_[p] * sizes_[p]) : 0;
+            const double area_weight = sized ? options_.size_weight : 0;
+            if (star.empty() || !look_around(points_, star, points_[p], inverse_area, area_weight, here))
+                continue;
+            const double det = here.xx * here.yy - here.xy * here.xy;
+            if (!(det > 0)) continue;
+            const Vec2 step(-(here.yy * here.slope.x() - here.xy * here.slope.y()) / det,
+                            -(here.xx * here.slope.y() - here.xy * here.slope.x()) / det);
+            const double side = here.sides / static_cast<double>(2 * star.size());
+            const double least = std::min(here.least, floor * floor);
+            double length = 1;
+            for (int half = 0; half < 4; ++half, length /= 2) {
+                const Vec2 to = points_[p] + length * step;
+                if (!look_around(points_, star, to, inverse_area, area_weight, there) ||
+                    there.value > here.value || there.least < least)
+                    continue;
+                points_[p] = to;
+                if (length * length * step.squaredNorm() > kStill * kStill * side) {
+                    ++moved;
+                    wake(p);
+                }
+                break;
+            }
+        }
+        return moved;
+    }
+
+    /// Move the points of poor quads to where the least sine around is largest. @return whether any moved.
+    bool raise(double floor)
+    {
+        std::vector<char> poor(points_.size(), 0);
+        for (const Quad& quad : quads_) {
+            if (scaled_jacobian(points_, quad) >= floor) continue;
+            for (const Index p : quad) poor[static_cast<std::size_t>(p)] = 1;
+        }
+        bool moved = false;
+        for (std::size_t p = fixed_; p < points_.size(); ++p) {
+            if (poor[p] != 0 && raise_at(p)) moved = true;
+        }
+        return moved;
+    }
+
+    void ask_sizes()
+    {
+        if (!options_.size || !(options_.size_weight > 0)) return;
+        sizes_.resize(points_.size());
+        for (std::size_t p = fixed_; p < points_.size(); ++p) sizes_[p] = options_.size(points_[p]);
+    }
+
+private:
+    void wake(std::size_t p)
+    {
+        awake_[p] = 1;
+        for (const Spoke& spoke : stars_[p]) {
+            awake_[static_cast<std::size_t>(spoke.next)] = 1;
+            awake_[static_cast<std::size_t>(spoke.across)] = 1;
+        }
+    }
+
+    /// Pattern search: eight directions, the step halved where none wins.
+    bool raise_at(std::size_t p)
+    {
+        constexpr double kDiagonal = 0.70710678118654752;
+        static const std::array<Vec2, 8> kDirections{
+            Vec2(1, 0),  Vec2(kDiagonal, kDiagonal),   Vec2(0, 1),  Vec2(-kDiagonal, kDiagonal),
+            Vec2(-1, 0), Vec2(-kDiagonal, -kDiagonal), Vec2(0, -1), Vec2(kDiagonal, -kDiagonal)};
+        const auto star = stars_[p];
+        if (star.empty()) return false;
+        double reach = kInfinity;
+        for (const Spoke& spoke : star)
+            reach = std::min(reach, (points_[static_cast<std::size_t>(spoke.next)] - points_[p]).norm());
+        double least = least_sine(points_, star, points_[p]);
+        const double before = least;
+        for (double step = reach / 4; step > reach / 300; step /= 2) {
+            for (bool better = true; better;) {
+                better = false;
+                const Vec2 from = points_[p];
+                for (const Vec2& direction : kDirections) {
+                    const Vec2 to = from + step * direction;
+                    const double found = least_sine(points_, star, to);
+                    if (found <= least + 1e-3 * step / reach) continue;
+                    least = found;
+                    points_[p] = to;
+                    better = true;
+                }
+            }
+        }
+        return least > before + 1e-3;
+    }
+
+    std::vector<Vec2>& points_;
+    std::span<const Quad> quads_;
+    std::size_t fixed_;
+    const SmoothPlaneOptions& options_;
+    Stars stars_;
+    std::vector<char> awake_;
+    std::vector<double> sizes_; ///< asked, of each point that may move; empty: none
+};
+
+} // namespace
+
+SmoothedPlane smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quads, std::size_t fixed,
+                           const SmoothPlaneOptions& options, const RunContext& context)
+{
+    SmoothedPlane result;
+    Range range = range_of(points, quads);
+    result.min_before = result.min_after = range.least;
+    result.was_folded = result.folded = range.folded > 0;
+    if (fixed >= points.size()) return result;
+    if (result.was_folded) {
+        std::vector<char> mask(points.size(), 0);
+        std::fill(mask.begin(), mask.begin() + static_cast<std::ptrdiff_t>(fixed), 1);
+        untangle_plane(points, quads, mask, {});
+        range = range_of(points, quads);
+    }
+    Smoother smoother(points, quads, fixed, options);
+    smoother.ask_sizes();
+    for (int i = 0; i < options.sweeps; ++i) {
+        check_cancelled(context);
+        if (smoother.sweep(std::max(0.0, range.least)) == 0) break;
+    }
+    for (int i = 0; i < options.repairs; ++i) {
+        check_cancelled(context);
+        if (!smoother.raise(options.good_enough)) break;
+    }
+    range = range_of(points, quads);
+    result.min_after = range.least;
+    result.folded = range.folded > 0;
+    return result;
+}
+
+} // namespace lacuna::surface
