@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/cell_batch.h>
+#include <lacuna/quality/lanes.h>
 #include <lacuna/quality/quality.h>
 
 #include <array>
@@ -8,12 +9,6 @@
 
 namespace lacuna::quality {
 namespace {
-
-#if defined(__GNUC__)
-#define LACUNA_INLINE [[gnu::always_inline]] inline
-#else
-#define LACUNA_INLINE inline
-#endif
 
 template <int N>
 using Lanes3 = double[3][N];
@@ -53,9 +48,6 @@ struct Edges {
     alignas(64) double along[3][4][3][N];
     alignas(64) double square[3][4][N]; ///< squared lengths
 };
-
-inline constexpr int kEdgeNodes[3][4][2] = {
-    {{0, 1}, {3, 2}, {4, 5}, {7, 6}}, {{0, 3}, {1, 2}, {4, 7}, {5, 6}}, {{0, 4}, {1, 5}, {3, 7}, {2, 6}}};
 
 template <int N>
 LACUNA_INLINE void find_edges(const CellBatch<N>& batch, Edges<N>& edges)

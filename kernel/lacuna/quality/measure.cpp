@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quality/cell_batch.h>
+#include <lacuna/quality/cell_columns.h>
 #include <lacuna/quality/quality.h>
 
 #include <lacuna/core/parallel.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace lacuna::quality {
 namespace {
 
-/// Cells of one partial result, about. Partial results are added up in order, so that sums do not depend on
-/// which thread did what.
-constexpr std::size_t kChunk = 4096;
 constexpr std::size_t kWorst = 10;
 
 struct Ranked {
@@ -51,38 +47,6 @@ struct Partial {
     WorstList worst;
 };
 
-using Corners = std::array<const Vec3*, 4>;
-
-/// Cells of a swept mesh: columns of cells on the source quads.
-struct SweptCells {
-    const mesh::HexMesh& mesh;
-
-    [[nodiscard]] std::size_t columns() const { return mesh.quads.size(); }
-    [[nodiscard]] std::size_t layers() const { return static_cast<std::size_t>(mesh.layers); }
-    /// Corners 0..3 of the cell on `layer`, which are 4..7 of the one below.
-    [[nodiscard]] Corners corners(std::size_t column, std::size_t layer) const
-    {
-        const Quad& q = mesh.quads[column];
-        const Vec3* level = mesh.nodes.data() + layer * static_cast<std::size_t>(mesh.nodes_per_layer);
-        return {level + q[0], level + q[1], level + q[2], level + q[3]};
-    }
-};
-
-/// Cells of a list: columns of one.
-struct ListedCells {
-    std::span<const Vec3> nodes;
-    std::span<const Hex> hexes;
-
-    [[nodiscard]] std::size_t columns() const { return hexes.size(); }
-    [[nodiscard]] std::size_t layers() const { return 1; }
-    [[nodiscard]] Corners corners(std::size_t column, std::size_t layer) const
-    {
-        const Index* corner = hexes[column].data() + 4 * layer;
-        const Vec3* first = nodes.data();
-        return {first + corner[0], first + corner[1], first + corner[2], first + corner[3]};
-    }
-};
-
 void add_cell(Partial& partial, const CellValues<kLanes>& values, int lane, std::size_t cell)
 {
     const double scaled = values.scaled[lane];
@@ -100,51 +64,23 @@ void add_cell(Partial& partial, const CellValues<kLanes>& values, int lane, std:
     if (!(scaled > 0) || !positive_everywhere(bezier, kDepth)) ++partial.uncertified;
 }
 
-/// Corners of a level of up to a batch of columns, into `corner[0..3]`; idle lanes repeat the last column.
-template <class Cells>
-void load_level(const Cells& cells, std::size_t first, int filled, std::size_t layer,
-                double (*corner)[3][kLanes])
-{
-    for (int lane = 0; lane < kLanes; ++lane) {
-        const Corners corners = cells.corners(first + static_cast<std::size_t>(std::min(lane, filled - 1)),
-                                              layer);
-        for (std::size_t c = 0; c < 4; ++c)
-            for (int d = 0; d < 3; ++d) corner[c][d][lane] = (*corners[c])[d];
-    }
-}
-
-/// Columns [begin, end) from the source up: the upper corners of a cell are the lower ones of the next.
-template <class Cells>
-void measure_columns(const Cells& cells, std::size_t begin, std::size_t end, Partial& partial)
-{
-    CellBatch<kLanes> batch;
-    CellValues<kLanes> values;
-    for (std::size_t first = begin; first < end; first += kLanes) {
-        const int filled = static_cast<int>(std::min<std::size_t>(kLanes, end - first));
-        load_level(cells, first, filled, 0, batch.corner);
-        for (std::size_t layer = 0; layer < cells.layers(); ++layer) {
-            if (layer > 0) std::memcpy(batch.corner, batch.corner + 4, sizeof batch.corner / 2);
-            load_level(cells, first, filled, layer + 1, batch.corner + 4);
-            evaluate(batch, values);
-            const std::size_t cell = layer * cells.columns() + first;
-            for (int lane = 0; lane < filled; ++lane)
-                add_cell(partial, values, lane, cell + static_cast<std::size_t>(lane));
-        }
-    }
-}
-
 template <class Cells>
 Quality measure_all(const Cells& cells, const RunContext& context)
 {
     const std::size_t count = cells.columns() * cells.layers();
-    const std::size_t batches = std::max<std::size_t>(1, kChunk / kLanes /
-                                                             std::max<std::size_t>(1, cells.layers()));
-    const std::size_t width = batches * kLanes; // columns of a partial result
+    const std::size_t width = chunk_width(cells, kLanes);
     const std::size_t chunks = (cells.columns() + width - 1) / width;
     std::vector<Partial> partials(chunks);
     parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
+        CellValues<kLanes> values;
         for (std::size_t c = begin; c < end; ++c)
-            measure_columns(cells, c * width, std::min((c + 1) * width, cells.columns()), partials[c]);
+            for_each_batch<kLanes>(cells, c * width, std::min((c + 1) * width, cells.columns()),
+                                   [&](const CellBatch<kLanes>& batch, std::size_t first, int filled) {
+                                       evaluate(batch, values);
+                                       for (int lane = 0; lane < filled; ++lane)
+                                           add_cell(partials[c], values, lane,
+                                                    first + static_cast<std::size_t>(lane));
+                                   });
     });
 
     Quality quality;
@@ -167,10 +103,7 @@ Quality measure_all(const Cells& cells, const RunContext& context)
         WorstCell cell;
         cell.cell = worst.cells[i].cell;
         cell.scaled_jacobian = worst.cells[i].scaled_jacobian;
-        const std::size_t layer = cell.cell / cells.columns();
-        for (const std::size_t level : {layer, layer + 1})
-            for (const Vec3* corner : cells.corners(cell.cell % cells.columns(), level))
-                cell.centre += 0.125 * *corner;
+        cell.centre = centre_of(cells, cell.cell);
         quality.worst.push_back(cell);
     }
     return quality;

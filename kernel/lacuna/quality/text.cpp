@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/quality/metrics.h>
 #include <lacuna/quality/text.h>
 
 #include <algorithm>
@@ -66,6 +67,31 @@ std::string to_table(const Quality& quality)
         const double low = -1 + 0.1 * static_cast<double>(bin);
         text += "  " + fixed(low, 1, 4) + " … " + fixed(low + 0.1, 1, 4) + count(cells, 19);
         text += (bar > 0 ? "  " : "") + std::string(bar, '#') + "\n";
+    }
+    return text;
+}
+
+std::string to_table(std::span<const MetricSummary> summaries)
+{
+    constexpr std::size_t kNameWidth = 29;
+    constexpr std::size_t kWidth = 13;
+    const auto pad_right = [](const std::string& text, std::size_t width) {
+        return text + std::string(width > text.size() ? width - text.size() : 1, ' ');
+    };
+    std::string text = pad_right("metric", kNameWidth);
+    for (const char* head : {"least", "mean", "largest", "acceptable", "outside"})
+        text += pad_left(head, kWidth);
+    text += "\n";
+    for (const MetricSummary& summary : summaries) {
+        const MetricInfo& info = metric_info(summary.metric);
+        text += pad_right(info.name, kNameWidth);
+        for (const double value : {summary.min, summary.mean, summary.max})
+            text += pad_left(number(value), kWidth);
+        if (info.acceptable) {
+            text += pad_left(number(info.acceptable->low) + " to " + number(info.acceptable->high), kWidth);
+            text += pad_left(fixed(100 * summary.outside_share, 2) + " %", kWidth);
+        }
+        text += "\n";
     }
     return text;
 }

@@ -13,8 +13,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <limits>
 #include <map>
+#include <optional>
 
 namespace lacuna::sweep {
 
@@ -337,6 +339,7 @@ Swept sweep_between(const OpenVolume& volume, const std::vector<surface::Belt>& 
         mesh.rim.push_back({side.from, side.to});
     const std::vector<FaceId> faces = set_patches(volume, source, target, walls, mesh);
     const quality::Quality quality = prove_or_mend(result, volume.model, faces, options, context);
+    result.min_scaled_jacobian = quality.min_scaled_jacobian;
     result.report.push_back("cells: " + std::to_string(quality.hexes) + ", all certified, scaled Jacobian " +
                             std::to_string(quality.min_scaled_jacobian) + " at least, " +
                             std::to_string(quality.mean_scaled_jacobian) + " on average");
@@ -348,6 +351,34 @@ bool can_turn_together(const std::vector<surface::Belt>& belts)
 {
     return belts.size() > 1 && std::any_of(belts.begin(), belts.end(),
                                            [](const surface::Belt& belt) { return belt.lines.empty(); });
+}
+
+/// Each loop turned by its own walls; where that makes poor cells, all turned as one body if that makes better ones.
+Swept better_turning(const OpenVolume& volume, const std::vector<surface::Belt>& belts,
+                     const std::vector<double>& heights, const surface::SizeField& size,
+                     const SweepOptions& options, const RunContext& context)
+{
+    std::optional<Swept> alone;
+    std::exception_ptr failure; // What went wrong first says more than what goes wrong second.
+    try {
+        alone = sweep_between(volume, belts, heights, size, options, context);
+        if (alone->min_scaled_jacobian >= options.improving.good_enough) return std::move(*alone);
+    } catch (const NotSweepable& error) {
+        if (!is_poor(error)) throw;
+        failure = std::current_exception();
+    }
+    try {
+        Swept together = sweep_between(volume, surface::belts(volume, surface::Turning::together), heights,
+                                       size, options, context);
+        if (!alone || together.min_scaled_jacobian > alone->min_scaled_jacobian) {
+            together.report.insert(together.report.begin(),
+                                   "loops: turned as one body; each by its own walls the cells are worse");
+            return together;
+        }
+    } catch (const NotSweepable&) {
+    }
+    if (failure) std::rethrow_exception(failure);
+    return std::move(*alone);
 }
 
 } // namespace
@@ -372,20 +403,8 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
                            "the volume is not sealed; close it first with volume:close()");
     }
     const std::vector<surface::Belt> belts = surface::belts(volume);
-    try {
-        return sweep_between(volume, belts, heights, size, options, context);
-    } catch (const NotSweepable& error) {
-        if (!is_poor(error) || !can_turn_together(belts)) throw;
-        try {
-            Swept turned = sweep_between(volume, surface::belts(volume, surface::Turning::together), heights,
-                                         size, options, context);
-            turned.report.insert(turned.report.begin(), "loops: turned as one body; each by its own walls "
-                                                        "the cells fold");
-            return turned;
-        } catch (const NotSweepable&) {
-        }
-        throw; // What went wrong first says more.
-    }
+    if (!can_turn_together(belts)) return sweep_between(volume, belts, heights, size, options, context);
+    return better_turning(volume, belts, heights, size, options, context);
 }
 
 } // namespace lacuna::sweep

@@ -44,6 +44,7 @@ struct SweepOptions {
 /// Hexahedra and how they came about.
 struct Swept {
     mesh::HexMesh mesh;
+    double min_scaled_jacobian = 1;
     std::vector<std::string> report; ///< a line a stage: seeds, quads, walls, target, layers
 };
 
