@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quality/metrics.h>
+
+#include <lacuna/core/parallel.h>
+#include <lacuna/quality/cell_columns.h>
+#include <lacuna/quality/cell_metrics.h>
+
+#include <array>
+#include <cmath>
+
+namespace lacuna::quality {
+namespace {
+
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+constexpr Range kAny{};
+constexpr Range kUnit{0, 1};
+constexpr Range kFromZero{0, kEndless};
+constexpr Range kFromOne{1, kEndless};
+constexpr std::optional<Range> kNone{};
+
+constexpr std::array<MetricInfo, kMetricCount> kInfos{{
+    {Metric::scaled_jacobian, "scaled_jacobian", {-1, 1}, Range{0.5, 1}, true, false},
+    {Metric::scaled_jacobian_with_centre, "scaled_jacobian_with_centre", {-1, 1}, Range{0.5, 1}, true, false},
+    {Metric::jacobian, "jacobian", kAny, kNone, true, false},
+    {Metric::shape, "shape", kUnit, Range{0.3, 1}, true, false},
+    {Metric::shear, "shear", kUnit, Range{0.3, 1}, true, false},
+    {Metric::condition, "condition", kFromOne, Range{1, 8}, false, false},
+    {Metric::max_aspect_frobenius, "max_aspect_frobenius", kFromOne, Range{1, 3}, false, false},
+    {Metric::med_aspect_frobenius, "med_aspect_frobenius", kFromOne, Range{1, 3}, false, false},
+    {Metric::oddy, "oddy", kFromZero, Range{0, 0.5}, false, false},
+    {Metric::skew, "skew", kUnit, Range{0, 0.5}, false, false},
+    {Metric::taper, "taper", kFromZero, Range{0, 0.4}, false, false},
+    {Metric::max_edge_ratio, "max_edge_ratio", kFromOne, Range{1, 4}, false, false},
+    {Metric::edge_ratio, "edge_ratio", kFromZero, kNone, false, false},
+    {Metric::full_edge_ratio, "full_edge_ratio", kFromOne, kNone, false, false},
+    {Metric::stretch, "stretch", kUnit, Range{0.25, 1}, true, false},
+    {Metric::diagonal, "diagonal", kUnit, Range{0.65, 1}, true, false},
+    {Metric::dimension, "dimension", kFromZero, kNone, true, false},
+    {Metric::volume, "volume", kAny, kNone, true, false},
+    {Metric::distortion, "distortion", kUnit, Range{0.6, 1}, true, false},
+    {Metric::relative_size_squared, "relative_size_squared", kUnit, Range{0.5, 1}, true, true},
+    {Metric::shape_and_size, "shape_and_size", kUnit, Range{0.2, 1}, true, true},
+    {Metric::shear_and_size, "shear_and_size", kUnit, Range{0.2, 1}, true, true},
+}};
+
+/// Sums over some cells; those of several parts are joined in order.
+struct Tally {
+    std::size_t count = 0, outside = 0, worst = 0;
+    double min = kEndless, max = -kEndless, mean = 0;
+    double squares = 0; ///< sum of squared distances from the mean
+    double badness = -kEndless;
+
+    void add(double value, std::size_t cell, const MetricInfo& info)
+    {
+        ++count;
+        const double distance = value - mean;
+        mean += distance / static_cast<double>(count);
+        squares += distance * (value - mean);
+        min = std::min(min, value);
+        max = std::max(max, value);
+        // A cube's metrics may leave their range by a rounding.
+        constexpr double kRounding = 1e-12;
+        if (info.acceptable &&
+            !(value >= info.acceptable->low - kRounding && value <= info.acceptable->high + kRounding))
+            ++outside;
+        const double bad = info.larger_is_better ? -value : value;
+        if (bad > badness || (bad == badness && cell < worst)) {
+            badness = bad;
+            worst = cell;
+        }
+    }
+    void add(const Tally& other)
+    {
+        if (other.count == 0) return;
+        const auto ours = static_cast<double>(count);
+        const auto theirs = static_cast<double>(other.count);
+        const double distance = other.mean - mean;
+        count += other.count;
+        mean += distance * (theirs / (ours + theirs));
+        squares += other.squares + distance * distance * (ours * theirs / (ours + theirs));
+        min = std::min(min, other.min);
+        max = std::max(max, other.max);
+        outside += other.outside;
+        if (other.badness > badness || (other.badness == badness && other.worst < worst)) {
+            badness = other.badness;
+            worst = other.worst;
+        }
+    }
+};
+
+/// Call `body(chunk, first cell, filled lanes, values)` for every batch of every chunk, chunks in parallel.
+template <class Cells, class Body>
+void for_each_value(const Cells& cells, std::span<const Metric> metrics, double average_volume,
+                    const RunContext& context, const Body& body)
+{
+    const std::size_t width = chunk_width(cells, kMetricLanes);
+    const std::size_t chunks = (cells.columns() + width - 1) / width;
+    parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
+        std::vector<double> values(metrics.size() * kMetricLanes);
+        for (std::size_t c = begin; c < end; ++c)
+            for_each_batch<kMetricLanes>(
+                cells, c * width, std::min((c + 1) * width, cells.columns()),
+                [&](const CellBatch<kMetricLanes>& batch, std::size_t first, int filled) {
+                    evaluate_metrics(batch, metrics, average_volume, values.data());
+                    body(c, first, filled, values.data());
+                });
+    });
+}
+
+template <class Cells>
+std::vector<Tally> tally(const Cells& cells, std::span<const Metric> metrics, double average_volume,
+                         const RunContext& context)
+{
+    const std::size_t width = chunk_width(cells, kMetricLanes);
+    const std::size_t chunks = (cells.columns() + width - 1) / width;
+    std::vector<Tally> parts(chunks * metrics.size());
+    for_each_value(cells, metrics, average_volume, context,
+                   [&](std::size_t chunk, std::size_t first, int filled, const double* values) {
+                       for (std::size_t m = 0; m < metrics.size(); ++m) {
+                           const MetricInfo& info = metric_info(metrics[m]);
+                           for (int lane = 0; lane < filled; ++lane)
+                               parts[chunk * metrics.size() + m].add(
+                                   values[m * kMetricLanes + static_cast<std::size_t>(lane)],
+                                   first + static_cast<std::size_t>(lane), info);
+                       }
+                   });
+    std::vector<Tally> sums(metrics.size());
+    for (std::size_t c = 0; c < chunks; ++c)
+        for (std::size_t m = 0; m < metrics.size(); ++m) sums[m].add(parts[c * metrics.size() + m]);
+    return sums;
+}
+
+/// Mean volume of the cells, where one of the metrics wants it.
+template <class Cells>
+double average_volume_of(const Cells& cells, std::span<const Metric> metrics, const RunContext& context)
+{
+    const bool needed = std::any_of(metrics.begin(), metrics.end(),
+                                    [](Metric m) { return metric_info(m).needs_average_volume; });
+    const Metric volume = Metric::volume;
+    return needed ? tally(cells, {&volume, 1}, 1, context)[0].mean : 1;
+}
+
+template <class Cells>
+std::vector<MetricSummary> measure_all(const Cells& cells, std::span<const Metric> metrics,
+                                       const RunContext& context)
+{
+    const double average = average_volume_of(cells, metrics, context);
+    const std::vector<Tally> sums = tally(cells, metrics, average, context);
+    std::vector<MetricSummary> summaries(metrics.size());
+    for (std::size_t m = 0; m < metrics.size(); ++m) {
+        MetricSummary& summary = summaries[m];
+        const Tally& sum = sums[m];
+        summary.metric = metrics[m];
+        if (sum.count == 0) continue;
+        const auto count = static_cast<double>(sum.count);
+        summary.min = sum.min;
+        summary.mean = sum.mean;
+        summary.max = sum.max;
+        summary.deviation = std::sqrt(sum.squares / count);
+        summary.outside = sum.outside;
+        summary.outside_share = static_cast<double>(sum.outside) / count;
+        summary.worst = sum.worst;
+        summary.centre = centre_of(cells, sum.worst);
+        summary.value = metric_info(metrics[m]).larger_is_better ? sum.min : sum.max;
+    }
+    return summaries;
+}
+
+template <class Cells>
+std::vector<double> values_of(const Cells& cells, Metric metric, const RunContext& context)
+{
+    const double average = average_volume_of(cells, {&metric, 1}, context);
+    std::vector<double> result(cells.columns() * cells.layers());
+    for_each_value(cells, {&metric, 1}, average, context,
+                   [&](std::size_t, std::size_t first, int filled, const double* values) {
+                       std::copy_n(values, filled, result.data() + first);
+                   });
+    return result;
+}
+
+} // namespace
+
+const MetricInfo& metric_info(Metric metric) { return kInfos[static_cast<std::size_t>(metric)]; }
+
+std::span<const MetricInfo, kMetricCount> metric_infos() { return kInfos; }
+
+std::optional<Metric> metric_named(std::string_view name)
+{
+    for (const MetricInfo& info : kInfos)
+        if (name == info.name) return info.metric;
+    return {};
+}
+
+std::vector<MetricSummary> measure_metrics(const mesh::HexMesh& mesh, std::span<const Metric> metrics,
+                                           const RunContext& context)
+{
+    std::vector<MetricSummary> summaries = measure_all(SweptCells{mesh}, metrics, context);
+    if (mesh.hex_count() > 0)
+        for (MetricSummary& summary : summaries)
+            summary.layer = static_cast<int>(summary.worst / mesh.quads.size());
+    return summaries;
+}
+
+std::vector<MetricSummary> measure_metrics(std::span<const Vec3> nodes, std::span<const Hex> hexes,
+                                           std::span<const Metric> metrics, const RunContext& context)
+{
+    return measure_all(ListedCells{nodes, hexes}, metrics, context);
+}
+
+std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, const RunContext& context)
+{
+    return values_of(SweptCells{mesh}, metric, context);
+}
+
+std::vector<double> metric_values(std::span<const Vec3> nodes, std::span<const Hex> hexes, Metric metric,
+                                  const RunContext& context)
+{
+    return values_of(ListedCells{nodes, hexes}, metric, context);
+}
+
+} // namespace lacuna::quality
