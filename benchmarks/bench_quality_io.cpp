@@ -5,11 +5,13 @@
 #include <lacuna/io/msh.h>
 #include <lacuna/io/msh_reader.h>
 #include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/quality/metrics.h>
 #include <lacuna/quality/quality.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 
 using namespace lacuna;
 
@@ -46,7 +48,57 @@ mesh::HexMesh wavy_block(int side, int layers)
     return mesh;
 }
 
+/// Cells of the wavy block shaken one by one until most need cutting before they are certified, and some are not.
+std::vector<Vec3> hard_cells(std::size_t count, double amount)
+{
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> shift(-amount, amount);
+    std::vector<Vec3> nodes;
+    nodes.reserve(8 * count);
+    while (nodes.size() < 8 * count) {
+        std::array<Vec3, 8> corners;
+        for (std::size_t i = 0; i < 8; ++i)
+            corners[i] = Vec3(double((i & 1) ^ (i >> 1 & 1)), double(i >> 1 & 1), double(i >> 2)) +
+                         Vec3(shift(random), shift(random), shift(random));
+        // Those the 27 coefficients decide at once are what the wavy block is made of.
+        if (quality::scaled_jacobian(corners) > 0 && !quality::certified_positive(corners, 0))
+            nodes.insert(nodes.end(), corners.begin(), corners.end());
+    }
+    return nodes;
+}
+
 constexpr int kRuns = 5;
+
+void measure_hard_cells()
+{
+    constexpr std::size_t kCells = 200000;
+    std::vector<Hex> hexes(kCells);
+    for (std::size_t h = 0; h < kCells; ++h)
+        for (std::size_t i = 0; i < 8; ++i) hexes[h][i] = static_cast<Index>(8 * h + i);
+    for (const double amount : {0.35, 0.5}) {
+        const std::vector<Vec3> nodes = hard_cells(kCells, amount);
+        RunContext context;
+        context.threads = 1;
+        quality::Quality quality;
+        const auto timing = bench::time_of(
+            kRuns, [] {}, [&] { quality = quality::measure_cells(nodes, hexes, context); });
+        bench::report("quality/measure_hard/hexes=" + std::to_string(kCells) + ",shake=" +
+                          std::to_string(amount).substr(0, 4) + ",refused=" + std::to_string(quality.uncertified),
+                      1, timing, quality.min_scaled_jacobian);
+    }
+}
+
+void measure_metrics(const mesh::HexMesh& mesh, const std::string& size)
+{
+    RunContext context;
+    context.threads = 1;
+    for (const quality::MetricInfo& info : quality::metric_infos()) {
+        std::vector<quality::MetricSummary> summary;
+        const auto timing = bench::time_of(
+            kRuns, [] {}, [&] { summary = quality::measure_metrics(mesh, {&info.metric, 1}, context); });
+        bench::report(std::string("quality/metric/") + info.name + "/" + size, 1, timing, summary[0].min);
+    }
+}
 
 void measure_quality(const mesh::HexMesh& mesh, const std::string& size)
 {
@@ -107,5 +159,7 @@ int main(int count, char** words)
     const mesh::HexMesh mesh = wavy_block(side, layers);
     const std::string size = "hexes=" + std::to_string(mesh.hex_count());
     measure_quality(mesh, size);
+    measure_hard_cells();
+    measure_metrics(mesh, size);
     measure_files(mesh, size, folder);
 }

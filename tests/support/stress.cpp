@@ -216,14 +216,30 @@ sweep::SweepOptions stress_options(const StressMember& member)
 
 double skin_bound(const mesh::HexMesh& mesh)
 {
-    double bound = 1;
+    std::vector<char> skin(mesh.nodes.size(), 0);
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
-        const Quad quad = mesh::skin_quad(mesh, i).nodes;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const Vec3& corner = mesh.nodes[static_cast<std::size_t>(quad[k])];
-            const Vec3 out = mesh.nodes[static_cast<std::size_t>(quad[(k + 1) % 4])] - corner;
-            const Vec3 in = mesh.nodes[static_cast<std::size_t>(quad[(k + 3) % 4])] - corner;
-            bound = std::min(bound, out.cross(in).norm() / (out.norm() * in.norm()));
+        for (const Index n : mesh::skin_quad(mesh, i).nodes) skin[static_cast<std::size_t>(n)] = 1;
+    }
+    constexpr std::array<std::array<std::size_t, 3>, 8> next{
+        {{1, 3, 4}, {0, 2, 5}, {3, 1, 6}, {2, 0, 7}, {5, 7, 0}, {4, 6, 1}, {7, 5, 2}, {6, 4, 3}}};
+    double bound = 1;
+    for (std::size_t c = 0; c < mesh.hex_count(); ++c) {
+        const Hex hex = mesh.hex(c);
+        for (std::size_t corner = 0; corner < 8; ++corner) {
+            if (skin[static_cast<std::size_t>(hex[corner])] == 0) continue;
+            std::array<Vec3, 3> edge;
+            std::array<bool, 3> stays{};
+            for (std::size_t e = 0; e < 3; ++e) {
+                const auto to = static_cast<std::size_t>(hex[next[corner][e]]);
+                edge[e] = (mesh.nodes[to] - mesh.nodes[static_cast<std::size_t>(hex[corner])]).normalized();
+                stays[e] = skin[to] != 0;
+            }
+            for (std::size_t e = 0; e < 3; ++e) {
+                if (stays[e] && stays[(e + 1) % 3])
+                    bound = std::min(bound, edge[e].cross(edge[(e + 1) % 3]).norm());
+            }
+            if (stays[0] && stays[1] && stays[2])
+                bound = std::min(bound, std::abs(edge[0].dot(edge[1].cross(edge[2]))));
         }
     }
     return bound;

@@ -44,8 +44,9 @@ topology::OpenVolume stress_volume(const StressMember& member);
 /// What is asked of the sweep.
 sweep::SweepOptions stress_options(const StressMember& member);
 
-/// What the skin's own quads allow: a hexahedron is at no corner better than the sides that meet there.
-/// @return  least sine of an angle between two skin sides of a cell, over the skin [0, 1].
+/// What the volume's edges and the skin's quads allow: a hexahedron is at no corner better than the angles of the sides that
+/// meet there, and where three edges of the skin meet it is what they make of it.
+/// @return  the least of all corners [0, 1].
 double skin_bound(const mesh::HexMesh& mesh);
 
 } // namespace lacuna::test

@@ -42,8 +42,15 @@ std::vector<char> locked_nodes(const mesh::HexMesh& mesh, const Sliding& sliding
 double bound_of(const std::array<Vec3, 8>& corners, const Hex& hex, const std::vector<char>& locked)
 {
     double bound = 1;
+    const auto stays = [&](std::size_t corner) { return locked[static_cast<std::size_t>(hex[corner])] != 0; };
     for (std::size_t c = 0; c < 8; ++c) {
-        if (locked[static_cast<std::size_t>(hex[c])] == 0) continue;
+        if (!stays(c)) continue;
+        if (stays(kNext[c][0]) && stays(kNext[c][1]) && stays(kNext[c][2])) {
+            const Vec3 u = corners[kNext[c][0]] - corners[c], v = corners[kNext[c][1]] - corners[c],
+                       w = corners[kNext[c][2]] - corners[c];
+            const double lengths = u.norm() * v.norm() * w.norm();
+            bound = std::min(bound, lengths > 0 ? std::abs(u.dot(v.cross(w))) / lengths : 0.0);
+        }
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t a = kNext[c][i], b = kNext[c][(i + 1) % 3];
             if (locked[static_cast<std::size_t>(hex[a])] == 0 ||
