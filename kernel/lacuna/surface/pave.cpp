@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/pave.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/surface/clean_quads.h>
+#include <lacuna/surface/pave_core.h>
+#include <lacuna/surface/pave_rows.h>
+#include <lacuna/surface/smooth_plane.h>
+
+#include <sstream>
+
+namespace lacuna::surface {
+namespace {
+
+using namespace paving;
+
+std::string place_of(const Vec2& p)
+{
+    std::ostringstream text;
+    text << "(" << p.x() << ", " << p.y() << ")";
+    return text.str();
+}
+
+void check_region(const PlanarRegion& region)
+{
+    std::size_t sides = 0;
+    if (region.loops.empty()) throw InvalidInput("surface.pave_loops", "a region to be paved has no outline");
+    std::vector<bool> seen(region.points.size(), false);
+    for (std::size_t l = 0; l < region.loops.size(); ++l) {
+        const auto& loop = region.loops[l];
+        const std::string name = "loop " + std::to_string(l + 1) + " of a region to be paved";
+        if (loop.size() < 3) {
+            throw InvalidInput("surface.pave_loops",
+                               name + " has " + std::to_string(loop.size()) + " nodes; give it 3 or more");
+        }
+        sides += loop.size();
+        for (const Index p : loop) {
+            if (p < 0 || static_cast<std::size_t>(p) >= seen.size())
+                throw InvalidInput("surface.pave_loops", name + " names node " + std::to_string(p + 1) +
+                                                             " of " + std::to_string(seen.size()));
+            if (seen[static_cast<std::size_t>(p)])
+                throw InvalidInput("surface.pave_loops", name + " comes to node " + std::to_string(p + 1) +
+                                                             " a second time; loops may not touch");
+            seen[static_cast<std::size_t>(p)] = true;
+        }
+    }
+    if (sides % 2 != 0) {
+        throw InvalidInput(
+            "surface.pave_parity",
+            "a region with " + std::to_string(sides) +
+                " boundary sides cannot be filled with quads alone; give one of its edges one side more");
+    }
+}
+
+/// The size where none is asked for: the mean boundary side.
+std::function<double(const Vec2&)> mean_side(const PlanarRegion& region)
+{
+    double sum = 0, count = 0;
+    for (const auto& loop : region.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec2& a = region.points[static_cast<std::size_t>(loop[i])];
+            const Vec2& b = region.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
+            sum += (b - a).norm();
+            count += 1;
+        }
+    }
+    return [size = sum / count](const Vec2&) { return size; };
+}
+
+/// Rows a loop is worth. A round outer loop gets four nodes of three quads where its rows end; with rows for about a
+/// fiftieth of its length they lie where a square of the same number of nodes has its corners. Round a hole
+/// every row is one more of stretched quads.
+int rows_for(const Draft& draft, const Cycle& loop, bool outer)
+{
+    if (!needs_row(draft, loop)) return 0;
+    constexpr std::size_t kNodesARow = 60;
+    return outer ? 1 + static_cast<int>(loop.size() / kNodesARow) : 1;
+}
+
+/// Quads and the points they use; the region's own come first, used or not.
+PlanarQuads without_loose_points(const Draft& draft)
+{
+    PlanarQuads mesh{{draft.points.begin(), draft.points.begin() + static_cast<std::ptrdiff_t>(draft.fixed)},
+                     draft.quads};
+    std::vector<Index> number(draft.points.size(), -1);
+    for (std::size_t p = 0; p < draft.fixed; ++p) number[p] = static_cast<Index>(p);
+    for (Quad& quad : mesh.quads) {
+        for (Index& p : quad) {
+            Index& own = number[static_cast<std::size_t>(p)];
+            if (own < 0) {
+                own = static_cast<Index>(mesh.points.size());
+                mesh.points.push_back(draft.at(p));
+            }
+            p = own;
+        }
+    }
+    return mesh;
+}
+
+struct Attempt {
+    PlanarQuads mesh;
+    PaveReport report;
+    double worst = -2;
+    Vec2 where = Vec2::Zero();
+};
+
+void judge(Attempt& attempt)
+{
+    attempt.worst = 1;
+    for (const Quad& q : attempt.mesh.quads) {
+        const auto at = [&](std::size_t k) { return attempt.mesh.points[static_cast<std::size_t>(q[k])]; };
+        const double sine = least_sine(at(0), at(1), at(2), at(3));
+        if (sine >= attempt.worst) continue;
+        attempt.worst = sine;
+        attempt.where = (at(0) + at(1) + at(2) + at(3)) / 4;
+    }
+}
+
+Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, int most_rows,
+                 const RunContext& context)
+{
+    Attempt attempt;
+    Draft draft{region.points, {}, region.points.size(), region.size ? region.size : mean_side(region)};
+    std::vector<Cycle> loops = region.loops;
+    std::vector<int> rows;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        const int own = options.rows < 0 ? rows_for(draft, loops[l], l == 0) : options.rows;
+        rows.push_back(std::min(own, most_rows));
+    }
+    for (int r = 0;; ++r) {
+        std::vector<bool> wanted;
+        for (const int own : rows) wanted.push_back(own > r);
+        if (std::none_of(wanted.begin(), wanted.end(), [](bool w) { return w; })) break;
+        attempt.report.rows += lay_rows(draft, loops, wanted,
+                                        options.row_height ? options.row_height : draft.size);
+        for (std::size_t l = 0; l < loops.size(); ++l) {
+            if (!wanted[l]) rows[l] = 0;
+        }
+    }
+    const CoreCount count = fill_core(draft, loops, context);
+    attempt.report.mapped = count.patches;
+    attempt.report.cuts = count.cuts;
+    attempt.report.templates = count.templates;
+    attempt.report.used = count.cuts == 0 && count.patches == 1 && attempt.report.rows == 0 ? "mapped"
+                                                                                            : "paved";
+    attempt.mesh = without_loose_points(draft);
+    if (options.clean) clean_quads(attempt.mesh, draft.fixed, {.size = draft.size}, context);
+    if (options.smooth)
+        smooth_plane(attempt.mesh.points, attempt.mesh.quads, draft.fixed, {.size = draft.size}, context);
+    judge(attempt);
+    return attempt;
+}
+
+} // namespace
+
+PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
+{
+    check_region(region);
+    constexpr int kAnyRows = 1 << 20;
+    Attempt best;
+    for (const int most_rows : {kAnyRows, 1, 0}) {
+        Attempt attempt = try_pave(region, options, most_rows, context);
+        if (attempt.worst > best.worst) best = std::move(attempt);
+        if (best.worst > 0) break;
+    }
+    if (!(best.worst > 0)) {
+        throw NotSweepable("surface.pave", "no valid quads were found for a region of " +
+                                               std::to_string(region.points.size()) +
+                                               " boundary nodes: near " + place_of(best.where) +
+                                               " they fold; try a smaller size there, or quads = \"gmsh\"");
+    }
+    if (options.report) *options.report = best.report;
+    return std::move(best.mesh);
+}
+
+} // namespace lacuna::surface

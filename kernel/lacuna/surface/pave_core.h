@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/surface/pave_draft.h>
+
+#include <cstddef>
+
+namespace lacuna::surface::paving {
+
+/// What filling by cuts took.
+struct CoreCount {
+    int patches = 0, cuts = 0, templates = 0;
+};
+
+/// Fill what lies between loops with quads: holes are joined to the outer loop, then the loop is cut in two again
+/// and again until every part is a patch or a loop of six nodes or fewer.
+/// @pre the loops' lengths are even in sum.
+CoreCount fill_core(Draft& draft, const std::vector<Cycle>& loops, const RunContext& context);
+
+} // namespace lacuna::surface::paving
