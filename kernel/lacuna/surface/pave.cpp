@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/surface/clean_quads.h>
 #include <lacuna/surface/pave_core.h>
+#include <lacuna/surface/pave_repair.h>
 #include <lacuna/surface/pave_rows.h>
 #include <lacuna/surface/smooth_plane.h>
 
@@ -116,6 +117,14 @@ void judge(Attempt& attempt)
     }
 }
 
+void finish(Attempt& attempt, const Draft& draft, const PaveOptions& options, const RunContext& context)
+{
+    if (options.clean) clean_quads(attempt.mesh, draft.fixed, {.size = draft.size}, context);
+    if (options.smooth)
+        smooth_plane(attempt.mesh.points, attempt.mesh.quads, draft.fixed, {.size = draft.size}, context);
+    judge(attempt);
+}
+
 Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, int most_rows,
                  const RunContext& context)
 {
@@ -144,10 +153,16 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, int mos
     attempt.report.used = count.cuts == 0 && count.patches == 1 && attempt.report.rows == 0 ? "mapped"
                                                                                             : "paved";
     attempt.mesh = without_loose_points(draft);
-    if (options.clean) clean_quads(attempt.mesh, draft.fixed, {.size = draft.size}, context);
-    if (options.smooth)
-        smooth_plane(attempt.mesh.points, attempt.mesh.quads, draft.fixed, {.size = draft.size}, context);
-    judge(attempt);
+    open_corners(attempt.mesh, region);
+    finish(attempt, draft, options, context);
+    constexpr int kLoosenings = 3;
+    for (int round = 0; round < kLoosenings && attempt.worst <= 0; ++round) {
+        Attempt loose = attempt;
+        loosen_folds(loose.mesh, 0);
+        finish(loose, draft, options, context);
+        if (loose.worst <= attempt.worst) break;
+        attempt = std::move(loose);
+    }
     return attempt;
 }
 

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/pave_repair.h>
+
+#include <lacuna/surface/pave_draft.h>
+
+#include <optional>
+
+namespace lacuna::surface::paving {
+namespace {
+
+/// Four quads round a smaller one in the place of a quad.
+void surround(PlanarQuads& mesh, std::size_t q)
+{
+    const Quad outer = mesh.quads[q];
+    Vec2 centre = Vec2::Zero();
+    for (const Index p : outer) centre += mesh.points[static_cast<std::size_t>(p)] / 4;
+    Quad inner{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        inner[k] = static_cast<Index>(mesh.points.size());
+        mesh.points.push_back((mesh.points[static_cast<std::size_t>(outer[k])] + centre) / 2);
+    }
+    mesh.quads[q] = inner;
+    for (std::size_t k = 0; k < 4; ++k)
+        mesh.quads.push_back({outer[k], outer[(k + 1) % 4], inner[(k + 1) % 4], inner[k]});
+}
+
+/// Quads by node, and how many each node needs.
+class CornerOpener {
+public:
+    CornerOpener(PlanarQuads& mesh, const PlanarRegion& region) : mesh_(mesh), fixed_(region.points.size())
+    {
+        needed_.assign(fixed_, 0);
+        for (const auto& loop : region.loops) {
+            for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
+                const Vec2& p = at(loop[i]);
+                const double angle = turn_between(at(loop[(i + 1) % n]) - p, at(loop[(i + n - 1) % n]) - p);
+                constexpr double kWidest = 0.9 * std::numbers::pi; // leaves a sine of 0.3
+                needed_[index(loop[i])] = static_cast<int>(std::ceil(angle / kWidest));
+            }
+        }
+        quads_of_.resize(mesh.points.size());
+        for (std::size_t q = 0; q < mesh.quads.size(); ++q) link(q);
+    }
+
+    int run()
+    {
+        int changes = 0;
+        for (std::size_t p = 0; p < fixed_; ++p) {
+            // Each change adds a quad at the node: so many at most.
+            for (int tries = 0; tries < 4 && !quads_of_[p].empty() && lacking(static_cast<Index>(p));
+                 ++tries) {
+                if (!turn_side(static_cast<Index>(p))) surround_widest(static_cast<Index>(p));
+                ++changes;
+            }
+        }
+        return changes;
+    }
+
+private:
+    static std::size_t index(Index p) { return static_cast<std::size_t>(p); }
+    [[nodiscard]] const Vec2& at(Index p) const { return mesh_.points[index(p)]; }
+    [[nodiscard]] int needed(Index p) const { return index(p) < fixed_ ? needed_[index(p)] : 3; }
+    [[nodiscard]] int count(Index p) const { return static_cast<int>(quads_of_[index(p)].size()); }
+    [[nodiscard]] bool lacking(Index p) const { return count(p) < needed(p); }
+
+    void link(std::size_t q)
+    {
+        for (const Index p : mesh_.quads[q]) quads_of_[index(p)].push_back(q);
+    }
+    void unlink(std::size_t q)
+    {
+        for (const Index p : mesh_.quads[q]) {
+            auto& list = quads_of_[index(p)];
+            list.erase(std::find(list.begin(), list.end(), q));
+        }
+    }
+
+    [[nodiscard]] std::optional<std::size_t> across(std::size_t q, Index a, Index b) const
+    {
+        for (const std::size_t other : quads_of_[index(a)]) {
+            const Quad& quad = mesh_.quads[other];
+            if (other != q && std::find(quad.begin(), quad.end(), b) != quad.end()) return other;
+        }
+        return std::nullopt;
+    }
+
+    /// Turn a side opposite the node, so that it runs from the node.
+    bool turn_side(Index p)
+    {
+        double best = 0;
+        std::optional<std::array<std::size_t, 2>> pair;
+        std::array<Quad, 2> made{};
+        for (const std::size_t q : quads_of_[index(p)]) {
+            const Quad quad = mesh_.quads[q];
+            const auto k = static_cast<std::size_t>(std::find(quad.begin(), quad.end(), p) - quad.begin());
+            const Index v1 = quad[(k + 1) % 4], v2 = quad[(k + 2) % 4], v3 = quad[(k + 3) % 4];
+            for (const bool first : {true, false}) {
+                const Index a = first ? v1 : v2, b = first ? v2 : v3;
+                if (count(a) <= needed(a) || count(b) <= needed(b)) continue;
+                const auto other = across(q, a, b);
+                if (!other) continue;
+                const Quad far = mesh_.quads[*other];
+                const auto m = static_cast<std::size_t>(std::find(far.begin(), far.end(), b) - far.begin());
+                if (far[(m + 1) % 4] != a) continue;
+                const Index c = far[(m + 2) % 4], d = far[(m + 3) % 4];
+                // The ring of both: p, v1, (c, d) between a and b, v3.
+                if (c == p || d == p) continue;
+                const std::array<Quad, 2> turned =
+                    first ? std::array<Quad, 2>{Quad{p, v1, c, d}, Quad{p, d, v2, v3}}
+                          : std::array<Quad, 2>{Quad{p, v1, v2, c}, Quad{p, c, d, v3}};
+                const double quality = std::min(sine(turned[0]), sine(turned[1]));
+                if (quality <= best) continue;
+                best = quality;
+                pair = {q, *other};
+                made = turned;
+            }
+        }
+        if (!pair) return false;
+        for (const std::size_t q : *pair) unlink(q);
+        for (std::size_t i = 0; i < 2; ++i) {
+            mesh_.quads[(*pair)[i]] = made[i];
+            link((*pair)[i]);
+        }
+        return true;
+    }
+
+    [[nodiscard]] double sine(const Quad& q) const
+    {
+        return least_sine(at(q[0]), at(q[1]), at(q[2]), at(q[3]));
+    }
+
+    void surround_widest(Index p)
+    {
+        std::size_t widest = quads_of_[index(p)].front();
+        double most = -1;
+        for (const std::size_t q : quads_of_[index(p)]) {
+            const Quad& quad = mesh_.quads[q];
+            const auto k = static_cast<std::size_t>(std::find(quad.begin(), quad.end(), p) - quad.begin());
+            const double angle = turn_between(at(quad[(k + 1) % 4]) - at(p), at(quad[(k + 3) % 4]) - at(p));
+            if (angle <= most) continue;
+            most = angle;
+            widest = q;
+        }
+        unlink(widest);
+        const std::size_t first = mesh_.quads.size();
+        surround(mesh_, widest);
+        quads_of_.resize(mesh_.points.size());
+        link(widest);
+        for (std::size_t q = first; q < mesh_.quads.size(); ++q) link(q);
+    }
+
+    PlanarQuads& mesh_;
+    std::size_t fixed_;
+    std::vector<int> needed_;
+    std::vector<std::vector<std::size_t>> quads_of_;
+};
+
+} // namespace
+
+int open_corners(PlanarQuads& mesh, const PlanarRegion& region) { return CornerOpener(mesh, region).run(); }
+
+int loosen_folds(PlanarQuads& mesh, double least)
+{
+    int count = 0;
+    for (std::size_t q = 0, n = mesh.quads.size(); q < n; ++q) {
+        const Quad& quad = mesh.quads[q];
+        const auto at = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(quad[k])]; };
+        if (least_sine(at(0), at(1), at(2), at(3)) > least) continue;
+        surround(mesh, q);
+        ++count;
+    }
+    return count;
+}
+
+} // namespace lacuna::surface::paving

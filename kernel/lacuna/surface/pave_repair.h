@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/surface/quad_mesher.h>
+
+#include <cstddef>
+
+namespace lacuna::surface::paving {
+
+/// Give every boundary node as many quads as its angle cannot do without, so that no corner at it must be straight or more:
+/// a side nearby is turned towards it, or a quad at it is surrounded by four others.
+/// @return how many changes were made.
+int open_corners(PlanarQuads& mesh, const PlanarRegion& region);
+
+/// Surround each quad with a corner that is not positive by four quads, whose new nodes can move.
+/// @return how many quads were.
+int loosen_folds(PlanarQuads& mesh, double least);
+
+} // namespace lacuna::surface::paving
