@@ -208,7 +208,7 @@ Belt make_belt(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& s
         source = rotated(std::move(source), *use_leaving(model, source, mine.front().source));
         target = rotated(std::move(target), *use_leaving(model, target, mine.front().target));
     }
-    Belt belt{std::move(walls), Chain(model, source), Chain(model, target), {}, {}};
+    Belt belt{std::move(walls), Chain(model, source), Chain(model, target), {}, {}, {}};
     for (const matching::SideLine& line : mine) {
         belt.lines.push_back({line, belt.source.start(*use_leaving(model, source, line.source)),
                               belt.target.start(*use_leaving(model, target, line.target))});
@@ -285,12 +285,14 @@ std::vector<Belt> belts(const OpenVolume& volume, Turning turning)
         result.push_back(std::move(*by_rim[s]));
     }
     if (turning == Turning::each) return result;
-    const std::vector<std::optional<double>> starts = common_turn_starts(result);
+    const std::vector<std::optional<CommonTurn>> turns = common_turns(volume, result);
     for (std::size_t b = 0; b < result.size(); ++b) {
-        if (!starts[b]) continue;
+        if (!turns[b]) continue;
         Belt& belt = result[b];
         belt.stretches.clear();
-        add_stretches(model, belt, 0, belt.source.length(), *starts[b], *starts[b] + belt.target.length());
+        add_stretches(model, belt, 0, belt.source.length(), turns[b]->start,
+                      turns[b]->start + belt.target.length());
+        belt.branch = turns[b]->branch;
     }
     return result;
 }

@@ -5,6 +5,7 @@
 #include <lacuna/surface/edge_nodes.h>
 #include <lacuna/topology/open_volume.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,9 @@ struct Belt {
     Chain source, target;
     std::vector<BeltLine> lines;    ///< in walking order
     std::vector<Stretch> stretches; ///< in walking order, the first from source length 0
+    /// Without side lines: how many turns round the belt the target end of the shortest way up lies from the source's start,
+    /// where more than the walls themselves tells it. The walls' own lead counts else.
+    std::optional<double> branch{};
 };
 
 /// How belts without side lines turn: each so that its own walls are sheared least, or all loops as one body, which holes

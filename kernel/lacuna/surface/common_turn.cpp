@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/common_turn.h>
 
+#include <lacuna/surface/wall_map.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -61,20 +63,15 @@ std::vector<Pair> pairs_of(std::span<const Belt> belts)
     return pairs;
 }
 
-/// The rotation that takes source to target: normals onto each other, then the best turn about them.
-std::optional<Eigen::Matrix3d> common_turn(std::span<const Belt> belts)
+/// The rotation that takes the pairs' sources to their targets: area vectors onto each other, then the best turn about them.
+std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<Pair>& pairs, const Vec3& source_area,
+                                           const Vec3& target_area)
 {
-    Vec3 source_area = Vec3::Zero(), target_area = Vec3::Zero();
-    for (const Belt& belt : belts) {
-        source_area += area_of(round_points(belt.source));
-        target_area += area_of(round_points(belt.target));
-    }
     if (!(source_area.norm() > 0) || !(target_area.norm() > 0)) return std::nullopt;
     const Vec3 normal = target_area.normalized();
     const Eigen::Matrix3d upright =
         Eigen::Quaterniond::FromTwoVectors(source_area, target_area).toRotationMatrix();
 
-    const std::vector<Pair> pairs = pairs_of(belts);
     Vec3 from = Vec3::Zero(), to = Vec3::Zero();
     double weight = 0;
     for (const Pair& pair : pairs) {
@@ -98,10 +95,19 @@ std::optional<Eigen::Matrix3d> common_turn(std::span<const Belt> belts)
     return Eigen::AngleAxisd(std::atan2(across, along), normal).toRotationMatrix() * upright;
 }
 
-/// The shift of the target's share of length against the source's that leaves the turned rims closest.
-double best_start(const Belt& belt, const Eigen::Matrix3d& turn)
+std::optional<Eigen::Matrix3d> common_turn(std::span<const Belt> belts)
 {
-    std::vector<Vec3> source = round_points(belt.source), target = round_points(belt.target);
+    Vec3 source_area = Vec3::Zero(), target_area = Vec3::Zero();
+    for (const Belt& belt : belts) {
+        source_area += area_of(round_points(belt.source));
+        target_area += area_of(round_points(belt.target));
+    }
+    return fitted_turn(pairs_of(belts), source_area, target_area);
+}
+
+/// The shift of the target's points against the source's, in turns [0, 1), that leaves the turned rings closest.
+double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eigen::Matrix3d& turn)
+{
     const Vec3 from = centre_of(source), to = centre_of(target);
     for (Vec3& p : source) p = turn * (p - from);
     for (Vec3& p : target) p -= to;
@@ -115,21 +121,99 @@ double best_start(const Belt& belt, const Eigen::Matrix3d& turn)
     const double bend = low + high - 2 * apart[best];
     const double between = bend > 0 ? (low - high) / (2 * bend) : 0;
     const double share = (static_cast<double>(best) + between) / static_cast<double>(kSamples);
-    return (share - std::floor(share)) * belt.target.length();
+    return share - std::floor(share);
 }
+
+double best_start(const Belt& belt, const Eigen::Matrix3d& turn)
+{
+    return best_shift(round_points(belt.source), round_points(belt.target), turn) * belt.target.length();
+}
+
+/// Follows the common turn up the walls, row by row.
+class TurnTracker {
+public:
+    TurnTracker(const topology::OpenVolume& volume, std::span<const Belt> belts)
+        : belts_(belts), rings_(belts.size())
+    {
+        for (const Belt& belt : belts) maps_.emplace_back(volume, belt);
+        for (std::size_t b = 0; b < belts.size(); ++b) {
+            for (std::size_t row = 0; row <= kRows; ++row)
+                rings_[b].push_back(ring(volume.model, maps_[b], static_cast<double>(row) / kRows));
+        }
+    }
+
+    /// For each belt the s, counted from its column, of the target end of its shortest way up.
+    std::vector<double> branches()
+    {
+        std::vector<double> shift(belts_.size(), 0.0);
+        Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+        for (std::size_t row = 1; row <= kRows; ++row) {
+            turn = step(row) * turn;
+            for (std::size_t b = 0; b < belts_.size(); ++b) {
+                if (!belts_[b].lines.empty()) continue;
+                const double off = best_shift(rings_[b].front(), rings_[b][row], turn) - shift[b];
+                shift[b] += off - std::round(off);
+            }
+        }
+        std::vector<double> branches;
+        for (std::size_t b = 0; b < belts_.size(); ++b)
+            branches.push_back(maps_[b].target_branch() - shift[b]);
+        return branches;
+    }
+
+private:
+    static constexpr std::size_t kRows = 32; ///< a full turn is followed in steps of 11 degrees
+
+    static std::vector<Vec3> ring(const topology::Model& model, const WallMap& map, double height)
+    {
+        std::vector<Vec3> points;
+        for (std::size_t i = 0; i < kSamples; ++i) {
+            const WallMap::Place place = map.locate(static_cast<double>(i) / kSamples, map.from_even(height));
+            const FacetPlace at[] = {place.at};
+            points.push_back(points_at(model, place.face, at).front());
+        }
+        return points;
+    }
+
+    /// The rotation from a row to the next: of the rings' centres, and of the rings themselves where side lines tell their points.
+    [[nodiscard]] Eigen::Matrix3d step(std::size_t row) const
+    {
+        std::vector<Pair> pairs;
+        Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+        for (std::size_t b = 0; b < belts_.size(); ++b) {
+            const std::vector<Vec3>&from = rings_[b][row - 1], &to = rings_[b][row];
+            low += area_of(from);
+            high += area_of(to);
+            const double weight = belts_[b].source.length();
+            if (belts_[b].lines.empty()) {
+                pairs.push_back({centre_of(from), centre_of(to), weight});
+                continue;
+            }
+            for (std::size_t i = 0; i < kSamples; ++i) pairs.push_back({from[i], to[i], weight / kSamples});
+        }
+        return fitted_turn(pairs, low, high).value_or(Eigen::Matrix3d::Identity());
+    }
+
+    std::span<const Belt> belts_;
+    std::vector<WallMap> maps_;
+    std::vector<std::vector<std::vector<Vec3>>> rings_; ///< of each belt and row
+};
 
 } // namespace
 
-std::vector<std::optional<double>> common_turn_starts(std::span<const Belt> belts)
+std::vector<std::optional<CommonTurn>> common_turns(const topology::OpenVolume& volume,
+                                                    std::span<const Belt> belts)
 {
-    std::vector<std::optional<double>> starts(belts.size());
+    std::vector<std::optional<CommonTurn>> turns(belts.size());
     const bool free = std::any_of(belts.begin(), belts.end(), [](const Belt& b) { return b.lines.empty(); });
-    if (!free || belts.size() < 2) return starts;
+    if (!free || belts.size() < 2) return turns;
     const std::optional<Eigen::Matrix3d> turn = common_turn(belts);
-    for (std::size_t b = 0; turn && b < belts.size(); ++b) {
-        if (belts[b].lines.empty()) starts[b] = best_start(belts[b], *turn);
+    if (!turn) return turns;
+    const std::vector<double> branches = TurnTracker(volume, belts).branches();
+    for (std::size_t b = 0; b < belts.size(); ++b) {
+        if (belts[b].lines.empty()) turns[b] = CommonTurn{best_start(belts[b], *turn), branches[b]};
     }
-    return starts;
+    return turns;
 }
 
 } // namespace lacuna::surface

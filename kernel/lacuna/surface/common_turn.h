@@ -9,11 +9,19 @@
 
 namespace lacuna::surface {
 
-/// Where on their target chains the source chains of belts without side lines start when all loops turn as one body
-/// [running length]. Empty for a belt with side lines.
+/// How a belt without side lines lies when all loops turn as one body.
+struct CommonTurn {
+    double start = 0; ///< where on its target chain its source chain's start belongs [running length]
+    double branch =
+        0; ///< s of the target end of its shortest way up, with whole turns counted: see `Belt::branch`
+};
+
+/// The turns of belts without side lines; none for a belt that has them.
 ///
-/// The turn is the rigid motion that fits the loops' centres, and the points that side lines pair, best. None is given
-/// when nothing tells it: one loop, loops about one centre, or no belt without side lines.
-std::vector<std::optional<double>> common_turn_starts(std::span<const Belt> belts);
+/// The turn is the rigid motion that fits the loops' centres, and the points that side lines pair, best. It is followed from
+/// row to row of the walls, so that half a turn and more to one side is not taken for less to the other. None is given when
+/// nothing tells it: one loop, loops about one centre, or no belt without side lines.
+std::vector<std::optional<CommonTurn>> common_turns(const topology::OpenVolume& volume,
+                                                    std::span<const Belt> belts);
 
 } // namespace lacuna::surface

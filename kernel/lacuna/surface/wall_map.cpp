@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/harmonic.h>
+#include <lacuna/geometry/polyline.h>
 
 #include <algorithm>
 #include <cmath>
@@ -225,11 +226,13 @@ WallMap::WallMap(const OpenVolume& volume, const Belt& belt)
     const std::vector<RimPoint> high = rim_points(model, belt.target);
     if (belt.lines.empty()) {
         cut = shortest_way_up(model, facets, belt);
-        const double natural = natural_coordinate(model, facets, belt, cut)(cut.back(), 0);
+        const double natural = belt.branch ? *belt.branch
+                                           : natural_coordinate(model, facets, belt, cut)(cut.back(), 0);
         const auto end = std::find_if(high.begin(), high.end(),
                                       [&](const RimPoint& p) { return p.point == cut.back(); });
         const double wanted = target_coordinate(belt, end->at);
         end_branch = wanted + std::round(natural - wanted);
+        branch_ = end_branch;
     } else {
         cut = line_points(model, belt.lines.front().line);
     }
@@ -289,7 +292,35 @@ WallMap::WallMap(const OpenVolume& volume, const Belt& belt)
     tree_ = geometry::FacetTree(flat, flat_triangles);
     face_of_ = facets.face;
     triangle_of_ = facets.number;
+    if (belt.lines.empty()) measure_heights(model);
     find_rings(volume, belt, corners);
+}
+
+void WallMap::measure_heights(const Model& model)
+{
+    constexpr std::size_t kColumns = 16, kSteps = 64;
+    even_.assign(kSteps + 1, 0.0);
+    for (std::size_t c = 0; c < kColumns; ++c) {
+        std::vector<Vec3> column;
+        for (std::size_t k = 0; k <= kSteps; ++k) {
+            const Place place = locate(static_cast<double>(c) / kColumns, static_cast<double>(k) / kSteps);
+            const Triangle& t = model[place.face].triangles[static_cast<std::size_t>(place.at.triangle)];
+            const Vec3& b = place.at.barycentric;
+            column.push_back(b[0] * model.at(t[0]) + b[1] * model.at(t[1]) + b[2] * model.at(t[2]));
+        }
+        const std::vector<double> arc = geometry::arc_lengths(column);
+        for (std::size_t k = 0; k <= kSteps; ++k) even_[k] += arc[k] / arc.back() / kColumns;
+    }
+}
+
+double WallMap::from_even(double height) const
+{
+    if (even_.empty()) return height;
+    const auto steps = static_cast<double>(even_.size() - 1);
+    const auto above = std::upper_bound(even_.begin() + 1, even_.end() - 1, height);
+    const auto k = static_cast<double>(above - even_.begin() - 1);
+    const double low = *(above - 1), high = *above;
+    return high > low ? std::clamp((k + (height - low) / (high - low)) / steps, 0.0, 1.0) : k / steps;
 }
 
 WallMap::Place WallMap::locate(double s, double t) const

@@ -24,6 +24,12 @@ public:
     };
     [[nodiscard]] Place locate(double s, double t) const;
 
+    /// t at a share of the way up as the walls are long, in the mean over the columns. Where there are side lines t is that share
+    /// already; without them a harmonic t rises faster where the walls are narrow.
+    [[nodiscard]] double from_even(double height) const;
+    /// s of the target end of the shortest way up a belt without side lines, with whole turns counted.
+    [[nodiscard]] double target_branch() const { return branch_; }
+
     /// Edges that run round the belt, between faces stacked on each other: where a layer should lie.
     struct Ring {
         double height = 0;                         ///< mean t
@@ -35,6 +41,7 @@ public:
     [[nodiscard]] static std::vector<double> crossings(const Ring& ring, double s);
 
 private:
+    void measure_heights(const topology::Model& model);
     void find_rings(const topology::OpenVolume& volume, const Belt& belt,
                     const std::vector<std::array<Vec2, 3>>& corners);
 
@@ -42,6 +49,8 @@ private:
     std::vector<Index> triangle_of_;
     std::vector<Index> original_; ///< triangle of the belt behind each triangle of the tree
     double width_ = 1, height_ = 1;
+    double branch_ = 0;
+    std::vector<double> even_; ///< share of the way up at equal steps of t; empty with side lines
     geometry::FacetTree tree_;
     std::vector<Ring> rings_;
 };

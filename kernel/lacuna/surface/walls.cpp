@@ -194,6 +194,15 @@ private:
         return result;
     }
 
+    /// The same in the map's own t: without rings to meet, evenly up the walls.
+    [[nodiscard]] std::vector<double> map_heights(const std::map<int, double>& at_layer) const
+    {
+        std::vector<double> at = column_heights(at_layer);
+        if (!at_layer.empty()) return at;
+        for (double& t : at) t = map_->from_even(t);
+        return at;
+    }
+
     [[nodiscard]] std::vector<double> heights_at(double s) const
     {
         std::map<int, double> at_layer;
@@ -206,7 +215,7 @@ private:
                     found->second = t;
             }
         }
-        return column_heights(at_layer);
+        return map_heights(at_layer);
     }
 
     void mesh_lines()
