@@ -95,10 +95,9 @@ try {
     if (mesher.find("+clean") != std::string::npos) {
         const surface::CleanReport clean = surface::clean_quads(made.mesh, seeded.region.points.size(),
                                                                 {.size = seeded.region.size});
-        std::fprintf(stderr,
-                     "%zu irregular -> %zu: %zu doublets, %zu swaps, %zu collapses, %zu patches, %.3f s\n",
-                     clean.irregular_before, clean.irregular_after, clean.doublets, clean.swaps,
-                     clean.collapses, clean.patches, seconds() - start);
+        std::fprintf(stderr, "%zu irregular -> %zu: %zu doublets, %zu patches of %zu tried, %.3f s\n",
+                     clean.irregular_before, clean.irregular_after, clean.doublets, clean.patches,
+                     clean.tried, seconds() - start);
     }
     if (mesher.find("+smooth") != std::string::npos) {
         const double before = seconds();

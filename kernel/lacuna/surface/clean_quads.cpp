@@ -1,8 +1,463 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/clean_quads.h>
 
+#include <lacuna/surface/measure_plane.h>
+#include <lacuna/surface/patch_patterns.h>
+#include <lacuna/surface/quad_net.h>
+#include <lacuna/surface/smooth_plane.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
 namespace lacuna::surface {
 
-CleanReport clean_quads(PlanarQuads&, std::size_t, const CleanOptions&, const RunContext&) { return {}; }
+namespace {
+
+constexpr double kRight = std::numbers::pi / 2;
+/// Irregular points that a patch is grown to, and how far it looks for them.
+constexpr std::size_t kGrowths = 6;
+constexpr std::size_t kLookedAt = 900;
+/// Fillings tried of each patch, layers of quads around it that are smoothed with it.
+constexpr std::size_t kFillings = 3;
+constexpr int kRings = 2;
+/// What a patch may lose in scaled Jacobian, summed over its quads, for each irregular point it sheds.
+constexpr double kLossForgiven = 0.05;
+
+/// A set of numbers that is emptied at no cost.
+class Marks {
+public:
+    void clear(std::size_t count)
+    {
+        of_.resize(count, 0);
+        ++now_;
+    }
+    [[nodiscard]] bool has(Index i) const
+    {
+        return static_cast<std::size_t>(i) < of_.size() && of_[static_cast<std::size_t>(i)] == now_;
+    }
+    /// @return true where it was not there
+    bool add(Index i)
+    {
+        if (has(i)) return false;
+        of_[static_cast<std::size_t>(i)] = now_;
+        return true;
+    }
+
+private:
+    std::vector<unsigned> of_;
+    unsigned now_ = 0;
+};
+
+/// A number for each of a set of numbers, forgotten at no cost.
+class Numbers {
+public:
+    void clear(std::size_t count)
+    {
+        value_.resize(count, 0);
+        known_.clear(count);
+    }
+    Index& operator[](Index i)
+    {
+        if (known_.add(i)) value_[static_cast<std::size_t>(i)] = 0;
+        return value_[static_cast<std::size_t>(i)];
+    }
+    [[nodiscard]] bool has(Index i) const { return known_.has(i); }
+
+private:
+    std::vector<Index> value_;
+    Marks known_;
+};
+
+/// Quads with one outline.
+struct Patch {
+    std::vector<Index> quads;
+    std::vector<Index> touched;       ///< points, in order of coming
+    std::vector<Index> loop;          ///< points round it, the patch on the left
+    std::vector<std::size_t> corners; ///< places in the loop
+    int irregular = 0;                ///< points inside, and on the mesh's boundary, that a filling changes
+};
+
+enum class Outline { fine, unfinished, hopeless };
+
+double loss(std::span<const Vec2> points, const Quad& quad, double& least)
+{
+    const double jacobian = scaled_jacobian(points, quad);
+    least = std::min(least, jacobian);
+    return 1 - jacobian;
+}
+
+class Cleaner {
+public:
+    Cleaner(PlanarQuads& mesh, std::size_t fixed, const CleanOptions& options)
+        : points_(mesh.points), options_(options), net_(mesh.points.size(), mesh.quads), fixed_(fixed)
+    {
+        wanted_.assign(points_.size(), 4);
+        for (Index p = 0; p < static_cast<Index>(points_.size()); ++p) {
+            if (net_.is_used(p) && net_.on_boundary(p))
+                wanted_[static_cast<std::size_t>(p)] = right_angles(p);
+        }
+        budget_ = static_cast<long>(options.effort * static_cast<double>(mesh.quads.size()));
+    }
+
+    [[nodiscard]] std::size_t irregular() const
+    {
+        std::size_t count = 0;
+        for (Index p = 0; p < static_cast<Index>(points_.size()); ++p) {
+            if (net_.is_used(p) && !net_.on_boundary(p) && net_.valence(p) != 4) ++count;
+        }
+        return count;
+    }
+
+    std::size_t remove_doublets();
+    /// @return patches filled anew
+    std::size_t pass(CleanReport& report, const RunContext& context);
+    void finish(PlanarQuads& mesh) const;
+
+private:
+    [[nodiscard]] int right_angles(Index p) const;
+    [[nodiscard]] const Vec2& at(Index p) const { return points_[static_cast<std::size_t>(p)]; }
+    [[nodiscard]] bool is_irregular(Index p) const
+    {
+        return net_.is_used(p) && net_.valence(p) != wanted_[static_cast<std::size_t>(p)];
+    }
+    bool mend(Index seed, CleanReport& report);
+    void look_for_others(Index seed);
+    void add_star(Patch& patch, Index p);
+    bool close(Patch& patch);
+    Outline find_outline(Patch& patch);
+    bool fill(const Patch& patch, CleanReport& report);
+    bool try_filling(const Patch& patch, const Filling& filling, const std::vector<Index>& around);
+    std::vector<Index> rings(const Patch& patch);
+
+    std::vector<Vec2> points_;
+    const CleanOptions& options_;
+    QuadNet net_;
+    std::size_t fixed_;
+    std::vector<int> wanted_; ///< quads at each point
+    long budget_ = 0;
+    // Of the patch at hand.
+    Marks in_patch_, seen_;
+    Numbers count_, number_, parent_, next_;
+    std::vector<Index> others_; ///< irregular points near the seed, the nearest first
+};
+
+int Cleaner::right_angles(Index p) const
+{
+    Vec2 first(0, 0), last(0, 0);
+    bool any = false;
+    net_.for_sides(p, [&](Index side) {
+        if (!any) first = at(net_.to(side)) - at(p);
+        any = true;
+        last = at(net_.from(QuadNet::before(side))) - at(p);
+    });
+    double angle = std::atan2(first.x() * last.y() - first.y() * last.x(), first.dot(last));
+    if (angle <= 0) angle += 2 * std::numbers::pi;
+    return std::max(1, static_cast<int>(std::lround(angle / kRight)));
+}
+
+std::size_t Cleaner::remove_doublets()
+{
+    std::size_t removed = 0;
+    std::vector<Index> left;
+    for (std::size_t p = fixed_; p < points_.size(); ++p) left.push_back(static_cast<Index>(p));
+    while (!left.empty()) {
+        const Index p = left.back();
+        left.pop_back();
+        if (!net_.is_used(p) || net_.on_boundary(p) || net_.valence(p) != 2) continue;
+        std::vector<Index> sides;
+        net_.for_sides(p, [&](Index side) { sides.push_back(side); });
+        const Index a = net_.to(sides[0]), b = net_.to(QuadNet::after(sides[0]));
+        const Index c = net_.to(sides[1]), d = net_.to(QuadNet::after(sides[1]));
+        if (b == d) continue;
+        const std::array<Index, 2> old{sides[0] / 4, sides[1] / 4};
+        const std::array<Quad, 1> merged{{{a, b, c, d}}};
+        net_.replace(old, merged);
+        ++removed;
+        for (const Index q : {a, c}) {
+            if (static_cast<std::size_t>(q) >= fixed_) left.push_back(q);
+        }
+    }
+    return removed;
+}
+
+/// Irregular points near the seed in `others_`, with the way back in `parent_`.
+void Cleaner::look_for_others(Index seed)
+{
+    others_.clear();
+    parent_.clear(points_.size());
+    parent_[seed] = -1;
+    std::vector<Index> queue{seed};
+    for (std::size_t i = 0; i < queue.size() && queue.size() < kLookedAt && others_.size() < kGrowths; ++i) {
+        net_.for_sides(queue[i], [&](Index side) {
+            for (const Index p : {net_.to(side), net_.from(QuadNet::before(side))}) {
+                if (parent_.has(p)) continue;
+                parent_[p] = queue[i];
+                queue.push_back(p);
+                if (is_irregular(p)) others_.push_back(p);
+            }
+        });
+    }
+}
+
+void Cleaner::add_star(Patch& patch, Index p)
+{
+    net_.for_sides(p, [&](Index side) {
+        if (!in_patch_.add(side / 4)) return;
+        patch.quads.push_back(side / 4);
+        for (const Index q : net_.quad(side / 4)) {
+            if (!count_.has(q)) patch.touched.push_back(q);
+            ++count_[q];
+        }
+    });
+}
+
+/// Add quads until no point of the outline is concave nor irregular. @return false where it grows too large
+bool Cleaner::close(Patch& patch)
+{
+    for (bool more = true; more;) {
+        more = false;
+        for (std::size_t i = 0; i < patch.touched.size(); ++i) {
+            const Index p = patch.touched[i];
+            const int inside = count_[p], valence = net_.valence(p);
+            if (inside == valence || inside < 2) continue;
+            if (inside == 2 && valence == wanted_[static_cast<std::size_t>(p)]) continue;
+            add_star(patch, p);
+            more = true;
+            if (patch.quads.size() > static_cast<std::size_t>(options_.largest_patch)) return false;
+        }
+    }
+    return true;
+}
+
+Outline Cleaner::find_outline(Patch& patch)
+{
+    next_.clear(points_.size());
+    Index start = -1;
+    std::size_t sides = 0;
+    for (const Index q : patch.quads) {
+        for (Index side = 4 * q; side < 4 * q + 4; ++side) {
+            const Index other = net_.opposite(side);
+            if (other >= 0 && in_patch_.has(other / 4)) continue;
+            const Index from = net_.from(side);
+            if (next_.has(from)) { // pinched
+                add_star(patch, from);
+                return net_.on_boundary(from) ? Outline::hopeless : Outline::unfinished;
+            }
+            next_[from] = net_.to(side);
+            start = from;
+            ++sides;
+        }
+    }
+    patch.loop.clear();
+    patch.corners.clear();
+    patch.irregular = 0;
+    if (start < 0) return Outline::hopeless;
+    Index p = start;
+    do {
+        const int valence = net_.valence(p), inside = count_[p];
+        const int wanted = wanted_[static_cast<std::size_t>(p)];
+        // On the mesh's boundary a filling may put right how many quads there are.
+        const bool whole = inside == valence;
+        const int corner = whole ? wanted : inside;
+        if (corner > 2) return Outline::hopeless;
+        if (corner == 1) patch.corners.push_back(patch.loop.size());
+        if (whole && valence != wanted) ++patch.irregular;
+        patch.loop.push_back(p);
+        p = next_[p];
+    } while (p != start && patch.loop.size() <= sides);
+    if (patch.loop.size() != sides) return Outline::hopeless; // a hole in it
+    for (const Index q : patch.touched) {
+        if (!next_.has(q) && net_.valence(q) != 4) ++patch.irregular;
+    }
+    return Outline::fine;
+}
+
+/// Quads around a patch.
+std::vector<Index> Cleaner::rings(const Patch& patch)
+{
+    std::vector<Index> around, front = patch.loop;
+    seen_.clear(net_.quad_slots());
+    for (int ring = 0; ring < kRings; ++ring) {
+        const std::size_t first = around.size();
+        for (const Index p : front) {
+            net_.for_sides(p, [&](Index side) {
+                if (!in_patch_.has(side / 4) && seen_.add(side / 4)) around.push_back(side / 4);
+            });
+        }
+        front.clear();
+        for (std::size_t i = first; i < around.size(); ++i) {
+            for (const Index p : net_.quad(around[i])) front.push_back(p);
+        }
+    }
+    return around;
+}
+
+/// Smooth the filling with what is around it, and keep it where it is good.
+bool Cleaner::try_filling(const Patch& patch, const Filling& filling, const std::vector<Index>& around)
+{
+    double least = 1, lost = 0;
+    for (const auto* quads : {&patch.quads, &around}) {
+        for (const Index q : *quads) lost += loss(points_, net_.quad(q), least);
+    }
+    // Points that stay come first: those on the boundary and those with quads further out.
+    seen_.clear(net_.quad_slots());
+    for (const Index q : around) seen_.add(q);
+    number_.clear(points_.size());
+    std::vector<Index> staying, moving;
+    const auto sort_in = [&](Index p) {
+        if (number_.has(p)) return;
+        number_[p] = -1;
+        bool stays = net_.on_boundary(p);
+        net_.for_sides(p, [&](Index side) {
+            if (!in_patch_.has(side / 4) && !seen_.has(side / 4)) stays = true;
+        });
+        (stays ? staying : moving).push_back(p);
+    };
+    for (const Index p : patch.loop) sort_in(p);
+    for (const Index q : around) {
+        for (const Index p : net_.quad(q)) sort_in(p);
+    }
+    std::vector<Vec2> local;
+    for (const auto* list : {&staying, &moving}) {
+        for (const Index p : *list) {
+            number_[p] = static_cast<Index>(local.size());
+            local.push_back(at(p));
+        }
+    }
+    const auto inner = static_cast<Index>(local.size());
+    const auto rim = static_cast<Index>(patch.loop.size());
+    local.insert(local.end(), filling.inner.begin(), filling.inner.end());
+    std::vector<Quad> quads;
+    for (Quad quad : filling.quads) {
+        for (Index& p : quad)
+            p = p < rim ? number_[patch.loop[static_cast<std::size_t>(p)]] : inner + p - rim;
+        quads.push_back(quad);
+    }
+    for (const Index q : around) {
+        Quad quad = net_.quad(q);
+        for (Index& p : quad) p = number_[p];
+        quads.push_back(quad);
+    }
+    budget_ -= static_cast<long>(quads.size());
+    SmoothPlaneOptions smoothing;
+    smoothing.size = options_.size;
+    smoothing.sweeps = 8;
+    smoothing.repairs = 4;
+    smoothing.untangle = false;
+    smooth_plane(local, quads, staying.size(), smoothing);
+    double least_after = 1, lost_after = 0;
+    for (const Quad& quad : quads) {
+        lost_after += loss(local, quad, least_after);
+        if (!(least_after > 0) || least_after < std::min(least, options_.least)) return false;
+    }
+    if (lost_after > lost + kLossForgiven * (patch.irregular - filling.irregular)) return false;
+
+    for (const Index p : moving)
+        points_[static_cast<std::size_t>(p)] = local[static_cast<std::size_t>(number_[p])];
+    std::vector<Index> made;
+    for (std::size_t i = 0; i < filling.inner.size(); ++i) {
+        made.push_back(net_.add_point());
+        points_.push_back(local[static_cast<std::size_t>(inner) + i]);
+        wanted_.push_back(4);
+    }
+    std::vector<Quad> added = filling.quads;
+    for (Quad& quad : added) {
+        for (Index& p : quad)
+            p = p < rim ? patch.loop[static_cast<std::size_t>(p)] : made[static_cast<std::size_t>(p - rim)];
+    }
+    net_.replace(patch.quads, added);
+    return true;
+}
+
+bool Cleaner::fill(const Patch& patch, CleanReport& report)
+{
+    if (fewest_irregular(patch.loop.size(), patch.corners) >= patch.irregular) return false;
+    std::vector<Vec2> loop;
+    for (const Index p : patch.loop) loop.push_back(at(p));
+    std::vector<Index> around;
+    for (const Filling& filling : fillings(loop, patch.corners, kFillings)) {
+        if (filling.irregular >= patch.irregular) continue;
+        if (around.empty()) around = rings(patch);
+        ++report.tried;
+        if (try_filling(patch, filling, around)) {
+            ++report.patches;
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Grow a patch from an irregular point to the next, and the next, until a filling is better.
+bool Cleaner::mend(Index seed, CleanReport& report)
+{
+    look_for_others(seed);
+    Patch patch;
+    in_patch_.clear(net_.quad_slots());
+    count_.clear(points_.size());
+    add_star(patch, seed);
+    for (std::size_t growth = 0; growth <= others_.size(); ++growth) {
+        if (growth > 0) {
+            const Index other = others_[growth - 1];
+            if (count_.has(other) && count_[other] == net_.valence(other)) continue;
+            for (Index p = other; p >= 0; p = parent_[p]) add_star(patch, p);
+        }
+        Outline outline = Outline::unfinished;
+        while (outline == Outline::unfinished) {
+            if (!close(patch)) return false;
+            outline = find_outline(patch);
+        }
+        if (outline == Outline::fine && fill(patch, report)) return true;
+        if (budget_ < 0) return false;
+    }
+    return false;
+}
+
+std::size_t Cleaner::pass(CleanReport& report, const RunContext& context)
+{
+    std::size_t mended = 0;
+    for (Index p = 0; p < static_cast<Index>(points_.size()) && budget_ >= 0; ++p) {
+        if (!is_irregular(p)) continue;
+        check_cancelled(context);
+        if (mend(p, report)) ++mended;
+    }
+    return mended;
+}
+
+void Cleaner::finish(PlanarQuads& mesh) const
+{
+    std::vector<Index> number(points_.size(), -1);
+    mesh.points.clear();
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+        if (p >= fixed_ && !net_.is_used(static_cast<Index>(p))) continue;
+        number[p] = static_cast<Index>(mesh.points.size());
+        mesh.points.push_back(points_[p]);
+    }
+    mesh.quads.clear();
+    for (Index q = 0; q < static_cast<Index>(net_.quad_slots()); ++q) {
+        if (!net_.is_live(q)) continue;
+        Quad quad = net_.quad(q);
+        for (Index& p : quad) p = number[static_cast<std::size_t>(p)];
+        mesh.quads.push_back(quad);
+    }
+}
+
+} // namespace
+
+CleanReport clean_quads(PlanarQuads& mesh, std::size_t fixed, const CleanOptions& options,
+                        const RunContext& context)
+{
+    CleanReport report;
+    Cleaner cleaner(mesh, fixed, options);
+    report.irregular_before = cleaner.irregular();
+    report.doublets = cleaner.remove_doublets();
+    for (int pass = 0; pass < options.passes; ++pass) {
+        if (cleaner.pass(report, context) == 0) break;
+    }
+    report.irregular_after = cleaner.irregular();
+    cleaner.finish(mesh);
+    return report;
+}
 
 } // namespace lacuna::surface

@@ -236,7 +236,7 @@ SmoothedPlane smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quad
     result.min_before = result.min_after = range.least;
     result.was_folded = result.folded = range.folded > 0;
     if (fixed >= points.size()) return result;
-    if (result.was_folded) {
+    if (result.was_folded && options.untangle) {
         std::vector<char> mask(points.size(), 0);
         std::fill(mask.begin(), mask.begin() + static_cast<std::ptrdiff_t>(fixed), 1);
         untangle_plane(points, quads, mask, {});

@@ -18,6 +18,7 @@ struct SmoothPlaneOptions {
     double size_weight = 0.1; ///< of size against shape, >= 0 [-]
     double good_enough = 0.7; ///< quads with a smaller scaled Jacobian are worked on one by one [-]
     int repairs = 20;         ///< rounds over them, >= 0
+    bool untangle = true;     ///< open what is folded first
 };
 
 struct SmoothedPlane {
