@@ -6,6 +6,7 @@
 #include <lacuna/surface/pave_core.h>
 #include <lacuna/surface/pave_repair.h>
 #include <lacuna/surface/pave_rows.h>
+#include <lacuna/surface/pave_size.h>
 #include <lacuna/surface/smooth_plane.h>
 
 #include <sstream>
@@ -53,21 +54,6 @@ void check_region(const PlanarRegion& region)
     }
 }
 
-/// The size where none is asked for: the mean boundary side.
-std::function<double(const Vec2&)> mean_side(const PlanarRegion& region)
-{
-    double sum = 0, count = 0;
-    for (const auto& loop : region.loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec2& a = region.points[static_cast<std::size_t>(loop[i])];
-            const Vec2& b = region.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
-            sum += (b - a).norm();
-            count += 1;
-        }
-    }
-    return [size = sum / count](const Vec2&) { return size; };
-}
-
 /// Rows a loop is worth. A round outer loop gets four nodes of three quads where its rows end; with rows for about a
 /// fiftieth of its length they lie where a square of the same number of nodes has its corners. Round a hole
 /// every row is one more of stretched quads.
@@ -98,6 +84,13 @@ PlanarQuads without_loose_points(const Draft& draft)
     return mesh;
 }
 
+/// What lies along the boundary.
+enum class RowStyle {
+    by_shape, ///< as many rows as each loop is worth
+    none,     ///< the region is cut as it is
+    buffer    ///< one row with two quads at least at every node, so that all other nodes are free to move
+};
+
 struct Attempt {
     PlanarQuads mesh;
     PaveReport report;
@@ -125,16 +118,16 @@ void finish(Attempt& attempt, const Draft& draft, const PaveOptions& options, co
     judge(attempt);
 }
 
-Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, int most_rows,
+Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style,
                  const RunContext& context)
 {
     Attempt attempt;
-    Draft draft{region.points, {}, region.points.size(), region.size ? region.size : mean_side(region)};
+    Draft draft{region.points, {}, region.points.size(), size_with_boundary(region)};
     std::vector<Cycle> loops = region.loops;
     std::vector<int> rows;
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const int own = options.rows < 0 ? rows_for(draft, loops[l], l == 0) : options.rows;
-        rows.push_back(std::min(own, most_rows));
+        rows.push_back(style == RowStyle::none ? 0 : style == RowStyle::buffer ? 1 : own);
     }
     for (int r = 0;; ++r) {
         std::vector<bool> wanted;
@@ -171,10 +164,9 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, int mos
 PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
 {
     check_region(region);
-    constexpr int kAnyRows = 1 << 20;
     Attempt best;
-    for (const int most_rows : {kAnyRows, 1, 0}) {
-        Attempt attempt = try_pave(region, options, most_rows, context);
+    for (const RowStyle style : {RowStyle::by_shape, RowStyle::none, RowStyle::buffer}) {
+        Attempt attempt = try_pave(region, options, style, context);
         if (attempt.worst > best.worst) best = std::move(attempt);
         if (best.worst > 0) break;
     }

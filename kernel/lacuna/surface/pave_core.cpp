@@ -35,12 +35,18 @@ std::vector<double> angles_of(const Draft& draft, const Cycle& cycle)
     return angles;
 }
 
+/// From what quality on a part of so many nodes is filled as it is. A cut costs irregular nodes, whatever the
+/// size of the part; a poor patch costs in every quad.
+double good_patch(std::size_t nodes)
+{
+    constexpr double kLeast = 0.4, kMost = 0.72, kSlope = 0.15, kFrom = 64;
+    return std::clamp(kLeast + kSlope * std::log2(static_cast<double>(nodes) / kFrom), kLeast, kMost);
+}
+
 } // namespace
 
 CoreCount fill_core(Draft& draft, const std::vector<Cycle>& loops, const RunContext& context)
 {
-    // Below this a patch bends or strays in size more than another cut would cost.
-    constexpr double kGoodPatch = 0.4;
     CoreCount count;
     std::vector<Cycle> parts{join_all(draft, loops)};
     while (!parts.empty()) {
@@ -56,7 +62,7 @@ CoreCount fill_core(Draft& draft, const std::vector<Cycle>& loops, const RunCont
         const std::vector<double> angles = angles_of(draft, cycle);
         const Fit fit = fit_patch(draft, cycle, angles);
         std::optional<Cut> cut;
-        if (fit.quality < kGoodPatch) cut = best_cut(draft, cycle, angles);
+        if (fit.quality < good_patch(cycle.size())) cut = best_cut(draft, cycle, angles);
         if (!cut && fit.quality > 0 && fill_patch(draft, cycle, fit.corners)) {
             ++count.patches;
             continue;

@@ -165,7 +165,7 @@ private:
         edges = std::min(edges, n_);
         if ((edges + between) % 2 != 0) {
             // The nearer of the two numbers of the right parity.
-            edges += edges > wanted && edges > 1 ? std::size_t(-1) : 1;
+            edges += static_cast<double>(edges) > wanted && edges > 1 ? std::size_t(-1) : 1;
         }
         while (edges > 1 && edges >= std::min(between, rest)) edges -= 2;
         if (edges == 0 || edges >= n_ || edges >= std::min(between, rest) || edges + between < 4 ||

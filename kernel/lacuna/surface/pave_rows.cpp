@@ -44,7 +44,10 @@ std::vector<double> row_heights(const Draft& draft, const Cycle& cycle, const st
 /// The row of one loop, on trial.
 class Row {
 public:
-    Row(Draft& draft, const Cycle& cycle) : draft_(draft), cycle_(cycle), n_(cycle.size()) {}
+    Row(Draft& draft, const Cycle& cycle, bool buffer)
+        : draft_(draft), cycle_(cycle), n_(cycle.size()), least_quads_(buffer ? 2 : 1)
+    {
+    }
 
     /// The inner side of the row; nothing, and the draft as it was, where it cannot be laid.
     std::optional<Cycle> lay(const Gaps& gaps, const std::function<double(const Vec2&)>& height)
@@ -57,7 +60,7 @@ public:
             Cycle inner = add_quads();
             bool good = inner.size() >= 4;
             for (std::size_t q = quads; q < draft_.quads.size() && good; ++q)
-                good = least_sine(draft_, draft_.quads[q]) > kLeastSine;
+                good = least_sine(draft_, draft_.quads[q]) > (least_quads_ > 1 ? 0 : kLeastSine);
             if (good) return inner;
         }
         draft_.points.resize(points);
@@ -66,7 +69,10 @@ public:
     }
 
 private:
-    [[nodiscard]] int kind(std::size_t i) const { return std::min(quads_in(angles_[i % n_]), kMostQuads); }
+    [[nodiscard]] int kind(std::size_t i) const
+    {
+        return std::clamp(quads_in(angles_[i % n_]), least_quads_, kMostQuads);
+    }
     [[nodiscard]] const Vec2& at(std::size_t i) const { return draft_.at(cycle_[i % n_]); }
 
     /// Each end takes a node off either side: sides of three edges at least keep one.
@@ -134,6 +140,7 @@ private:
     Draft& draft_;
     const Cycle& cycle_;
     std::size_t n_;
+    int least_quads_;
     std::vector<double> angles_, heights_;
     std::vector<Cycle> inner_;
 };
@@ -150,8 +157,24 @@ bool needs_row(const Draft& draft, const Cycle& cycle)
     return off > kRightAngle / 2;
 }
 
+namespace {
+
+std::optional<Cycle> lay_one(Draft& draft, const Cycle& cycle, const Gaps& gaps,
+                             const std::function<double(const Vec2&)>& height, bool buffer)
+{
+    if (!buffer) return Row(draft, cycle, false).lay(gaps, height);
+    constexpr int kFlatter = 5; // tries, each half as high
+    for (double part = 1; part > std::ldexp(1.0, -kFlatter); part /= 2) {
+        auto inner = Row(draft, cycle, true).lay(gaps, [&](const Vec2& p) { return part * height(p); });
+        if (inner) return inner;
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
 int lay_rows(Draft& draft, std::vector<Cycle>& loops, std::vector<bool>& wanted,
-             const std::function<double(const Vec2&)>& height)
+             const std::function<double(const Vec2&)>& height, bool buffer)
 {
     std::vector<std::optional<Cycle>> inner(loops.size());
     const std::size_t points = draft.points.size(), quads = draft.quads.size();
@@ -160,7 +183,7 @@ int lay_rows(Draft& draft, std::vector<Cycle>& loops, std::vector<bool>& wanted,
         for (std::size_t l = 0; l < loops.size(); ++l) {
             inner[l].reset();
             if (!wanted[l]) continue;
-            inner[l] = Row(draft, loops[l]).lay(gaps, height);
+            inner[l] = lay_one(draft, loops[l], gaps, height, buffer);
             if (!inner[l]) wanted[l] = false;
         }
         std::vector<Cycle> next;

@@ -16,9 +16,10 @@ bool needs_row(const Draft& draft, const Cycle& cycle);
 /// their angle. Rows are as high as `height` says, or a third of the gap where another side is near. A row
 /// that would fold, run into another or leave too few nodes is not laid.
 ///
+/// @param buffer  no node is an end, and rows get flatter until they fit.
 /// @param wanted  loops a row is wanted on; false afterwards for those that got none.
 /// @return how many were laid.
 int lay_rows(Draft& draft, std::vector<Cycle>& loops, std::vector<bool>& wanted,
-             const std::function<double(const Vec2&)>& height);
+             const std::function<double(const Vec2&)>& height, bool buffer = false);
 
 } // namespace lacuna::surface::paving
