@@ -8,8 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
-#include <optional>
+#include <unordered_set>
 
 namespace lacuna::surface {
 
@@ -24,6 +25,9 @@ constexpr std::size_t kFillings = 3;
 constexpr int kRings = 2;
 /// What a patch may lose in scaled Jacobian, summed over its quads, for each irregular point it sheds.
 constexpr double kLossForgiven = 0.05;
+constexpr double kHopeless = 2;
+/// Loss of a quad for its area being off by a factor e from the one asked.
+constexpr double kSizeLoss = 0.1;
 
 /// A set of numbers that is emptied at no cost.
 class Marks {
@@ -81,11 +85,41 @@ struct Patch {
 
 enum class Outline { fine, unfinished, hopeless };
 
-double loss(std::span<const Vec2> points, const Quad& quad, double& least)
+/// How far from good quads are, in sum.
+class Loss {
+public:
+    explicit Loss(const CleanOptions& options) : options_(options) {}
+
+    double least = 1; ///< scaled Jacobian
+    double sum = 0;
+
+    void add(std::span<const Vec2> points, const Quad& quad)
+    {
+        const double jacobian = scaled_jacobian(points, quad);
+        least = std::min(least, jacobian);
+        sum += 1 - jacobian;
+        if (!options_.size) return;
+        const auto at = [&](std::size_t k) -> const Vec2& {
+            return points[static_cast<std::size_t>(quad[k])];
+        };
+        const Vec2 u = at(2) - at(0), v = at(3) - at(1);
+        const double size = options_.size((at(0) + at(1) + at(2) + at(3)) / 4);
+        const double ratio = (u.x() * v.y() - u.y() * v.x()) / (2 * size * size);
+        const double off = ratio > 0 ? std::log(ratio) : kFarOff;
+        sum += kSizeLoss * off * off;
+    }
+
+private:
+    static constexpr double kFarOff = 10;
+    const CleanOptions& options_;
+};
+
+/// For sets of numbers, the order of which does not count.
+std::uint64_t mixed(std::uint64_t x)
 {
-    const double jacobian = scaled_jacobian(points, quad);
-    least = std::min(least, jacobian);
-    return 1 - jacobian;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+    return x ^ (x >> 31);
 }
 
 class Cleaner {
@@ -98,6 +132,7 @@ public:
             if (net_.is_used(p) && net_.on_boundary(p))
                 wanted_[static_cast<std::size_t>(p)] = right_angles(p);
         }
+        version_.assign(mesh.quads.size(), 0);
         budget_ = static_cast<long>(options.effort * static_cast<double>(mesh.quads.size()));
     }
 
@@ -137,6 +172,8 @@ private:
     std::size_t fixed_;
     std::vector<int> wanted_; ///< quads at each point
     long budget_ = 0;
+    std::vector<std::uint32_t> version_;      ///< of each quad, as its number is given again
+    std::unordered_set<std::uint64_t> tried_; ///< patches that were filled for trial
     // Of the patch at hand.
     Marks in_patch_, seen_;
     Numbers count_, number_, parent_, next_;
@@ -297,9 +334,9 @@ std::vector<Index> Cleaner::rings(const Patch& patch)
 /// Smooth the filling with what is around it, and keep it where it is good.
 bool Cleaner::try_filling(const Patch& patch, const Filling& filling, const std::vector<Index>& around)
 {
-    double least = 1, lost = 0;
+    Loss before(options_);
     for (const auto* quads : {&patch.quads, &around}) {
-        for (const Index q : *quads) lost += loss(points_, net_.quad(q), least);
+        for (const Index q : *quads) before.add(points_, net_.quad(q));
     }
     // Points that stay come first: those on the boundary and those with quads further out.
     seen_.clear(net_.quad_slots());
@@ -343,16 +380,22 @@ bool Cleaner::try_filling(const Patch& patch, const Filling& filling, const std:
     budget_ -= static_cast<long>(quads.size());
     SmoothPlaneOptions smoothing;
     smoothing.size = options_.size;
-    smoothing.sweeps = 8;
-    smoothing.repairs = 4;
     smoothing.untangle = false;
-    smooth_plane(local, quads, staying.size(), smoothing);
-    double least_after = 1, lost_after = 0;
-    for (const Quad& quad : quads) {
-        lost_after += loss(local, quad, least_after);
-        if (!(least_after > 0) || least_after < std::min(least, options_.least)) return false;
+    smoothing.still = static_cast<std::size_t>(inner);
+    const double allowed = before.sum + kLossForgiven * (patch.irregular - filling.irregular);
+    for (const bool at_last : {false, true}) {
+        smoothing.sweeps = at_last ? 6 : 2;
+        smoothing.repairs = at_last ? 4 : 0;
+        smooth_plane(local, quads, staying.size(), smoothing);
+        smoothing.still = 0;
+        Loss after(options_);
+        for (const Quad& quad : quads) after.add(local, quad);
+        // What is far from good after two sweeps is not good after eight.
+        if (!at_last && after.sum > kHopeless * allowed) return false;
+        if (!at_last) continue;
+        if (!(after.least > 0) || after.least < std::min(before.least, options_.least)) return false;
+        if (after.sum > allowed) return false;
     }
-    if (lost_after > lost + kLossForgiven * (patch.irregular - filling.irregular)) return false;
 
     for (const Index p : moving)
         points_[static_cast<std::size_t>(p)] = local[static_cast<std::size_t>(number_[p])];
@@ -367,13 +410,20 @@ bool Cleaner::try_filling(const Patch& patch, const Filling& filling, const std:
         for (Index& p : quad)
             p = p < rim ? patch.loop[static_cast<std::size_t>(p)] : made[static_cast<std::size_t>(p - rim)];
     }
-    net_.replace(patch.quads, added);
+    for (const Index q : net_.replace(patch.quads, added)) {
+        version_.resize(net_.quad_slots(), 0);
+        ++version_[static_cast<std::size_t>(q)];
+    }
     return true;
 }
 
 bool Cleaner::fill(const Patch& patch, CleanReport& report)
 {
     if (fewest_irregular(patch.loop.size(), patch.corners) >= patch.irregular) return false;
+    std::uint64_t key = 0;
+    for (const Index q : patch.quads)
+        key += mixed((static_cast<std::uint64_t>(q) << 32) + version_[static_cast<std::size_t>(q)] + 1);
+    if (!tried_.insert(key).second) return false;
     std::vector<Vec2> loop;
     for (const Index p : patch.loop) loop.push_back(at(p));
     std::vector<Index> around;

@@ -13,6 +13,8 @@ namespace {
 using Chain = std::vector<Index>; ///< point numbers along a line, both ends included
 
 constexpr std::size_t kMostSides = 7;
+/// Cuts are not looked at that slant more, or have that much fewer or more quads along than their length has room for.
+constexpr double kMostSlant = 0.7, kShortest = 0.6, kLongest = 1.6;
 
 /// Numbers of quads along the sides of a patch.
 struct Lengths {
@@ -182,16 +184,16 @@ Halves halves(const Lengths& lengths, std::span<const std::size_t> corners, std:
     return parts;
 }
 
-double fault_of(std::span<const Vec2> loop, std::size_t from, std::size_t to, int pieces, double spacing)
+/// How far from square a straight cut meets the sides: 0 to 1.
+double slant_of(std::span<const Vec2> loop, std::size_t from, std::size_t to)
 {
     const std::size_t n = loop.size();
-    const Vec2 along = loop[to] - loop[from];
-    const double length = along.norm();
+    const Vec2 along = (loop[to] - loop[from]).normalized();
     const auto slant = [&](std::size_t i) {
         const Vec2 side = loop[(i + 1) % n] - loop[(i + n - 1) % n];
-        return std::abs(side.dot(along)) / std::max(side.norm() * length, 1e-300);
+        return std::abs(side.dot(along)) / std::max(side.norm(), std::numeric_limits<double>::min());
     };
-    return std::abs(std::log(std::max(length, 1e-300) / (pieces * spacing))) + (slant(from) + slant(to)) / 2;
+    return (slant(from) + slant(to)) / 2;
 }
 
 /// Cuts that leave two parts to be filled without another.
@@ -212,17 +214,17 @@ std::vector<Cut> cuts(std::span<const Vec2> loop, std::span<const std::size_t> c
                 for (int b = 1; b < lengths[other]; ++b) {
                     const std::size_t from = corners[side] + static_cast<std::size_t>(a);
                     const std::size_t to = corners[other] + static_cast<std::size_t>(b);
-                    const double pieces = (loop[to % loop.size()] - loop[from % loop.size()]).norm() /
-                                          spacing;
-                    // Beyond half or double the straight distance nothing good comes.
-                    const int low = std::max(1, static_cast<int>(pieces * 0.6));
-                    const int high = static_cast<int>(pieces * 1.6) + 1;
+                    const std::size_t start = from % loop.size(), end = to % loop.size();
+                    const double slant = slant_of(loop, start, end);
+                    if (slant > kMostSlant) continue;
+                    const double pieces = (loop[end] - loop[start]).norm() / spacing;
+                    const int low = std::max(1, static_cast<int>(pieces * kShortest));
+                    const int high = static_cast<int>(pieces * kLongest) + 1;
                     for (int k = low; k <= high; ++k) {
-                        const Cut cut{from, to, k, 0};
-                        const Halves parts = halves(lengths, corners, loop.size(), side, between, cut);
+                        const Halves parts = halves(lengths, corners, loop.size(), side, between,
+                                                    {from, to, k, 0});
                         if (!is_base(parts.first) || !is_base(parts.second)) continue;
-                        found.push_back({from % loop.size(), to % loop.size(), k,
-                                         fault_of(loop, from % loop.size(), to % loop.size(), k, spacing)});
+                        found.push_back({start, end, k, std::abs(std::log(pieces / k)) + slant});
                     }
                 }
             }

@@ -88,6 +88,37 @@ bool look_around(std::span<const Vec2> points, std::span<const Spoke> star, cons
     return true;
 }
 
+/// The energy alone, and the least sine squared; infinite where a corner is folded.
+double energy_around(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x,
+                     double inverse_area, double area_weight, double& least)
+{
+    double value = 0;
+    least = 1;
+    const auto add = [&](double det, double aa, double bb) {
+        const double f = (aa + bb) / (2 * det);
+        value += f * f;
+        if (area_weight > 0) {
+            const double u = det * inverse_area;
+            value += area_weight * (u + 1 / u) / 2;
+        }
+        least = std::min(least, det * det / (aa * bb));
+    };
+    for (const Spoke& spoke : star) {
+        const Vec2& n = points[static_cast<std::size_t>(spoke.next)];
+        const Vec2& o = points[static_cast<std::size_t>(spoke.across)];
+        const Vec2& r = points[static_cast<std::size_t>(spoke.before)];
+        const Vec2 a = n - x, b = r - x, c = o - n, d = o - r;
+        const double here = a.x() * b.y() - a.y() * b.x(), next = a.x() * c.y() - a.y() * c.x(),
+                     before = d.x() * b.y() - d.y() * b.x();
+        if (!(here > 0 && next > 0 && before > 0)) return kInfinity;
+        const double aa = a.squaredNorm(), bb = b.squaredNorm();
+        add(here, aa, bb);
+        add(next, aa, c.squaredNorm());
+        add(before, bb, d.squaredNorm());
+    }
+    return value;
+}
+
 struct Range {
     double least = 1;
     std::size_t folded = 0;
@@ -113,8 +144,10 @@ public:
           fixed_(fixed),
           options_(options),
           stars_(points.size(), quads),
-          awake_(points.size(), 1)
+          awake_(points.size(), 0)
     {
+        const std::size_t first = std::min(std::max(fixed, options.still), points.size());
+        std::fill(awake_.begin() + static_cast<std::ptrdiff_t>(first), awake_.end(), 1);
     }
 
     /// One step for every point that is awake. @return how many moved by more than next to nothing.
@@ -122,7 +155,7 @@ public:
     {
         std::size_t moved = 0;
         const bool sized = !sizes_.empty();
-        Around here, there;
+        Around here;
         for (std::size_t p = fixed_; p < points_.size(); ++p) {
             if (awake_[p] == 0) continue;
             awake_[p] = 0;
@@ -140,8 +173,9 @@ public:
             double length = 1;
             for (int half = 0; half < 4; ++half, length /= 2) {
                 const Vec2 to = points_[p] + length * step;
-                if (!look_around(points_, star, to, inverse_area, area_weight, there) ||
-                    there.value > here.value || there.least < least)
+                double sine = 1;
+                if (energy_around(points_, star, to, inverse_area, area_weight, sine) > here.value ||
+                    sine < least)
                     continue;
                 points_[p] = to;
                 if (length * length * step.squaredNorm() > kStill * kStill * side) {

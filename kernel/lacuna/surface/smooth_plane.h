@@ -19,6 +19,7 @@ struct SmoothPlaneOptions {
     double good_enough = 0.7; ///< quads with a smaller scaled Jacobian are worked on one by one [-]
     int repairs = 20;         ///< rounds over them, >= 0
     bool untangle = true;     ///< open what is folded first
+    std::size_t still = 0;    ///< points before this one move only when one next to them has
 };
 
 struct SmoothedPlane {
