@@ -142,3 +142,87 @@ TEST_CASE(
     CHECK(hidden >= 3);
     CHECK(deep > 10);
 }
+
+TEST_CASE(
+    "a cell valid at its corners and negative in a spot inside an edge, a side or its middle is refused")
+{
+    std::mt19937 random(11);
+    int on_edge = 0;
+    int inside = 0;
+    for (int trial = 0; trial < 300000 && (on_edge < 30 || inside < 30); ++trial) {
+        const Corners corners = shaken(random, 0.5);
+        if (quality::scaled_jacobian(corners) <= 0 || quality::certified_positive(corners)) continue;
+        // Refused with positive corners: a spot of the cell must show why.
+        double least = jacobian(corners, 0, 0, 0);
+        bool at_edge = false;
+        constexpr int kSteps = 40;
+        for (int i = 0; i <= kSteps; ++i) {
+            for (int j = 0; j <= kSteps; ++j) {
+                for (int k = 0; k <= kSteps; ++k) {
+                    const double here = jacobian(corners, double(i) / kSteps, double(j) / kSteps,
+                                                 double(k) / kSteps);
+                    if (here >= least) continue;
+                    least = here;
+                    at_edge = (i % kSteps == 0) + (j % kSteps == 0) + (k % kSteps == 0) == 2;
+                }
+            }
+        }
+        CHECK(least < 1e-3);
+        ++(at_edge ? on_edge : inside);
+    }
+    CHECK(on_edge >= 30);
+}
+
+TEST_CASE("cells that are valid by a hair are accepted, and refused once they are not")
+{
+    // One corner pushed along the diagonal into the cell: flat where it lies in the plane of its neighbours.
+    for (const double margin : {1e-2, 1e-4, 1e-6, 1e-9}) {
+        Corners dented = cube();
+        // The three corners beside corner 6 span the plane x + y + z = 2.
+        dented[6] = Vec3::Constant(2.0 / 3 + margin);
+        CHECK(quality::certified_positive(dented));
+        dented[6] = Vec3::Constant(2.0 / 3 - margin);
+        CHECK_FALSE(quality::certified_positive(dented));
+    }
+    // Flattened and stretched by powers of two, which round nothing: the verdict does not change.
+    std::mt19937 random(13);
+    for (const double flat : {0x1p-10, 0x1p-20, 0x1p-30}) {
+        int valid = 0;
+        for (int trial = 0; trial < 2000; ++trial) {
+            const Corners corners = shaken(random, 0.5);
+            Eigen::Affine3d map = Eigen::Affine3d::Identity();
+            map.scale(Vec3(1, 1 / flat, flat));
+            const bool expected = quality::certified_positive(corners);
+            CHECK(quality::certified_positive(mapped(corners, map)) == expected);
+            if (expected) ++valid;
+        }
+        CHECK(valid > 500);
+    }
+    // Twisted about its axis: valid below 90 degrees, and every corner flat at 90.
+    for (const double degrees : {1.0, 45.0, 89.0, 89.99}) {
+        Corners twist = cube();
+        const Eigen::AngleAxisd turn(degrees * EIGEN_PI / 180, Vec3::UnitZ());
+        for (std::size_t i = 4; i < 8; ++i) {
+            const Vec3 middle(0.5, 0.5, 0);
+            twist[i] = turn * (twist[i] - middle) + middle;
+        }
+        CHECK(quality::certified_positive(twist));
+    }
+}
+
+TEST_CASE("more cutting never takes back a certificate")
+{
+    std::mt19937 random(17);
+    int gained = 0;
+    for (int trial = 0; trial < 20000; ++trial) {
+        const Corners corners = shaken(random, 0.5);
+        bool before = false;
+        for (int depth = 0; depth <= 6; ++depth) {
+            const bool now = quality::certified_positive(corners, depth);
+            CHECK((now || !before));
+            if (now && !before && depth > 0) ++gained;
+            before = now;
+        }
+    }
+    CHECK(gained > 50);
+}

@@ -3,6 +3,7 @@
 #include <lacuna/quality/lanes.h>
 #include <lacuna/quality/quality.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -199,61 +200,93 @@ CellBatch<1> batch_of(std::span<const Vec3, 8> corners)
     return batch;
 }
 
-using Coefficients = std::array<double, 27>;
+/// The halves of a cell's coefficients, and what is to be known of them.
+struct Halves {
+    Coefficients low, high;
+    double least_low, least_high; ///< least coefficients
+    double least_cut;             ///< least Jacobian at the four corners the halves share
+};
 
-/// Cut along the direction of `stride` at its middle (de Casteljau).
-void split(const Coefficients& whole, int stride, Coefficients& low, Coefficients& high)
+/// Cut along the direction of `kStride` at its middle (de Casteljau).
+template <int kStride>
+void split(const Coefficients& whole, Halves& halves)
 {
-    for (int i = 0; i < 27; ++i) {
-        if ((i / stride) % 3 != 0) continue;
-        const double a = whole[i];
-        const double b = whole[i + stride];
-        const double c = whole[i + 2 * stride];
+    constexpr int kSlow = kStride == 9 ? 3 : 9;
+    constexpr int kFast = kStride == 1 ? 3 : 1;
+    const auto lesser = [](double a, double b) { return a < b ? a : b; };
+    double low[9];
+    double high[9];
+    double cut[9];
+    for (int row = 0; row < 9; ++row) {
+        const int at = (row / 3) * kSlow + (row % 3) * kFast;
+        const double a = whole[at];
+        const double b = whole[at + kStride];
+        const double c = whole[at + 2 * kStride];
         const double ab = 0.5 * (a + b);
         const double bc = 0.5 * (b + c);
         const double abc = 0.5 * (ab + bc);
-        low[i] = a;
-        low[i + stride] = ab;
-        low[i + 2 * stride] = high[i] = abc;
-        high[i + stride] = bc;
-        high[i + 2 * stride] = c;
+        halves.low[at] = a;
+        halves.low[at + kStride] = ab;
+        halves.low[at + 2 * kStride] = halves.high[at] = abc;
+        halves.high[at + kStride] = bc;
+        halves.high[at + 2 * kStride] = c;
+        low[row] = lesser(lesser(a, ab), abc);
+        high[row] = lesser(lesser(c, bc), abc);
+        cut[row] = abc;
     }
+    const auto least = [&](const double(&v)[9]) {
+        return lesser(lesser(lesser(lesser(v[0], v[1]), lesser(v[2], v[3])),
+                             lesser(lesser(v[4], v[5]), lesser(v[6], v[7]))),
+                      v[8]);
+    };
+    halves.least_low = least(low);
+    halves.least_high = least(high);
+    halves.least_cut = lesser(lesser(cut[0], cut[2]), lesser(cut[6], cut[8]));
 }
 
-enum class Verdict { positive, negative, unknown };
-
-Verdict judge(const Coefficients& c)
+/// Least of the nine coefficients in the middle along `kStride`.
+template <int kStride>
+double least_middle(const Coefficients& c)
 {
-    for (const int corner : {0, 2, 6, 8, 18, 20, 24, 26})
-        if (!(c[corner] > 0)) return Verdict::negative;
-    for (const double value : c)
-        if (!(value > 0)) return Verdict::unknown;
-    return Verdict::positive;
+    constexpr int kSlow = kStride == 9 ? 3 : 9;
+    constexpr int kFast = kStride == 1 ? 3 : 1;
+    double rows[3];
+    for (int i = 0; i < 3; ++i) {
+        const int at = kStride + i * kSlow;
+        rows[i] = std::min(std::min(c[at], c[at + 2 * kFast]), c[at + kFast]);
+    }
+    return std::min(std::min(rows[0], rows[2]), rows[1]);
 }
 
-/// Depth first: the eight parts of a cell live on the stack of their level.
-bool positive_parts(const Coefficients& whole, int depth)
+/// The direction along which the least coefficient lies in the middle, so that a cut lifts it, of those with cuts
+/// left; -1 where none is left.
+int best_cut(const Coefficients& c, const std::array<int, 3>& cuts_left)
 {
-    switch (judge(whole)) {
-    case Verdict::positive:
-        return true;
-    case Verdict::negative:
-        return false;
-    case Verdict::unknown:
-        break;
-    }
-    if (depth <= 0) return false;
-    Coefficients halves[2], quarters[2], eighths[2];
-    split(whole, 1, halves[0], halves[1]);
-    for (const Coefficients& half : halves) {
-        split(half, 3, quarters[0], quarters[1]);
-        for (const Coefficients& quarter : quarters) {
-            split(quarter, 9, eighths[0], eighths[1]);
-            for (const Coefficients& eighth : eighths)
-                if (!positive_parts(eighth, depth - 1)) return false;
-        }
-    }
-    return true;
+    const double middles[3] = {least_middle<1>(c), least_middle<3>(c), least_middle<9>(c)};
+    int best = -1;
+    for (int d = 0; d < 3; ++d)
+        if (cuts_left[d] > 0 && (best < 0 || middles[d] < middles[best])) best = d;
+    return best;
+}
+
+/// Depth first; a part is cut in two along the one direction that helps most. Every part that eight-fold cutting
+/// to the same depth finds positive is found so here, as what is cut further only rises (convex hull).
+/// @pre  `whole` is positive at its corners, and finite
+bool positive_parts(const Coefficients& whole, std::array<int, 3> cuts_left)
+{
+    const int direction = best_cut(whole, cuts_left);
+    if (direction < 0) return false;
+    --cuts_left[static_cast<std::size_t>(direction)];
+    Halves halves;
+    if (direction == 0)
+        split<1>(whole, halves);
+    else if (direction == 1)
+        split<3>(whole, halves);
+    else
+        split<9>(whole, halves);
+    if (!(halves.least_cut > 0)) return false;
+    return (halves.least_low > 0 || positive_parts(halves.low, cuts_left)) &&
+           (halves.least_high > 0 || positive_parts(halves.high, cuts_left));
 }
 
 } // namespace
@@ -272,11 +305,20 @@ void evaluate(const CellBatch<kLanes>& batch, CellValues<kLanes>& values)
 
 void evaluate(const CellBatch<1>& batch, CellValues<1>& values) { evaluate_lanes<1>(batch, values); }
 
-bool positive_everywhere(const double (&bezier)[27], int max_depth)
+bool positive_everywhere(const Coefficients& bezier, int max_depth)
 {
-    Coefficients whole;
-    for (int i = 0; i < 27; ++i) whole[i] = bezier[i];
-    return positive_parts(whole, max_depth);
+    constexpr double kLargest = std::numeric_limits<double>::max();
+    int not_positive = 0;
+    int not_finite = 0;
+    for (const double value : bezier) {
+        not_positive += value > 0 ? 0 : 1;
+        not_finite += std::abs(value) <= kLargest ? 0 : 1;
+    }
+    if (not_finite > 0) return false;
+    if (not_positive == 0) return true;
+    for (const int corner : {0, 2, 6, 8, 18, 20, 24, 26})
+        if (!(bezier[static_cast<std::size_t>(corner)] > 0)) return false;
+    return positive_parts(bezier, {max_depth, max_depth, max_depth});
 }
 
 double scaled_jacobian(std::span<const Vec3, 8> corners)
@@ -290,8 +332,8 @@ bool certified_positive(std::span<const Vec3, 8> corners, int max_depth)
 {
     CellValues<1> values;
     evaluate(batch_of(corners), values);
-    double bezier[27];
-    for (int i = 0; i < 27; ++i) bezier[i] = values.bezier[i][0];
+    Coefficients bezier;
+    for (std::size_t i = 0; i < 27; ++i) bezier[i] = values.bezier[i][0];
     return positive_everywhere(bezier, max_depth);
 }
 

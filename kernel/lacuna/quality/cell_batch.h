@@ -3,6 +3,7 @@
 
 #include <lacuna/core/types.h>
 
+#include <array>
 #include <cstddef>
 
 /// The arithmetic of one cell, for several cells at once. Internal to this folder.
@@ -45,7 +46,10 @@ void evaluate(const CellBatch<kLanes>& batch, CellValues<kLanes>& values);
 /// Evaluate one cell; the same bits as in a batch.
 void evaluate(const CellBatch<1>& batch, CellValues<1>& values);
 
+/// Of one cell, (a, b, c) at a + 3b + 9c.
+using Coefficients = std::array<double, 27>;
+
 /// Whether J is positive everywhere, from its Bézier coefficients. See `certified_positive()`.
-bool positive_everywhere(const double (&bezier)[27], int max_depth);
+bool positive_everywhere(const Coefficients& bezier, int max_depth);
 
 } // namespace lacuna::quality

@@ -58,8 +58,8 @@ void add_cell(Partial& partial, const CellValues<kLanes>& values, int lane, std:
 
     if (scaled > 0 && values.smallest[lane] > 0) return;
     if (!(scaled > 0)) ++partial.inverted;
-    double bezier[27];
-    for (int c = 0; c < 27; ++c) bezier[c] = values.bezier[c][lane];
+    Coefficients bezier;
+    for (std::size_t c = 0; c < 27; ++c) bezier[c] = values.bezier[c][lane];
     constexpr int kDepth = 6; // as `certified_positive()`
     if (!(scaled > 0) || !positive_everywhere(bezier, kDepth)) ++partial.uncertified;
 }
