@@ -150,11 +150,32 @@ void read_min_scaled_jacobian(lua_State* L, int index, const Where& where, Sweep
     arguments.options.min_scaled_jacobian = least;
 }
 
+const Word<sweep::Interior> kInteriors[] = {
+    {"auto", sweep::Interior::automatic},
+    {"affine", sweep::Interior::affine},
+    {"residual", sweep::Interior::residual},
+    {"normals", sweep::Interior::normals},
+};
+
+void read_interior(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.interior = read_word(L, index, where, kInteriors);
+}
+
+const Option<sweep::ImproveOptions> kImproveOptions[] = {
+    {"iterations", count<&sweep::ImproveOptions::iterations>},
+    {"seconds", positive<&sweep::ImproveOptions::seconds>},
+};
+
 void read_improve(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
-    if (lua_type(L, index) == LUA_TTABLE)
-        fail_option(L, where, "takes true or false; { iterations =, seconds = } is not available yet");
-    arguments.options.improve = read_boolean(L, index, where);
+    if (lua_type(L, index) == LUA_TTABLE) {
+        read_options(L, index, "sweep: improve", kImproveOptions, arguments.options.improving);
+    } else if (lua_type(L, index) == LUA_TBOOLEAN) {
+        arguments.options.improve = read_boolean(L, index, where);
+    } else {
+        fail_value(L, where, "true, false or a table { iterations =, seconds = }", index);
+    }
 }
 
 const Option<SweepArguments> kSweepOptions[] = {
@@ -165,6 +186,7 @@ const Option<SweepArguments> kSweepOptions[] = {
     {"serendipity", boolean<&SweepArguments::serendipity>},
     {"min_scaled_jacobian", read_min_scaled_jacobian},
     {"improve", read_improve},
+    {"interior", read_interior},
     {"threads", count<&SweepArguments::threads>},
 };
 

@@ -17,7 +17,7 @@ local calls = {
   match = { function(o) volume():match(o) end, { "method", "vertices", "loops", "flip" } },
   close = { function(o) volume():close(o) end, { "edge_shape" } },
   sweep = { function(o) volume():sweep(o) end,
-            { "layers", "size", "quads", "order", "serendipity", "min_scaled_jacobian", "improve", "threads" } },
+            { "layers", "size", "quads", "order", "serendipity", "min_scaled_jacobian", "improve", "interior", "threads" } },
   ["synthetic.prism"] = { lacuna.synthetic.prism,
             { "sides", "radius", "height", "holes", "hole_radius", "twist", "taper", "bend", "facets", "drop" } },
   ["synthetic.annulus"] = { lacuna.synthetic.annulus, { "inner", "outer", "height", "facets", "drop" } },

@@ -229,3 +229,21 @@ TEST_CASE("more rings than layers are passed over, and that is said")
     CHECK(!mesh.walls[0].notes.empty());
     check_walls(volume, mesh, 2, 1e-9);
 }
+
+TEST_CASE("rows of a tapered round wall without side lines lie at their heights")
+{
+    test::PrismOptions options;
+    options.sides = 0;
+    options.cuts = 3;
+    options.height = 3;
+    options.taper = 0.3;
+    options.levels = 12;
+    const std::vector<double> heights{0, 0.1, 0.3, 0.5, 0.75, 1};
+    const auto volume = test::sealed(options);
+    const auto mesh = meshed(volume, heights, 16);
+    const std::size_t n = mesh.nodes[0].source_at.size();
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        for (std::size_t i = 0; i < n; ++i)
+            CHECK(std::abs(mesh.walls[0].points[k * n + i].z() - 3 * heights[k]) < 0.06);
+    }
+}

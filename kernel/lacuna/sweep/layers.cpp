@@ -76,7 +76,7 @@ LayerPlacer::LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> tar
         placement_ = Placement::straight;
         fit_straight(heights);
     } else {
-        fit_rims(heights);
+        fit_rims(heights, options);
     }
 }
 
@@ -89,7 +89,7 @@ void LayerPlacer::fit_straight(std::span<const double> heights)
     }
 }
 
-void LayerPlacer::fit_rims(std::span<const double> heights)
+void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptions& options)
 {
     const std::vector<Segment> sides = rim_sides(source_, columns_);
     const std::span<const Vec3> low = columns_.row(0);
@@ -121,11 +121,11 @@ void LayerPlacer::fit_rims(std::span<const double> heights)
             }
         }
     }
-    if (exact) {
+    if (!exact) placement_ = Placement::fitted;
+    if (exact || !options.spread_residual) {
         residuals_.clear();
         return;
     }
-    placement_ = Placement::fitted;
     const NodeGraph graph = node_graph(source_.quads, source_.nodes.size());
     // Of both ends together, so that it does not matter which of them is called the source.
     std::vector<double> weights = side_weights(graph, source_.quads, source_.nodes);
@@ -161,7 +161,7 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
 
     const int first_inner = std::max(first, 1);
     const int last_inner = std::min(last, columns_.layers);
-    if (placement_ == Placement::fitted && first_inner < last_inner) {
+    if (spread_ && first_inner < last_inner) {
         const auto count = static_cast<std::size_t>(last_inner - first_inner);
         const std::span<const Vec3> values{
             residuals_.data() + static_cast<std::size_t>(first_inner - 1) * rim, count * rim};
@@ -182,8 +182,8 @@ std::string LayerPlacer::report() const
     if (placement_ == Placement::affine) {
         return "layers: affine motion of the rims, exact to " + residual + " of their size";
     }
-    return "layers: affine fit from both ends, rim residual of " + residual +
-           " of its size spread harmonically";
+    return "layers: affine fit from both ends, rim residual of " + residual + " of its size " +
+           (spread_ ? "spread harmonically" : "left at the rim");
 }
 
 LayerNodes place_layers(const mesh::QuadMesh& source, std::span<const Vec3> target, const Columns& columns,

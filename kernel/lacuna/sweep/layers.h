@@ -17,11 +17,12 @@
 namespace lacuna::sweep {
 
 /// How the inside of the layers was found.
-enum class Placement { straight, affine, fitted };
+enum class Placement { straight, affine, fitted, normals };
 
 struct PlacementOptions {
     bool straight_lines = false; ///< Class I: nodes on the straight line between their ends
     std::vector<double> heights; ///< layers + 1 numbers from 0 to 1; empty: from the columns' lengths [-]
+    bool spread_residual = true; ///< false: the affine fit alone, for comparison
 };
 
 /// Node coordinates of all layers.
@@ -65,7 +66,7 @@ private:
         Vec3 shift;
     };
     void fit_straight(std::span<const double> heights);
-    void fit_rims(std::span<const double> heights);
+    void fit_rims(std::span<const double> heights, const PlacementOptions& options);
 
     const mesh::QuadMesh& source_;
     std::span<const Vec3> target_;

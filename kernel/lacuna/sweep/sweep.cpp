@@ -8,6 +8,7 @@
 #include <lacuna/surface/source_mesh.h>
 #include <lacuna/sweep/improve.h>
 #include <lacuna/sweep/layers.h>
+#include <lacuna/sweep/normals.h>
 
 #include <algorithm>
 #include <array>
@@ -325,9 +326,12 @@ Swept sweep_between(const OpenVolume& volume, const std::vector<surface::Belt>& 
         source.quads, columns, [&](std::span<Vec3> points) { target.project(points, context); }, context);
     result.report.push_back("target: " + carried.report);
     PlacementOptions placement;
-    placement.straight_lines = ruled(volume, belts);
+    placement.straight_lines = options.interior == Interior::automatic && ruled(volume, belts);
     placement.heights = heights;
-    LayerNodes layers = place_layers(source.quads, carried.nodes, columns, placement, context);
+    placement.spread_residual = options.interior != Interior::affine;
+    LayerNodes layers = options.interior == Interior::normals
+                            ? place_along_normals(source.quads, carried.nodes, columns, context)
+                            : place_layers(source.quads, carried.nodes, columns, placement, context);
     result.report.push_back("layers: " + layers.report);
 
     mesh::HexMesh& mesh = result.mesh;

@@ -31,14 +31,19 @@ std::vector<double> layer_heights(const LayerSpec& spec);
 /// How source faces are meshed.
 enum class Quads { automatic, paved, mapped, gmsh, keep };
 
+/// How the inside of the layers is placed: the best that is known; or, for comparison, the affine fit alone, with the rim's
+/// residual spread over it, or the paper's advance along local normals.
+enum class Interior { automatic, affine, residual, normals };
+
 struct SweepOptions {
     LayerSpec layers;
     surface::SizeField size; ///< null: from the rim's own spacing
     Quads quads = Quads::automatic;
     surface::PlanarQuadMesher quad_mesher; ///< used where a source face is not mapped
-    double min_scaled_jacobian = 0;        ///< below it the mesh is refused [-1, 1]
-    bool improve = true;                   ///< move nodes where cells are folded or poor
-    ImproveOptions improving;              ///< how far
+    Interior interior = Interior::automatic;
+    double min_scaled_jacobian = 0; ///< below it the mesh is refused [-1, 1]
+    bool improve = true;            ///< move nodes where cells are folded or poor
+    ImproveOptions improving;       ///< how far
 };
 
 /// Hexahedra and how they came about.

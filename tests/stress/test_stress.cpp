@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "support/check_valid.h"
+#include "support/stress.h"
+
+#include <lacuna/closure/close.h>
+#include <lacuna/core/error.h>
+#include <lacuna/matching/match.h>
+#include <lacuna/quality/quality.h>
+#ifdef LACUNA_WITH_CAD
+#include <lacuna/cad/load.h>
+#endif
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+using namespace lacuna;
+
+namespace {
+
+/// At least so many members; LACUNA_STRESS_MEMBERS asks for more.
+int member_count()
+{
+    const char* asked = std::getenv("LACUNA_STRESS_MEMBERS");
+    return std::max(520, asked != nullptr ? std::atoi(asked) : 0);
+}
+
+topology::OpenVolume sealed(const test::StressMember& member)
+{
+    topology::OpenVolume volume = test::stress_volume(member);
+    const bool ends = !volume.faces(topology::Role::source).empty() &&
+                      !volume.faces(topology::Role::target).empty();
+    closure::close(volume, ends ? matching::match(volume) : matching::Match{});
+    return volume;
+}
+
+sweep::Swept swept(const test::StressMember& member, const topology::OpenVolume& volume, int threads)
+{
+    sweep::SweepOptions options = test::stress_options(member);
+#ifdef LACUNA_WITH_CAD
+    options.quad_mesher = cad::recombine;
+#endif
+    RunContext context;
+    context.threads = threads;
+    return sweep::sweep(volume, options, context);
+}
+
+} // namespace
+
+TEST_CASE("every member of the stress family is meshed without an invalid cell, as good as its skin allows")
+{
+    int below = 0, meshed = 0;
+    for (const test::StressMember& member : test::stress_family(member_count())) {
+        const std::string name = member.name();
+        CAPTURE(name);
+        try {
+            const sweep::Swept result = swept(member, sealed(member), 0);
+            test::check_valid(result.mesh);
+            ++meshed;
+            const double least = quality::measure(result.mesh).min_scaled_jacobian;
+            const double bar = member.mild ? 0.5 : 0.2;
+            if (least >= bar) continue;
+            // Below the bar the geometry forbids it: no corner can be better than the sides that meet there.
+            ++below;
+            const double bound = test::skin_bound(result.mesh);
+            CHECK_MESSAGE(bound < bar + 0.05, "least " << least << ", the skin allows " << bound);
+            CHECK_MESSAGE(least > 0.85 * bound, "least " << least << ", the skin allows " << bound);
+        } catch (const Error& error) {
+            FAIL_CHECK(error.what());
+        }
+    }
+    MESSAGE(meshed << " meshed, " << below << " of them below the bar, where the skin forbids better");
+}
+
+TEST_CASE("hard volumes come out the same for any number of threads")
+{
+    int improved = 0;
+    for (const test::StressMember& member : test::stress_family(40, 7)) {
+        const std::string name = member.name();
+        CAPTURE(name);
+        const topology::OpenVolume volume = sealed(member);
+        const sweep::Swept one = swept(member, volume, 1);
+        const sweep::Swept three = swept(member, volume, 3);
+        CHECK(one.mesh.nodes == three.mesh.nodes);
+        for (const std::string& line : one.report)
+            improved += line.starts_with("improved") || line.starts_with("untangled") ? 1 : 0;
+    }
+    CHECK(improved > 0);
+}
