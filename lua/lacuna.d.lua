@@ -59,12 +59,14 @@
 ---@field order? 1|2 default 1
 ---@field serendipity? boolean
 ---@field min_scaled_jacobian? number below it the mesh is refused; default 0
----@field improve? boolean|{ iterations?: integer, seconds?: number } default true
+---@field improve? boolean|{ iterations?: integer, seconds?: number } default true; iterations of each descent, 60
+---@field interior? "auto"|"affine"|"residual"|"normals" how layers are placed; all but "auto" for comparison
 ---@field threads? integer default: all cores
 
 ---@class lacuna.WriteOptions
 ---@field version? 4.1|2.2
 ---@field binary? boolean
+---@field quality? boolean|lacuna.MetricName|lacuna.MetricName[] metrics that go along for every cell, as $ElementData or cell arrays; true: the scaled Jacobian; default true, but false for version 2.2
 
 ---@class lacuna.Classification
 ---@field class lacuna.Class
@@ -100,7 +102,27 @@
 ---@field centre lacuna.Vector
 ---@field scaled_jacobian number
 
---- Prints as a table.
+--- Verdict's metrics of hexahedra, as VTK computes them. `scaled_jacobian` is that of the corners alone, Verdict's
+--- counts the centre too. `edge_ratio` is VTK's, which overlooks edges; `full_edge_ratio` compares all twelve. `volume`
+--- is VTK's and Cubit's, from the centre alone; `Quality.volume` is exact.
+---@alias lacuna.MetricName
+---| "scaled_jacobian" | "scaled_jacobian_with_centre" | "jacobian" | "shape" | "shear" | "condition"
+---| "max_aspect_frobenius" | "med_aspect_frobenius" | "oddy" | "skew" | "taper" | "max_edge_ratio" | "edge_ratio"
+---| "full_edge_ratio" | "stretch" | "diagonal" | "dimension" | "volume" | "distortion" | "relative_size_squared"
+---| "shape_and_size" | "shear_and_size"
+
+---@class lacuna.MetricSummary
+---@field name lacuna.MetricName
+---@field min number
+---@field mean number
+---@field max number
+---@field deviation number
+---@field acceptable? { [1]: number, [2]: number } after Cubit; nil where it depends on the job
+---@field outside integer cells outside the acceptable range
+---@field outside_share number of all cells, 0 to 1
+---@field worst { cell: integer, layer?: integer, centre: lacuna.Vector, value: number }
+
+--- Prints as a table, with a histogram and a line a metric.
 ---@class lacuna.Quality
 ---@field hexes integer
 ---@field min_scaled_jacobian number
@@ -110,7 +132,7 @@
 ---@field certified boolean every cell is
 ---@field worst lacuna.WorstCell[] at most ten, worst first
 ---@field histogram integer[] of the scaled Jacobian, twenty bins over [-1, 1]
----@field metrics { name: string, min: number, mean: number }[]
+---@field metrics table<integer|lacuna.MetricName, lacuna.MetricSummary> in order and by name; measured when first asked for
 ---@field volume number [model length³]
 
 ---@class lacuna.Face

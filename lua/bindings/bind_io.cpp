@@ -9,6 +9,8 @@
 #include <lacuna/io/msh_reader.h>
 #include <lacuna/io/vtk.h>
 
+#include <algorithm>
+
 namespace lacuna::lua {
 
 namespace {
@@ -16,7 +18,17 @@ namespace {
 struct WriteArguments {
     io::MshOptions msh;
     bool version_given = false, binary_given = false;
+    std::vector<quality::Metric> quality{quality::Metric::scaled_jacobian};
+    bool quality_given = false;
 };
+
+/// Metrics to be written. Version 2.2 is for readers that know no other, some of which (meshio 5) refuse a file with
+/// $ElementData: there only where it is asked for.
+std::vector<quality::Metric> metrics_of(const WriteArguments& arguments)
+{
+    if (!arguments.quality_given && arguments.msh.version == 2.2) return {};
+    return arguments.quality;
+}
 
 void read_version(lua_State* L, int index, const Where& where, WriteArguments& arguments)
 {
@@ -32,7 +44,37 @@ void read_binary(lua_State* L, int index, const Where& where, WriteArguments& ar
     arguments.binary_given = true;
 }
 
-const Option<WriteArguments> kWriteOptions[] = {{"version", read_version}, {"binary", read_binary}};
+quality::Metric read_metric(lua_State* L, int index, const Where& where)
+{
+    const char* names[quality::kMetricCount];
+    for (std::size_t i = 0; i < quality::kMetricCount; ++i) names[i] = quality::metric_infos()[i].name;
+    return static_cast<quality::Metric>(read_word(L, index, where, names, quality::kMetricCount));
+}
+
+/// false, true (the scaled Jacobian), the name of a metric or several
+void read_quality(lua_State* L, int index, const Where& where, WriteArguments& arguments)
+{
+    const int type = lua_type(L, index);
+    if (type != LUA_TBOOLEAN && type != LUA_TSTRING && type != LUA_TTABLE)
+        fail_value(L, where, "true, false, the name of a metric or an array of names", index);
+    quality::Metric chosen[quality::kMetricCount];
+    std::size_t count = 0;
+    const auto add = [&](quality::Metric metric) {
+        if (std::find(chosen, chosen + count, metric) == chosen + count) chosen[count++] = metric;
+    };
+    if (type == LUA_TSTRING)
+        add(read_metric(L, index, where));
+    else if (type == LUA_TTABLE)
+        read_array(L, index, where, "an array of names of metrics",
+                   [&](int at, const Where& element) { add(read_metric(L, at, element)); });
+    else if (lua_toboolean(L, index))
+        add(quality::Metric::scaled_jacobian);
+    arguments.quality_given = true;
+    guard(L, [&] { arguments.quality.assign(chosen, chosen + count); });
+}
+
+const Option<WriteArguments> kWriteOptions[] = {
+    {"version", read_version}, {"binary", read_binary}, {"quality", read_quality}};
 
 /// A format by its ending, and which options it has.
 struct Format {
@@ -48,12 +90,12 @@ const Format kFormats[] = {
          io::write_msh(mesh, path, options, context);
      }},
     {".vtu", false, false,
-     [](const auto& mesh, const auto& path, const auto&, const auto& context) {
-         io::write_vtu(mesh, path, context);
+     [](const auto& mesh, const auto& path, const auto& options, const auto& context) {
+         io::write_vtu(mesh, path, {options.fields}, context);
      }},
     {".vtk", false, true,
      [](const auto& mesh, const auto& path, const auto& options, const auto& context) {
-         io::write_vtk(mesh, path, {options.binary}, context);
+         io::write_vtk(mesh, path, {options.binary, options.fields}, context);
      }},
 };
 
@@ -80,10 +122,17 @@ int write(lua_State* L)
     lua_settop(L, 3);
     const auto& state = check<MeshState>(L, 1);
     const char* path = push_output_path(L, 2, "write");
-    WriteArguments arguments;
+    auto& arguments = temporary<WriteArguments>(L);
     read_options(L, 3, "write", kWriteOptions, arguments);
     RunContext& context = push_context(L);
-    guard(L, [&] { format_of(path, arguments).write(state.swept.mesh, path, arguments.msh, context); });
+    guard(L, [&] {
+        const mesh::HexMesh& mesh = state.swept.mesh;
+        const Format& format = format_of(path, arguments);
+        for (const quality::Metric metric : metrics_of(arguments))
+            arguments.msh.fields.push_back(
+                {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
+        format.write(mesh, path, arguments.msh, context);
+    });
     return 0;
 }
 
@@ -114,7 +163,6 @@ int write_facets(lua_State* L)
     return 0;
 }
 
-
 /// quality = lacuna.check(path): of the hexahedra of a .msh file
 int check_file(lua_State* L)
 {
@@ -122,15 +170,17 @@ int check_file(lua_State* L)
     const char* path = read_string(L, 1, {"check", nullptr});
     const Host& lent = host(L);
     RunContext& context = push_context(L);
-    auto& measured = temporary<quality::Quality>(L);
+    auto& source = temporary<QualitySource>(L);
+    const int at = lua_gettop(L);
     guard(L, [&] {
         check_input_path(lent, path);
-        const io::HexCells cells = io::read_msh_hexes(path);
+        source.cells = io::read_msh_hexes(path);
+        const io::HexCells& cells = source.cells;
         if (cells.hexes.empty())
             throw InvalidInput("lua.no_hexahedra", std::string("check: ") + path + " holds no hexahedra");
-        measured = quality::measure_cells(cells.nodes, cells.hexes, context);
+        source.quality = quality::measure_cells(cells.nodes, cells.hexes, context);
     });
-    push_quality(L, measured);
+    push_quality(L, at);
     return 1;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bindings/bind_quality.h"
 
+#include <cstring>
+
 namespace lacuna::lua {
 
 namespace {
@@ -25,24 +27,142 @@ void push_worst(lua_State* L, const std::vector<quality::WorstCell>& worst)
     }
 }
 
-int quality_to_string(lua_State* L)
+/// The source of the Quality at index 1; its userdata is left on the stack.
+QualitySource& check_source(lua_State* L)
 {
     luaL_checktype(L, 1, LUA_TTABLE);
-    luaL_getmetafield(L, 1, "texts");
+    luaL_getmetatable(L, kQualityMeta);
+    lua_getfield(L, -1, "sources"); // weak, by table
     lua_pushvalue(L, 1);
-    lua_rawget(L, -2);
+    if (lua_rawget(L, -2) != LUA_TUSERDATA) fail(L, "this table is no Quality");
+    return *static_cast<QualitySource*>(lua_touserdata(L, -1));
+}
+
+/// Measure all metrics, unless that is done.
+void measure_metrics(lua_State* L, QualitySource& source)
+{
+    RunContext& context = push_context(L);
+    guard(L, [&] {
+        if (source.metrics) return;
+        std::vector<quality::Metric> metrics;
+        for (const quality::MetricInfo& info : quality::metric_infos()) metrics.push_back(info.metric);
+        source.metrics = source.mesh ? quality::measure_metrics(source.mesh->swept.mesh, metrics, context)
+                                     : quality::measure_metrics(source.cells.nodes, source.cells.hexes,
+                                                                metrics, context);
+    });
+}
+
+void push_worst_of(lua_State* L, const quality::MetricSummary& summary)
+{
+    lua_createtable(L, 0, 4);
+    lua_pushinteger(L, to_lua(summary.worst));
+    lua_setfield(L, -2, "cell");
+    if (summary.layer >= 0) {
+        lua_pushinteger(L, to_lua(static_cast<Index>(summary.layer)));
+        lua_setfield(L, -2, "layer");
+    }
+    push_vector(L, summary.centre);
+    lua_setfield(L, -2, "centre");
+    set_number(L, "value", summary.value);
+}
+
+void push_metric(lua_State* L, const quality::MetricSummary& summary)
+{
+    const quality::MetricInfo& info = quality::metric_info(summary.metric);
+    lua_createtable(L, 0, 9);
+    set_string(L, "name", info.name);
+    set_number(L, "min", summary.min);
+    set_number(L, "mean", summary.mean);
+    set_number(L, "max", summary.max);
+    set_number(L, "deviation", summary.deviation);
+    set_count(L, "outside", summary.outside);
+    set_number(L, "outside_share", summary.outside_share);
+    if (info.acceptable) {
+        lua_createtable(L, 2, 0);
+        lua_pushnumber(L, info.acceptable->low);
+        lua_rawseti(L, -2, 1);
+        lua_pushnumber(L, info.acceptable->high);
+        lua_rawseti(L, -2, 2);
+        lua_setfield(L, -2, "acceptable");
+    }
+    push_worst_of(L, summary);
+    lua_setfield(L, -2, "worst");
+}
+
+/// Put the rows into the field `metrics` of the Quality at index 1, in order and by name, and push them.
+void push_metrics(lua_State* L)
+{
+    lua_pushliteral(L, "metrics");
+    if (lua_rawget(L, 1) == LUA_TTABLE) return;
+    QualitySource& source = check_source(L);
+    measure_metrics(L, source);
+    const auto count = static_cast<int>(source.metrics->size());
+    lua_createtable(L, count, count);
+    for (const quality::MetricSummary& summary : *source.metrics) {
+        push_metric(L, summary);
+        lua_pushvalue(L, -1);
+        lua_setfield(L, -3, quality::metric_name(summary.metric));
+        lua_rawseti(L, -2, static_cast<lua_Integer>(lua_rawlen(L, -2)) + 1);
+    }
+    lua_pushliteral(L, "metrics");
+    lua_pushvalue(L, -2);
+    lua_rawset(L, 1);
+}
+
+/// quality.metrics: measured when first asked for.
+int quality_index(lua_State* L)
+{
+    lua_settop(L, 2);
+    luaL_checktype(L, 1, LUA_TTABLE);
+    const char* key = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
+    if (std::strcmp(key, "metrics") != 0) return 0;
+    push_metrics(L);
+    return 1;
+}
+
+int quality_pairs(lua_State* L)
+{
+    lua_settop(L, 1);
+    luaL_checktype(L, 1, LUA_TTABLE);
+    push_metrics(L);
+    lua_getglobal(L, "next");
+    lua_pushvalue(L, 1);
+    lua_pushnil(L);
+    return 3;
+}
+
+/// Counts, histogram, a line a metric. Left out are a second name and the edge ratio of VTK.
+int quality_to_string(lua_State* L)
+{
+    lua_settop(L, 1);
+    QualitySource& source = check_source(L);
+    measure_metrics(L, source);
+    push_text(L, [&] {
+        std::vector<quality::MetricSummary> shown;
+        for (const quality::MetricSummary& summary : *source.metrics)
+            if (summary.metric != quality::Metric::max_aspect_frobenius &&
+                summary.metric != quality::Metric::edge_ratio)
+                shown.push_back(summary);
+        std::string text = quality::to_table(source.quality) + "\n" + quality::to_table(shown);
+        text.pop_back(); // print() ends the line
+        return text;
+    });
     return 1;
 }
 
 /// quality = mesh:quality()
 int mesh_quality(lua_State* L)
 {
-    auto& state = check<MeshState>(L, 1);
+    lua_settop(L, 1);
+    const Box<MeshState>& mesh = check_box<MeshState>(L, 1);
+    auto& source = temporary<QualitySource>(L);
     RunContext& context = push_context(L);
     guard(L, [&] {
-        if (!state.quality) state.quality = quality::measure(state.swept.mesh, context);
+        if (!mesh->quality) mesh->quality = quality::measure(mesh->swept.mesh, context);
+        source.quality = *mesh->quality;
+        source.mesh = mesh;
     });
-    push_quality(L, *state.quality);
+    push_quality(L, 2);
     return 1;
 }
 
@@ -50,8 +170,9 @@ const luaL_Reg kMeshMethods[] = {{"quality", mesh_quality}, {nullptr, nullptr}};
 
 } // namespace
 
-void push_quality(lua_State* L, const quality::Quality& q)
+void push_quality(lua_State* L, int source)
 {
+    const quality::Quality& q = static_cast<QualitySource*>(lua_touserdata(L, source))->quality;
     lua_createtable(L, 0, 10);
     set_number(L, "min_scaled_jacobian", q.min_scaled_jacobian);
     set_number(L, "mean_scaled_jacobian", q.mean_scaled_jacobian);
@@ -68,18 +189,11 @@ void push_quality(lua_State* L, const quality::Quality& q)
         lua_rawseti(L, -2, to_lua(bin));
     }
     lua_setfield(L, -2, "histogram");
-    lua_createtable(L, 1, 0);
-    lua_createtable(L, 0, 3);
-    set_string(L, "name", "scaled_jacobian");
-    set_number(L, "min", q.min_scaled_jacobian);
-    set_number(L, "mean", q.mean_scaled_jacobian);
-    lua_rawseti(L, -2, 1);
-    lua_setfield(L, -2, "metrics");
 
     luaL_setmetatable(L, kQualityMeta);
-    luaL_getmetafield(L, -1, "texts"); // weak: what it prints as, by table
+    luaL_getmetafield(L, -1, "sources");
     lua_pushvalue(L, -2);
-    push_text(L, [&] { return quality::to_table(q); });
+    lua_pushvalue(L, source);
     lua_rawset(L, -3);
     lua_pop(L, 1);
 }
@@ -87,13 +201,17 @@ void push_quality(lua_State* L, const quality::Quality& q)
 void bind_quality(lua_State* L)
 {
     luaL_newmetatable(L, kQualityMeta);
-    lua_pushcfunction(L, quality_to_string);
-    lua_setfield(L, -2, "__tostring");
+    const luaL_Reg meta[] = {{"__tostring", quality_to_string},
+                             {"__index", quality_index},
+                             {"__pairs", quality_pairs},
+                             {nullptr, nullptr}};
+    luaL_setfuncs(L, meta, 0);
     lua_newtable(L);
     lua_createtable(L, 0, 1);
     set_string(L, "__mode", "k");
     lua_setmetatable(L, -2);
-    lua_setfield(L, -2, "texts");
+    lua_setfield(L, -2, "sources");
+    set_string(L, "__metatable", "Quality");
     lua_pop(L, 1);
     add_methods(L, kClassName<MeshState>, kMeshMethods);
 }

@@ -3,9 +3,25 @@
 
 #include "bindings/classes.h"
 
+#include <lacuna/io/msh_reader.h>
+#include <lacuna/quality/metrics.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
 namespace lacuna::lua {
 
+/// What a Quality of Lua was measured on, so that metrics are measured when they are asked for.
+struct QualitySource {
+    quality::Quality quality;
+    std::shared_ptr<MeshState> mesh; ///< or, where null, the cells of a file
+    io::HexCells cells;
+    std::optional<std::vector<quality::MetricSummary>> metrics;
+};
+
 /// Push a Quality: a table of what was measured that prints as a table.
-void push_quality(lua_State* L, const quality::Quality& quality);
+/// @param source  index of a `temporary<QualitySource>`
+void push_quality(lua_State* L, int source);
 
 } // namespace lacuna::lua

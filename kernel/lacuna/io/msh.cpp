@@ -357,6 +357,44 @@ std::vector<Section> binary_22(const mesh::HexMesh& mesh, const MshContent& cont
     return sections;
 }
 
+// ---- Fields of cells, alike in both versions
+
+/// Section of one field: the skin's quads with the value of their cell, then the hexahedra. Gmsh and meshio both read
+/// values by number of element; meshio takes a field only where every element has one.
+void add_field(std::vector<Section>& sections, const MshContent& content,
+               const std::vector<std::uint32_t>& skin_cells, const CellField& field, bool binary)
+{
+    const auto head = [&](std::size_t elements) {
+        return "$ElementData\n1\n\"" + field.name + "\"\n1\n0\n3\n0\n1\n" + std::to_string(elements) + "\n";
+    };
+    const auto put_value = [binary](char* out, std::size_t number, double value) {
+        if (binary) return put(put(out, static_cast<std::int32_t>(number)), value);
+        out = put_text(out, static_cast<long long>(number));
+        *out++ = ' ';
+        out = put_text(out, value);
+        *out++ = '\n';
+        return out;
+    };
+    const std::size_t bytes = binary ? sizeof(std::int32_t) + sizeof(double) : 2 * kNumberBytes;
+    const std::size_t skin = content.skin.size();
+    sections.push_back(
+        {head(skin + field.values.size()), skin, bytes,
+         [&content, &skin_cells, &field, put_value](std::size_t begin, std::size_t end, char* out) {
+             for (std::size_t i = begin; i < end; ++i)
+                 out = put_value(out, i + 1, field.values[skin_cells[content.skin[i]]]);
+             return out;
+         }});
+    sections.push_back({{},
+                        field.values.size(),
+                        bytes,
+                        [&field, skin, put_value](std::size_t begin, std::size_t end, char* out) {
+                            for (std::size_t i = begin; i < end; ++i)
+                                out = put_value(out, skin + 1 + i, field.values[i]);
+                            return out;
+                        }});
+    sections.push_back({binary ? "\n$EndElementData\n" : "$EndElementData\n", 0, 0, {}});
+}
+
 void tell_lost_groups(const MshContent& content, const RunContext& context)
 {
     for (const MshSurface& surface : content.surfaces)
@@ -376,14 +414,18 @@ void write_msh(const mesh::HexMesh& mesh, const std::string& path, const MshOpti
     if (!old && options.version != 4.1)
         throw InvalidInput("io.unknown_version", "MSH version " + text_of(options.version) +
                                                      " cannot be written; known are 4.1 and 2.2");
+    check_fields(mesh, options.fields);
     const MshContent content = msh_content(mesh);
     if (old) tell_lost_groups(content, context);
+    std::vector<Section> sections = options.binary
+                                        ? (old ? binary_22(mesh, content) : binary_41(mesh, content))
+                                        : (old ? text_22(mesh, content) : text_41(mesh, content));
+    std::vector<std::uint32_t> skin_cells;
+    if (!options.fields.empty()) skin_cells = cells_of_skin(mesh);
+    for (const CellField& field : options.fields)
+        add_field(sections, content, skin_cells, field, options.binary);
     WholeFile file(path);
-    if (options.binary)
-        write_sections(file, old ? binary_22(mesh, content) : binary_41(mesh, content), Sizes::exact,
-                       context);
-    else
-        write_sections(file, old ? text_22(mesh, content) : text_41(mesh, content), Sizes::varying, context);
+    write_sections(file, sections, options.binary ? Sizes::exact : Sizes::varying, context);
     file.commit();
 }
 

@@ -2,20 +2,24 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/io/cell_field.h>
 #include <lacuna/mesh/hex_mesh.h>
 
 #include <string>
+#include <vector>
 
 namespace lacuna::io {
 
 struct MshOptions {
     bool binary = true;
     double version = 4.1; ///< 4.1, or 2.2 for readers that know no other
+    std::vector<CellField>
+        fields{}; ///< each becomes $ElementData, by which Gmsh colours the cells on opening
 };
 
 /// Write hexahedra and skin with a named physical group for every entity, whole or not at all: the file is
 /// written beside its place and renamed.
-/// @throw InvalidInput  the folder does not exist, the version is unknown.
+/// @throw InvalidInput  the folder does not exist, the version is unknown, as `check_fields()`.
 /// @throw BackendError  the disk is full or the file cannot be written; nothing is left behind.
 void write_msh(const mesh::HexMesh& mesh, const std::string& path, const MshOptions& options = {},
                const RunContext& context = {});

@@ -26,6 +26,24 @@ Fill each(PutOne put_one)
     };
 }
 
+/// Fields of hexahedra and skin, what of the skin is looked up by the cell a quad belongs to.
+struct Fields {
+    const std::vector<CellField>& fields;
+    std::vector<std::uint32_t> skin_cells;
+
+    Fields(const mesh::HexMesh& mesh, const std::vector<CellField>& given) : fields(given)
+    {
+        check_fields(mesh, given);
+        if (!given.empty()) skin_cells = cells_of_skin(mesh);
+    }
+    /// Of cell `i` of the file: hexahedra first, then the skin.
+    [[nodiscard]] double value(const CellField& field, std::size_t i) const
+    {
+        const std::size_t hexes = field.values.size();
+        return field.values[i < hexes ? i : skin_cells[i - hexes]];
+    }
+};
+
 int entity(const mesh::HexMesh& mesh, std::size_t skin)
 {
     return mesh.patches[static_cast<std::size_t>(skin_quad(mesh, skin).patch)].tag;
@@ -40,7 +58,7 @@ struct Array {
 };
 
 /// Numbers in the order of this machine's bytes, which the head names.
-std::vector<Array> vtu_arrays(const mesh::HexMesh& mesh)
+std::vector<Array> vtu_arrays(const mesh::HexMesh& mesh, const Fields& fields)
 {
     const std::size_t hexes = mesh.hex_count();
     const std::size_t skin = mesh.skin_count();
@@ -62,7 +80,7 @@ std::vector<Array> vtu_arrays(const mesh::HexMesh& mesh)
         std::memcpy(out, mesh.nodes[i].data(), sizeof(Vec3));
         return out + sizeof(Vec3);
     };
-    return {
+    std::vector<Array> arrays{
         {"type=\"Float64\" NumberOfComponents=\"3\"",
          mesh.nodes.size() * sizeof(Vec3),
          {section(mesh.nodes.size(), sizeof(Vec3), each(put_point))}},
@@ -72,6 +90,15 @@ std::vector<Array> vtu_arrays(const mesh::HexMesh& mesh)
         {"type=\"Int64\" Name=\"offsets\"", (hexes + skin) * 8, {section(hexes + skin, 8, each(put_offset))}},
         {"type=\"UInt8\" Name=\"types\"", hexes + skin, {section(hexes + skin, 1, each(put_type))}},
         {"type=\"Int32\" Name=\"entity\"", (hexes + skin) * 4, {section(hexes + skin, 4, each(put_entity))}}};
+    for (const CellField& field : fields.fields) {
+        const auto put_value = [&fields, &field](std::size_t i, char* out) {
+            return put(out, fields.value(field, i));
+        };
+        arrays.push_back({"type=\"Float64\" Name=\"" + field.name + "\"",
+                          (hexes + skin) * sizeof(double),
+                          {section(hexes + skin, sizeof(double), each(put_value))}});
+    }
+    return arrays;
 }
 
 std::string vtu_head(const mesh::HexMesh& mesh, const std::vector<Array>& arrays)
@@ -93,7 +120,7 @@ std::string vtu_head(const mesh::HexMesh& mesh, const std::vector<Array>& arrays
     text += "</Points>\n<Cells>\n";
     for (const std::size_t i : {1, 2, 3}) array(i);
     text += "</Cells>\n<CellData Scalars=\"entity\">\n";
-    array(4);
+    for (std::size_t i = 4; i < arrays.size(); ++i) array(i);
     return text + "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
 }
 
@@ -138,7 +165,7 @@ char* put_cell(char* out, const std::array<Index, N>& nodes, bool binary)
     return end_line(out, binary);
 }
 
-std::vector<Section> vtk_sections(const mesh::HexMesh& mesh, bool binary)
+std::vector<Section> vtk_sections(const mesh::HexMesh& mesh, const Fields& fields, bool binary)
 {
     const std::size_t hexes = mesh.hex_count();
     const std::size_t skin = mesh.skin_count();
@@ -162,24 +189,35 @@ std::vector<Section> vtk_sections(const mesh::HexMesh& mesh, bool binary)
     head.append(binary ? "BINARY" : "ASCII").append("\nDATASET UNSTRUCTURED_GRID\nPOINTS ");
     head.append(std::to_string(mesh.nodes.size())).append(" double\n");
     const std::string sizes = std::string(1, ' ').append(std::to_string(9 * hexes + 5 * skin)).append("\n");
-    return {{head, mesh.nodes.size(), bytes(3, 8), each(put_point)},
-            {"\nCELLS " + cells + sizes, hexes, bytes(9, 4),
-             each([&mesh, binary](std::size_t i, char* out) { return put_cell(out, mesh.hex(i), binary); })},
-            {{}, skin, bytes(5, 4), each([&mesh, binary](std::size_t i, char* out) {
-                 return put_cell(out, skin_quad(mesh, i).nodes, binary);
-             })},
-            {"\nCELL_TYPES " + cells + "\n", hexes + skin, bytes(1, 4), each(put_type)},
-            {"\nCELL_DATA " + cells + "\nSCALARS entity int 1\nLOOKUP_TABLE default\n", hexes + skin,
-             bytes(1, 4), each(put_entity)},
-            {"\n", 0, 0, {}}};
+    std::vector<Section> sections{
+        {head, mesh.nodes.size(), bytes(3, 8), each(put_point)},
+        {"\nCELLS " + cells + sizes, hexes, bytes(9, 4),
+         each([&mesh, binary](std::size_t i, char* out) { return put_cell(out, mesh.hex(i), binary); })},
+        {{}, skin, bytes(5, 4), each([&mesh, binary](std::size_t i, char* out) {
+             return put_cell(out, skin_quad(mesh, i).nodes, binary);
+         })},
+        {"\nCELL_TYPES " + cells + "\n", hexes + skin, bytes(1, 4), each(put_type)},
+        {"\nCELL_DATA " + cells + "\nSCALARS entity int 1\nLOOKUP_TABLE default\n", hexes + skin, bytes(1, 4),
+         each(put_entity)}};
+    for (const CellField& field : fields.fields) {
+        const auto put_value = [&fields, &field, binary](std::size_t i, char* out) {
+            return end_line(put_number(out, fields.value(field, i), binary), binary);
+        };
+        sections.push_back({"\nSCALARS " + field.name + " double 1\nLOOKUP_TABLE default\n", hexes + skin,
+                            bytes(1, 8), each(put_value)});
+    }
+    sections.push_back({"\n", 0, 0, {}});
+    return sections;
 }
 
 } // namespace
 
-void write_vtu(const mesh::HexMesh& mesh, const std::string& path, const RunContext& context)
+void write_vtu(const mesh::HexMesh& mesh, const std::string& path, const VtuOptions& options,
+               const RunContext& context)
 {
     check_skin(mesh);
-    std::vector<Array> arrays = vtu_arrays(mesh);
+    const Fields fields(mesh, options.fields);
+    std::vector<Array> arrays = vtu_arrays(mesh, fields);
     std::vector<Section> sections{{vtu_head(mesh, arrays), 0, 0, {}}};
     for (Array& array : arrays) {
         put(array.sections.front().text, static_cast<std::uint64_t>(array.bytes));
@@ -195,9 +233,10 @@ void write_vtk(const mesh::HexMesh& mesh, const std::string& path, const VtkOpti
                const RunContext& context)
 {
     check_skin(mesh);
+    const Fields fields(mesh, options.fields);
     WholeFile file(path);
-    write_sections(file, vtk_sections(mesh, options.binary), options.binary ? Sizes::exact : Sizes::varying,
-                   context);
+    write_sections(file, vtk_sections(mesh, fields, options.binary),
+                   options.binary ? Sizes::exact : Sizes::varying, context);
     file.commit();
 }
 

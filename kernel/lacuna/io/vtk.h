@@ -2,20 +2,28 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/io/cell_field.h>
 #include <lacuna/mesh/hex_mesh.h>
 
 #include <string>
+#include <vector>
 
 namespace lacuna::io {
 
+struct VtuOptions {
+    std::vector<CellField> fields{}; ///< each becomes a cell array
+};
+
 /// Write hexahedra, then skin quads, for ParaView: XML, numbers raw behind it. The cell array "entity" holds the
 /// tag of the skin patch, 0 for hexahedra. Whole or not at all.
-/// @throw InvalidInput  the folder does not exist, a skin quad belongs to no patch.
+/// @throw InvalidInput  the folder does not exist, a skin quad belongs to no patch, as `check_fields()`.
 /// @throw BackendError  the disk is full or the file cannot be written; nothing is left behind.
-void write_vtu(const mesh::HexMesh& mesh, const std::string& path, const RunContext& context = {});
+void write_vtu(const mesh::HexMesh& mesh, const std::string& path, const VtuOptions& options = {},
+               const RunContext& context = {});
 
 struct VtkOptions {
     bool binary = true;
+    std::vector<CellField> fields{}; ///< each becomes a cell array
 };
 
 /// The same in VTK's legacy format.

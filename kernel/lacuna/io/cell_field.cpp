@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/cell_field.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/mesh/quad_mesh.h>
+
+#include <algorithm>
+#include <set>
+
+namespace lacuna::io {
+namespace {
+
+/// The source quad beside each rim side.
+std::vector<std::uint32_t> quads_of_rim(const mesh::HexMesh& mesh)
+{
+    struct Side {
+        Segment ends;
+        std::uint32_t quad;
+    };
+    std::vector<Side> sides;
+    for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
+        sides.push_back({{side.from, side.to}, static_cast<std::uint32_t>(side.quad)});
+    const auto before = [](const Side& a, const Side& b) { return a.ends < b.ends; };
+    std::sort(sides.begin(), sides.end(), before);
+    std::vector<std::uint32_t> quads;
+    quads.reserve(mesh.rim.size());
+    for (const Segment& segment : mesh.rim) {
+        const auto at = std::lower_bound(sides.begin(), sides.end(), Side{segment, 0}, before);
+        if (at == sides.end() || at->ends != segment)
+            throw InvalidInput("io.rim", "the side of the rim from node " + std::to_string(segment[0] + 1) +
+                                             " to " + std::to_string(segment[1] + 1) +
+                                             " belongs to no quad of the source");
+        quads.push_back(at->quad);
+    }
+    return quads;
+}
+
+} // namespace
+
+void check_fields(const mesh::HexMesh& mesh, const std::vector<CellField>& fields)
+{
+    std::set<std::string> names;
+    for (const CellField& field : fields) {
+        if (field.values.size() != mesh.hex_count())
+            throw InvalidInput("io.field_size", "the cell field '" + field.name + "' has " +
+                                                    std::to_string(field.values.size()) + " values for " +
+                                                    std::to_string(mesh.hex_count()) + " hexahedra");
+        const bool plain = std::all_of(field.name.begin(), field.name.end(), [](unsigned char c) {
+            return c > 32 && c != 127 && c != '"' && c != '<' && c != '&';
+        });
+        if (field.name.empty() || !plain)
+            throw InvalidInput("io.field_name", "the cell field '" + field.name +
+                                                    "' must have a name without blanks, quotes, < and &");
+        if (field.name == "entity" || !names.insert(field.name).second)
+            throw InvalidInput("io.field_name", "two cell fields are named '" + field.name + "'");
+    }
+}
+
+std::vector<std::uint32_t> cells_of_skin(const mesh::HexMesh& mesh)
+{
+    const std::size_t quads = mesh.quads.size();
+    const auto layers = static_cast<std::size_t>(std::max(mesh.layers, 0));
+    std::vector<std::uint32_t> cells;
+    cells.reserve(mesh.skin_count());
+    if (layers == 0) return cells;
+    for (std::size_t q = 0; q < quads; ++q) cells.push_back(static_cast<std::uint32_t>(q));
+    for (std::size_t q = 0; q < quads; ++q)
+        cells.push_back(static_cast<std::uint32_t>((layers - 1) * quads + q));
+    const std::vector<std::uint32_t> rim = quads_of_rim(mesh);
+    for (std::size_t layer = 0; layer < layers; ++layer)
+        for (const std::uint32_t quad : rim)
+            cells.push_back(static_cast<std::uint32_t>(layer * quads) + quad);
+    return cells;
+}
+
+} // namespace lacuna::io
