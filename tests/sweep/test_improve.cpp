@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/quality.h>
+#include <lacuna/sweep/cell_energy.h>
 #include <lacuna/sweep/improve.h>
 
 #include "support/blocks.h"
@@ -7,22 +8,38 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+#include <cmath>
 #include <random>
+#include <span>
 
 using namespace lacuna;
 
 namespace {
 
-/// A block whose inside nodes are thrown about by `share` of a cell, its skin left alone.
-mesh::HexMesh shaken(double share, unsigned seed)
+std::vector<char> skin_of(const mesh::HexMesh& mesh)
 {
-    mesh::HexMesh mesh = test::block({6, 6, 6});
     std::vector<char> skin(mesh.nodes.size(), 0);
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         for (const Index n : mesh::skin_quad(mesh, i).nodes) skin[static_cast<std::size_t>(n)] = 1;
     }
+    return skin;
+}
+
+double cell_size(const mesh::HexMesh& mesh)
+{
     const Hex first = mesh.hex(0);
-    const double size = (mesh.nodes[static_cast<std::size_t>(first[6])] - mesh.nodes[static_cast<std::size_t>(first[0])]).norm() / std::sqrt(3.0);
+    return (mesh.nodes[static_cast<std::size_t>(first[6])] - mesh.nodes[static_cast<std::size_t>(first[0])])
+               .norm() /
+           std::sqrt(3.0);
+}
+
+/// A block whose inside nodes are thrown about by `share` of a cell, its skin left alone.
+mesh::HexMesh shaken(double share, unsigned seed, std::array<int, 3> cells = {6, 6, 6})
+{
+    mesh::HexMesh mesh = test::block({cells[0], cells[1], cells[2]});
+    const std::vector<char> skin = skin_of(mesh);
+    const double size = cell_size(mesh);
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> throws(-share * size, share * size);
     for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
@@ -31,9 +48,37 @@ mesh::HexMesh shaken(double share, unsigned seed)
     return mesh;
 }
 
+/// What slides where on a block whose sides lie in the planes of its box: nodes of one plane alone.
+sweep::Sliding sliding_on(const mesh::HexMesh& mesh)
+{
+    Vec3 low = mesh.nodes.front(), high = low;
+    for (const Vec3& p : mesh.nodes) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    sweep::Sliding sliding;
+    for (const Vec3& p : mesh.nodes) {
+        int planes = 0;
+        Index on = -1;
+        for (int d = 0; d < 3; ++d) {
+            if (p[d] == low[d] || p[d] == high[d]) {
+                ++planes;
+                on = p[d] == low[d] ? 2 * d : 2 * d + 1;
+            }
+        }
+        sliding.surface.push_back(planes == 1 ? on : -1);
+    }
+    sliding.project = [low, high](Index surface, std::span<Vec3> points) {
+        const int d = surface / 2;
+        for (Vec3& p : points) p[d] = surface % 2 == 0 ? low[d] : high[d];
+    };
+    return sliding;
+}
+
 } // namespace
 
-TEST_CASE("a block with its inside shaken until cells fold is valid again after untangling, its skin untouched")
+TEST_CASE(
+    "a block with its inside shaken until cells fold is valid again after untangling, its skin untouched")
 {
     for (const double share : {0.6, 1.0, 1.5}) {
         for (unsigned seed = 1; seed <= 3; ++seed) {
@@ -47,7 +92,8 @@ TEST_CASE("a block with its inside shaken until cells fold is valid again after 
             test::check_valid(mesh);
             for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
                 for (const Index n : mesh::skin_quad(mesh, i).nodes) {
-                    CHECK(mesh.nodes[static_cast<std::size_t>(n)] == before.nodes[static_cast<std::size_t>(n)]);
+                    CHECK(mesh.nodes[static_cast<std::size_t>(n)] ==
+                          before.nodes[static_cast<std::size_t>(n)]);
                 }
             }
         }
@@ -65,5 +111,119 @@ TEST_CASE("untangling leaves a good mesh as it is, and never lowers the least sc
         const double before = quality::measure(mesh).min_scaled_jacobian;
         sweep::improve(mesh);
         CHECK(quality::measure(mesh).min_scaled_jacobian >= before);
+    }
+}
+
+TEST_CASE("a valid mesh with poor cells gets a better worst cell and keeps its mean, within its skin")
+{
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+        CAPTURE(seed);
+        mesh::HexMesh mesh = shaken(0.24, seed);
+        const quality::Quality before = quality::measure(mesh);
+        REQUIRE(before.inverted == 0);
+        REQUIRE(before.min_scaled_jacobian < 0.48);
+        const sweep::Improved report = sweep::improve(mesh);
+        const quality::Quality after = quality::measure(mesh);
+        CHECK_FALSE(report.untangled);
+        CHECK(after.min_scaled_jacobian >= 0.5);
+        CHECK(after.mean_scaled_jacobian >= before.mean_scaled_jacobian - 0.01);
+        CHECK(after.volume == doctest::Approx(before.volume).epsilon(1e-12));
+        test::check_valid(mesh);
+    }
+}
+
+TEST_CASE("skin nodes that may slide stay on their surfaces, all others where they were, and the mesh gets "
+          "better for it")
+{
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        CAPTURE(seed);
+        mesh::HexMesh mesh = shaken(0.3, seed);
+        const sweep::Sliding sliding = sliding_on(mesh);
+        const double size = cell_size(test::block({6, 6, 6}));
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> throws(-0.75 * size, 0.75 * size);
+        for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+            if (sliding.surface[i] < 0) continue;
+            Vec3 p = mesh.nodes[i] + Vec3(throws(random), throws(random), throws(random));
+            sliding.project(sliding.surface[i], std::span(&p, 1));
+            mesh.nodes[i] = p;
+        }
+        REQUIRE(quality::measure(mesh).min_scaled_jacobian < 0);
+        mesh::HexMesh locked = mesh;
+        const mesh::HexMesh before = mesh;
+        sweep::improve(mesh, {}, sliding);
+        CHECK(quality::measure(mesh).min_scaled_jacobian > 0.4);
+        test::check_valid(mesh);
+        sweep::improve(locked);
+        CHECK(quality::measure(locked).min_scaled_jacobian < quality::measure(mesh).min_scaled_jacobian);
+        const std::vector<char> skin = skin_of(mesh);
+        for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+            if (sliding.surface[i] >= 0) {
+                Vec3 p = mesh.nodes[i];
+                sliding.project(sliding.surface[i], std::span(&p, 1));
+                CHECK(p == mesh.nodes[i]);
+            } else if (skin[i] != 0) {
+                CHECK(mesh.nodes[i] == before.nodes[i]);
+            }
+        }
+    }
+}
+
+TEST_CASE("without time nothing is begun and nothing is worse; the same comes out for any number of threads")
+{
+    const mesh::HexMesh before = shaken(1.0, 5, {12, 12, 12});
+    mesh::HexMesh hurried = before;
+    sweep::ImproveOptions options;
+    options.seconds = 1e-9;
+    const sweep::Improved report = sweep::improve(hurried, options);
+    CHECK(report.after >= report.before);
+    CHECK(quality::measure(hurried).min_scaled_jacobian >= quality::measure(before).min_scaled_jacobian);
+    mesh::HexMesh one = before, four = before;
+    RunContext context;
+    context.threads = 1;
+    sweep::improve(one, {}, {}, context);
+    context.threads = 4;
+    sweep::improve(four, {}, {}, context);
+    CHECK(one.nodes == four.nodes);
+    test::check_valid(one);
+}
+
+TEST_CASE("a cell that cannot be better than its skin is not worked on")
+{
+    // A block sheared so far that every corner on its edges is poor: nothing that may move can help those.
+    mesh::HexMesh mesh = test::block({4, 4, 4});
+    for (Vec3& p : mesh.nodes) p.x() += 2.2 * p.z();
+    const std::vector<Vec3> nodes = mesh.nodes;
+    const sweep::Improved report = sweep::improve(mesh);
+    CHECK(report.after >= report.before);
+    CHECK(quality::measure(mesh).min_scaled_jacobian ==
+          doctest::Approx(1 / std::hypot(1, 2.2)).epsilon(1e-6));
+}
+
+TEST_CASE("the slopes of a cell's energy are those of differences, folded or not")
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> throws(-0.6, 0.6);
+    for (int trial = 0; trial < 40; ++trial) {
+        std::array<Vec3, 8> corners{
+            {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+        for (Vec3& p : corners) p += Vec3(throws(random), throws(random), throws(random));
+        const Vec3 box(1.2, 0.9, 0.5);
+        const sweep::CellEnergy energy{0.1, trial % 2 == 0 ? 1.0 : 1e-3, trial % 3 == 0 ? 0.0 : 12.0};
+        std::array<Vec3, 8> slope, other;
+        sweep::cell_energy(energy, corners, box, slope);
+        for (std::size_t i = 0; i < 8; ++i) {
+            for (int d = 0; d < 3; ++d) {
+                constexpr double kStep = 1e-6;
+                std::array<Vec3, 8> low = corners, high = corners;
+                low[i][d] -= kStep;
+                high[i][d] += kStep;
+                const double difference = (sweep::cell_energy(energy, high, box, other) -
+                                           sweep::cell_energy(energy, low, box, other)) /
+                                          (2 * kStep);
+                CHECK(slope[i][d] ==
+                      doctest::Approx(difference).epsilon(1e-4).scale(1 + std::abs(difference)));
+            }
+        }
     }
 }
