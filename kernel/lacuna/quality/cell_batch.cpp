@@ -174,22 +174,55 @@ LACUNA_INLINE void evaluate_lanes(const CellBatch<N>& batch, CellValues<N>& valu
     }
 }
 
-#if defined(__GNUC__) && defined(__x86_64__)
-[[gnu::target("avx512f,avx512dq")]] void evaluate_avx512(const CellBatch<kLanes>& batch,
-                                                         CellValues<kLanes>& values)
+/// The scaled Jacobian, and of the coefficients those at the corners.
+template <int N>
+LACUNA_INLINE void evaluate_corners(const CellBatch<N>& batch, CellValues<N>& values)
 {
-    evaluate_lanes<kLanes>(batch, values);
+    Edges<N> edges;
+    find_edges<N>(batch, edges);
+    find_corners<N>(edges, values);
 }
 
-[[gnu::target("avx2")]] void evaluate_avx2(const CellBatch<kLanes>& batch, CellValues<kLanes>& values)
+using Batch = CellBatch<kLanes>;
+using Values = CellValues<kLanes>;
+
+enum class Wanted { all, corners };
+
+template <Wanted kWanted>
+LACUNA_INLINE void evaluate_wanted(const Batch& batch, Values& values)
 {
-    evaluate_lanes<kLanes>(batch, values);
+    if constexpr (kWanted == Wanted::all)
+        evaluate_lanes<kLanes>(batch, values);
+    else
+        evaluate_corners<kLanes>(batch, values);
+}
+
+#if defined(__GNUC__) && defined(__x86_64__)
+template <Wanted kWanted>
+[[gnu::target("avx512f,avx512dq")]] void evaluate_avx512(const Batch& batch, Values& values)
+{
+    evaluate_wanted<kWanted>(batch, values);
+}
+
+template <Wanted kWanted>
+[[gnu::target("avx2")]] void evaluate_avx2(const Batch& batch, Values& values)
+{
+    evaluate_wanted<kWanted>(batch, values);
 }
 #endif
 
-void evaluate_plain(const CellBatch<kLanes>& batch, CellValues<kLanes>& values)
+/// With the widest vectors the machine has.
+template <Wanted kWanted>
+void evaluate_widest(const Batch& batch, Values& values)
 {
-    evaluate_lanes<kLanes>(batch, values);
+#if defined(__GNUC__) && defined(__x86_64__)
+    static const bool avx512 = __builtin_cpu_supports("avx512f") != 0 &&
+                               __builtin_cpu_supports("avx512dq") != 0;
+    static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
+    if (avx512) return evaluate_avx512<kWanted>(batch, values);
+    if (avx2) return evaluate_avx2<kWanted>(batch, values);
+#endif
+    evaluate_wanted<kWanted>(batch, values);
 }
 
 CellBatch<1> batch_of(std::span<const Vec3, 8> corners)
@@ -293,14 +326,14 @@ bool positive_parts(const Coefficients& whole, std::array<int, 3> cuts_left)
 
 void evaluate(const CellBatch<kLanes>& batch, CellValues<kLanes>& values)
 {
-#if defined(__GNUC__) && defined(__x86_64__)
-    static const bool avx512 = __builtin_cpu_supports("avx512f") != 0 &&
-                               __builtin_cpu_supports("avx512dq") != 0;
-    static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
-    if (avx512) return evaluate_avx512(batch, values);
-    if (avx2) return evaluate_avx2(batch, values);
-#endif
-    evaluate_plain(batch, values);
+    evaluate_widest<Wanted::all>(batch, values);
+}
+
+void evaluate_scaled(const CellBatch<kLanes>& batch, double (&scaled)[kLanes])
+{
+    Values values;
+    evaluate_widest<Wanted::corners>(batch, values);
+    std::copy_n(values.scaled, kLanes, scaled);
 }
 
 void evaluate(const CellBatch<1>& batch, CellValues<1>& values) { evaluate_lanes<1>(batch, values); }

@@ -43,6 +43,9 @@ struct CellValues {
 /// Evaluate a full batch with the widest vectors the machine has; the same bits on every machine.
 void evaluate(const CellBatch<kLanes>& batch, CellValues<kLanes>& values);
 
+/// The scaled Jacobian alone; the same bits.
+void evaluate_scaled(const CellBatch<kLanes>& batch, double (&scaled)[kLanes]);
+
 /// Evaluate one cell; the same bits as in a batch.
 void evaluate(const CellBatch<1>& batch, CellValues<1>& values);
 
