@@ -2,7 +2,8 @@
 -- quality = mesh:quality(), lacuna.check and the option `quality` of mesh:write.
 local lacuna = require "lacuna"
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
-local folder = check.empty_folder(lacuna.params { scratch = "" }.scratch)
+local params = lacuna.params { lacuna = "", scratch = "" }
+local folder = check.empty_folder(params.scratch)
 
 local void = lacuna.synthetic.prism { sides = 5, holes = 1, twist = 40, taper = 0.6 }:open_volume()
 void:close()
@@ -77,6 +78,13 @@ for _, name in ipairs(names) do
   check.near(checked.metrics[name].max, quality.metrics[name].max, 1e-9 * math.abs(quality.metrics[name].max))
   check.equal(checked.metrics[name].outside, quality.metrics[name].outside, name)
   check.equal(checked.metrics[name].worst.layer, nil, name)
+end
+
+-- `lacuna check` prints the same.
+local code, out = check.run(params.lacuna, folder, { "check", "a.msh" })
+check.equal(code, 0)
+for _, words in ipairs { "###", "0.5 to 1", "shape_and_size", "scaled Jacobian" } do
+  check.that(out:find(words, 1, true), words)
 end
 
 -- What goes along into files.

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kRight = std::numbers::pi / 2;
 /// Irregular points that a patch is grown to, and how far it looks for them.
-constexpr std::size_t kGrowths = 6;
+constexpr std::size_t kGrowths = 12;
 constexpr std::size_t kLookedAt = 900;
 /// Fillings tried of each patch, layers of quads around it that are smoothed with it.
 constexpr std::size_t kFillings = 3;
@@ -250,7 +250,7 @@ void Cleaner::add_star(Patch& patch, Index p)
     });
 }
 
-/// Add quads until no point of the outline is concave nor irregular. @return false where it grows too large
+/// Add quads until no point of the outline is concave. @return false where it grows too large
 bool Cleaner::close(Patch& patch)
 {
     for (bool more = true; more;) {
@@ -259,7 +259,7 @@ bool Cleaner::close(Patch& patch)
             const Index p = patch.touched[i];
             const int inside = count_[p], valence = net_.valence(p);
             if (inside == valence || inside < 2) continue;
-            if (inside == 2 && valence == wanted_[static_cast<std::size_t>(p)]) continue;
+            if (inside == 2) continue;
             add_star(patch, p);
             more = true;
             if (patch.quads.size() > static_cast<std::size_t>(options_.largest_patch)) return false;

@@ -41,23 +41,25 @@ Lengths lengths_of(std::size_t loop, std::span<const std::size_t> corners)
 
 /// How far from its first corner each side is split when grids meet at one point inside; side i is
 /// split[i] + split[i + 2] long. False where that has no solution in whole numbers above 0.
-bool splits(const Lengths& lengths, std::array<int, kMostSides>& split)
+///
+/// Of a part whose last side is a cut, the first may be 0: then the grids meet at a point of the cut.
+bool splits(const Lengths& lengths, bool is_cut, std::array<int, kMostSides>& split)
 {
     for (std::size_t i = 0; i < lengths.count; ++i) {
         int twice = 0;
         for (std::size_t j = 0; j < lengths.count; ++j) twice += (j % 2 == 0 ? 1 : -1) * lengths[i + 2 * j];
-        if (twice < 2 || twice % 2 != 0) return false;
+        if (twice < (is_cut && i == 0 ? 0 : 2) || twice % 2 != 0) return false;
         split[i] = twice / 2;
     }
     return true;
 }
 
 /// Can it be filled without a cut?
-bool is_base(const Lengths& lengths)
+bool is_base(const Lengths& lengths, bool is_cut)
 {
     std::array<int, kMostSides> split;
     if (lengths.count == 4) return lengths[0] == lengths[2] && lengths[1] == lengths[3];
-    return (lengths.count == 3 || lengths.count == 5) && splits(lengths, split);
+    return (lengths.count == 3 || lengths.count == 5) && splits(lengths, is_cut, split);
 }
 
 class Filler {
@@ -65,25 +67,33 @@ public:
     explicit Filler(std::span<const Vec2> loop) : points_(loop.begin(), loop.end()) {}
 
     /// @pre  is_base()
-    void fill(const std::vector<Chain>& sides)
+    void fill(const std::vector<Chain>& sides, bool is_cut)
     {
         if (sides.size() == 4) {
             grid(sides[0], sides[1], reversed(sides[2]), reversed(sides[3]));
             return;
         }
-        ++irregular_;
         Lengths lengths;
         for (const Chain& side : sides) lengths.add(static_cast<int>(side.size()) - 1);
         std::array<int, kMostSides> split;
-        splits(lengths, split);
+        splits(lengths, is_cut, split);
         const std::size_t n = sides.size();
+        const auto middle_of = [&](std::size_t i) { return sides[i][static_cast<std::size_t>(split[i])]; };
         Vec2 centre(0, 0);
-        for (std::size_t i = 0; i < n; ++i)
-            centre += at(sides[i][static_cast<std::size_t>(split[i])]) / static_cast<double>(n);
-        const Index middle = add(centre);
+        for (std::size_t i = 0; i < n; ++i) centre += at(middle_of(i)) / static_cast<double>(n);
+        const Index middle = split[0] > 0 ? add(centre) : middle_of(n - 1);
         std::vector<Chain> spokes;
-        for (std::size_t i = 0; i < n; ++i)
-            spokes.push_back(line(sides[i][static_cast<std::size_t>(split[i])], middle, split[(i + 1) % n]));
+        for (std::size_t i = 0; i < n; ++i) {
+            const int length = split[(i + 1) % n];
+            spokes.push_back(length > 0 && (split[0] > 0 || (i != 0 && i != n - 2))
+                                 ? line(middle_of(i), middle, length)
+                                 : Chain{middle});
+        }
+        if (split[0] == 0) { // the cut is both spokes that end there
+            const auto at_middle = sides[n - 1].begin() + split[n - 1];
+            spokes[0] = reversed(Chain(at_middle, sides[n - 1].end()));
+            spokes[n - 2] = Chain(sides[n - 1].begin(), at_middle + 1);
+        }
         for (std::size_t i = 0; i < n; ++i) {
             const std::size_t last = (i + n - 1) % n;
             const Chain bottom(sides[i].begin(), sides[i].begin() + split[i] + 1);
@@ -113,7 +123,13 @@ public:
         Filling filling;
         filling.inner.assign(points_.begin() + static_cast<std::ptrdiff_t>(loop), points_.end());
         filling.quads = std::move(quads_);
-        filling.irregular = irregular_;
+        std::vector<int> valence(points_.size(), 0);
+        for (const Quad& quad : filling.quads) {
+            for (const Index p : quad) ++valence[static_cast<std::size_t>(p)];
+        }
+        filling.irregular = static_cast<int>(
+            std::count_if(valence.begin() + static_cast<std::ptrdiff_t>(loop), valence.end(),
+                          [](int v) { return v != 4; }));
         return filling;
     }
 
@@ -129,6 +145,7 @@ private:
     void grid(const Chain& bottom, const Chain& right, const Chain& top, const Chain& left)
     {
         const std::size_t m = bottom.size() - 1, n = left.size() - 1;
+        if (m == 0 || n == 0) return;
         Chain row = bottom;
         for (std::size_t j = 1; j <= n; ++j) {
             Chain next = j == n ? top : Chain{left[j]};
@@ -149,7 +166,6 @@ private:
 
     std::vector<Vec2> points_;
     std::vector<Quad> quads_;
-    int irregular_ = 0;
 };
 
 /// A cut from `from` to `to`, places in the loop, of so many pieces.
@@ -223,8 +239,9 @@ std::vector<Cut> cuts(std::span<const Vec2> loop, std::span<const std::size_t> c
                     for (int k = low; k <= high; ++k) {
                         const Halves parts = halves(lengths, corners, loop.size(), side, between,
                                                     {from, to, k, 0});
-                        if (!is_base(parts.first) || !is_base(parts.second)) continue;
-                        found.push_back({start, end, k, std::abs(std::log(pieces / k)) + slant});
+                        if (!is_base(parts.first, true) || !is_base(parts.second, true)) continue;
+                        const double fault = std::abs(std::log(pieces / k)) + slant;
+                        found.push_back({start, end, k, fault});
                     }
                 }
             }
@@ -257,7 +274,7 @@ std::vector<Chain> sides_between(std::size_t from, std::size_t to, std::size_t l
 int fewest_irregular(std::size_t loop, std::span<const std::size_t> corners)
 {
     if (corners.size() < 2 || corners.size() > 6) return std::numeric_limits<int>::max();
-    if (!is_base(lengths_of(loop, corners))) return 2;
+    if (!is_base(lengths_of(loop, corners), false)) return 2;
     return corners.size() == 4 ? 0 : 1;
 }
 
@@ -266,9 +283,9 @@ std::vector<Filling> fillings(std::span<const Vec2> loop, std::span<const std::s
 {
     std::vector<Filling> result;
     if (corners.size() < 2 || corners.size() > 6 || loop.size() % 2 != 0) return result;
-    if (is_base(lengths_of(loop.size(), corners))) {
+    if (is_base(lengths_of(loop.size(), corners), false)) {
         Filler filler(loop);
-        filler.fill(sides_between(corners[0], corners[0], loop.size(), corners));
+        filler.fill(sides_between(corners[0], corners[0], loop.size(), corners), false);
         result.push_back(filler.finish(loop.size()));
         return result;
     }
@@ -280,7 +297,7 @@ std::vector<Filling> fillings(std::span<const Vec2> loop, std::span<const std::s
             std::vector<Chain> sides = first ? sides_between(cut.from, cut.to, loop.size(), corners)
                                              : sides_between(cut.to, cut.from, loop.size(), corners);
             sides.push_back(first ? middle : Filler::reversed(middle));
-            filler.fill(sides);
+            filler.fill(sides, true);
         }
         result.push_back(filler.finish(loop.size()));
     }

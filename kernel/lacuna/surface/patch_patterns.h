@@ -30,7 +30,7 @@ struct Filling {
 std::vector<Filling> fillings(std::span<const Vec2> loop, std::span<const std::size_t> corners,
                               std::size_t most);
 
-/// Irregular points of the best of `fillings()` where it has one; a large number for other numbers of corners.
+/// Irregular points at most of what `fillings()` finds, where it finds one; a large number for other numbers of corners.
 int fewest_irregular(std::size_t loop, std::span<const std::size_t> corners);
 
 } // namespace lacuna::surface

@@ -2,8 +2,10 @@
 #include <lacuna/surface/pave.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/triangulate.h>
 #include <lacuna/surface/clean_quads.h>
 #include <lacuna/surface/pave_core.h>
+#include <lacuna/surface/pave_fit.h>
 #include <lacuna/surface/pave_repair.h>
 #include <lacuna/surface/pave_rows.h>
 #include <lacuna/surface/pave_size.h>
@@ -46,12 +48,28 @@ void check_region(const PlanarRegion& region)
             seen[static_cast<std::size_t>(p)] = true;
         }
     }
+    if (const auto crossing = geometry::find_crossing(region.points, region.loops)) {
+        const auto node = static_cast<std::size_t>(region.loops[crossing->loop_a][crossing->segment_a]);
+        throw InvalidInput("surface.pave_loops", "loops " + std::to_string(crossing->loop_a + 1) + " and " +
+                                                     std::to_string(crossing->loop_b + 1) +
+                                                     " of a region to be paved cross or touch near " +
+                                                     place_of(region.points[node]));
+    }
     if (sides % 2 != 0) {
         throw InvalidInput(
             "surface.pave_parity",
             "a region with " + std::to_string(sides) +
                 " boundary sides cannot be filled with quads alone; give one of its edges one side more");
     }
+}
+
+/// Is the region one good patch as it is?
+bool is_patch(const Draft& draft, const std::vector<Cycle>& loops)
+{
+    constexpr double kGood = 0.8;
+    if (loops.size() > 1 || loops.front().size() < 8) return false;
+    const Fit fit = fit_patch(draft, loops.front(), angles_of(draft, loops.front()));
+    return fit.quality > kGood;
 }
 
 /// Rows a loop is worth. A round outer loop gets four nodes of three quads where its rows end; with rows for about a
@@ -86,9 +104,10 @@ PlanarQuads without_loose_points(const Draft& draft)
 
 /// What lies along the boundary.
 enum class RowStyle {
-    by_shape, ///< as many rows as each loop is worth
-    none,     ///< the region is cut as it is
-    buffer    ///< one row with two quads at least at every node, so that all other nodes are free to move
+    by_shape,  ///< as many rows as each loop is worth
+    one_patch, ///< none: the region is one patch
+    none,      ///< the region is cut as it is
+    buffer     ///< one row with two quads at least at every node, so that all other nodes are free to move
 };
 
 struct Attempt {
@@ -98,8 +117,24 @@ struct Attempt {
     Vec2 where = Vec2::Zero();
 };
 
+/// Is every side used once in each direction at the most?
+bool sides_match(const std::vector<Quad>& quads)
+{
+    std::vector<std::uint64_t> sides;
+    sides.reserve(4 * quads.size());
+    for (const Quad& q : quads) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            sides.push_back((static_cast<std::uint64_t>(static_cast<std::uint32_t>(q[k])) << 32) |
+                            static_cast<std::uint32_t>(q[(k + 1) % 4]));
+        }
+    }
+    std::sort(sides.begin(), sides.end());
+    return std::adjacent_find(sides.begin(), sides.end()) == sides.end();
+}
+
 void judge(Attempt& attempt)
 {
+    if (!sides_match(attempt.mesh.quads)) return;
     attempt.worst = 1;
     for (const Quad& q : attempt.mesh.quads) {
         const auto at = [&](std::size_t k) { return attempt.mesh.points[static_cast<std::size_t>(q[k])]; };
@@ -122,12 +157,16 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
                  const RunContext& context)
 {
     Attempt attempt;
-    Draft draft{region.points, {}, region.points.size(), size_with_boundary(region)};
+    Draft draft{region.points, {}, region.points.size(), size_with_boundary(region), {}};
     std::vector<Cycle> loops = region.loops;
+    if (style == RowStyle::by_shape && options.rows < 0 && is_patch(draft, loops))
+        style = RowStyle::one_patch;
     std::vector<int> rows;
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const int own = options.rows < 0 ? rows_for(draft, loops[l], l == 0) : options.rows;
-        rows.push_back(style == RowStyle::none ? 0 : style == RowStyle::buffer ? 1 : own);
+        rows.push_back(style == RowStyle::none || style == RowStyle::one_patch ? 0
+                       : style == RowStyle::buffer                             ? 1
+                                                                               : own);
     }
     for (int r = 0;; ++r) {
         std::vector<bool> wanted;
@@ -139,13 +178,14 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
             if (!wanted[l]) rows[l] = 0;
         }
     }
-    const CoreCount count = fill_core(draft, loops, context);
+    const CoreCount count = fill_core(draft, loops, style == RowStyle::one_patch, context);
     attempt.report.mapped = count.patches;
     attempt.report.cuts = count.cuts;
     attempt.report.templates = count.templates;
     attempt.report.used = count.cuts == 0 && count.patches == 1 && attempt.report.rows == 0 ? "mapped"
                                                                                             : "paved";
     attempt.mesh = without_loose_points(draft);
+    if (!sides_match(attempt.mesh.quads)) return attempt;
     open_corners(attempt.mesh, region);
     finish(attempt, draft, options, context);
     constexpr int kLoosenings = 3;
@@ -176,6 +216,7 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
                                                " boundary nodes: near " + place_of(best.where) +
                                                " they fold; try a smaller size there, or quads = \"gmsh\"");
     }
+    best.mesh.how = best.report.used;
     if (options.report) *options.report = best.report;
     return std::move(best.mesh);
 }

@@ -22,32 +22,29 @@ Cycle join_all(Draft& draft, std::vector<Cycle> loops)
         if (!best) break;
         const Cycle line = nodes_along(draft, loops[best->loop_a][best->cut.from],
                                        loops[best->loop_b][best->cut.to], best->cut.edges);
+        if (best->cut.edges == 1) draft.link(line.front(), line.back());
         loops[best->loop_a] = join(loops[best->loop_a], loops[best->loop_b], best->cut, line);
         loops.erase(loops.begin() + static_cast<std::ptrdiff_t>(best->loop_b));
     }
     return std::move(loops.front());
 }
 
-std::vector<double> angles_of(const Draft& draft, const Cycle& cycle)
-{
-    std::vector<double> angles(cycle.size());
-    for (std::size_t i = 0; i < cycle.size(); ++i) angles[i] = inner_angle(draft, cycle, i);
-    return angles;
-}
-
 /// From what quality on a part of so many nodes is filled as it is. A cut costs irregular nodes, whatever the
 /// size of the part; a poor patch costs in every quad.
 double good_patch(std::size_t nodes)
 {
-    constexpr double kLeast = 0.4, kMost = 0.72, kSlope = 0.15, kFrom = 64;
+    constexpr double kLeast = 0.5, kMost = 0.85, kSlope = 0.2, kFrom = 32;
     return std::clamp(kLeast + kSlope * std::log2(static_cast<double>(nodes) / kFrom), kLeast, kMost);
 }
 
 } // namespace
 
-CoreCount fill_core(Draft& draft, const std::vector<Cycle>& loops, const RunContext& context)
+CoreCount fill_core(Draft& draft, const std::vector<Cycle>& loops, bool one_patch, const RunContext& context)
 {
     CoreCount count;
+    for (const Cycle& loop : loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) draft.link(loop[i], loop[(i + 1) % loop.size()]);
+    }
     std::vector<Cycle> parts{join_all(draft, loops)};
     while (!parts.empty()) {
         check_cancelled(context);
@@ -62,13 +59,14 @@ CoreCount fill_core(Draft& draft, const std::vector<Cycle>& loops, const RunCont
         const std::vector<double> angles = angles_of(draft, cycle);
         const Fit fit = fit_patch(draft, cycle, angles);
         std::optional<Cut> cut;
-        if (fit.quality < good_patch(cycle.size())) cut = best_cut(draft, cycle, angles);
+        if (!one_patch && fit.quality < good_patch(cycle.size())) cut = best_cut(draft, cycle, angles);
         if (!cut && fit.quality > 0 && fill_patch(draft, cycle, fit.corners)) {
             ++count.patches;
             continue;
         }
         if (!cut) cut = blind_cut(draft, cycle);
         const Cycle line = nodes_along(draft, cycle[cut->from], cycle[cut->to], cut->edges);
+        if (cut->edges == 1) draft.link(line.front(), line.back());
         auto [one, two] = divide(cycle, *cut, line);
         ++count.cuts;
         parts.push_back(std::move(two));

@@ -15,7 +15,8 @@ struct CoreCount {
 
 /// Fill what lies between loops with quads: holes are joined to the outer loop, then the loop is cut in two again
 /// and again until every part is a patch or a loop of six nodes or fewer.
+/// @param one_patch  the only loop is to be filled as it is, if that goes at all.
 /// @pre the loops' lengths are even in sum.
-CoreCount fill_core(Draft& draft, const std::vector<Cycle>& loops, const RunContext& context);
+CoreCount fill_core(Draft& draft, const std::vector<Cycle>& loops, bool one_patch, const RunContext& context);
 
 } // namespace lacuna::surface::paving

@@ -171,6 +171,7 @@ private:
         if (edges == 0 || edges >= n_ || edges >= std::min(between, rest) || edges + between < 4 ||
             edges + rest < 4)
             return std::nullopt;
+        if (edges == 1 && draft_.linked(cycle_[i], cycle_[j])) return std::nullopt;
         const double arc = arc_[j] - arc_[i];
         Choice choice{{i, j, edges}, 0};
         choice.cost = end_cost(angles_[i], part_i) * ease(i) + end_cost(angles_[j], part_j) * ease(j) +
@@ -315,7 +316,7 @@ Cut blind_cut(const Draft& draft, const Cycle& cycle)
         const std::size_t j = (i + 3) % n;
         const double quality = least_sine(draft,
                                           {cycle[i], cycle[(i + 1) % n], cycle[(i + 2) % n], cycle[j]});
-        if (quality <= best_quality || cycle[i] == cycle[j]) continue;
+        if (quality <= best_quality || cycle[i] == cycle[j] || draft.linked(cycle[i], cycle[j])) continue;
         best_quality = quality;
         best = {std::min(i, j), std::max(i, j), 1};
     }

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <numbers>
+#include <unordered_set>
 #include <vector>
 
 namespace lacuna::surface::paving {
@@ -25,6 +27,17 @@ struct Draft {
     std::vector<Quad> quads;
     std::size_t fixed = 0;
     std::function<double(const Vec2&)> size;
+    /// Single edges drawn between nodes that were there before: a second one between the same two would be no mesh.
+    std::unordered_set<std::uint64_t> links;
+
+    static std::uint64_t link_key(Index a, Index b)
+    {
+        const auto [low, high] = std::minmax(a, b);
+        return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(low)) << 32) |
+               static_cast<std::uint32_t>(high);
+    }
+    void link(Index a, Index b) { links.insert(link_key(a, b)); }
+    [[nodiscard]] bool linked(Index a, Index b) const { return links.contains(link_key(a, b)); }
 
     [[nodiscard]] const Vec2& at(Index p) const { return points[static_cast<std::size_t>(p)]; }
     [[nodiscard]] bool is_fixed(Index p) const { return static_cast<std::size_t>(p) < fixed; }

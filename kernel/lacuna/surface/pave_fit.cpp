@@ -4,6 +4,7 @@
 #include <lacuna/surface/pave_patch.h>
 
 #include <array>
+#include <numeric>
 
 namespace lacuna::surface::paving {
 namespace {
@@ -166,10 +167,20 @@ Fit fit_round(const Draft& draft, const Cycle& cycle, const std::vector<double>&
             }
         }
     }
+    // A square made round bends at its corners, which lie on a round outline.
+    constexpr double kBend = 0.8;
+    best.quality *= best.quality > 0 ? kBend : 1;
     return best;
 }
 
 } // namespace
+
+std::vector<double> angles_of(const Draft& draft, const Cycle& cycle)
+{
+    std::vector<double> angles(cycle.size());
+    for (std::size_t i = 0; i < cycle.size(); ++i) angles[i] = inner_angle(draft, cycle, i);
+    return angles;
+}
 
 Fit fit_patch(const Draft& draft, const Cycle& cycle, const std::vector<double>& angles)
 {
@@ -179,6 +190,21 @@ Fit fit_patch(const Draft& draft, const Cycle& cycle, const std::vector<double>&
         if (angles[i] < kCornerBelow) fit.corners.push_back(i);
     }
     if (fit.corners.empty()) return fit_round(draft, cycle, angles);
+    if (fit.corners.size() == 3) {
+        // A wide corner may be the fourth where no other comes near it.
+        std::vector<std::size_t> order(cycle.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::partial_sort(order.begin(), order.begin() + 5, order.end(), [&](std::size_t a, std::size_t b) {
+            return std::pair(angles[a], a) < std::pair(angles[b], b);
+        });
+        constexpr double kClear = kRightAngle / 9; // 10°
+        if (angles[order[3]] + kClear < angles[order[4]]) {
+            std::vector<std::size_t> four(order.begin(), order.begin() + 4);
+            std::sort(four.begin(), four.end());
+            const double quality = judge_four(draft, cycle, angles, four);
+            if (quality > 0) return {four, quality};
+        }
+    }
     if (fit.corners.size() == 4)
         fit.quality = judge_four(draft, cycle, angles, fit.corners);
     else if (fit.corners.size() == 3 || fit.corners.size() == 5)

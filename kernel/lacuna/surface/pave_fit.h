@@ -19,4 +19,7 @@ struct Fit {
 /// around it, so its nodes need not be flat.
 Fit fit_patch(const Draft& draft, const Cycle& cycle, const std::vector<double>& angles);
 
+/// The inner angles at all places of a loop.
+std::vector<double> angles_of(const Draft& draft, const Cycle& cycle);
+
 } // namespace lacuna::surface::paving

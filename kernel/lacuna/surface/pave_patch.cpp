@@ -118,6 +118,12 @@ void fill_grid(Draft& draft, const Sides& sides)
         if (i == n) return sides.right[j];
         return first + static_cast<Index>((j - 1) * (n - 1) + i - 1);
     };
+    if (n == 1) {
+        for (std::size_t j = 1; j < m; ++j) draft.link(sides.left[j], sides.right[j]);
+    }
+    if (m == 1) {
+        for (std::size_t i = 1; i < n; ++i) draft.link(sides.bottom[i], sides.top[i]);
+    }
     for (std::size_t j = 0; j < m; ++j) {
         for (std::size_t i = 0; i < n; ++i)
             draft.quads.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
@@ -364,7 +370,7 @@ void fill_small(Draft& draft, const Cycle& c)
         const Quad one{c[i], c[i + 1], c[i + 2], c[i + 3]};
         const Quad two{c[i + 3], c[(i + 4) % 6], c[(i + 5) % 6], c[i]};
         const double worst = std::min(least_sine(draft, one), least_sine(draft, two));
-        if (worst <= best_worst) continue;
+        if (worst <= best_worst || one[0] == one[3] || draft.linked(one[0], one[3])) continue;
         best_worst = worst;
         best = {one, two};
     }
@@ -382,12 +388,15 @@ void fill_small(Draft& draft, const Cycle& c)
             worst = std::min(worst, least_sine(draft, three.back()));
         }
         // A third quad must be worth it.
-        if (worst <= best_worst + 0.3) continue;
+        if (!best.empty() && worst <= best_worst + 0.3) continue;
         best_worst = worst + 0.3;
         best = three;
         used = true;
     }
-    if (!used) draft.points.pop_back();
+    if (!used) {
+        draft.points.pop_back();
+        draft.link(best.front()[0], best.front()[3]);
+    }
     draft.quads.insert(draft.quads.end(), best.begin(), best.end());
 }
 

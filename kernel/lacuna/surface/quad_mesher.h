@@ -5,6 +5,7 @@
 #include <lacuna/core/types.h>
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace lacuna::surface {
@@ -24,6 +25,7 @@ struct PlanarRegion {
 struct PlanarQuads {
     std::vector<Vec2> points; ///< the region's own first, then those added inside
     std::vector<Quad> quads;  ///< counter-clockwise
+    std::string how{};        ///< by what they were made, for a note: "mapped", "paved"; may be empty
 };
 
 /// Something that fills a planar region with quads and nothing else, its boundary nodes kept.

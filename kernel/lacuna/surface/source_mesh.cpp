@@ -48,13 +48,13 @@ public:
         for (const FaceId face : volume_.faces(Role::source)) {
             const auto corners = seeds_.corners.find(face);
             const std::size_t before = result_.quads.quads.size();
+            how_ = "mapped";
             if (corners != seeds_.corners.end())
                 map(face, corners->second);
             else
                 fill(face);
             result_.quads.face.resize(result_.quads.quads.size(), static_cast<Index>(face.index()));
-            result_.notes.push_back(name_of(model_, face) +
-                                    (corners != seeds_.corners.end() ? ": mapped, " : ": free, ") +
+            result_.notes.push_back(name_of(model_, face) + ": " + how_ + ", " +
                                     std::to_string(result_.quads.quads.size() - before) + " quads");
         }
         // The faces look outward; the sweep wants the quads to look along it.
@@ -229,6 +229,7 @@ private:
     template <class Lift>
     void add_filling(const std::vector<Index>& boundary, const PlanarQuads& filling, const Lift& lift)
     {
+        how_ = filling.how.empty() ? "free" : filling.how;
         std::vector<Index> node = boundary;
         const std::vector<Vec2> inside(filling.points.begin() + static_cast<std::ptrdiff_t>(boundary.size()),
                                        filling.points.end());
@@ -300,6 +301,7 @@ private:
     const PlanarQuadMesher& mesher_;
     const RunContext& context_;
     SourceMesh result_;
+    std::string how_; ///< the last face was meshed
     std::map<EdgeId, std::vector<Index>> nodes_on_;
     std::map<VertexId, Index> node_of_;
 };

@@ -4,6 +4,7 @@
 #include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
 #include <lacuna/quality/quality.h>
+#include <lacuna/surface/pave.h>
 #include <lacuna/surface/projector.h>
 #include <lacuna/surface/source_mesh.h>
 #include <lacuna/sweep/improve.h>
@@ -33,15 +34,37 @@ surface::QuadStyle style_of(Quads quads)
     case Quads::mapped:
         return surface::QuadStyle::mapped;
     case Quads::gmsh:
-        return surface::QuadStyle::free;
     case Quads::paved:
-        throw InvalidInput("sweep.quads",
-                           "quads = \"paved\" is not available yet; use \"auto\", \"mapped\" or \"gmsh\"");
+        return surface::QuadStyle::free;
     case Quads::keep:
-        throw InvalidInput("sweep.quads",
-                           "quads = \"keep\" is not available yet; use \"auto\", \"mapped\" or \"gmsh\"");
+        throw InvalidInput(
+            "sweep.quads",
+            "quads = \"keep\" is not available yet; use \"auto\", \"mapped\", \"paved\" or \"gmsh\"");
     }
     return surface::QuadStyle::automatic;
+}
+
+/// What fills the source faces that are not mapped: the kernel's paver, the mesher handed in, or that one where
+/// the paver refuses.
+surface::PlanarQuadMesher mesher_of(const SweepOptions& options)
+{
+    const auto given = [mesher = options.quad_mesher](const surface::PlanarRegion& region,
+                                                      const RunContext& context) {
+        surface::PlanarQuads quads = mesher(region, context);
+        if (quads.how.empty()) quads.how = "gmsh";
+        return quads;
+    };
+    if (options.quads == Quads::gmsh) return options.quad_mesher ? given : surface::PlanarQuadMesher();
+    const bool fall_back = options.quads != Quads::paved && options.quad_mesher;
+    return [given, fall_back](const surface::PlanarRegion& region, const RunContext& context) {
+        try {
+            return surface::pave(region, {}, context);
+        } catch (const NotSweepable& error) {
+            if (!fall_back) throw;
+            log_line(context, error.what());
+            return given(region, context);
+        }
+    };
 }
 
 /// Refuse what is no length before anything is divided by it.
@@ -310,7 +333,7 @@ Swept sweep_between(const OpenVolume& volume, const std::vector<surface::Belt>& 
 {
     Swept result;
     const surface::Seeds seeds = surface::seed_source(volume, belts, size, style_of(options.quads));
-    surface::SourceMesh source = surface::mesh_source(volume, belts, seeds, size, options.quad_mesher,
+    surface::SourceMesh source = surface::mesh_source(volume, belts, seeds, size, mesher_of(options),
                                                       context);
     for (std::string& note : source.notes) result.report.push_back("source " + note);
 

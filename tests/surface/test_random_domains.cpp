@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "support/plane_domains.h"
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/triangulate.h>
+#include <lacuna/surface/measure_plane.h>
+#include <lacuna/surface/pave.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+using namespace lacuna;
+
+namespace {
+
+/// Domains tried: 200, or as many as LACUNA_RANDOM_DOMAINS says.
+std::uint32_t domain_count()
+{
+    const char* asked = std::getenv("LACUNA_RANDOM_DOMAINS");
+    return asked != nullptr ? static_cast<std::uint32_t>(std::stoul(asked)) : 200U;
+}
+
+std::uint32_t first_domain()
+{
+    const char* asked = std::getenv("LACUNA_RANDOM_FIRST");
+    return asked != nullptr ? static_cast<std::uint32_t>(std::stoul(asked)) : 0U;
+}
+
+std::size_t sides(const surface::PlanarRegion& region)
+{
+    std::size_t count = 0;
+    for (const auto& loop : region.loops) count += loop.size();
+    return count;
+}
+
+/// Why no mesh of quads can be asked for; empty where one can.
+std::string reason_to_refuse(const surface::PlanarRegion& region)
+{
+    if (sides(region) % 2 != 0) return "odd";
+    if (geometry::find_crossing(region.points, region.loops)) return "crossed";
+    return {};
+}
+
+} // namespace
+
+TEST_CASE("the random domains are what they are said to be")
+{
+    std::size_t most_loops = 0, longest = 0, odd = 0, crossed = 0;
+    double widest_jump = 1;
+    for (std::uint32_t seed = 0; seed < 300; ++seed) {
+        const test::RandomDomain made = test::random_domain(seed);
+        CAPTURE(seed);
+        CAPTURE(made.words);
+        CHECK((sides(made.region) % 2 != 0) == made.odd);
+        if (!made.crossed) CHECK(!geometry::find_crossing(made.region.points, made.region.loops));
+        most_loops = std::max(most_loops, made.region.loops.size());
+        odd += made.odd ? 1 : 0;
+        crossed += reason_to_refuse(made.region) == "crossed" ? 1 : 0;
+        for (const auto& loop : made.region.loops) {
+            CHECK(loop.size() >= 4);
+            longest = std::max(longest, loop.size());
+            double shortest = 1e9, widest = 0;
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                const double side =
+                    (made.region.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])] -
+                     made.region.points[static_cast<std::size_t>(loop[i])])
+                        .norm();
+                shortest = std::min(shortest, side);
+                widest = std::max(widest, side);
+            }
+            widest_jump = std::max(widest_jump, widest / shortest);
+        }
+    }
+    CHECK(most_loops == 8);
+    CHECK(longest > 380);
+    CHECK(widest_jump > 50);
+    CHECK(odd > 0);
+    CHECK(crossed > 0);
+}
+
+TEST_CASE("every random domain is filled with valid quads alone, or refused because none could be")
+{
+    std::size_t filled = 0, refused = 0;
+    for (std::uint32_t seed = first_domain(); seed < first_domain() + domain_count(); ++seed) {
+        const test::RandomDomain made = test::random_domain(seed);
+        const std::string reason = reason_to_refuse(made.region);
+        CAPTURE(seed);
+        CAPTURE(made.words);
+        try {
+            const surface::PlanarQuads mesh = surface::pave(made.region);
+            const std::string fault = surface::find_fault(mesh, made.region);
+            CHECK_MESSAGE(fault.empty(), "domain " << seed << ": " << fault << " (" << made.words << ")");
+            CHECK_MESSAGE(reason.empty(), "domain " << seed << " should be refused: " << reason);
+            ++filled;
+        } catch (const Error& error) {
+            CHECK_MESSAGE(!reason.empty(),
+                          "domain " << seed << ": " << std::string(error.what()) << " (" << made.words << ")");
+            ++refused;
+        }
+    }
+    MESSAGE(filled << " filled, " << refused << " refused");
+    CHECK(filled > refused);
+}
+
+TEST_CASE("the same random domain gives the same quads")
+{
+    for (std::uint32_t seed = 0; seed < 10; ++seed) {
+        const test::RandomDomain made = test::random_domain(seed);
+        if (!reason_to_refuse(made.region).empty()) continue;
+        CAPTURE(seed);
+        try {
+            const surface::PlanarQuads once = surface::pave(made.region), again = surface::pave(made.region);
+            CHECK(once.quads == again.quads);
+            CHECK(once.points == again.points);
+        } catch (const Error&) { // said by the test above
+        }
+    }
+}
