@@ -147,6 +147,7 @@ void judge(Attempt& attempt)
 
 void finish(Attempt& attempt, const Draft& draft, const PaveOptions& options, const RunContext& context)
 {
+    if (options.smooth) ease_folds(attempt.mesh, draft.fixed);
     if (options.clean) clean_quads(attempt.mesh, draft.fixed, {.size = draft.size}, context);
     if (options.smooth)
         smooth_plane(attempt.mesh.points, attempt.mesh.quads, draft.fixed, {.size = draft.size}, context);
@@ -207,6 +208,8 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
     Attempt best;
     for (const RowStyle style : {RowStyle::by_shape, RowStyle::none, RowStyle::buffer}) {
         Attempt attempt = try_pave(region, options, style, context);
+        if (attempt.worst <= 0)
+            log_line(context, "quads fold near " + place_of(attempt.where) + ": paving differently");
         if (attempt.worst > best.worst) best = std::move(attempt);
         if (best.worst > 0) break;
     }
