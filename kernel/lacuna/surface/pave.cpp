@@ -9,6 +9,7 @@
 #include <lacuna/surface/pave_repair.h>
 #include <lacuna/surface/pave_rows.h>
 #include <lacuna/surface/pave_size.h>
+#include <lacuna/surface/pave_true_rows.h>
 #include <lacuna/surface/smooth_plane.h>
 
 #include <sstream>
@@ -159,6 +160,7 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
 {
     Attempt attempt;
     Draft draft{region.points, {}, region.points.size(), size_with_boundary(region), {}};
+    const auto& height = options.row_height ? options.row_height : draft.size;
     std::vector<Cycle> loops = region.loops;
     if (style == RowStyle::by_shape && options.rows < 0 && is_patch(draft, loops))
         style = RowStyle::one_patch;
@@ -196,6 +198,10 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
         finish(loose, draft, options, context);
         if (loose.worst <= attempt.worst) break;
         attempt = std::move(loose);
+    }
+    if (options.smooth && attempt.worst > 0) {
+        true_rows(attempt.mesh, region, height);
+        judge(attempt);
     }
     return attempt;
 }
