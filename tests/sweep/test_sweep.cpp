@@ -491,6 +491,7 @@ TEST_CASE("bad options are refused")
           }).rfind("quality.", 0) == 0);
     SweepOptions no_mesher = layers_of(2, 0.3);
     no_mesher.quad_mesher = nullptr;
+    no_mesher.quads = sweep::Quads::gmsh;
     CHECK(refusal([&] { sweep::sweep(test::sealed({.sides = 5}), no_mesher); }) == "surface.no_mesher");
     SweepOptions mapped = layers_of(2, 0.3);
     mapped.quads = sweep::Quads::mapped;

@@ -9,6 +9,7 @@
 #include <lacuna/surface/pave_repair.h>
 #include <lacuna/surface/pave_rows.h>
 #include <lacuna/surface/pave_size.h>
+#include <lacuna/surface/pave_true_rows.h>
 #include <lacuna/surface/smooth_plane.h>
 
 #include <sstream>
@@ -147,6 +148,7 @@ void judge(Attempt& attempt)
 
 void finish(Attempt& attempt, const Draft& draft, const PaveOptions& options, const RunContext& context)
 {
+    if (options.smooth) ease_folds(attempt.mesh, draft.fixed);
     if (options.clean) clean_quads(attempt.mesh, draft.fixed, {.size = draft.size}, context);
     if (options.smooth)
         smooth_plane(attempt.mesh.points, attempt.mesh.quads, draft.fixed, {.size = draft.size}, context);
@@ -158,6 +160,7 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
 {
     Attempt attempt;
     Draft draft{region.points, {}, region.points.size(), size_with_boundary(region), {}};
+    const auto& height = options.row_height ? options.row_height : draft.size;
     std::vector<Cycle> loops = region.loops;
     if (style == RowStyle::by_shape && options.rows < 0 && is_patch(draft, loops))
         style = RowStyle::one_patch;
@@ -196,6 +199,10 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
         if (loose.worst <= attempt.worst) break;
         attempt = std::move(loose);
     }
+    if (options.smooth && attempt.worst > 0) {
+        true_rows(attempt.mesh, region, height);
+        judge(attempt);
+    }
     return attempt;
 }
 
@@ -207,6 +214,8 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
     Attempt best;
     for (const RowStyle style : {RowStyle::by_shape, RowStyle::none, RowStyle::buffer}) {
         Attempt attempt = try_pave(region, options, style, context);
+        if (attempt.worst <= 0)
+            log_line(context, "quads fold near " + place_of(attempt.where) + ": paving differently");
         if (attempt.worst > best.worst) best = std::move(attempt);
         if (best.worst > 0) break;
     }

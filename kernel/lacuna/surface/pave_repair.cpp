@@ -155,7 +155,107 @@ private:
     std::vector<std::vector<std::size_t>> quads_of_;
 };
 
+/// Moves single nodes where the worst quad around them gets better.
+class Easer {
+public:
+    Easer(PlanarQuads& mesh, std::size_t fixed) : mesh_(mesh), fixed_(fixed)
+    {
+        first_.assign(mesh.points.size() + 1, 0);
+        for (const Quad& q : mesh.quads) {
+            for (const Index p : q) ++first_[static_cast<std::size_t>(p) + 1];
+        }
+        for (std::size_t p = 0; p < mesh.points.size(); ++p) first_[p + 1] += first_[p];
+        around_.resize(4 * mesh.quads.size());
+        std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+        for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+            for (const Index p : mesh.quads[q]) around_[next[static_cast<std::size_t>(p)]++] = q;
+        }
+    }
+
+    void run()
+    {
+        constexpr int kSweeps = 12;
+        constexpr double kFlat = 0.15; // quads better than this are left to the smoother
+        std::vector<char> mark(mesh_.points.size(), 0);
+        for (int sweep = 0; sweep < kSweeps; ++sweep) {
+            std::fill(mark.begin(), mark.end(), 0);
+            for (std::size_t q = 0; q < mesh_.quads.size(); ++q) {
+                if (sine(q) > kFlat) continue;
+                for (const Index p : mesh_.quads[q]) mark[static_cast<std::size_t>(p)] = 1;
+            }
+            bool moved = false;
+            for (std::size_t p = fixed_; p < mesh_.points.size(); ++p) {
+                if (mark[p] != 0 && move(p)) moved = true;
+            }
+            if (!moved) return;
+        }
+    }
+
+private:
+    [[nodiscard]] double sine(std::size_t q) const
+    {
+        const Quad& quad = mesh_.quads[q];
+        const auto at = [&](std::size_t k) -> const Vec2& {
+            return mesh_.points[static_cast<std::size_t>(quad[k])];
+        };
+        return least_sine(at(0), at(1), at(2), at(3));
+    }
+
+    [[nodiscard]] double worst_at(std::size_t p) const
+    {
+        double worst = 1;
+        for (std::size_t k = first_[p]; k < first_[p + 1]; ++k) worst = std::min(worst, sine(around_[k]));
+        return worst;
+    }
+
+    bool move(std::size_t p)
+    {
+        const Vec2 start = mesh_.points[p];
+        Vec2 mean = Vec2::Zero();
+        double reach = 0, count = 0;
+        for (std::size_t k = first_[p]; k < first_[p + 1]; ++k) {
+            for (const Index other : mesh_.quads[around_[k]]) {
+                if (static_cast<std::size_t>(other) == p) continue;
+                const Vec2& x = mesh_.points[static_cast<std::size_t>(other)];
+                mean += x;
+                reach += (x - start).norm();
+                count += 1;
+            }
+        }
+        if (count == 0) return false;
+        mean /= count;
+        reach /= 2 * count;
+        Vec2 best = start;
+        const double before = worst_at(p);
+        double worst = before;
+        const auto attempt = [&](const Vec2& x) {
+            mesh_.points[p] = x;
+            const double now = worst_at(p);
+            if (now <= worst) return;
+            worst = now;
+            best = x;
+        };
+        attempt(mean);
+        attempt((mean + start) / 2);
+        for (int halving = 0; halving < 4; ++halving, reach /= 2) {
+            const Vec2 centre = best;
+            for (const Vec2& step : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1), Vec2(1, 1),
+                                     Vec2(-1, 1), Vec2(-1, -1), Vec2(1, -1)})
+                attempt(centre + reach * step);
+        }
+        mesh_.points[p] = best;
+        constexpr double kGain = 1e-3;
+        return worst > before + kGain;
+    }
+
+    PlanarQuads& mesh_;
+    std::size_t fixed_;
+    std::vector<std::size_t> first_, around_;
+};
+
 } // namespace
+
+void ease_folds(PlanarQuads& mesh, std::size_t fixed) { Easer(mesh, fixed).run(); }
 
 int open_corners(PlanarQuads& mesh, const PlanarRegion& region) { return CornerOpener(mesh, region).run(); }
 

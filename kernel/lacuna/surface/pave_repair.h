@@ -12,6 +12,10 @@ namespace lacuna::surface::paving {
 /// @return how many changes were made.
 int open_corners(PlanarQuads& mesh, const PlanarRegion& region);
 
+/// Move the inner nodes of folded or flat quads, one at a time, to where the worst quad around is better: what straight
+/// lines made flat opens at once, and less is left to untangle.
+void ease_folds(PlanarQuads& mesh, std::size_t fixed);
+
 /// Surround each quad with a corner that is not positive by four quads, whose new nodes can move.
 /// @return how many quads were.
 int loosen_folds(PlanarQuads& mesh, double least);
