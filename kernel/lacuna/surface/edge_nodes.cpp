@@ -9,6 +9,13 @@ namespace lacuna::surface {
 
 using namespace topology;
 
+namespace {
+
+/// So close to a point of the polyline, in its sides, a place is that point, bit for bit: given nodes stay.
+constexpr double kOnPoint = 1e-9;
+
+} // namespace
+
 std::vector<Vec3> edge_points(const Model& model, EdgeId id, std::span<const double> fractions)
 {
     const Edge& edge = model[id];
@@ -27,7 +34,9 @@ std::vector<Vec3> edge_points(const Model& model, EdgeId id, std::span<const dou
             result[i] = line.back();
         } else {
             const geometry::PolylinePlace at = geometry::place_at(arc, fractions[i] * arc.back());
-            if (edge.curve == nullptr) {
+            if (edge.curve == nullptr && std::min(at.fraction, 1 - at.fraction) < kOnPoint) {
+                result[i] = line[at.segment + (at.fraction < 0.5 ? 0 : 1)];
+            } else if (edge.curve == nullptr) {
                 result[i] = (1 - at.fraction) * line[at.segment] + at.fraction * line[at.segment + 1];
             } else {
                 params.push_back((1 - at.fraction) * edge.params[at.segment] +

@@ -26,7 +26,9 @@ constexpr double kUnlike = 3;
 /// However large the size asked for, a side of a quad stands for no more than this much of a bend [degrees]: a circle keeps eight.
 constexpr double kTurnPerSide = 45;
 /// Points per piece at which the size is asked.
-constexpr int kSizeSamples = 8;
+constexpr int kSizeSamples = 32;
+/// Sizes that differ by less along an edge are one, and its nodes stand evenly.
+constexpr double kSameSize = 1e-3;
 
 /// How much an edge turns from end to end, all bends added [degrees]; a closed one also where it closes.
 double turning(const Model& model, EdgeId id)
@@ -113,6 +115,7 @@ public:
     {
         for (const Belt& belt : belts) add_rim(belt);
         for (const FaceId face : volume.faces(Role::source)) {
+            if (keeps(face)) seeds_.kept.insert(face);
             for (const Loop& loop : model_[face].loops) {
                 for (const EdgeUse& use : loop.uses) {
                     users_[use.edge].insert(face);
@@ -123,7 +126,12 @@ public:
             }
         }
         for (auto& [edge, pieces] : seeds_.pieces) {
-            for (SeedPiece& piece : pieces) piece.count = wanted(edge, piece);
+            for (SeedPiece& piece : pieces) ask_size(edge, piece);
+        }
+        for (const FaceId face : seeds_.kept) {
+            for (const Loop& loop : model_[face].loops) {
+                for (const EdgeUse& use : loop.uses) keep_nodes(face, use.edge);
+            }
         }
     }
 
@@ -162,13 +170,71 @@ private:
         }
     }
 
-    [[nodiscard]] int wanted(EdgeId edge, const SeedPiece& piece) const
+    /// Whether a face came with quads that are to be its mesh.
+    [[nodiscard]] bool keeps(FaceId face) const
+    {
+        const Face& f = model_[face];
+        const bool whole = !f.given_quads.empty() && 2 * f.given_quads.size() == f.triangles.size();
+        if (style_ == QuadStyle::kept && !whole) {
+            throw NotSweepable(
+                "surface.not_kept",
+                name_of(model_, face) + " has " + std::to_string(f.given_quads.size()) +
+                    " quads of its own and " +
+                    std::to_string(f.triangles.size() -
+                                   std::min(f.triangles.size(), 2 * f.given_quads.size())) +
+                    " triangles; quads = \"keep\" needs quads all over: use quads = \"auto\", or load with "
+                    "keep_mesh = true");
+        }
+        return whole && (style_ == QuadStyle::kept || style_ == QuadStyle::automatic);
+    }
+
+    /// The pieces of an edge get the nodes it came with.
+    void keep_nodes(FaceId face, EdgeId edge)
+    {
+        std::vector<double> arc{0};
+        const std::vector<Index>& points = model_[edge].points;
+        for (std::size_t i = 1; i < points.size(); ++i)
+            arc.push_back(arc.back() + (model_.at(points[i]) - model_.at(points[i - 1])).norm());
+        for (SeedPiece& piece : seeds_.pieces[edge]) {
+            if (piece.fixed) continue;
+            const double slack = model_.tolerance / arc.back();
+            piece.kept.clear();
+            bool from = false, to = false;
+            for (const double length : arc) {
+                const double f = length / arc.back();
+                from = from || std::abs(f - piece.from) <= slack;
+                to = to || std::abs(f - piece.to) <= slack;
+                if (f > piece.from + slack && f < piece.to - slack) piece.kept.push_back(f);
+            }
+            if (!from || !to) {
+                throw NotSweepable("surface.kept_rim", name_of(model_, edge) + " of " +
+                                                           name_of(model_, face) +
+                                                           ", whose quads are to be kept, has no node where "
+                                                           "the other end has a corner; mesh both ends "
+                                                           "alike, or load with keep_mesh = false");
+            }
+            piece.fixed = true;
+            piece.wanted.clear();
+            piece.count = static_cast<int>(piece.kept.size()) + 1;
+        }
+    }
+
+    /// How many sides the size asks for, and where they are wanted.
+    void ask_size(EdgeId edge, SeedPiece& piece) const
     {
         std::vector<double> at;
         for (int i = 0; i < kSizeSamples; ++i)
             at.push_back(piece.from + (i + 0.5) / kSizeSamples * (piece.to - piece.from));
-        double sides = 0;
-        for (const Vec3& p : edge_points(model_, edge, at)) sides += piece.length / kSizeSamples / size_(p);
+        double sides = 0, least = std::numeric_limits<double>::infinity(), most = 0;
+        piece.wanted = {0};
+        for (const Vec3& p : edge_points(model_, edge, at)) {
+            const double here = piece.length / kSizeSamples / size_(p);
+            sides += here;
+            piece.wanted.push_back(sides);
+            least = std::min(least, here);
+            most = std::max(most, here);
+        }
+        if (most < least * (1 + kSameSize)) piece.wanted.clear();
         if (sides > std::numeric_limits<Index>::max() / 8) {
             char count[32];
             std::snprintf(count, sizeof count, "%.3g", sides);
@@ -178,12 +244,13 @@ private:
                                    "give a larger size");
         }
         const double bend = turning(model_, edge) * (piece.to - piece.from) / kTurnPerSide;
-        return std::max({1, static_cast<int>(std::lround(sides)), static_cast<int>(std::ceil(bend - 1e-6))});
+        piece.count = std::max(
+            {1, static_cast<int>(std::lround(sides)), static_cast<int>(std::ceil(bend - 1e-6))});
     }
 
     void choose(FaceId face)
     {
-        if (style_ == QuadStyle::free) return;
+        if (style_ == QuadStyle::free || seeds_.kept.contains(face)) return;
         const auto corners = four_corners(model_, face);
         if (style_ == QuadStyle::mapped && !corners) {
             throw NotSweepable(
@@ -197,19 +264,22 @@ private:
         seeds_.corners[face] = *corners;
     }
 
-    /// One more side where the sides are longest.
-    void raise(const std::vector<EdgeId>& edges, int by)
+    /// One more side where the sides are longest. @return false where all are fixed
+    bool raise(const std::vector<EdgeId>& edges, int by)
     {
         for (; by > 0; --by) {
             SeedPiece* longest = nullptr;
             for (const EdgeId edge : edges) {
                 for (SeedPiece& piece : seeds_.pieces[edge]) {
+                    if (piece.fixed) continue;
                     if (longest == nullptr || piece.length / piece.count > longest->length / longest->count)
                         longest = &piece;
                 }
             }
+            if (longest == nullptr) return false;
             ++longest->count;
         }
+        return true;
     }
 
     [[nodiscard]] int total(const std::vector<EdgeId>& edges) const
@@ -226,17 +296,24 @@ private:
             bool changed = false;
             for (auto it = seeds_.corners.begin(); it != seeds_.corners.end();) {
                 const Loop& loop = model_[it->first].loops[0];
-                bool raised = false;
+                bool raised = false, stuck = false;
                 for (std::size_t side = 0; side < 2; ++side) {
                     const std::vector<EdgeId> a = side_edges(loop, it->second, side);
                     const std::vector<EdgeId> b = side_edges(loop, it->second, side + 2);
                     const int difference = total(a) - total(b);
                     if (difference == 0) continue;
-                    raise(difference > 0 ? b : a, std::abs(difference));
+                    stuck = !raise(difference > 0 ? b : a, std::abs(difference)) || stuck;
                     raised = true;
                 }
                 changed = changed || raised;
-                it = raised && round > most ? seeds_.corners.erase(it) : std::next(it);
+                if (stuck && style_ == QuadStyle::mapped) {
+                    throw NotSweepable("surface.kept_side",
+                                       name_of(model_, it->first) +
+                                           " is to be mapped, and a side of it has fewer given nodes than "
+                                           "the one opposite; use "
+                                           "quads = \"auto\"");
+                }
+                it = stuck || (raised && round > most) ? seeds_.corners.erase(it) : std::next(it);
             }
             if (!changed) return;
         }
@@ -251,7 +328,16 @@ private:
         return sum % 2 != 0;
     }
 
-    [[nodiscard]] bool is_free(FaceId face) const { return !seeds_.corners.contains(face); }
+    [[nodiscard]] bool is_free(FaceId face) const
+    {
+        return !seeds_.corners.contains(face) && !seeds_.kept.contains(face);
+    }
+
+    [[nodiscard]] bool is_fixed(EdgeId edge) const
+    {
+        const std::vector<SeedPiece>& pieces = seeds_.pieces.at(edge);
+        return std::all_of(pieces.begin(), pieces.end(), [](const SeedPiece& piece) { return piece.fixed; });
+    }
 
     /// Free faces by how many edges lie between them and a rim edge of their own, farthest first: each hands its odd side on.
     void make_even()
@@ -263,7 +349,7 @@ private:
             if (!is_free(face)) continue;
             std::optional<EdgeId> longest;
             for (const auto& [edge, users] : users_) {
-                if (!rim_.contains(edge) || !users.contains(face)) continue;
+                if (!rim_.contains(edge) || !users.contains(face) || is_fixed(edge)) continue;
                 if (!longest || edge_length(model_, edge) > edge_length(model_, *longest)) longest = edge;
             }
             if (!longest) continue;
@@ -272,7 +358,7 @@ private:
         }
         for (std::size_t i = 0; i < order.size(); ++i) {
             for (const auto& [edge, users] : users_) {
-                if (!users.contains(order[i])) continue;
+                if (!users.contains(order[i]) || is_fixed(edge)) continue;
                 for (const FaceId other : users) {
                     if (!is_free(other) || way_out.contains(other)) continue;
                     way_out[other] = edge;
@@ -319,10 +405,31 @@ std::vector<double> Seeds::fractions(EdgeId edge) const
 {
     std::vector<double> result;
     for (const SeedPiece& piece : pieces.at(edge)) {
-        for (int i = 0; i < piece.count; ++i)
-            result.push_back(piece.from + (piece.to - piece.from) * i / piece.count);
+        const std::vector<double> more = piece.fractions();
+        result.insert(result.end(), more.begin(), more.end());
     }
     result.push_back(1);
+    return result;
+}
+
+std::vector<double> SeedPiece::fractions() const
+{
+    std::vector<double> result{from};
+    if (fixed) {
+        result.insert(result.end(), kept.begin(), kept.end());
+        return result;
+    }
+    std::size_t step = 0;
+    for (int i = 1; i < count; ++i) {
+        double along = static_cast<double>(i) / count;
+        if (!wanted.empty()) {
+            const double sides = along * wanted.back();
+            while (step + 2 < wanted.size() && wanted[step + 1] < sides) ++step;
+            along = (static_cast<double>(step) + (sides - wanted[step]) / (wanted[step + 1] - wanted[step])) /
+                    static_cast<double>(wanted.size() - 1);
+        }
+        result.push_back(from + (to - from) * along);
+    }
     return result;
 }
 

@@ -6,6 +6,7 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,7 +15,8 @@ namespace lacuna::surface {
 
 /// How source faces are meshed.
 enum class QuadStyle {
-    automatic, ///< mapped where four-sided and not too unlike, else free
+    automatic, ///< its own quads where it came with some; mapped where four-sided and not too unlike; else free
+    kept,      ///< its own quads, or an error
     mapped,    ///< mapped, or an error
     free,      ///< by the planar mesher
 };
@@ -24,6 +26,14 @@ struct SeedPiece {
     double from = 0, to = 1; ///< fractions of the edge's length, as the edge runs
     double length = 0;       ///< [model length]
     int count = 1;           ///< sides, >= 1
+    /// Sides wanted from the start to each of some even steps, where the size asked for changes along the piece: nodes stand
+    /// where it reaches whole parts. Empty: nodes stand evenly.
+    std::vector<double> wanted{};
+    std::vector<double> kept{}; ///< nodes inside that were given, as fractions of the edge; with `fixed`
+    bool fixed = false;         ///< the nodes of a given mesh: none more, none less
+
+    /// Fractions of the edge at the piece's nodes, its start included, its end not.
+    [[nodiscard]] std::vector<double> fractions() const;
 };
 
 /// Sides of every edge of the source faces, consistent: a mapped face has as many on opposite sides, a free face an
@@ -31,7 +41,8 @@ struct SeedPiece {
 struct Seeds {
     std::map<EdgeId, std::vector<SeedPiece>> pieces; ///< in order along the edge
     std::map<FaceId, std::vector<std::size_t>>
-        corners; ///< of mapped faces: the four uses of the loop that start a side
+        corners;           ///< of mapped faces: the four uses of the loop that start a side
+    std::set<FaceId> kept; ///< faces whose own quads are the mesh
     [[nodiscard]] int count(EdgeId edge) const;
     /// Fractions of the edge's nodes, both ends included.
     [[nodiscard]] std::vector<double> fractions(EdgeId edge) const;
@@ -39,9 +50,11 @@ struct Seeds {
 
 /// Numbers of sides for the edges of the source, by size where there are no constraints; a bend of 45° has a side at least.
 ///
+/// Edges of faces that keep their own quads have the nodes of those. Where the size changes along an edge its nodes follow.
 /// Opposite sides of mapped faces are raised to the larger count, a face at a time until nothing changes; then each free face with an
 /// odd total gets one more side on a rim edge of its own, or on an edge towards one.
-/// @throw NotSweepable  a face to be mapped that has not four sides; a face whose total cannot be made even; names them.
+/// @throw NotSweepable  a face to be kept that has not quads all over, or whose rim has no node where the other end has a corner;
+///                      a face to be mapped that has not four sides; a face whose total cannot be made even; names them.
 Seeds seed_source(const topology::OpenVolume& volume, std::span<const Belt> belts, const SizeField& size,
                   QuadStyle style);
 

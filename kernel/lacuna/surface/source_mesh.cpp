@@ -48,8 +48,10 @@ public:
         for (const FaceId face : volume_.faces(Role::source)) {
             const auto corners = seeds_.corners.find(face);
             const std::size_t before = result_.quads.quads.size();
-            how_ = "mapped";
-            if (corners != seeds_.corners.end())
+            how_ = seeds_.kept.contains(face) ? "kept" : "mapped";
+            if (seeds_.kept.contains(face))
+                keep(face);
+            else if (corners != seeds_.corners.end())
                 map(face, corners->second);
             else
                 fill(face);
@@ -71,15 +73,16 @@ private:
 
     void add_belt(const Belt& belt)
     {
-        std::vector<int> counts;
+        std::vector<std::vector<double>> shares;
         for (const Stretch& stretch : belt.stretches) {
             const EdgeUse use = belt.source.uses()[stretch.use];
             const double middle = belt.source.place((stretch.source_from + stretch.source_to) / 2).fraction;
             for (const SeedPiece& piece : seeds_.pieces.at(use.edge)) {
-                if (middle > piece.from && middle < piece.to) counts.push_back(piece.count);
+                if (middle > piece.from && middle < piece.to)
+                    shares.push_back(shares_of(piece, use.reversed));
             }
         }
-        BeltNodes nodes = belt_nodes(belt, counts);
+        BeltNodes nodes = belt_nodes(belt, shares);
         const auto first = static_cast<Index>(result_.quads.nodes.size());
         const std::vector<Vec3> points = belt.source.points(nodes.source_at);
         for (const Vec3& p : points) add_node(p);
@@ -101,6 +104,17 @@ private:
         }
         result_.belts.push_back(std::move(nodes));
         result_.first.push_back(first);
+    }
+
+    /// Shares of a piece at its nodes as a use of the edge meets them, from 0, below 1.
+    static std::vector<double> shares_of(const SeedPiece& piece, bool reversed)
+    {
+        std::vector<double> shares = piece.fractions();
+        for (double& f : shares) f = (f - piece.from) / (piece.to - piece.from);
+        if (!reversed) return shares;
+        std::vector<double> back{0};
+        for (std::size_t i = shares.size(); i-- > 1;) back.push_back(1 - shares[i]);
+        return back;
     }
 
     void add_edge(EdgeId edge)
@@ -126,6 +140,27 @@ private:
         std::vector<Index> chain = nodes_on_.at(use.edge);
         if (use.reversed) std::reverse(chain.begin(), chain.end());
         return chain;
+    }
+
+    /// Kept: the quads the face came with, node for node.
+    void keep(FaceId face)
+    {
+        std::unordered_map<Index, Index> node_of_point;
+        for (const Loop& loop : model_[face].loops) {
+            for (const EdgeUse& use : loop.uses) {
+                const std::vector<Index> points = use_points(model_, use), nodes = nodes_along(use);
+                for (std::size_t i = 0; i < points.size(); ++i) node_of_point[points[i]] = nodes[i];
+            }
+        }
+        for (const Quad& quad : model_[face].given_quads) {
+            Quad kept{};
+            for (std::size_t k = 0; k < 4; ++k) {
+                const auto [found, fresh] = node_of_point.try_emplace(quad[k], -1);
+                if (fresh) found->second = add_node(model_.at(quad[k]));
+                kept[k] = found->second;
+            }
+            result_.quads.quads.push_back(kept);
+        }
     }
 
     /// Mapped: a grid of quads over four sides.

@@ -22,7 +22,7 @@ struct SourceMesh {
 
 /// Mesh the source faces with quads by their seeds.
 ///
-/// Mapped faces: transfinite in arc length, then onto the face. Free ones: the face is laid flat, filled by `mesher` and lifted back onto
+/// Kept faces: their own quads, every node bit for bit. Mapped faces: transfinite in arc length, then onto the face. Free ones: the face is laid flat, filled by `mesher` and lifted back onto
 /// its exact surface. Nodes of edges and vertices are shared between faces.
 /// @throw NotSweepable  a face that needs `mesher` and there is none, or that cannot be laid flat; names it.
 SourceMesh mesh_source(const topology::OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds,

@@ -400,6 +400,16 @@ void follow_rows(std::vector<WallMesh>& meshes, std::span<const BeltNodes> nodes
 
 BeltNodes belt_nodes(const Belt& belt, std::span<const int> counts)
 {
+    std::vector<std::vector<double>> shares;
+    for (const int count : counts) {
+        shares.emplace_back();
+        for (int k = 0; k < count; ++k) shares.back().push_back(static_cast<double>(k) / count);
+    }
+    return belt_nodes(belt, shares);
+}
+
+BeltNodes belt_nodes(const Belt& belt, std::span<const std::vector<double>> shares)
+{
     BeltNodes nodes;
     std::size_t line = 0;
     for (std::size_t i = 0; i < belt.stretches.size(); ++i) {
@@ -409,8 +419,7 @@ BeltNodes belt_nodes(const Belt& belt, std::span<const int> counts)
             nodes.line.push_back(nodes.source_at.size());
             ++line;
         }
-        for (int k = 0; k < counts[i]; ++k) {
-            const double f = static_cast<double>(k) / counts[i];
+        for (const double f : shares[i]) {
             nodes.source_at.push_back(stretch.source_from + f * (stretch.source_to - stretch.source_from));
             nodes.target_at.push_back(stretch.target_from + f * (stretch.target_to - stretch.target_from));
         }

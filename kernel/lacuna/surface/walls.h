@@ -19,6 +19,8 @@ struct BeltNodes {
 
 /// Spread `counts[i]` sides evenly over stretch i.
 BeltNodes belt_nodes(const Belt& belt, std::span<const int> counts);
+/// Nodes at given shares of each stretch, rising from 0 and below 1.
+BeltNodes belt_nodes(const Belt& belt, std::span<const std::vector<double>> shares);
 
 /// A structured quad mesh on the walls of a belt.
 struct WallMesh {

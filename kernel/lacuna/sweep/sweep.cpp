@@ -19,6 +19,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace lacuna::sweep {
 
@@ -37,9 +38,7 @@ surface::QuadStyle style_of(Quads quads)
     case Quads::paved:
         return surface::QuadStyle::free;
     case Quads::keep:
-        throw InvalidInput(
-            "sweep.quads",
-            "quads = \"keep\" is not available yet; use \"auto\", \"mapped\", \"paved\" or \"gmsh\"");
+        return surface::QuadStyle::kept;
     }
     return surface::QuadStyle::automatic;
 }
@@ -251,8 +250,9 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
     return patches.faces();
 }
 
-/// Skin nodes within one face slide on it; those between faces stay.
-std::vector<Index> sliding_nodes(const mesh::HexMesh& mesh)
+/// Skin nodes within one face slide on it; those between faces stay, as do those of faces that keep their own quads.
+std::vector<Index> sliding_nodes(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
+                                 const std::set<FaceId>& kept)
 {
     constexpr Index kInside = -1, kLocked = -2;
     std::vector<Index> surface(mesh.nodes.size(), kInside);
@@ -261,6 +261,7 @@ std::vector<Index> sliding_nodes(const mesh::HexMesh& mesh)
         for (const Index n : quad.nodes) {
             Index& at = surface[static_cast<std::size_t>(n)];
             at = at == kInside || at == quad.patch ? quad.patch : kLocked;
+            if (kept.contains(faces[static_cast<std::size_t>(quad.patch)])) at = kLocked;
         }
     }
     return surface;
@@ -308,7 +309,8 @@ std::string in_words(const Improved& improved)
 
 /// Prove the mesh; where cells are folded or poor, move nodes and prove it again.
 quality::Quality prove_or_mend(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
-                               const SweepOptions& options, const RunContext& context)
+                               const std::set<FaceId>& kept, const SweepOptions& options,
+                               const RunContext& context)
 {
     ImproveOptions improving = options.improving;
     improving.good_enough = std::max(improving.good_enough, options.min_scaled_jacobian);
@@ -319,7 +321,7 @@ quality::Quality prove_or_mend(Swept& swept, const topology::Model& model, const
         if (!options.improve || !is_poor(error)) throw;
     }
     FaceProjectors projectors(model, faces, context);
-    const Sliding sliding{sliding_nodes(swept.mesh),
+    const Sliding sliding{sliding_nodes(swept.mesh, faces, kept),
                           [&](Index patch, std::span<Vec3> points) { projectors.project(patch, points); }};
     const Improved improved = improve(swept.mesh, improving, sliding, context);
     if (improved.cells > 0) swept.report.push_back(in_words(improved));
@@ -336,6 +338,14 @@ Swept sweep_between(const OpenVolume& volume, const std::vector<surface::Belt>& 
     surface::SourceMesh source = surface::mesh_source(volume, belts, seeds, size, mesher_of(options),
                                                       context);
     for (std::string& note : source.notes) result.report.push_back("source " + note);
+    for (const Role role : {Role::target, Role::wall}) {
+        for (const FaceId face : volume.faces(role)) {
+            if (volume.model[face].given_quads.empty()) continue;
+            result.report.push_back((role == Role::wall ? "walls: " : "target: ") +
+                                    name_of(volume.model, face) +
+                                    " came with quads, which are not kept: only the source's are");
+        }
+    }
 
     std::vector<surface::WallMesh> walls;
     const Columns columns = columns_of(volume, belts, source, heights, walls, context);
@@ -365,7 +375,7 @@ Swept sweep_between(const OpenVolume& volume, const std::vector<surface::Belt>& 
     for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
         mesh.rim.push_back({side.from, side.to});
     const std::vector<FaceId> faces = set_patches(volume, source, target, walls, mesh);
-    const quality::Quality quality = prove_or_mend(result, volume.model, faces, options, context);
+    const quality::Quality quality = prove_or_mend(result, volume.model, faces, seeds.kept, options, context);
     result.min_scaled_jacobian = quality.min_scaled_jacobian;
     result.report.push_back("cells: " + std::to_string(quality.hexes) + ", all certified, scaled Jacobian " +
                             std::to_string(quality.min_scaled_jacobian) + " at least, " +

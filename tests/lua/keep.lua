@@ -1,0 +1,98 @@
+-- SPDX-License-Identifier: MIT
+-- Quads that came in stay as they are: every node bit for bit, every quad once, on the source's end of the mesh.
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local lacuna = require "lacuna"
+
+local N = 5
+
+-- A box whose source is N x N quads with nodes where no rule puts them, its rim included; the rest triangles.
+local function box(options)
+  local model = lacuna.model()
+  local at = { 0, 0.13, 0.31, 0.57, 0.79, 1 }
+  local function place(i, j)
+    local x, y = at[i + 1], at[j + 1]
+    if i > 0 and i < N and j > 0 and j < N then x, y = x + 0.05 * math.sin(7 * i + 3 * j), y + 0.05 * math.cos(5 * i - j) end
+    return { x, y, 0 }
+  end
+  local points, cells = {}, {}
+  for j = 0, N do for i = 0, N do points[#points + 1] = place(i, j) end end
+  for j = 0, N - 1 do
+    for i = 0, N - 1 do
+      local a = j * (N + 1) + i + 1
+      cells[#cells + 1] = { a, a + 1, a + N + 2, a + N + 1 }
+    end
+  end
+  model:add_face { name = "source", points = points, cells = cells, keep_mesh = options.keep_mesh ~= false }
+  local top = { { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } }
+  model:add_face { name = "target", points = top, cells = { { 1, 2, 3 }, { 1, 3, 4 } } }
+  local rim = { {}, {}, {}, {} }
+  for k = 0, N do
+    rim[1][k + 1], rim[2][k + 1] = place(k, 0), place(N, k)
+    rim[3][k + 1], rim[4][k + 1] = place(N - k, N), place(0, N - k)
+  end
+  for side = 1, 4 do
+    local wall, triangles = {}, {}
+    for k = 1, N + 1 do wall[k] = rim[side][k] end
+    wall[N + 2], wall[N + 3] = top[side % 4 + 1], top[side]
+    for k = 1, N do triangles[k] = { k, k + 1, N + 3 } end
+    triangles[N + 1] = { N + 1, N + 2, N + 3 }
+    model:add_face { name = "wall_" .. side, points = wall, cells = triangles }
+  end
+  return model, points
+end
+
+local function key(x, y, z) return string.format("%a %a %a", x, y, z) end
+
+local function check_kept(mesh, points)
+  check.equal(mesh.hexes, 3 * N * N)
+  local found = {}
+  for i = 1, mesh.nodes do
+    local x, y, z = mesh:node(i)
+    if z == 0 then found[key(x, y, z)] = (found[key(x, y, z)] or 0) + 1 end
+  end
+  for _, p in ipairs(points) do check.equal(found[key(p[1], p[2], p[3])], 1) end
+end
+
+for _, quads in ipairs { "auto", "keep" } do
+  local model, points = box {}
+  check.equal(model:face("source").has_mesh, true)
+  local volume = model:open_volume { source = "source", target = "target", walls = "auto" }
+  check_kept(volume:sweep { layers = 3, size = 0.5, quads = quads }, points)
+end
+
+-- Two sides missing: void walls take the given nodes too.
+do
+  local model, points = box {}
+  local volume = model:open_volume { source = "source", target = "target", walls = { "wall_1", "wall_2" } }
+  check_kept(volume:sweep { layers = 3, quads = "keep" }, points)
+end
+
+-- Not asked to keep, and not able to.
+do
+  local model = box { keep_mesh = false }
+  local volume = model:open_volume { source = "source", target = "target", walls = "auto" }
+  check.equal(volume:sweep({ layers = 3, size = 0.5 }).hexes, 3 * 2 * 2)
+  local ok, message = pcall(function() return volume:sweep { layers = 3, quads = "keep" } end)
+  check.equal(ok, false)
+  assert(message:find("source", 1, true) and message:find("keep_mesh", 1, true), message)
+end
+
+-- A size that changes: the rim's nodes stand as close as it asks at each place.
+do
+  local model = box { keep_mesh = false }
+  local volume = model:open_volume { source = "source", target = "target", walls = "auto" }
+  local mesh = volume:sweep { layers = 2, quads = "paved", size = function(x) return 0.02 + 0.1 * x end }
+  local on_side = {}
+  for i = 1, mesh.nodes do
+    local x, y, z = mesh:node(i)
+    if z == 0 and y == 0 then on_side[#on_side + 1] = x end
+  end
+  table.sort(on_side)
+  for i = 2, #on_side do
+    local asked = 0.02 + 0.1 * (on_side[i] + on_side[i - 1]) / 2
+    local ratio = (on_side[i] - on_side[i - 1]) / asked
+    assert(ratio > 0.8 and ratio < 1.25, string.format("side of %g of the size asked at %g", ratio, on_side[i]))
+  end
+  assert(#on_side > 15)
+end
+check.done()
