@@ -136,6 +136,21 @@ public:
         budget_ = static_cast<long>(options.effort * static_cast<double>(mesh.quads.size()));
     }
 
+    /// Does every point have its quads in one fan, and lie no point on the boundary but the first ones?
+    [[nodiscard]] bool is_sound() const
+    {
+        std::vector<int> fans(points_.size(), 0);
+        for (Index q = 0; q < static_cast<Index>(net_.quad_slots()); ++q) {
+            for (const Index p : net_.quad(q)) ++fans[static_cast<std::size_t>(p)];
+        }
+        for (Index p = 0; p < static_cast<Index>(points_.size()); ++p) {
+            if (!net_.is_used(p)) continue;
+            if (net_.valence(p) != fans[static_cast<std::size_t>(p)]) return false;
+            if (static_cast<std::size_t>(p) >= fixed_ && net_.on_boundary(p)) return false;
+        }
+        return true;
+    }
+
     [[nodiscard]] std::size_t irregular() const
     {
         std::size_t count = 0;
@@ -500,6 +515,7 @@ CleanReport clean_quads(PlanarQuads& mesh, std::size_t fixed, const CleanOptions
 {
     CleanReport report;
     Cleaner cleaner(mesh, fixed, options);
+    if (!cleaner.is_sound()) return report;
     report.irregular_before = cleaner.irregular();
     report.doublets = cleaner.remove_doublets();
     for (int pass = 0; pass < options.passes; ++pass) {

@@ -35,7 +35,7 @@ struct CleanReport {
 /// quads are brought together over any distance. A change stays when, smoothed, its corners are positive and
 /// neither its worst quad nor the mean suffers.
 /// @param fixed  points on the boundary: the first ones, not moved nor renumbered; the others may be.
-/// @pre   a valid mesh of quads, counter-clockwise; some corners may be folded.
+/// @pre   quads counter-clockwise, joined side to side; some may be folded. Where that is not so nothing is done.
 /// @post  the least scaled Jacobian is not smaller than before.
 /// @throw Cancelled
 /// @note  Deterministic. Linear in the quads to look at, and in what is changed.
