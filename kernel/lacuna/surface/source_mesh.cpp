@@ -9,6 +9,7 @@
 #include <lacuna/surface/projector.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <unordered_map>
 
@@ -316,17 +317,48 @@ private:
             const auto found = locator.locate(p);
             return FacetPlace{found.triangle, found.barycentric};
         };
+        const std::vector<double> stretch = stretches(face, flat);
         const PlanarQuads filling = fill_region(rim, loops, [&](const Vec2& p) {
-            const std::vector<FacetPlace> at{place(p)};
-            const Triangle& t = model_[face].triangles[static_cast<std::size_t>(at[0].triangle)];
-            return size_(at[0].barycentric[0] * model_.at(t[0]) + at[0].barycentric[1] * model_.at(t[1]) +
-                         at[0].barycentric[2] * model_.at(t[2]));
+            const FacetPlace at = place(p);
+            const auto number = static_cast<std::size_t>(at.triangle);
+            const Triangle &t = model_[face].triangles[number], &f = flat.triangles[number];
+            Vec3 on_face = Vec3::Zero();
+            double by = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double weight = at.barycentric[static_cast<int>(k)];
+                on_face += weight * model_.at(t[k]);
+                by += weight * stretch[static_cast<std::size_t>(f[k])];
+            }
+            return size_(on_face) * by;
         });
         add_filling(boundary, filling, [&](const std::vector<Vec2>& points) {
             std::vector<FacetPlace> places;
             for (const Vec2& p : points) places.push_back(place(p));
             return points_at(model_, face, places);
         });
+    }
+
+    /// Lengths in the plane over those on the face, at each point used: the square root of the areas round it.
+    [[nodiscard]] std::vector<double> stretches(FaceId face, const geometry::Flattened& flat) const
+    {
+        std::vector<double> plane(flat.used.size(), 0.0), space(flat.used.size(), 0.0);
+        for (std::size_t i = 0; i < flat.triangles.size(); ++i) {
+            const Triangle &f = flat.triangles[i], &t = model_[face].triangles[i];
+            const Vec2 u = flat.position[static_cast<std::size_t>(f[1])] -
+                           flat.position[static_cast<std::size_t>(f[0])];
+            const Vec2 v = flat.position[static_cast<std::size_t>(f[2])] -
+                           flat.position[static_cast<std::size_t>(f[0])];
+            const double flat_area = std::abs(u.x() * v.y() - u.y() * v.x());
+            const double area =
+                (model_.at(t[1]) - model_.at(t[0])).cross(model_.at(t[2]) - model_.at(t[0])).norm();
+            for (const Index p : f) {
+                plane[static_cast<std::size_t>(p)] += flat_area;
+                space[static_cast<std::size_t>(p)] += area;
+            }
+        }
+        for (std::size_t p = 0; p < plane.size(); ++p)
+            plane[p] = space[p] > 0 ? std::sqrt(plane[p] / space[p]) : 1;
+        return plane;
     }
 
     const OpenVolume& volume_;
