@@ -135,7 +135,6 @@ bool sides_match(const std::vector<Quad>& quads)
 
 void judge(Attempt& attempt)
 {
-    if (!sides_match(attempt.mesh.quads)) return;
     attempt.worst = 1;
     for (const Quad& q : attempt.mesh.quads) {
         const auto at = [&](std::size_t k) { return attempt.mesh.points[static_cast<std::size_t>(q[k])]; };
@@ -146,13 +145,30 @@ void judge(Attempt& attempt)
     }
 }
 
-void finish(Attempt& attempt, const Draft& draft, const PaveOptions& options, const RunContext& context)
+/// Open what is folded: by moving nodes, then with more of them.
+void open_folds(Attempt& attempt, const Draft& draft, const PaveOptions& options, const RunContext& context)
 {
-    if (options.smooth) ease_folds(attempt.mesh, draft.fixed);
-    if (options.clean) clean_quads(attempt.mesh, draft.fixed, {.size = draft.size}, context);
-    if (options.smooth)
-        smooth_plane(attempt.mesh.points, attempt.mesh.quads, draft.fixed, {.size = draft.size}, context);
-    judge(attempt);
+    constexpr int kLoosenings = 3;
+    for (int round = 0;; ++round) {
+        Attempt tried = attempt;
+        if (round > 0) loosen_folds(tried.mesh, 0);
+        ease_folds(tried.mesh, draft.fixed);
+        judge(tried);
+        if (tried.worst <= 0 && round == 0 && options.clean) {
+            clean_quads(tried.mesh, draft.fixed, {.size = draft.size}, context);
+            ease_folds(tried.mesh, draft.fixed);
+            judge(tried);
+        }
+        if (tried.worst <= 0) {
+            // What opens here is smoothed with the rest later.
+            smooth_plane(tried.mesh.points, tried.mesh.quads, draft.fixed,
+                         {.size = draft.size, .sweeps = 0, .repairs = 0}, context);
+            judge(tried);
+        }
+        const bool better = round == 0 || tried.worst > attempt.worst;
+        if (better) attempt = std::move(tried);
+        if (!better || attempt.worst > 0 || round == kLoosenings) return;
+    }
 }
 
 Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style,
@@ -190,19 +206,15 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
     attempt.mesh = without_loose_points(draft);
     if (!sides_match(attempt.mesh.quads)) return attempt;
     open_corners(attempt.mesh, region);
-    finish(attempt, draft, options, context);
-    constexpr int kLoosenings = 3;
-    for (int round = 0; round < kLoosenings && attempt.worst <= 0; ++round) {
-        Attempt loose = attempt;
-        loosen_folds(loose.mesh, 0);
-        finish(loose, draft, options, context);
-        if (loose.worst <= attempt.worst) break;
-        attempt = std::move(loose);
-    }
-    if (options.smooth && attempt.worst > 0) {
+    judge(attempt);
+    if (options.smooth) open_folds(attempt, draft, options, context);
+    if (attempt.worst <= 0) return attempt;
+    if (options.clean) clean_quads(attempt.mesh, draft.fixed, {.size = draft.size}, context);
+    if (options.smooth) {
+        smooth_plane(attempt.mesh.points, attempt.mesh.quads, draft.fixed, {.size = draft.size}, context);
         true_rows(attempt.mesh, region, height);
-        judge(attempt);
     }
+    judge(attempt);
     return attempt;
 }
 

@@ -105,14 +105,20 @@ public:
                 if (const auto choice = judge(places[s], places[t])) choices.push_back(*choice);
             }
         }
-        std::sort(choices.begin(), choices.end(), [](const Choice& a, const Choice& b) {
-            return std::tie(a.cost, a.cut.from, a.cut.to) < std::tie(b.cost, b.cut.from, b.cut.to);
-        });
-        for (const double away : {0.5, 0.0}) {
-            for (const Choice& choice : choices) {
-                if (is_free(choice, away)) return refine(choice, away).cut;
-            }
+        // A heap, best on top: mostly the first or second is free.
+        const auto later = [](const Choice& a, const Choice& b) {
+            return std::tie(a.cost, a.cut.from, a.cut.to) > std::tie(b.cost, b.cut.from, b.cut.to);
+        };
+        std::make_heap(choices.begin(), choices.end(), later);
+        constexpr double kAway = 0.5; // of the line's edges
+        std::optional<Choice> near_miss;
+        for (auto end = choices.end(); end != choices.begin(); --end) {
+            std::pop_heap(choices.begin(), end, later);
+            const Choice& choice = *(end - 1);
+            if (is_free(choice, kAway)) return refine(choice, kAway).cut;
+            if (!near_miss && is_free(choice, 0)) near_miss = choice;
         }
+        if (near_miss) return refine(*near_miss, 0).cut;
         return std::nullopt;
     }
 
