@@ -70,7 +70,7 @@ Result run(const test::StressMember& member, const topology::OpenVolume& sealed,
         result.cells = q.hexes;
         result.least = q.min_scaled_jacobian;
         result.mean = q.mean_scaled_jacobian;
-        result.bound = test::skin_bound(swept.mesh);
+        result.bound = test::edge_bound(swept.mesh);
         result.report = swept.report;
     } catch (const Error& error) {
         result.code = error.code();

@@ -48,29 +48,35 @@ sweep::Swept swept(const test::StressMember& member, const topology::OpenVolume&
 
 } // namespace
 
-TEST_CASE("every member of the stress family is meshed without an invalid cell, as good as its skin allows")
+TEST_CASE("every member of the stress family is meshed without an invalid cell, as good as its edges allow")
 {
-    int below = 0, meshed = 0;
-    for (const test::StressMember& member : test::stress_family(member_count())) {
+    // Below the bar without its edges forbidding better: none was found in the family; in a longer one, at most these.
+    constexpr double kUnexplained = 0.005;
+    int below = 0, unexplained = 0;
+    const std::vector<test::StressMember> family = test::stress_family(member_count());
+    for (const test::StressMember& member : family) {
         const std::string name = member.name();
         CAPTURE(name);
         try {
             const sweep::Swept result = swept(member, sealed(member), 0);
             test::check_valid(result.mesh);
-            ++meshed;
             const double least = quality::measure(result.mesh).min_scaled_jacobian;
             const double bar = member.mild ? 0.5 : 0.2;
             if (least >= bar) continue;
-            // Below the bar the geometry forbids it: no corner can be better than the sides that meet there.
             ++below;
-            const double bound = test::skin_bound(result.mesh);
-            CHECK_MESSAGE(bound < bar + 0.05, "least " << least << ", the skin allows " << bound);
-            CHECK_MESSAGE(least > 0.85 * bound, "least " << least << ", the skin allows " << bound);
+            const double bound = test::edge_bound(result.mesh);
+            const bool forbidden = bound < bar && least > 0.9 * bound;
+            unexplained += forbidden ? 0 : 1;
+            MESSAGE(
+                "least " << least << ", "
+                         << (forbidden ? "forbidden by its edges, which allow " : "though its edges allow ")
+                         << bound << ": " << name);
         } catch (const Error& error) {
             FAIL_CHECK(error.what());
         }
     }
-    MESSAGE(meshed << " meshed, " << below << " of them below the bar, where the skin forbids better");
+    CHECK(unexplained <= kUnexplained * static_cast<double>(family.size()));
+    CHECK(below < static_cast<int>(family.size()) / 20);
 }
 
 TEST_CASE("hard volumes come out the same for any number of threads")

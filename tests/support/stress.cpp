@@ -14,7 +14,8 @@ using namespace topology;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kSize = 0.25; ///< of the quads; the section's radius is 1
+/// Size of the quads; the section's radius is 1. Teeth want smaller ones.
+double size_of(Section section) { return section == Section::gear || section == Section::comb ? 0.15 : 0.25; }
 
 struct Shape {
     std::vector<Vec2> outline; ///< empty: a circle
@@ -115,18 +116,25 @@ StressMember draw(int number, bool mild, Dice& dice)
     m.layers = 6 + dice.below(9);
     m.aspect = dice.chance(0.5) ? 1 : dice.factor(mild ? 10 : 100);
     m.bias = dice.chance(0.5) ? 1 : dice.factor(mild ? 10 : 50);
-    m.height = kSize * m.aspect * m.layers;
     if (dice.chance(0.5)) m.twist = dice.between(0, mild ? 60 : 180);
     if (dice.chance(0.4)) m.taper = dice.factor(mild ? 2 : 4);
     if (dice.chance(0.4)) m.bend = dice.between(0, mild ? 90 : 180);
     if (dice.chance(0.3)) m.belly = dice.factor(mild ? 1.3 : 1.8);
     const double widest = std::max({1.0, m.taper, m.belly * (1 + m.taper) / 2});
-    // A corner's line leans by twice its turn's length over the height; a bend's axis is long enough for its inside.
+    // A cube's cells are stacked until they reach round the bend, and no corner's line leans too far; flat and tall cells stay
+    // as few as they are, and their volume is bent less.
+    const double most = std::tan((mild ? 35 : 50) * kPi / 180);
+    const double turned = m.twist * kPi / 180 * widest + std::abs(m.taper - 1) +
+                          4 * std::abs(m.belly - 1) * widest;
+    const double needed = std::max(turned / most, m.bend * kPi / 180 * 1.5 * widest);
+    const double size = size_of(m.section);
+    if (m.aspect == 1) m.layers = std::max(m.layers, static_cast<int>(std::ceil(needed / size)));
+    m.height = size * m.aspect * m.layers;
     m.bend = std::min(m.bend, 180 / kPi * m.height / (1.5 * widest));
     const double lean = (m.twist * kPi / 180 * widest + std::abs(m.taper - 1) +
                          4 * std::abs(m.belly - 1) * widest) /
                         m.height;
-    if (const double most = std::tan((mild ? 35 : 50) * kPi / 180); lean > most) {
+    if (lean > most) {
         m.twist *= most / lean;
         m.taper = 1 + (m.taper - 1) * most / lean;
         m.belly = 1 + (m.belly - 1) * most / lean;
@@ -137,13 +145,17 @@ StressMember draw(int number, bool mild, Dice& dice)
         if (dice.chance(0.3)) m.source = End::bowed;
     }
     const double pick = dice.between(0, 1);
-    m.value = pick < 0.5    ? VolumeClass::closed
-              : pick < 0.7  ? VolumeClass::IV
-              : pick < 0.85 ? VolumeClass::V
-                            : VolumeClass::II;
+    m.value = pick < 0.45   ? VolumeClass::closed
+              : pick < 0.65 ? VolumeClass::IV
+              : pick < 0.8  ? VolumeClass::V
+              : pick < 0.88 ? VolumeClass::II
+              : pick < 0.95 ? VolumeClass::III
+                            : VolumeClass::I;
+    // Missing walls are made straight: they say what is meant only where the volume is straight, and is not round.
     const bool straight = m.twist < 20 && m.bend < 20 && m.belly == 1;
-    if (m.value == VolumeClass::II && !(straight && m.section != Section::circle))
-        m.value = VolumeClass::closed;
+    const bool walls_missing = m.value == VolumeClass::I || m.value == VolumeClass::II ||
+                               m.value == VolumeClass::III;
+    if (walls_missing && !(straight && m.section != Section::circle)) m.value = VolumeClass::closed;
     return m;
 }
 
@@ -192,8 +204,12 @@ OpenVolume stress_volume(const StressMember& member)
     o.feature_angle = 25;
     o.drop = [&member](const Part& part) {
         switch (member.value) {
+        case VolumeClass::I:
+            return part.role == Role::wall;
         case VolumeClass::II:
             return part.role == Role::wall && (part.loop > 0 || part.side == 1);
+        case VolumeClass::III:
+            return part.role == Role::wall && part.loop == 0 && part.side % 2 == 1;
         case VolumeClass::IV:
             return part.role == Role::target;
         case VolumeClass::V:
@@ -210,15 +226,22 @@ sweep::SweepOptions stress_options(const StressMember& member)
     sweep::SweepOptions options;
     options.layers.count = member.layers;
     options.layers.bias = member.bias;
-    options.size = [](const Vec3&) { return kSize; };
+    options.size = [size = size_of(member.section)](const Vec3&) { return size; };
     return options;
 }
 
-double skin_bound(const mesh::HexMesh& mesh)
+double edge_bound(const mesh::HexMesh& mesh)
 {
-    std::vector<char> skin(mesh.nodes.size(), 0);
+    // Nodes on edges of the volume: those between patches.
+    std::vector<Index> patch(mesh.nodes.size(), -1);
+    std::vector<char> on_edge(mesh.nodes.size(), 0);
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
-        for (const Index n : mesh::skin_quad(mesh, i).nodes) skin[static_cast<std::size_t>(n)] = 1;
+        const mesh::SkinQuad quad = mesh::skin_quad(mesh, i);
+        for (const Index n : quad.nodes) {
+            Index& known = patch[static_cast<std::size_t>(n)];
+            if (known >= 0 && known != quad.patch) on_edge[static_cast<std::size_t>(n)] = 1;
+            known = quad.patch;
+        }
     }
     constexpr std::array<std::array<std::size_t, 3>, 8> next{
         {{1, 3, 4}, {0, 2, 5}, {3, 1, 6}, {2, 0, 7}, {5, 7, 0}, {4, 6, 1}, {7, 5, 2}, {6, 4, 3}}};
@@ -226,13 +249,13 @@ double skin_bound(const mesh::HexMesh& mesh)
     for (std::size_t c = 0; c < mesh.hex_count(); ++c) {
         const Hex hex = mesh.hex(c);
         for (std::size_t corner = 0; corner < 8; ++corner) {
-            if (skin[static_cast<std::size_t>(hex[corner])] == 0) continue;
+            if (on_edge[static_cast<std::size_t>(hex[corner])] == 0) continue;
             std::array<Vec3, 3> edge;
             std::array<bool, 3> stays{};
             for (std::size_t e = 0; e < 3; ++e) {
                 const auto to = static_cast<std::size_t>(hex[next[corner][e]]);
                 edge[e] = (mesh.nodes[to] - mesh.nodes[static_cast<std::size_t>(hex[corner])]).normalized();
-                stays[e] = skin[to] != 0;
+                stays[e] = on_edge[to] != 0;
             }
             for (std::size_t e = 0; e < 3; ++e) {
                 if (stays[e] && stays[(e + 1) % 3])

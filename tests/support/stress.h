@@ -44,9 +44,9 @@ topology::OpenVolume stress_volume(const StressMember& member);
 /// What is asked of the sweep.
 sweep::SweepOptions stress_options(const StressMember& member);
 
-/// What the volume's edges and the skin's quads allow: a hexahedron is at no corner better than the angles of the sides that
-/// meet there, and where three edges of the skin meet it is what they make of it.
-/// @return  the least of all corners [0, 1].
-double skin_bound(const mesh::HexMesh& mesh);
+/// What the volume's edges allow: where two sides of a cell lie on them, it is at that corner no better than their angle, and where
+/// three do, it is what they make of it.
+/// @return  the least over all such corners [0, 1].
+double edge_bound(const mesh::HexMesh& mesh);
 
 } // namespace lacuna::test

@@ -24,6 +24,8 @@ constexpr int kPatience = 4;
 constexpr std::array<double, 6> kSharpness{6, 12, 20, 30, 45, 60};
 /// Weight of the shape energy in the second stage: enough to keep lengths and not to fold.
 constexpr double kShapeShare = 1e-3;
+/// A gain in the least scaled Jacobian, or a share of what is lacking, that is worth moving nodes for.
+constexpr double kWorthIt = 1e-4;
 /// How much the mean may fall for the least to rise.
 constexpr double kMeanGivenUp = 0.01;
 
@@ -45,20 +47,20 @@ public:
     Improved run()
     {
         Improved result;
+        const RegionQuality first = best_quality_;
         result.cells = region_.cells.size();
         result.moved = region_.free;
-        result.before = best_quality_.least;
-        result.mean_before = best_quality_.mean;
-        result.untangled = !(best_quality_.least > 0);
-        const bool folded = result.untangled;
-        if (folded) untangle();
-        if (best_quality_.least > 0 && best_quality_.least < options_.good_enough) optimise(folded);
+        result.before = first.least;
+        result.mean_before = first.mean;
+        result.untangled = !(first.least > 0);
+        if (result.untangled) untangle();
+        if (best_quality_.least > 0 && best_quality_.lacking > 0) optimise(result.untangled);
         result.after = best_quality_.least;
         result.mean_after = best_quality_.mean;
-        if (result.after > result.before) {
-            for (std::size_t i = 0; i < region_.free; ++i)
-                mesh_.nodes[static_cast<std::size_t>(region_.node[i])] = best_[i];
-        }
+        result.unfinished = out_of_time();
+        result.won = is_better(best_quality_, first);
+        for (std::size_t i = 0; result.won && i < region_.free; ++i)
+            mesh_.nodes[static_cast<std::size_t>(region_.node[i])] = best_[i];
         return result;
     }
 
@@ -80,12 +82,21 @@ private:
 
     [[nodiscard]] bool out_of_time() const
     {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() >
-               options_.seconds;
+        if (work_ > options_.work) return true;
+        return options_.seconds > 0 &&
+               std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() >
+                   options_.seconds;
     }
 
-    /// One minimisation from `x`; sliding nodes come back on their surfaces.
-    void descend(Eigen::VectorXd& x)
+    /// Better: a higher least, or, where that is as it was, cells that lack less.
+    static bool is_better(const RegionQuality& found, const RegionQuality& before)
+    {
+        if (found.least > before.least + kWorthIt) return true;
+        return found.least >= before.least && found.lacking < before.lacking * (1 - kWorthIt);
+    }
+
+    /// One minimisation from `x`, the best place it passes kept; sliding nodes come back on their surfaces.
+    void descend(Eigen::VectorXd& x, double mean_floor)
     {
         energy_.set_planes(x);
         MinimiseOptions how;
@@ -94,9 +105,20 @@ private:
             check_cancelled(context_);
             return out_of_time();
         };
-        minimise([&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) { return energy_(at, gradient); },
-                 x, how);
+        how.visit = [&](const Eigen::VectorXd& at) {
+            Eigen::VectorXd there = at;
+            put_on_surfaces(there);
+            keep(there, mean_floor);
+            return best_quality_.least > 0 && best_quality_.lacking <= 0;
+        };
+        minimise(
+            [&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) {
+                work_ += static_cast<double>(region_.cells.size());
+                return energy_(at, gradient);
+            },
+            x, how);
         put_on_surfaces(x);
+        keep(x, mean_floor);
     }
 
     void put_on_surfaces(Eigen::VectorXd& x) const
@@ -116,17 +138,16 @@ private:
         }
     }
 
-    /// Keep `x` where it is better. @return whether it was
-    bool keep(const Eigen::VectorXd& x, double mean_floor)
+    /// Keep `x` where it is better.
+    void keep(const Eigen::VectorXd& x, double mean_floor)
     {
         std::vector<Vec3> places = best_;
         for (std::size_t i = 0; i < region_.free; ++i)
             places[i] = x.segment<3>(3 * static_cast<Eigen::Index>(i));
         const RegionQuality found = measure(region_, places, context_);
-        if (!(found.least > best_quality_.least) || found.mean < mean_floor) return false;
+        if (!is_better(found, best_quality_) || found.mean < mean_floor) return;
         best_ = std::move(places);
         best_quality_ = found;
-        return true;
     }
 
     void untangle()
@@ -140,10 +161,9 @@ private:
                                                      : std::sqrt(kLeastEpsilon * kLeastEpsilon +
                                                                  0.04 * determinant * determinant);
             const double before = best_quality_.least;
-            descend(x);
-            keep(x, -1);
-            without_gain = best_quality_.least > before + 1e-4 ? 0 : without_gain + 1;
-            if (best_quality_.least > options_.good_enough) return;
+            descend(x, -1);
+            without_gain = best_quality_.least > before + kWorthIt ? 0 : without_gain + 1;
+            if (best_quality_.least > 0 && best_quality_.lacking <= 0) return;
         }
     }
 
@@ -153,10 +173,10 @@ private:
         const double floor = was_folded ? -1 : best_quality_.mean - kMeanGivenUp;
         Eigen::VectorXd x = variables(best_);
         for (const double sharpness : kSharpness) {
-            if (out_of_time() || best_quality_.least >= options_.good_enough) return;
+            if (out_of_time() || best_quality_.lacking <= 0) return;
             energy_.energy = {kLeastEpsilon, kShapeShare, sharpness};
-            descend(x);
-            if (!keep(x, floor)) x = variables(best_);
+            descend(x, floor);
+            if (!(energy_.least_determinant(x) > 0)) x = variables(best_);
         }
     }
 
@@ -168,6 +188,7 @@ private:
     RegionEnergy energy_;
     std::vector<Vec3> best_;
     RegionQuality best_quality_;
+    double work_ = 0; ///< cells evaluated
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

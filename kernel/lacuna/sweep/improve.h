@@ -16,7 +16,10 @@ struct ImproveOptions {
     double good_enough = 0.5; ///< cells with a smaller scaled Jacobian are worked on [-1, 1]
     int rings = 2;            ///< layers of neighbours that move with them
     int iterations = 60;      ///< descent steps of each minimisation
-    double seconds = 20;      ///< no step is begun after this; a mesh better than it was is kept
+    double work =
+        4e7; ///< cells evaluated at most, about 20 seconds of one core: the same work on every machine
+    double seconds =
+        0; ///< no step is begun after this; 0: `work` alone ends it, so that the same comes out everywhere
 };
 
 /// Skin nodes that may slide, each along the surface its face lies on.
@@ -31,6 +34,8 @@ struct Improved {
     double before = 1, after = 1;           ///< least scaled Jacobian of the cells that took part
     double mean_before = 1, mean_after = 1; ///< and their mean
     bool untangled = false;                 ///< some were folded at first
+    bool unfinished = false;                ///< work or time ran out
+    bool won = false;                       ///< nodes were moved
 };
 
 /// Move nodes so that folded cells open up and poor ones grow better; nodes of edges stay, as do all of the skin that may not slide.
@@ -41,9 +46,10 @@ struct Improved {
 ///    is a box of its own mean edge lengths, so that thin layers stay thin.
 /// 2. Then the sum of exp(-k s) over the corners' scaled Jacobians s, whose heaviest terms are the worst corners, with k rising;
 ///    a share of the first energy keeps the edges' lengths and is the barrier against folding.
-/// @post  the least scaled Jacobian is not smaller than before, nor the mean by more than a hundredth: where nothing was won, nothing
-///        is changed. Sliding nodes lie on their surfaces.
-/// @note  The same for any thread count while the time lasts. O(iterations · cells of the region).
+/// @post  the least scaled Jacobian is not smaller than before, nor, where no cell was folded, the mean by more than a hundredth. Where
+///        nothing was won, nothing is changed. Cells that the nodes around them keep poor hold up no others: what they fall short of
+///        what they could be counts. Sliding nodes lie on their surfaces.
+/// @note  The same for any thread count, unless `seconds` ends it. O(iterations · cells of the region).
 Improved improve(mesh::HexMesh& mesh, const ImproveOptions& options = {}, const Sliding& sliding = {},
                  const RunContext& context = {});
 

@@ -78,6 +78,7 @@ double minimise(const Function& function, Eigen::VectorXd& x, const MinimiseOpti
         std::swap(x, tried);
         std::swap(gradient, next_gradient);
         value = found;
+        if (options.visit && (step + 1) % options.visit_every == 0 && options.visit(x)) break;
         if (won_by < options.least_gain * std::abs(value)) break;
     }
     return value;

@@ -11,6 +11,8 @@ struct MinimiseOptions {
     int iterations = 60;
     double least_gain = 1e-7;     ///< stop when a step wins less of the value than this [-]
     std::function<bool()> stop{}; ///< asked before each step
+    int visit_every = 15;         ///< steps between calls of `visit`
+    std::function<bool(const Eigen::VectorXd& x)> visit{}; ///< shown where it got to; true: that is enough
 };
 
 /// Value of a function and its gradient at `x`.

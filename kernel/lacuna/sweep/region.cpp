@@ -64,12 +64,13 @@ double bound_of(const std::array<Vec3, 8>& corners, const Hex& hex, const std::v
     return bound;
 }
 
+/// A gain so small is not worth the work.
+constexpr double kWorthIt = 0.01;
+
 /// Whether each cell is poor and could be better.
 std::vector<char> poor_cells(const mesh::HexMesh& mesh, const std::vector<char>& locked, double good_enough,
                              const RunContext& context)
 {
-    // A hundredth won is not worth the work.
-    constexpr double kWorthIt = 0.01;
     std::vector<char> poor(mesh.hex_count(), 0);
     parallel_for(context, poor.size(), kChunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
@@ -157,7 +158,9 @@ Region poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, con
         Hex local{};
         for (std::size_t k = 0; k < 8; ++k) local[k] = number[static_cast<std::size_t>(hex[k])];
         region.cells.push_back(local);
-        region.box.push_back(mean_edges(corners_of(mesh.nodes, hex)));
+        const std::array<Vec3, 8> corners = corners_of(mesh.nodes, hex);
+        region.box.push_back(mean_edges(corners));
+        region.aim.push_back(std::min(options.good_enough, bound_of(corners, hex, held) - kWorthIt));
     }
     index_uses(region);
     return region;
@@ -177,11 +180,13 @@ RegionQuality measure(const Region& region, const std::vector<Vec3>& places, con
             // Valid at its corners is not yet valid.
             if (scaled > 0 && !quality::certified_positive(corners)) scaled = 0;
             found.least = std::min(found.least, scaled);
+            found.lacking += std::max(0.0, region.aim[c] - scaled);
         }
     });
-    RegionQuality whole{1, 0};
+    RegionQuality whole{1, 0, 0};
     for (const RegionQuality& found : part) {
         whole.least = std::min(whole.least, found.least);
+        whole.lacking += found.lacking;
         whole.mean += found.mean / static_cast<double>(std::max<std::size_t>(region.cells.size(), 1));
     }
     return whole;

@@ -14,8 +14,10 @@ namespace lacuna::sweep {
 
 /// The part of a mesh that is worked on, with numbers of its own: nodes that may move first, then those that hold it.
 struct Region {
-    std::vector<Hex> cells;       ///< by the region's node numbers
-    std::vector<Vec3> box;        ///< of each cell: its mean edges when the work began
+    std::vector<Hex> cells; ///< by the region's node numbers
+    std::vector<Vec3> box;  ///< of each cell: its mean edges when the work began
+    std::vector<double>
+        aim; ///< of each cell: the scaled Jacobian that is good enough, or the best its held nodes allow
     std::vector<Index> node;      ///< mesh node of each node
     std::size_t free = 0;         ///< nodes that may move
     std::vector<Index> surface;   ///< of each free node; -1: inside
@@ -32,6 +34,7 @@ Region poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, con
 struct RegionQuality {
     double least = 1; ///< scaled Jacobian; 0 at most where a cell is not certified positive
     double mean = 1;
+    double lacking = 0; ///< sum over the cells of what they fall short of their aims
 };
 
 RegionQuality measure(const Region& region, const std::vector<Vec3>& places, const RunContext& context);

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -298,13 +299,20 @@ bool is_poor(const NotSweepable& error)
 
 std::string in_words(const Improved& improved)
 {
-    std::array<char, 200> words{};
+    std::array<char, 240> words{};
     std::snprintf(
         words.data(), words.size(),
-        "%s: %zu cells, %zu nodes, least scaled Jacobian %.3f before, %.3f after, mean %.3f and %.3f",
+        "%s: %zu cells, %zu nodes, least scaled Jacobian %.3f before, %.3f after, mean %.3f and %.3f%s",
         improved.untangled ? "untangled" : "improved", improved.cells, improved.moved, improved.before,
-        improved.after, improved.mean_before, improved.mean_after);
+        improved.after, improved.mean_before, improved.mean_after,
+        improved.unfinished ? "; ended before it was done: improve = { seconds = … } gives it more" : "");
     return words.data();
+}
+
+/// What was done about a mesh that is refused all the same.
+[[noreturn]] void refuse(const NotSweepable& error, const Improved& improved)
+{
+    throw NotSweepable(error.code(), std::string(error.what()) + "\n" + in_words(improved));
 }
 
 /// Prove the mesh; where cells are folded or poor, move nodes and prove it again.
@@ -324,8 +332,40 @@ quality::Quality prove_or_mend(Swept& swept, const topology::Model& model, const
     const Sliding sliding{sliding_nodes(swept.mesh, faces, kept),
                           [&](Index patch, std::span<Vec3> points) { projectors.project(patch, points); }};
     const Improved improved = improve(swept.mesh, improving, sliding, context);
-    if (improved.cells > 0) swept.report.push_back(in_words(improved));
-    return quality::prove(swept.mesh, options.min_scaled_jacobian, context);
+    if (improved.won || improved.unfinished) swept.report.push_back(in_words(improved));
+    try {
+        return quality::prove(swept.mesh, options.min_scaled_jacobian, context);
+    } catch (const NotSweepable& error) {
+        if (!is_poor(error)) throw;
+        refuse(error, improved);
+    }
+}
+
+/// The layers, by the way whose worst cell is best: with the rim's residual spread over each layer, and, where that leaves poor
+/// cells, without.
+LayerNodes best_layers(const surface::SourceMesh& source, const Carried& carried, const Columns& columns,
+                       PlacementOptions placement, const SweepOptions& options, const RunContext& context)
+{
+    if (options.interior == Interior::normals)
+        return place_along_normals(source.quads, carried.nodes, columns, context);
+    placement.spread_residual = options.interior != Interior::affine;
+    LayerNodes spread = place_layers(source.quads, carried.nodes, columns, placement, context);
+    if (options.interior != Interior::automatic || spread.placement != Placement::fitted) return spread;
+    const auto least = [&](LayerNodes& layers) {
+        mesh::HexMesh mesh;
+        mesh.nodes_per_layer = static_cast<Index>(source.quads.nodes.size());
+        mesh.layers = columns.layers;
+        mesh.quads = source.quads.quads;
+        mesh.nodes = std::move(layers.nodes);
+        const double found = quality::measure(mesh, context).min_scaled_jacobian;
+        layers.nodes = std::move(mesh.nodes);
+        return found;
+    };
+    const double with = least(spread);
+    if (with >= options.improving.good_enough) return spread;
+    placement.spread_residual = false;
+    LayerNodes plain = place_layers(source.quads, carried.nodes, columns, placement, context);
+    return least(plain) > with ? plain : spread;
 }
 
 /// Seeds, quads, walls, target, layers and proof between the rims of belts that say what goes with what.
@@ -361,11 +401,8 @@ Swept sweep_between(const OpenVolume& volume, const std::vector<surface::Belt>& 
     PlacementOptions placement;
     placement.straight_lines = options.interior == Interior::automatic && ruled(volume, belts);
     placement.heights = heights;
-    placement.spread_residual = options.interior != Interior::affine;
-    LayerNodes layers = options.interior == Interior::normals
-                            ? place_along_normals(source.quads, carried.nodes, columns, context)
-                            : place_layers(source.quads, carried.nodes, columns, placement, context);
-    result.report.push_back("layers: " + layers.report);
+    LayerNodes layers = best_layers(source, carried, columns, placement, options, context);
+    result.report.push_back(layers.report);
 
     mesh::HexMesh& mesh = result.mesh;
     mesh.nodes_per_layer = static_cast<Index>(source.quads.nodes.size());
@@ -375,6 +412,14 @@ Swept sweep_between(const OpenVolume& volume, const std::vector<surface::Belt>& 
     for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
         mesh.rim.push_back({side.from, side.to});
     const std::vector<FaceId> faces = set_patches(volume, source, target, walls, mesh);
+    for (const FaceId wall : volume.faces(Role::wall)) {
+        if (volume.model[wall].origin != Origin::given ||
+            std::find(faces.begin(), faces.end(), wall) != faces.end())
+            continue;
+        result.report.push_back(
+            "walls: " + name_of(volume.model, wall) +
+            " is smaller than the quads there and has none, nor a group; use a smaller size or more layers");
+    }
     const quality::Quality quality = prove_or_mend(result, volume.model, faces, seeds.kept, options, context);
     result.min_scaled_jacobian = quality.min_scaled_jacobian;
     result.report.push_back("cells: " + std::to_string(quality.hexes) + ", all certified, scaled Jacobian " +
@@ -395,6 +440,7 @@ Swept better_turning(const OpenVolume& volume, const std::vector<surface::Belt>&
                      const std::vector<double>& heights, const surface::SizeField& size,
                      const SweepOptions& options, const RunContext& context)
 {
+    const auto start = std::chrono::steady_clock::now();
     std::optional<Swept> alone;
     std::exception_ptr failure; // What went wrong first says more than what goes wrong second.
     try {
@@ -404,15 +450,28 @@ Swept better_turning(const OpenVolume& volume, const std::vector<surface::Belt>&
         if (!is_poor(error)) throw;
         failure = std::current_exception();
     }
+    const std::vector<surface::Belt> as_one = surface::belts(volume, surface::Turning::together);
+    const bool same = std::none_of(as_one.begin(), as_one.end(),
+                                   [](const surface::Belt& belt) { return belt.branch.has_value(); });
+    SweepOptions rest = options;
+    if (rest.improving.seconds > 0) { // One budget for both.
+        const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
+        rest.improving.seconds -= used.count();
+        rest.improve = rest.improve && rest.improving.seconds > 0;
+    }
     try {
-        Swept together = sweep_between(volume, surface::belts(volume, surface::Turning::together), heights,
-                                       size, options, context);
-        if (!alone || together.min_scaled_jacobian > alone->min_scaled_jacobian) {
-            together.report.insert(together.report.begin(),
-                                   "loops: turned as one body; each by its own walls the cells are worse");
-            return together;
+        if (!same) {
+            Swept together = sweep_between(volume, as_one, heights, size, rest, context);
+            if (!alone || together.min_scaled_jacobian > alone->min_scaled_jacobian) {
+                together.report.insert(
+                    together.report.begin(),
+                    "loops: turned as one body; each by its own walls the cells are worse");
+                return together;
+            }
         }
-    } catch (const NotSweepable&) {
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error&) {
     }
     if (failure) std::rethrow_exception(failure);
     return std::move(*alone);
