@@ -220,7 +220,7 @@ TEST_CASE("a corner that cannot move holds up no other cell")
         Vec3& corner = mesh.nodes.back();
         const std::vector<char> skin = skin_of(mesh);
         REQUIRE(skin[mesh.nodes.size() - 1] == 1);
-        corner -= 0.29 * cell_size(mesh) * Vec3(1, 1, 1);
+        corner -= 0.29 * cell_size(test::block({8, 8, 8})) * Vec3(1, 1, 1);
         const quality::Quality before = quality::measure(mesh);
         REQUIRE(before.inverted == 0);
         REQUIRE(before.min_scaled_jacobian < 0.25);
