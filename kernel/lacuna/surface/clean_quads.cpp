@@ -21,11 +21,11 @@ constexpr double kRight = std::numbers::pi / 2;
 constexpr std::size_t kGrowths = 12;
 constexpr std::size_t kLookedAt = 900;
 /// Fillings tried of each patch, layers of quads around it that are smoothed with it.
-constexpr std::size_t kFillings = 3;
+constexpr std::size_t kFillings = 2;
 constexpr int kRings = 2;
 /// What a patch may lose in scaled Jacobian, summed over its quads, for each irregular point it sheds.
 constexpr double kLossForgiven = 0.05;
-constexpr double kHopeless = 2;
+constexpr double kHopeless = 1.8;
 /// Loss of a quad for its area being off by a factor e from the one asked.
 constexpr double kSizeLoss = 0.1;
 
@@ -128,6 +128,7 @@ public:
         : points_(mesh.points), options_(options), net_(mesh.points.size(), mesh.quads), fixed_(fixed)
     {
         wanted_.assign(points_.size(), 4);
+        due_.assign(points_.size(), 1);
         for (Index p = 0; p < static_cast<Index>(points_.size()); ++p) {
             if (net_.is_used(p) && net_.on_boundary(p))
                 wanted_[static_cast<std::size_t>(p)] = right_angles(p);
@@ -186,13 +187,15 @@ private:
     QuadNet net_;
     std::size_t fixed_;
     std::vector<int> wanted_; ///< quads at each point
+    std::vector<char> due_;   ///< points to be looked at, if irregular
     long budget_ = 0;
     std::vector<std::uint32_t> version_;      ///< of each quad, as its number is given again
     std::unordered_set<std::uint64_t> tried_; ///< patches that were filled for trial
     // Of the patch at hand.
     Marks in_patch_, seen_;
     Numbers count_, number_, parent_, next_;
-    std::vector<Index> others_; ///< irregular points near the seed, the nearest first
+    std::vector<Index> seen_points_; ///< near the seed
+    std::vector<Index> others_;      ///< irregular points near the seed, the nearest first
 };
 
 int Cleaner::right_angles(Index p) const
@@ -240,12 +243,14 @@ void Cleaner::look_for_others(Index seed)
     others_.clear();
     parent_.clear(points_.size());
     parent_[seed] = -1;
-    std::vector<Index> queue{seed};
+    std::vector<Index>& queue = seen_points_;
+    queue.assign(1, seed);
     for (std::size_t i = 0; i < queue.size() && queue.size() < kLookedAt && others_.size() < kGrowths; ++i) {
-        net_.for_sides(queue[i], [&](Index side) {
+        const Index here = queue[i];
+        net_.for_sides(here, [&](Index side) {
             for (const Index p : {net_.to(side), net_.from(QuadNet::before(side))}) {
                 if (parent_.has(p)) continue;
-                parent_[p] = queue[i];
+                parent_[p] = here;
                 queue.push_back(p);
                 if (is_irregular(p)) others_.push_back(p);
             }
@@ -399,13 +404,13 @@ bool Cleaner::try_filling(const Patch& patch, const Filling& filling, const std:
     smoothing.still = static_cast<std::size_t>(inner);
     const double allowed = before.sum + kLossForgiven * (patch.irregular - filling.irregular);
     for (const bool at_last : {false, true}) {
-        smoothing.sweeps = at_last ? 6 : 2;
+        smoothing.sweeps = at_last ? 6 : 1;
         smoothing.repairs = at_last ? 4 : 0;
         smooth_plane(local, quads, staying.size(), smoothing);
         smoothing.still = 0;
         Loss after(options_);
         for (const Quad& quad : quads) after.add(local, quad);
-        // What is far from good after two sweeps is not good after eight.
+        // What is far from good after one sweep is not good after seven.
         if (!at_last && after.sum > kHopeless * allowed) return false;
         if (!at_last) continue;
         if (!(after.least > 0) || after.least < std::min(before.least, options_.least)) return false;
@@ -419,6 +424,7 @@ bool Cleaner::try_filling(const Patch& patch, const Filling& filling, const std:
         made.push_back(net_.add_point());
         points_.push_back(local[static_cast<std::size_t>(inner) + i]);
         wanted_.push_back(4);
+        due_.push_back(1);
     }
     std::vector<Quad> added = filling.quads;
     for (Quad& quad : added) {
@@ -483,9 +489,13 @@ std::size_t Cleaner::pass(CleanReport& report, const RunContext& context)
 {
     std::size_t mended = 0;
     for (Index p = 0; p < static_cast<Index>(points_.size()) && budget_ >= 0; ++p) {
-        if (!is_irregular(p)) continue;
+        if (due_[static_cast<std::size_t>(p)] == 0 || !is_irregular(p)) continue;
         check_cancelled(context);
-        if (mend(p, report)) ++mended;
+        due_[static_cast<std::size_t>(p)] = 0;
+        if (!mend(p, report)) continue;
+        ++mended;
+        // What was looked at has changed for those who looked at it in vain.
+        for (const Index q : seen_points_) due_[static_cast<std::size_t>(q)] = 1;
     }
     return mended;
 }
