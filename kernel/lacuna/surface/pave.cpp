@@ -173,12 +173,12 @@ void open_folds(Attempt& attempt, const Draft& draft, const PaveOptions& options
 }
 
 /// How good quads are, to choose between two ways; higher is better. A mean of shapes, sizes, rows and the worst quad, less
-/// what is irregular; a worst quad beyond kGood is no better.
+/// what is irregular; the worst quad counts double, for a sweep repeats it, up to kGood.
 double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
 {
-    constexpr double kGood = 0.7;
+    constexpr double kGood = 0.6;
     const PlaneQuality quality = measure_plane(mesh, region);
-    return quality.mean_scaled_jacobian + std::min(quality.min_scaled_jacobian, kGood) +
+    return quality.mean_scaled_jacobian + 2 * std::min(quality.min_scaled_jacobian, kGood) +
            quality.size_share() / 2 + quality.row_share() / 4 - quality.irregular_share() / 2;
 }
 
