@@ -7,6 +7,7 @@
 #include <lacuna/surface/smooth_plane.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -17,15 +18,26 @@ namespace lacuna::surface {
 namespace {
 
 constexpr double kRight = std::numbers::pi / 2;
-/// Irregular points that a patch is grown to, and how far it looks for them.
-constexpr std::size_t kGrowths = 12;
+/// Points that are looked at for irregular ones to grow a patch to.
 constexpr std::size_t kLookedAt = 900;
-/// Fillings tried of each patch, layers of quads around it that are smoothed with it.
-constexpr std::size_t kFillings = 2;
+/// Layers of quads around a patch that are smoothed with it.
 constexpr int kRings = 2;
 /// What a patch may lose in scaled Jacobian, summed over its quads, for each irregular point it sheds.
 constexpr double kLossForgiven = 0.05;
-constexpr double kHopeless = 1.8;
+
+/// How much is tried before a patch is given up.
+struct Care {
+    std::size_t growths;  ///< irregular points a patch is grown to
+    std::size_t largest;  ///< patch, in quads
+    std::size_t fillings; ///< of each patch
+    int sweeps;           ///< over a filling, before it is judged the first time
+    double hopeless;      ///< given up then where the loss is so many times what is allowed
+};
+/// Small patches, where most is won for little; then larger ones, and while the budget lasts more thorough.
+constexpr std::array<Care, 3> kCares{{{3, 60, 2, 1, 1.8}, {12, 100'000, 2, 1, 1.8}, {12, 100'000, 4, 2, 3}}};
+/// Quads that may be smoothed for trial however small the mesh.
+constexpr long kLeastBudget = 150'000;
+
 /// Loss of a quad for its area being off by a factor e from the one asked.
 constexpr double kSizeLoss = 0.1;
 
@@ -134,7 +146,7 @@ public:
                 wanted_[static_cast<std::size_t>(p)] = right_angles(p);
         }
         version_.assign(mesh.quads.size(), 0);
-        budget_ = static_cast<long>(options.effort * static_cast<double>(mesh.quads.size()));
+        budget_ = kLeastBudget + static_cast<long>(options.effort * static_cast<double>(mesh.quads.size()));
     }
 
     /// Does every point have its quads in one fan, and lie no point on the boundary but the first ones?
@@ -162,6 +174,13 @@ public:
     }
 
     std::size_t remove_doublets();
+    /// Look at everything again, with so much care.
+    void begin(const Care& care)
+    {
+        care_ = care;
+        due_.assign(points_.size(), 1);
+        tried_.clear();
+    }
     /// @return patches filled anew
     std::size_t pass(CleanReport& report, const RunContext& context);
     void finish(PlanarQuads& mesh) const;
@@ -188,6 +207,7 @@ private:
     std::size_t fixed_;
     std::vector<int> wanted_; ///< quads at each point
     std::vector<char> due_;   ///< points to be looked at, if irregular
+    Care care_ = kCares[0];
     long budget_ = 0;
     std::vector<std::uint32_t> version_;      ///< of each quad, as its number is given again
     std::unordered_set<std::uint64_t> tried_; ///< patches that were filled for trial
@@ -245,7 +265,8 @@ void Cleaner::look_for_others(Index seed)
     parent_[seed] = -1;
     std::vector<Index>& queue = seen_points_;
     queue.assign(1, seed);
-    for (std::size_t i = 0; i < queue.size() && queue.size() < kLookedAt && others_.size() < kGrowths; ++i) {
+    for (std::size_t i = 0; i < queue.size() && queue.size() < kLookedAt && others_.size() < care_.growths;
+         ++i) {
         const Index here = queue[i];
         net_.for_sides(here, [&](Index side) {
             for (const Index p : {net_.to(side), net_.from(QuadNet::before(side))}) {
@@ -282,7 +303,9 @@ bool Cleaner::close(Patch& patch)
             if (inside == 2) continue;
             add_star(patch, p);
             more = true;
-            if (patch.quads.size() > static_cast<std::size_t>(options_.largest_patch)) return false;
+            if (patch.quads.size() >
+                std::min(care_.largest, static_cast<std::size_t>(options_.largest_patch)))
+                return false;
         }
     }
     return true;
@@ -404,14 +427,14 @@ bool Cleaner::try_filling(const Patch& patch, const Filling& filling, const std:
     smoothing.still = static_cast<std::size_t>(inner);
     const double allowed = before.sum + kLossForgiven * (patch.irregular - filling.irregular);
     for (const bool at_last : {false, true}) {
-        smoothing.sweeps = at_last ? 6 : 1;
+        smoothing.sweeps = at_last ? 6 : care_.sweeps;
         smoothing.repairs = at_last ? 4 : 0;
         smooth_plane(local, quads, staying.size(), smoothing);
         smoothing.still = 0;
         Loss after(options_);
         for (const Quad& quad : quads) after.add(local, quad);
-        // What is far from good after one sweep is not good after seven.
-        if (!at_last && after.sum > kHopeless * allowed) return false;
+        // What is far from good at first is not good later.
+        if (!at_last && after.sum > care_.hopeless * allowed) return false;
         if (!at_last) continue;
         if (!(after.least > 0) || after.least < std::min(before.least, options_.least)) return false;
         if (after.sum > allowed) return false;
@@ -448,7 +471,7 @@ bool Cleaner::fill(const Patch& patch, CleanReport& report)
     std::vector<Vec2> loop;
     for (const Index p : patch.loop) loop.push_back(at(p));
     std::vector<Index> around;
-    for (const Filling& filling : fillings(loop, patch.corners, kFillings)) {
+    for (const Filling& filling : fillings(loop, patch.corners, care_.fillings)) {
         if (filling.irregular >= patch.irregular) continue;
         if (around.empty()) around = rings(patch);
         ++report.tried;
@@ -528,8 +551,11 @@ CleanReport clean_quads(PlanarQuads& mesh, std::size_t fixed, const CleanOptions
     if (!cleaner.is_sound()) return report;
     report.irregular_before = cleaner.irregular();
     report.doublets = cleaner.remove_doublets();
-    for (int pass = 0; pass < options.passes; ++pass) {
-        if (cleaner.pass(report, context) == 0) break;
+    for (const Care& care : kCares) {
+        cleaner.begin(care);
+        for (int pass = 0; pass < options.passes; ++pass) {
+            if (cleaner.pass(report, context) == 0) break;
+        }
     }
     report.irregular_after = cleaner.irregular();
     cleaner.finish(mesh);
