@@ -18,6 +18,8 @@ namespace lacuna::surface {
 namespace {
 
 constexpr double kRight = std::numbers::pi / 2;
+/// Right angles that a boundary point may have more or less than quads.
+constexpr double kFits = 0.65;
 /// Points that are looked at for irregular ones to grow a patch to.
 constexpr std::size_t kLookedAt = 900;
 /// Layers of quads around a patch that are smoothed with it.
@@ -229,7 +231,10 @@ int Cleaner::right_angles(Index p) const
     });
     double angle = std::atan2(first.x() * last.y() - first.y() * last.x(), first.dot(last));
     if (angle <= 0) angle += 2 * std::numbers::pi;
-    return std::max(1, static_cast<int>(std::lround(angle / kRight)));
+    // Half way between two numbers either will do: the one that is there.
+    const double fit = angle / kRight;
+    const int valence = net_.valence(p);
+    return std::abs(fit - valence) < kFits ? valence : std::max(1, static_cast<int>(std::lround(fit)));
 }
 
 std::size_t Cleaner::remove_doublets()
