@@ -25,7 +25,7 @@ constexpr std::size_t kLookedAt = 900;
 /// Layers of quads around a patch that are smoothed with it.
 constexpr int kRings = 2;
 /// What a patch may lose in scaled Jacobian, summed over its quads, for each irregular point it sheds.
-constexpr double kLossForgiven = 0.05;
+constexpr double kLossForgiven = 0.15;
 
 /// How much is tried before a patch is given up.
 struct Care {
