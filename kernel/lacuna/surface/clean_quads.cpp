@@ -7,6 +7,7 @@
 #include <lacuna/surface/smooth_plane.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -17,15 +18,28 @@ namespace lacuna::surface {
 namespace {
 
 constexpr double kRight = std::numbers::pi / 2;
-/// Irregular points that a patch is grown to, and how far it looks for them.
-constexpr std::size_t kGrowths = 12;
+/// Right angles that a boundary point may have more or less than quads.
+constexpr double kFits = 0.65;
+/// Points that are looked at for irregular ones to grow a patch to.
 constexpr std::size_t kLookedAt = 900;
-/// Fillings tried of each patch, layers of quads around it that are smoothed with it.
-constexpr std::size_t kFillings = 3;
+/// Layers of quads around a patch that are smoothed with it.
 constexpr int kRings = 2;
 /// What a patch may lose in scaled Jacobian, summed over its quads, for each irregular point it sheds.
-constexpr double kLossForgiven = 0.05;
-constexpr double kHopeless = 2;
+constexpr double kLossForgiven = 0.15;
+
+/// How much is tried before a patch is given up.
+struct Care {
+    std::size_t growths;  ///< irregular points a patch is grown to
+    std::size_t largest;  ///< patch, in quads
+    std::size_t fillings; ///< of each patch
+    int sweeps;           ///< over a filling, before it is judged the first time
+    double hopeless;      ///< given up then where the loss is so many times what is allowed
+};
+/// Small patches, where most is won for little; then larger ones, and while the budget lasts more thorough.
+constexpr std::array<Care, 3> kCares{{{3, 60, 2, 1, 1.8}, {12, 100'000, 2, 1, 1.8}, {12, 100'000, 4, 2, 3}}};
+/// Quads that may be smoothed for trial however small the mesh.
+constexpr long kLeastBudget = 150'000;
+
 /// Loss of a quad for its area being off by a factor e from the one asked.
 constexpr double kSizeLoss = 0.1;
 
@@ -128,12 +142,13 @@ public:
         : points_(mesh.points), options_(options), net_(mesh.points.size(), mesh.quads), fixed_(fixed)
     {
         wanted_.assign(points_.size(), 4);
+        due_.assign(points_.size(), 1);
         for (Index p = 0; p < static_cast<Index>(points_.size()); ++p) {
             if (net_.is_used(p) && net_.on_boundary(p))
                 wanted_[static_cast<std::size_t>(p)] = right_angles(p);
         }
         version_.assign(mesh.quads.size(), 0);
-        budget_ = static_cast<long>(options.effort * static_cast<double>(mesh.quads.size()));
+        budget_ = kLeastBudget + static_cast<long>(options.effort * static_cast<double>(mesh.quads.size()));
     }
 
     /// Does every point have its quads in one fan, and lie no point on the boundary but the first ones?
@@ -161,6 +176,13 @@ public:
     }
 
     std::size_t remove_doublets();
+    /// Look at everything again, with so much care.
+    void begin(const Care& care)
+    {
+        care_ = care;
+        due_.assign(points_.size(), 1);
+        tried_.clear();
+    }
     /// @return patches filled anew
     std::size_t pass(CleanReport& report, const RunContext& context);
     void finish(PlanarQuads& mesh) const;
@@ -186,13 +208,16 @@ private:
     QuadNet net_;
     std::size_t fixed_;
     std::vector<int> wanted_; ///< quads at each point
+    std::vector<char> due_;   ///< points to be looked at, if irregular
+    Care care_ = kCares[0];
     long budget_ = 0;
     std::vector<std::uint32_t> version_;      ///< of each quad, as its number is given again
     std::unordered_set<std::uint64_t> tried_; ///< patches that were filled for trial
     // Of the patch at hand.
     Marks in_patch_, seen_;
     Numbers count_, number_, parent_, next_;
-    std::vector<Index> others_; ///< irregular points near the seed, the nearest first
+    std::vector<Index> seen_points_; ///< near the seed
+    std::vector<Index> others_;      ///< irregular points near the seed, the nearest first
 };
 
 int Cleaner::right_angles(Index p) const
@@ -206,7 +231,10 @@ int Cleaner::right_angles(Index p) const
     });
     double angle = std::atan2(first.x() * last.y() - first.y() * last.x(), first.dot(last));
     if (angle <= 0) angle += 2 * std::numbers::pi;
-    return std::max(1, static_cast<int>(std::lround(angle / kRight)));
+    // Half way between two numbers either will do: the one that is there.
+    const double fit = angle / kRight;
+    const int valence = net_.valence(p);
+    return std::abs(fit - valence) < kFits ? valence : std::max(1, static_cast<int>(std::lround(fit)));
 }
 
 std::size_t Cleaner::remove_doublets()
@@ -240,12 +268,15 @@ void Cleaner::look_for_others(Index seed)
     others_.clear();
     parent_.clear(points_.size());
     parent_[seed] = -1;
-    std::vector<Index> queue{seed};
-    for (std::size_t i = 0; i < queue.size() && queue.size() < kLookedAt && others_.size() < kGrowths; ++i) {
-        net_.for_sides(queue[i], [&](Index side) {
+    std::vector<Index>& queue = seen_points_;
+    queue.assign(1, seed);
+    for (std::size_t i = 0; i < queue.size() && queue.size() < kLookedAt && others_.size() < care_.growths;
+         ++i) {
+        const Index here = queue[i];
+        net_.for_sides(here, [&](Index side) {
             for (const Index p : {net_.to(side), net_.from(QuadNet::before(side))}) {
                 if (parent_.has(p)) continue;
-                parent_[p] = queue[i];
+                parent_[p] = here;
                 queue.push_back(p);
                 if (is_irregular(p)) others_.push_back(p);
             }
@@ -277,7 +308,9 @@ bool Cleaner::close(Patch& patch)
             if (inside == 2) continue;
             add_star(patch, p);
             more = true;
-            if (patch.quads.size() > static_cast<std::size_t>(options_.largest_patch)) return false;
+            if (patch.quads.size() >
+                std::min(care_.largest, static_cast<std::size_t>(options_.largest_patch)))
+                return false;
         }
     }
     return true;
@@ -399,14 +432,14 @@ bool Cleaner::try_filling(const Patch& patch, const Filling& filling, const std:
     smoothing.still = static_cast<std::size_t>(inner);
     const double allowed = before.sum + kLossForgiven * (patch.irregular - filling.irregular);
     for (const bool at_last : {false, true}) {
-        smoothing.sweeps = at_last ? 6 : 2;
+        smoothing.sweeps = at_last ? 6 : care_.sweeps;
         smoothing.repairs = at_last ? 4 : 0;
         smooth_plane(local, quads, staying.size(), smoothing);
         smoothing.still = 0;
         Loss after(options_);
         for (const Quad& quad : quads) after.add(local, quad);
-        // What is far from good after two sweeps is not good after eight.
-        if (!at_last && after.sum > kHopeless * allowed) return false;
+        // What is far from good at first is not good later.
+        if (!at_last && after.sum > care_.hopeless * allowed) return false;
         if (!at_last) continue;
         if (!(after.least > 0) || after.least < std::min(before.least, options_.least)) return false;
         if (after.sum > allowed) return false;
@@ -419,6 +452,7 @@ bool Cleaner::try_filling(const Patch& patch, const Filling& filling, const std:
         made.push_back(net_.add_point());
         points_.push_back(local[static_cast<std::size_t>(inner) + i]);
         wanted_.push_back(4);
+        due_.push_back(1);
     }
     std::vector<Quad> added = filling.quads;
     for (Quad& quad : added) {
@@ -442,7 +476,7 @@ bool Cleaner::fill(const Patch& patch, CleanReport& report)
     std::vector<Vec2> loop;
     for (const Index p : patch.loop) loop.push_back(at(p));
     std::vector<Index> around;
-    for (const Filling& filling : fillings(loop, patch.corners, kFillings)) {
+    for (const Filling& filling : fillings(loop, patch.corners, care_.fillings)) {
         if (filling.irregular >= patch.irregular) continue;
         if (around.empty()) around = rings(patch);
         ++report.tried;
@@ -483,9 +517,13 @@ std::size_t Cleaner::pass(CleanReport& report, const RunContext& context)
 {
     std::size_t mended = 0;
     for (Index p = 0; p < static_cast<Index>(points_.size()) && budget_ >= 0; ++p) {
-        if (!is_irregular(p)) continue;
+        if (due_[static_cast<std::size_t>(p)] == 0 || !is_irregular(p)) continue;
         check_cancelled(context);
-        if (mend(p, report)) ++mended;
+        due_[static_cast<std::size_t>(p)] = 0;
+        if (!mend(p, report)) continue;
+        ++mended;
+        // What was looked at has changed for those who looked at it in vain.
+        for (const Index q : seen_points_) due_[static_cast<std::size_t>(q)] = 1;
     }
     return mended;
 }
@@ -518,8 +556,11 @@ CleanReport clean_quads(PlanarQuads& mesh, std::size_t fixed, const CleanOptions
     if (!cleaner.is_sound()) return report;
     report.irregular_before = cleaner.irregular();
     report.doublets = cleaner.remove_doublets();
-    for (int pass = 0; pass < options.passes; ++pass) {
-        if (cleaner.pass(report, context) == 0) break;
+    for (const Care& care : kCares) {
+        cleaner.begin(care);
+        for (int pass = 0; pass < options.passes; ++pass) {
+            if (cleaner.pass(report, context) == 0) break;
+        }
     }
     report.irregular_after = cleaner.irregular();
     cleaner.finish(mesh);

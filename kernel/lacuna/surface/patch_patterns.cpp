@@ -45,9 +45,11 @@ Lengths lengths_of(std::size_t loop, std::span<const std::size_t> corners)
 /// Of a part whose last side is a cut, the first may be 0: then the grids meet at a point of the cut.
 bool splits(const Lengths& lengths, bool is_cut, std::array<int, kMostSides>& split)
 {
-    for (std::size_t i = 0; i < lengths.count; ++i) {
+    const std::size_t n = lengths.count;
+    for (std::size_t i = 0; i < n; ++i) {
         int twice = 0;
-        for (std::size_t j = 0; j < lengths.count; ++j) twice += (j % 2 == 0 ? 1 : -1) * lengths[i + 2 * j];
+        for (std::size_t j = 0, at = i; j < n; ++j, at = at + 2 < n ? at + 2 : at + 2 - n)
+            twice += j % 2 == 0 ? lengths.side[at] : -lengths.side[at];
         if (twice < (is_cut && i == 0 ? 0 : 2) || twice % 2 != 0) return false;
         split[i] = twice / 2;
     }
@@ -220,29 +222,28 @@ std::vector<Cut> cuts(std::span<const Vec2> loop, std::span<const std::size_t> c
     double spacing = 0;
     for (std::size_t i = 0; i < loop.size(); ++i)
         spacing += (loop[(i + 1) % loop.size()] - loop[i]).norm() / static_cast<double>(loop.size());
-    // The first part has `between` corners and the two of the cut; three to five in both.
     std::vector<Cut> found;
-    for (std::size_t between = 1; 2 * between <= n; ++between) {
-        if (n - between > 3) continue;
-        for (std::size_t side = 0; side < n; ++side) {
-            const std::size_t other = (side + between) % n;
-            for (int a = 1; a < lengths[side]; ++a) {
-                for (int b = 1; b < lengths[other]; ++b) {
-                    const std::size_t from = corners[side] + static_cast<std::size_t>(a);
-                    const std::size_t to = corners[other] + static_cast<std::size_t>(b);
-                    const std::size_t start = from % loop.size(), end = to % loop.size();
-                    const double slant = slant_of(loop, start, end);
-                    if (slant > kMostSlant) continue;
-                    const double pieces = (loop[end] - loop[start]).norm() / spacing;
-                    const int low = std::max(1, static_cast<int>(pieces * kShortest));
-                    const int high = static_cast<int>(pieces * kLongest) + 1;
-                    for (int k = low; k <= high; ++k) {
-                        const Halves parts = halves(lengths, corners, loop.size(), side, between,
-                                                    {from, to, k, 0});
-                        if (!is_base(parts.first, true) || !is_base(parts.second, true)) continue;
-                        const double fault = std::abs(std::log(pieces / k)) + slant;
-                        found.push_back({start, end, k, fault});
-                    }
+    // Between the two sides cut there are one or three corners: a part of four sides, a strip, mends nothing.
+    const std::size_t between = n / 2 - (n == 4 ? 1 : 0);
+    for (std::size_t side = 0; side < n; ++side) {
+        const std::size_t other = (side + between) % n;
+        for (int a = 1; a < lengths[side]; ++a) {
+            for (int b = 1; b < lengths[other]; ++b) {
+                const std::size_t from = corners[side] + static_cast<std::size_t>(a);
+                const std::size_t to = corners[other] + static_cast<std::size_t>(b);
+                const std::size_t start = from % loop.size(), end = to % loop.size();
+                const double slant = slant_of(loop, start, end);
+                if (slant > kMostSlant) continue;
+                const double pieces = (loop[end] - loop[start]).norm() / spacing;
+                int low = std::max(1, static_cast<int>(pieces * kShortest));
+                if ((to - from + static_cast<std::size_t>(low)) % 2 != 0) ++low; // parts have even outlines
+                const int high = static_cast<int>(pieces * kLongest) + 1;
+                for (int k = low; k <= high; k += 2) {
+                    const Halves parts = halves(lengths, corners, loop.size(), side, between,
+                                                {from, to, k, 0});
+                    if (!is_base(parts.first, true) || !is_base(parts.second, true)) continue;
+                    const double fault = std::abs(std::log(pieces / k)) + slant;
+                    found.push_back({start, end, k, fault});
                 }
             }
         }
@@ -274,8 +275,9 @@ std::vector<Chain> sides_between(std::size_t from, std::size_t to, std::size_t l
 int fewest_irregular(std::size_t loop, std::span<const std::size_t> corners)
 {
     if (corners.size() < 2 || corners.size() > 6) return std::numeric_limits<int>::max();
-    if (!is_base(lengths_of(loop, corners), false)) return 2;
-    return corners.size() == 4 ? 0 : 1;
+    const bool even = corners.size() % 2 == 0;
+    if (!is_base(lengths_of(loop, corners), false)) return even ? 2 : std::numeric_limits<int>::max();
+    return even ? 0 : 1;
 }
 
 std::vector<Filling> fillings(std::span<const Vec2> loop, std::span<const std::size_t> corners,
@@ -289,6 +291,7 @@ std::vector<Filling> fillings(std::span<const Vec2> loop, std::span<const std::s
         result.push_back(filler.finish(loop.size()));
         return result;
     }
+    if (corners.size() % 2 != 0) return result;
     for (const Cut& cut : cuts(loop, corners, most)) {
         Filler filler(loop);
         const Chain middle = filler.line(static_cast<Index>(cut.to), static_cast<Index>(cut.from),

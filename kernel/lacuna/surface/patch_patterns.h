@@ -22,7 +22,7 @@ struct Filling {
 ///
 ///      4 sides, opposite ones alike: a grid.
 ///      3 or 5 sides: a grid for every corner, round one point with three or five quads.
-///      else: one cut from side to side that leaves two of these; straight and square to the sides where it may be.
+///      2, 4 or 6 sides, else: one cut that leaves 3 and 3, 3 and 5 or 5 and 5; straight and square to the sides where it may be.
 ///
 /// At a corner there is one quad of the patch, at other points of the loop two.
 /// @param loop     in order, the patch on the left

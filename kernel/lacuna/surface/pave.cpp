@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/triangulate.h>
 #include <lacuna/surface/clean_quads.h>
+#include <lacuna/surface/measure_plane.h>
 #include <lacuna/surface/pave_core.h>
 #include <lacuna/surface/pave_fit.h>
 #include <lacuna/surface/pave_repair.h>
@@ -171,6 +172,16 @@ void open_folds(Attempt& attempt, const Draft& draft, const PaveOptions& options
     }
 }
 
+/// How good quads are, to choose between two ways; higher is better. A mean of shapes, sizes, rows and the worst quad, less
+/// what is irregular; the worst quad counts double, for a sweep repeats it, up to kGood.
+double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
+{
+    constexpr double kGood = 0.6;
+    const PlaneQuality quality = measure_plane(mesh, region);
+    return quality.mean_scaled_jacobian + 2 * std::min(quality.min_scaled_jacobian, kGood) +
+           quality.size_share() / 2 + quality.row_share() / 4 - quality.irregular_share() / 2;
+}
+
 Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style,
                  const RunContext& context)
 {
@@ -223,13 +234,22 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
 PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
 {
     check_region(region);
+    // Below this many quads it costs little to pave with and without rows and keep the better.
+    constexpr std::size_t kFew = 4000;
     Attempt best;
+    double best_score = 0;
     for (const RowStyle style : {RowStyle::by_shape, RowStyle::none, RowStyle::buffer}) {
+        if (best.worst > 0 &&
+            (style == RowStyle::buffer || options.rows >= 0 || best.mesh.quads.size() > kFew))
+            break;
         Attempt attempt = try_pave(region, options, style, context);
+        if (attempt.worst > 0 && !find_fault(attempt.mesh, region).empty()) attempt.worst = -1;
         if (attempt.worst <= 0)
             log_line(context, "quads fold near " + place_of(attempt.where) + ": paving differently");
-        if (attempt.worst > best.worst) best = std::move(attempt);
-        if (best.worst > 0) break;
+        const double score = attempt.worst > 0 ? score_of(attempt.mesh, region) : attempt.worst;
+        if (style != RowStyle::by_shape && score <= best_score) continue;
+        best_score = score;
+        best = std::move(attempt);
     }
     if (!(best.worst > 0)) {
         throw NotSweepable("surface.pave", "no valid quads were found for a region of " +

@@ -19,7 +19,7 @@ Cycle join_all(Draft& draft, std::vector<Cycle> loops)
                 if (bridge && (!best || bridge->cost < best->cost)) best = bridge;
             }
         }
-        if (!best) break;
+        if (!best) best = blind_bridge(draft, loops);
         const Cycle line = nodes_along(draft, loops[best->loop_a][best->cut.from],
                                        loops[best->loop_b][best->cut.to], best->cut.edges);
         if (best->cut.edges == 1) draft.link(line.front(), line.back());

@@ -4,6 +4,7 @@
 #include <lacuna/geometry/predicates.h>
 #include <lacuna/surface/pave_patch.h>
 
+#include <limits>
 #include <span>
 
 namespace lacuna::surface::paving {
@@ -250,6 +251,18 @@ private:
                 }
             }
         }
+        // Counts agree at single places: every one near either end is looked at.
+        const Choice start = best;
+        for (std::size_t k = 0; k <= 2 * stride_; ++k) {
+            for (const bool first : {true, false}) {
+                const std::size_t place = ((first ? start.cut.from : start.cut.to) + n_ + k - stride_) % n_;
+                std::size_t i = place, j = first ? start.cut.to : start.cut.from;
+                if (i == j) continue;
+                if (i > j) std::swap(i, j);
+                const auto choice = judge(i, j);
+                if (choice && choice->cost < best.cost && is_free(*choice, away)) best = *choice;
+            }
+        }
         return best;
     }
 
@@ -310,6 +323,24 @@ std::optional<Bridge> best_bridge(const Draft& draft, const std::vector<Cycle>& 
             return bridge;
     }
     return std::nullopt;
+}
+
+Bridge blind_bridge(const Draft& draft, const std::vector<Cycle>& loops)
+{
+    Bridge best;
+    best.cost = std::numeric_limits<double>::infinity();
+    for (std::size_t b = 1; b < loops.size(); ++b) {
+        for (const std::size_t i : spread(loops[0].size())) {
+            for (const std::size_t j : spread(loops[b].size())) {
+                const Vec2 &p = draft.at(loops[0][i]), &q = draft.at(loops[b][j]);
+                const double length = (q - p).norm();
+                if (length >= best.cost) continue;
+                const double edges = length / local_size(draft, p, q);
+                best = {0, b, {i, j, static_cast<std::size_t>(std::max(2L, std::lround(edges)))}, length};
+            }
+        }
+    }
+    return best;
 }
 
 Cut blind_cut(const Draft& draft, const Cycle& cycle)

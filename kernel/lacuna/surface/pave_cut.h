@@ -28,6 +28,9 @@ struct Bridge {
 std::optional<Bridge> best_bridge(const Draft& draft, const std::vector<Cycle>& loops, std::size_t a,
                                   std::size_t b);
 
+/// The shortest line from the first loop to another, whatever it crosses: its nodes move later.
+Bridge blind_bridge(const Draft& draft, const std::vector<Cycle>& loops);
+
 /// Divide a loop of even length by the shortest way round: where no line is seen. Both parts are even and smaller.
 Cut blind_cut(const Draft& draft, const Cycle& cycle);
 

@@ -30,12 +30,15 @@ public:
     CornerOpener(PlanarQuads& mesh, const PlanarRegion& region) : mesh_(mesh), fixed_(region.points.size())
     {
         needed_.assign(fixed_, 0);
+        better_.assign(fixed_, 0);
         for (const auto& loop : region.loops) {
             for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
                 const Vec2& p = at(loop[i]);
                 const double angle = turn_between(at(loop[(i + 1) % n]) - p, at(loop[(i + n - 1) % n]) - p);
                 constexpr double kWidest = 0.9 * std::numbers::pi; // leaves a sine of 0.3
+                constexpr double kWide = 0.78 * std::numbers::pi;  // 140°: a sine of 0.64
                 needed_[index(loop[i])] = static_cast<int>(std::ceil(angle / kWidest));
+                better_[index(loop[i])] = static_cast<int>(std::ceil(angle / kWide));
             }
         }
         quads_of_.resize(mesh.points.size());
@@ -49,7 +52,13 @@ public:
             // Each change adds a quad at the node: so many at most.
             for (int tries = 0; tries < 4 && !quads_of_[p].empty() && lacking(static_cast<Index>(p));
                  ++tries) {
-                if (!turn_side(static_cast<Index>(p))) surround_widest(static_cast<Index>(p));
+                if (!turn_side(static_cast<Index>(p), 0)) surround_widest(static_cast<Index>(p));
+                ++changes;
+            }
+            // What is wide, but not too wide, gets another quad where it costs nobody much.
+            constexpr double kGood = 0.5;
+            if (!quads_of_[p].empty() && count(static_cast<Index>(p)) < better_[p] &&
+                turn_side(static_cast<Index>(p), kGood)) {
                 ++changes;
             }
         }
@@ -85,9 +94,9 @@ private:
     }
 
     /// Turn a side opposite the node, so that it runs from the node.
-    bool turn_side(Index p)
+    bool turn_side(Index p, double least)
     {
-        double best = 0;
+        double best = least;
         std::optional<std::array<std::size_t, 2>> pair;
         std::array<Quad, 2> made{};
         for (const std::size_t q : quads_of_[index(p)]) {
@@ -151,7 +160,7 @@ private:
 
     PlanarQuads& mesh_;
     std::size_t fixed_;
-    std::vector<int> needed_;
+    std::vector<int> needed_, better_; ///< quads at a boundary node: what must be, and what would be good
     std::vector<std::vector<std::size_t>> quads_of_;
 };
 

@@ -55,7 +55,7 @@ public:
         const std::size_t points = draft_.points.size(), quads = draft_.quads.size();
         for (std::size_t i = 0; i < n_; ++i) angles_.push_back(inner_angle(draft_, cycle_, i));
         heights_ = row_heights(draft_, cycle_, angles_, gaps, height);
-        if (ends_far_apart()) {
+        if (ends_far_apart() && (least_quads_ > 1 || tall_enough(height))) {
             place_nodes();
             Cycle inner = add_quads();
             bool good = inner.size() >= 4;
@@ -87,6 +87,15 @@ private:
             last = i;
         }
         return first == n_ || first == last || first + n_ - last >= kApart;
+    }
+
+    /// A row squeezed on much of its way is worse than none.
+    [[nodiscard]] bool tall_enough(const std::function<double(const Vec2&)>& height) const
+    {
+        constexpr double kSqueezed = 0.6, kMost = 0.25;
+        std::size_t squeezed = 0;
+        for (std::size_t i = 0; i < n_; ++i) squeezed += heights_[i] < kSqueezed * height(at(i)) ? 1U : 0U;
+        return static_cast<double>(squeezed) <= kMost * static_cast<double>(n_);
     }
 
     /// New nodes over every node, from the side of the edge before to that of the edge after.

@@ -21,13 +21,16 @@ constexpr double kOverstep = 1.85;
 
 /// Areas asked of the quads round each point.
 struct Areas {
+    struct Asked {
+        double area = 0, inverse = 0; ///< 0: none is asked
+    };
     double weight = 0;
-    std::vector<double> inverses; ///< 1 / size² at each point; empty: none are asked
+    std::vector<Asked> asked; ///< of each point; empty: of none
 
     template <class Number>
-    [[nodiscard]] double inverse(Number p) const
+    [[nodiscard]] Asked at(Number p) const
     {
-        return inverses.empty() ? 0 : inverses[static_cast<std::size_t>(p)];
+        return asked.empty() ? Asked{} : asked[static_cast<std::size_t>(p)];
     }
 };
 
@@ -37,13 +40,12 @@ struct Around {
     Vec2 slope{0, 0};
     double xx = 0, xy = 0, yy = 0;
     double sides = 0; ///< squared lengths of the sides at the point, each quad's two
-    double least = 1; ///< least sine squared, of the corners at hand
 
     /// @param det    of the corner; linear in the point, slope `dx`, `dy`
     /// @param sum    squared lengths of its sides, `aa` + `bb`; slope `sx`, `sy`, curvature `curve` in x and in y
     /// @return  false where the corner is folded
     bool add(double det, double dx, double dy, double aa, double bb, double sx, double sy, double curve,
-             double inverse_area, double area_weight)
+             const Areas::Asked& asked, double weight)
     {
         if (!(det > 0)) return false;
         const double over = 1 / det;
@@ -60,12 +62,11 @@ struct Around {
         hxx = 2 * (f * hxx + gx * gx);
         hyy = 2 * (f * hyy + gy * gy);
         hxy = 2 * (f * hxy + gx * gy);
-        if (inverse_area > 0) {
-            const double u = det * inverse_area;
-            const double v = 1 / u;
-            const double first = area_weight * (inverse_area - v * over) / 2;
-            const double second = area_weight * v * over * over;
-            value += area_weight * (u + v) / 2;
+        if (asked.area > 0) {
+            const double v = asked.area * over;
+            const double first = weight * (asked.inverse - v * over) / 2;
+            const double second = weight * v * over * over;
+            value += weight * (det * asked.inverse + v) / 2;
             slope.x() += first * dx;
             slope.y() += first * dy;
             hxx += second * dx * dx;
@@ -75,7 +76,6 @@ struct Around {
         xx += hxx;
         xy += hxy;
         yy += hyy;
-        least = std::min(least, det * det / (aa * bb));
         return true;
     }
 };
@@ -93,43 +93,39 @@ bool look_around(std::span<const Vec2> points, std::span<const Spoke> star, std:
         const double aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm(), dd = d.squaredNorm();
         around.sides += aa + bb;
         if (!around.add(a.x() * b.y() - a.y() * b.x(), a.y() - b.y(), b.x() - a.x(), aa, bb,
-                        -2 * (a.x() + b.x()), -2 * (a.y() + b.y()), 4, areas.inverse(p), areas.weight) ||
+                        -2 * (a.x() + b.x()), -2 * (a.y() + b.y()), 4, areas.at(p), areas.weight) ||
             !around.add(a.x() * c.y() - a.y() * c.x(), -c.y(), c.x(), aa, cc, -2 * a.x(), -2 * a.y(), 2,
-                        areas.inverse(spoke.next), areas.weight) ||
+                        areas.at(spoke.next), areas.weight) ||
             !around.add(d.x() * b.y() - d.y() * b.x(), d.y(), -d.x(), bb, dd, -2 * b.x(), -2 * b.y(), 2,
-                        areas.inverse(spoke.before), areas.weight))
+                        areas.at(spoke.before), areas.weight))
             return false;
     }
     return true;
 }
 
-/// The energy alone, and the least sine squared; infinite where a corner is folded.
+/// The energy alone; infinite where a corner is folded, or its sine squared is less than `least`.
 double energy_around(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t p, const Vec2& x,
-                     const Areas& areas, double& least)
+                     const Areas& areas, double least)
 {
     double value = 0;
-    least = 1;
-    const auto add = [&](double det, double aa, double bb, double inverse_area) {
-        const double f = (aa + bb) / (2 * det);
+    const auto add = [&](double det, double aa, double bb, const Areas::Asked& asked) {
+        if (!(det > 0) || det * det < least * aa * bb) return false;
+        const double over = 1 / det;
+        const double f = (aa + bb) * over / 2;
         value += f * f;
-        if (inverse_area > 0) {
-            const double u = det * inverse_area;
-            value += areas.weight * (u + 1 / u) / 2;
-        }
-        least = std::min(least, det * det / (aa * bb));
+        if (asked.area > 0) value += areas.weight * (det * asked.inverse + asked.area * over) / 2;
+        return true;
     };
     for (const Spoke& spoke : star) {
         const Vec2& n = points[static_cast<std::size_t>(spoke.next)];
         const Vec2& o = points[static_cast<std::size_t>(spoke.across)];
         const Vec2& r = points[static_cast<std::size_t>(spoke.before)];
         const Vec2 a = n - x, b = r - x, c = o - n, d = o - r;
-        const double here = a.x() * b.y() - a.y() * b.x(), next = a.x() * c.y() - a.y() * c.x(),
-                     before = d.x() * b.y() - d.y() * b.x();
-        if (!(here > 0 && next > 0 && before > 0)) return kInfinity;
         const double aa = a.squaredNorm(), bb = b.squaredNorm();
-        add(here, aa, bb, areas.inverse(p));
-        add(next, aa, c.squaredNorm(), areas.inverse(spoke.next));
-        add(before, bb, d.squaredNorm(), areas.inverse(spoke.before));
+        if (!add(a.x() * b.y() - a.y() * b.x(), aa, bb, areas.at(p)) ||
+            !add(a.x() * c.y() - a.y() * c.x(), aa, c.squaredNorm(), areas.at(spoke.next)) ||
+            !add(d.x() * b.y() - d.y() * b.x(), bb, d.squaredNorm(), areas.at(spoke.before)))
+            return kInfinity;
     }
     return value;
 }
@@ -180,12 +176,16 @@ public:
             const Vec2 step(-(here.yy * here.slope.x() - here.xy * here.slope.y()) / det,
                             -(here.xx * here.slope.y() - here.xy * here.slope.x()) / det);
             const double side = here.sides / static_cast<double>(2 * star.size());
-            const double least = std::min(here.least, floor * floor);
             double length = overstep;
             for (int attempt = 0; attempt<4; ++attempt, length = length> 1 ? 1 : length / 2) {
                 const Vec2 to = points_[p] + length * step;
-                double sine = 1;
-                if (energy_around(points_, star, p, to, areas_, sine) > here.value || sine < least) continue;
+                const double least = floor * floor;
+                double energy = energy_around(points_, star, p, to, areas_, least);
+                if (energy > here.value && least > 0) { // where the sine is less already, it may stay so
+                    const double sine = least_sine(points_, star, points_[p]);
+                    if (sine < floor) energy = energy_around(points_, star, p, to, areas_, sine * sine);
+                }
+                if (energy > here.value) continue;
                 points_[p] = to;
                 if (length * length * step.squaredNorm() > kStill * kStill * side) {
                     ++moved;
@@ -218,7 +218,7 @@ public:
         areas_.weight = options_.size_weight;
         for (const Vec2& p : points_) {
             const double size = options_.size(p);
-            areas_.inverses.push_back(1 / (size * size));
+            areas_.asked.push_back({size * size, 1 / (size * size)});
         }
     }
 
