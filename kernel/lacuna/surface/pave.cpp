@@ -109,6 +109,7 @@ enum class RowStyle {
     by_shape,  ///< as many rows as each loop is worth
     one_patch, ///< none: the region is one patch
     none,      ///< the region is cut as it is
+    thin,      ///< rows also where loops are near each other
     buffer     ///< one row with two quads at least at every node, so that all other nodes are free to move
 };
 
@@ -198,12 +199,14 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
                        : style == RowStyle::buffer                             ? 1
                                                                                : own);
     }
+    const RowKind kind = style == RowStyle::buffer ? RowKind::buffer
+                         : style == RowStyle::thin ? RowKind::thin
+                                                   : RowKind::tall;
     for (int r = 0;; ++r) {
         std::vector<bool> wanted;
         for (const int own : rows) wanted.push_back(own > r);
         if (std::none_of(wanted.begin(), wanted.end(), [](bool w) { return w; })) break;
-        attempt.report.rows += lay_rows(draft, loops, wanted,
-                                        options.row_height ? options.row_height : draft.size);
+        attempt.report.rows += lay_rows(draft, loops, wanted, height, kind);
         for (std::size_t l = 0; l < loops.size(); ++l) {
             if (!wanted[l]) rows[l] = 0;
         }
@@ -237,19 +240,21 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
     // Below this many quads it costs little to pave with and without rows and keep the better.
     constexpr std::size_t kFew = 4000;
     Attempt best;
-    double best_score = 0;
-    for (const RowStyle style : {RowStyle::by_shape, RowStyle::none, RowStyle::buffer}) {
-        if (best.worst > 0 &&
-            (style == RowStyle::buffer || options.rows >= 0 || best.mesh.quads.size() > kFew))
-            break;
-        Attempt attempt = try_pave(region, options, style, context);
-        if (attempt.worst > 0 && !find_fault(attempt.mesh, region).empty()) attempt.worst = -1;
-        if (attempt.worst <= 0)
-            log_line(context, "quads fold near " + place_of(attempt.where) + ": paving differently");
-        const double score = attempt.worst > 0 ? score_of(attempt.mesh, region) : attempt.worst;
-        if (style != RowStyle::by_shape && score <= best_score) continue;
+    double best_score = -2;
+    const auto attempt = [&](RowStyle style) {
+        Attempt made = try_pave(region, options, style, context);
+        if (made.worst > 0 && !find_fault(made.mesh, region).empty()) made.worst = -1;
+        if (made.worst <= 0)
+            log_line(context, "quads fold near " + place_of(made.where) + ": paving differently");
+        const double score = made.worst > 0 ? score_of(made.mesh, region) : made.worst;
+        if (score <= best_score) return;
         best_score = score;
-        best = std::move(attempt);
+        best = std::move(made);
+    };
+    attempt(RowStyle::by_shape);
+    if (best.worst <= 0) attempt(RowStyle::buffer);
+    for (const RowStyle style : {RowStyle::none, RowStyle::thin}) {
+        if (best.worst <= 0 || (options.rows < 0 && best.mesh.quads.size() <= kFew)) attempt(style);
     }
     if (!(best.worst > 0)) {
         throw NotSweepable("surface.pave", "no valid quads were found for a region of " +

@@ -33,7 +33,7 @@ Cycle join_all(Draft& draft, std::vector<Cycle> loops)
 /// size of the part; a poor patch costs in every quad.
 double good_patch(std::size_t nodes)
 {
-    constexpr double kLeast = 0.5, kMost = 0.85, kSlope = 0.2, kFrom = 32;
+    constexpr double kLeast = 0.6, kMost = 0.9, kSlope = 0.2, kFrom = 32;
     return std::clamp(kLeast + kSlope * std::log2(static_cast<double>(nodes) / kFrom), kLeast, kMost);
 }
 

@@ -44,8 +44,12 @@ std::vector<double> row_heights(const Draft& draft, const Cycle& cycle, const st
 /// The row of one loop, on trial.
 class Row {
 public:
-    Row(Draft& draft, const Cycle& cycle, bool buffer)
-        : draft_(draft), cycle_(cycle), n_(cycle.size()), least_quads_(buffer ? 2 : 1)
+    Row(Draft& draft, const Cycle& cycle, RowKind kind)
+        : draft_(draft),
+          cycle_(cycle),
+          n_(cycle.size()),
+          kind_(kind),
+          least_quads_(kind == RowKind::buffer ? 2 : 1)
     {
     }
 
@@ -55,7 +59,7 @@ public:
         const std::size_t points = draft_.points.size(), quads = draft_.quads.size();
         for (std::size_t i = 0; i < n_; ++i) angles_.push_back(inner_angle(draft_, cycle_, i));
         heights_ = row_heights(draft_, cycle_, angles_, gaps, height);
-        if (ends_far_apart() && (least_quads_ > 1 || tall_enough(height))) {
+        if (ends_far_apart() && (kind_ != RowKind::tall || tall_enough(height))) {
             place_nodes();
             Cycle inner = add_quads();
             bool good = inner.size() >= 4;
@@ -149,6 +153,7 @@ private:
     Draft& draft_;
     const Cycle& cycle_;
     std::size_t n_;
+    RowKind kind_;
     int least_quads_;
     std::vector<double> angles_, heights_;
     std::vector<Cycle> inner_;
@@ -169,12 +174,12 @@ bool needs_row(const Draft& draft, const Cycle& cycle)
 namespace {
 
 std::optional<Cycle> lay_one(Draft& draft, const Cycle& cycle, const Gaps& gaps,
-                             const std::function<double(const Vec2&)>& height, bool buffer)
+                             const std::function<double(const Vec2&)>& height, RowKind kind)
 {
-    if (!buffer) return Row(draft, cycle, false).lay(gaps, height);
+    if (kind != RowKind::buffer) return Row(draft, cycle, kind).lay(gaps, height);
     constexpr int kFlatter = 5; // tries, each half as high
     for (double part = 1; part > std::ldexp(1.0, -kFlatter); part /= 2) {
-        auto inner = Row(draft, cycle, true).lay(gaps, [&](const Vec2& p) { return part * height(p); });
+        auto inner = Row(draft, cycle, kind).lay(gaps, [&](const Vec2& p) { return part * height(p); });
         if (inner) return inner;
     }
     return std::nullopt;
@@ -183,7 +188,7 @@ std::optional<Cycle> lay_one(Draft& draft, const Cycle& cycle, const Gaps& gaps,
 } // namespace
 
 int lay_rows(Draft& draft, std::vector<Cycle>& loops, std::vector<bool>& wanted,
-             const std::function<double(const Vec2&)>& height, bool buffer)
+             const std::function<double(const Vec2&)>& height, RowKind kind)
 {
     std::vector<std::optional<Cycle>> inner(loops.size());
     const std::size_t points = draft.points.size(), quads = draft.quads.size();
@@ -192,7 +197,7 @@ int lay_rows(Draft& draft, std::vector<Cycle>& loops, std::vector<bool>& wanted,
         for (std::size_t l = 0; l < loops.size(); ++l) {
             inner[l].reset();
             if (!wanted[l]) continue;
-            inner[l] = lay_one(draft, loops[l], gaps, height, buffer);
+            inner[l] = lay_one(draft, loops[l], gaps, height, kind);
             if (!inner[l]) wanted[l] = false;
         }
         std::vector<Cycle> next;

@@ -7,6 +7,13 @@
 
 namespace lacuna::surface::paving {
 
+/// How rows are laid.
+enum class RowKind {
+    tall,  ///< as high as asked on most of the loop, or not at all
+    thin,  ///< also where the next loop is near
+    buffer ///< no node is an end, and the row gets flatter until it fits
+};
+
 /// What a row costs a loop in turns: it needs one where its nodes turn without being corners.
 bool needs_row(const Draft& draft, const Cycle& cycle);
 
@@ -16,10 +23,10 @@ bool needs_row(const Draft& draft, const Cycle& cycle);
 /// their angle. Rows are as high as `height` says, or a third of the gap where another side is near. A row
 /// that would fold, run into another or leave too few nodes is not laid.
 ///
-/// @param buffer  no node is an end, and rows get flatter until they fit.
+/// @param kind  how.
 /// @param wanted  loops a row is wanted on; false afterwards for those that got none.
 /// @return how many were laid.
 int lay_rows(Draft& draft, std::vector<Cycle>& loops, std::vector<bool>& wanted,
-             const std::function<double(const Vec2&)>& height, bool buffer = false);
+             const std::function<double(const Vec2&)>& height, RowKind kind = RowKind::tall);
 
 } // namespace lacuna::surface::paving
