@@ -50,8 +50,8 @@ struct RandomDomain {
     std::string words;    ///< how it was made
 };
 
-/// A region made from a seed: 1 to 8 loops of 4 to 400 edges, round, star-like or spiked, holes that nearly touch, edges
+/// A region made from a seed: 1 to 8 loops of 4 to `most_edges` edges, round, star-like or spiked, holes that nearly touch, edges
 /// up to a hundred times as long as others of the same loop; a few are broken on purpose.
-RandomDomain random_domain(std::uint32_t seed);
+RandomDomain random_domain(std::uint32_t seed, int most_edges = 400);
 
 } // namespace lacuna::test

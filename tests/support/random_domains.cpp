@@ -93,9 +93,9 @@ double clearance(const std::vector<std::vector<Vec2>>& loops, const Vec2& p)
     return in ? nearest : -nearest;
 }
 
-int edge_count(Dice& dice) { return static_cast<int>(std::lround(dice.log_between(4, 400))); }
+int edge_count(Dice& dice, int most) { return static_cast<int>(std::lround(dice.log_between(4, most))); }
 
-void add_holes(Dice& dice, int holes, std::vector<std::vector<Vec2>>& loops, std::string& words)
+void add_holes(Dice& dice, int holes, int most, std::vector<std::vector<Vec2>>& loops, std::string& words)
 {
     for (int hole = 0; hole < holes; ++hole) {
         Vec2 centre(0, 0);
@@ -112,15 +112,15 @@ void add_holes(Dice& dice, int holes, std::vector<std::vector<Vec2>>& loops, std
         if (room < 0.02) return;
         // Some holes leave next to nothing between themselves and their neighbour.
         const double part = dice.chance(0.3) ? dice.between(0.97, 0.995) : dice.between(0.2, 0.8);
-        std::vector<Vec2> points = star_loop(dice, centre, part * room, edge_count(dice), words);
+        std::vector<Vec2> points = star_loop(dice, centre, part * room, edge_count(dice, most), words);
         std::reverse(points.begin(), points.end());
         loops.push_back(std::move(points));
     }
 }
 
 /// No size, the same everywhere, or one that grows across the domain; never more than some ten thousand quads.
-std::function<double(const Vec2&)> size_for(Dice& dice, const std::vector<std::vector<Vec2>>& loops,
-                                            std::string& words)
+std::function<double(const Vec2&)> size_for(Dice& dice, double finest,
+                                            const std::vector<std::vector<Vec2>>& loops, std::string& words)
 {
     std::vector<double> sides;
     for (const auto& loop : loops) {
@@ -128,7 +128,7 @@ std::function<double(const Vec2&)> size_for(Dice& dice, const std::vector<std::v
             sides.push_back((loop[(i + 1) % loop.size()] - loop[i]).norm());
     }
     std::sort(sides.begin(), sides.end());
-    const double middle = std::max(0.02, sides[sides.size() / 2]);
+    const double middle = std::max(2 * finest, sides[sides.size() / 2]);
     const double kind = dice.unit();
     if (kind < 0.4) {
         words += " no size";
@@ -138,7 +138,7 @@ std::function<double(const Vec2&)> size_for(Dice& dice, const std::vector<std::v
         words += " size " + std::to_string(middle);
         return [middle](const Vec2&) { return middle; };
     }
-    const double low = std::max(0.01, middle / 3), high = low * dice.log_between(2, 100);
+    const double low = std::max(finest, middle / 3), high = low * dice.log_between(2, 100);
     words += " size " + std::to_string(low) + " to " + std::to_string(high);
     return [low, high](const Vec2& p) {
         return low * std::pow(high / low, std::clamp((p.x() + 1) / 2, 0.0, 1.0));
@@ -147,13 +147,13 @@ std::function<double(const Vec2&)> size_for(Dice& dice, const std::vector<std::v
 
 } // namespace
 
-RandomDomain random_domain(std::uint32_t seed)
+RandomDomain random_domain(std::uint32_t seed, int most_edges)
 {
     Dice dice(seed * 2654435761U + 12345U);
     RandomDomain made;
     std::vector<std::vector<Vec2>> loops;
-    loops.push_back(star_loop(dice, {0, 0}, 1, edge_count(dice), made.words));
-    add_holes(dice, static_cast<int>(dice.between(0, 8)), loops, made.words);
+    loops.push_back(star_loop(dice, {0, 0}, 1, edge_count(dice, most_edges), made.words));
+    add_holes(dice, static_cast<int>(dice.between(0, 8)), most_edges, loops, made.words);
     const double broken = dice.unit();
     made.odd = broken < 0.03;
     made.crossed = !made.odd && broken < 0.06 && loops.front().size() > 4;
@@ -166,7 +166,7 @@ RandomDomain random_domain(std::uint32_t seed)
         const Vec2 middle = (loop[at] + loop[(at + 1) % loop.size()]) / 2;
         loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(at) + 1, middle);
     }
-    made.region.size = size_for(dice, loops, made.words);
+    made.region.size = size_for(dice, 4.0 / std::max(40, most_edges), loops, made.words);
     if (made.crossed) std::swap(loops.front()[1], loops.front()[3]);
     for (const auto& loop : loops) {
         made.region.loops.emplace_back();

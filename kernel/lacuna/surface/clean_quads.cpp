@@ -38,7 +38,7 @@ struct Care {
 /// Small patches, where most is won for little; then larger ones, and while the budget lasts more thorough.
 constexpr std::array<Care, 3> kCares{{{3, 60, 2, 1, 1.8}, {12, 100'000, 2, 1, 1.8}, {12, 100'000, 4, 2, 3}}};
 /// Quads that may be smoothed for trial however small the mesh.
-constexpr long kLeastBudget = 150'000;
+constexpr long kLeastBudget = 50'000;
 
 /// Loss of a quad for its area being off by a factor e from the one asked.
 constexpr double kSizeLoss = 0.1;

@@ -16,7 +16,7 @@ struct CleanOptions {
         0.6; ///< scaled Jacobian below which no change may leave a quad worse than the worst there was [-]
     int largest_patch = 400; ///< quads filled anew at once, >= 4
     int passes = 4;          ///< over all irregular points, >= 1
-    double effort = 3;       ///< quads smoothed for trial: so many times those of the mesh, and 150,000
+    double effort = 3;       ///< quads smoothed for trial: so many times those of the mesh, and 50,000
 };
 
 struct CleanReport {

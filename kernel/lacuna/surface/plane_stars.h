@@ -68,7 +68,7 @@ inline double least_sine(std::span<const Vec2> points, std::span<const Spoke> st
 }
 
 /// Open folded quads by moving points that are not fixed (Garanzha et al. 2021, in two dimensions). @return true when
-/// no corner of any quad is left that is not positive. Where it fails the points are as they were.
+/// no corner of any quad is left that is not positive, but those of three fixed points. Where it fails the points are as they were.
 bool untangle_plane(std::vector<Vec2>& points, std::span<const Quad> quads, const std::vector<char>& fixed,
                     const std::vector<double>& size);
 

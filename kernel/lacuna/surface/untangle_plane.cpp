@@ -21,7 +21,7 @@ constexpr std::size_t kMemory = 8;
 constexpr int kSteps = 100;
 constexpr int kRounds = 30;
 /// Layers of quads around the folded ones that move with them: first, and when that did not do.
-constexpr std::array<int, 3> kRings{3, 8, 30};
+constexpr std::array<int, 2> kRings{3, 10};
 
 struct Cell {
     Quad corners;
@@ -34,13 +34,28 @@ struct Region {
     std::vector<Index> variable; ///< of each point; -1: stays
 };
 
+/// Least determinant of the corners of a quad that can be moved; folded ones that cannot be are not for us.
+double least_movable(std::span<const Vec2> points, const Quad& quad, const std::vector<char>& fixed)
+{
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto here = static_cast<std::size_t>(quad[k]),
+                   next = static_cast<std::size_t>(quad[(k + 1) % 4]),
+                   before = static_cast<std::size_t>(quad[(k + 3) % 4]);
+        if (fixed[here] != 0 && fixed[next] != 0 && fixed[before] != 0) continue;
+        const Vec2 a = points[next] - points[here], b = points[before] - points[here];
+        least = std::min(least, a.x() * b.y() - a.y() * b.x());
+    }
+    return least;
+}
+
 /// Quads that are folded, `rings` layers around them, and the points inside.
 Region region_of(std::span<const Vec2> points, std::span<const Quad> quads, const std::vector<char>& fixed,
                  const std::vector<double>& size, int rings)
 {
     std::vector<char> touched(points.size(), 0), taken(quads.size(), 0);
     for (std::size_t q = 0; q < quads.size(); ++q) {
-        if (scaled_jacobian(points, quads[q]) > 0) continue;
+        if (least_movable(points, quads[q], fixed) > 0) continue;
         taken[q] = 1;
     }
     for (int ring = 0; ring < rings; ++ring) {
@@ -98,12 +113,15 @@ public:
         return sum;
     }
 
-    /// Least determinant over all corners, in units of the references.
+    /// Least determinant over all corners that move, in units of the references.
     [[nodiscard]] double least_determinant(const Eigen::VectorXd& x) const
     {
         double least = std::numeric_limits<double>::infinity();
         for (const Cell& cell : region_.cells) {
             for (std::size_t k = 0; k < 4; ++k) {
+                if (!moves(cell.corners[k]) && !moves(cell.corners[(k + 1) % 4]) &&
+                    !moves(cell.corners[(k + 3) % 4]))
+                    continue;
                 const Vec2 here = place(x, cell.corners[k]);
                 const Vec2 a = (place(x, cell.corners[(k + 1) % 4]) - here) * cell.inverse;
                 const Vec2 b = (place(x, cell.corners[(k + 3) % 4]) - here) * cell.inverse;
@@ -114,6 +132,7 @@ public:
     }
 
 private:
+    [[nodiscard]] bool moves(Index p) const { return region_.variable[static_cast<std::size_t>(p)] >= 0; }
     [[nodiscard]] Vec2 place(const Eigen::VectorXd& x, Index p) const
     {
         const Index v = region_.variable[static_cast<std::size_t>(p)];
@@ -213,7 +232,7 @@ bool untangle_plane(std::vector<Vec2>& points, std::span<const Quad> quads, cons
                          static_cast<Eigen::Index>(v)) = points[static_cast<std::size_t>(region.moving[v])];
         Energy energy(points, region);
         double last = energy.least_determinant(x);
-        for (int round = 0, idle = 0; round < kRounds && last <= 0 && idle < 4; ++round) {
+        for (int round = 0, idle = 0; round < kRounds && last <= 0 && idle < 3; ++round) {
             energy.epsilon = std::sqrt(kLeastEpsilon * kLeastEpsilon + 0.04 * last * last);
             minimise(energy, x);
             const double now = energy.least_determinant(x);
