@@ -99,11 +99,23 @@ public:
 
     std::optional<Cut> find()
     {
-        std::vector<Choice> choices;
         const std::vector<std::size_t> places = candidates();
+        // A line nearly as long as what it cuts off is seldom good: looked at only where there is no other.
+        constexpr double kShort = 0.85;
+        auto cut = find_among(places, kShort);
+        return cut ? cut : find_among(places, std::numeric_limits<double>::infinity());
+    }
+
+private:
+    std::optional<Cut> find_among(const std::vector<std::size_t>& places, double longest)
+    {
+        std::vector<Choice> choices;
         for (std::size_t s = 0; s < places.size(); ++s) {
             for (std::size_t t = s + 1; t < places.size(); ++t) {
-                if (const auto choice = judge(places[s], places[t])) choices.push_back(*choice);
+                const std::size_t i = places[s], j = places[t];
+                const double arc = arc_[j] - arc_[i];
+                if ((at(j) - at(i)).norm() > longest * std::min(arc, arc_[n_] - arc)) continue;
+                if (const auto choice = judge(i, j)) choices.push_back(*choice);
             }
         }
         // A heap, best on top: mostly the first or second is free.
@@ -123,7 +135,6 @@ public:
         return std::nullopt;
     }
 
-private:
     struct Choice {
         Cut cut;
         double cost = 0;
@@ -140,7 +151,7 @@ private:
 
     [[nodiscard]] std::vector<std::size_t> candidates()
     {
-        constexpr std::size_t kSpread = 64;   ///< places tried evenly along the outline
+        constexpr std::size_t kSpread = 48;   ///< places tried evenly along the outline
         constexpr std::size_t kFeatures = 64; ///< and where it bends
         std::vector<std::size_t> bent;
         for (std::size_t i = 0; i < n_; ++i) {
@@ -275,12 +286,17 @@ private:
     std::size_t stride_ = 1;
 };
 
+/// Every how many places of a loop a bridge is tried from.
+std::size_t stride_of(std::size_t n)
+{
+    constexpr std::size_t kMost = 48;
+    return std::max<std::size_t>(1, n / kMost);
+}
+
 std::vector<std::size_t> spread(std::size_t n)
 {
-    constexpr std::size_t kMost = 128;
     std::vector<std::size_t> places;
-    const std::size_t stride = std::max<std::size_t>(1, n / kMost);
-    for (std::size_t i = 0; i < n; i += stride) places.push_back(i);
+    for (std::size_t i = 0; i < n; i += stride_of(n)) places.push_back(i);
     return places;
 }
 
@@ -295,34 +311,48 @@ std::optional<Bridge> best_bridge(const Draft& draft, const std::vector<Cycle>& 
                                   std::size_t b)
 {
     const Cycle &one = loops[a], &two = loops[b];
+    const auto judge = [&](std::size_t i, std::size_t j) -> std::optional<Bridge> {
+        const Vec2 &p = draft.at(one[i]), &q = draft.at(two[j]);
+        const double angle_i = inner_angle(draft, one, i);
+        const double part_i = turn_between(draft.at(one[(i + 1) % one.size()]) - p, q - p);
+        if (part_i >= angle_i) return std::nullopt;
+        const double angle_j = inner_angle(draft, two, j);
+        const double part_j = turn_between(draft.at(two[(j + 1) % two.size()]) - q, p - q);
+        if (part_j >= angle_j) return std::nullopt;
+        const double length = (q - p).norm();
+        Bridge bridge{a, b, {i, j, 1}, 0};
+        bridge.cost = length * (1 + 0.3 * (end_cost(angle_i, part_i) + end_cost(angle_j, part_j)));
+        const double wanted = length / local_size(draft, p, q);
+        bridge.cut.edges = static_cast<std::size_t>(std::max(1L, std::lround(wanted)));
+        return bridge;
+    };
+    const auto is_free = [&](const Bridge& bridge) {
+        const Index p = one[bridge.cut.from], q = two[bridge.cut.to];
+        return p != q && std::all_of(loops.begin(), loops.end(),
+                                     [&](const Cycle& loop) { return is_clear(draft, loop, p, q); });
+    };
     std::vector<Bridge> choices;
     for (const std::size_t i : spread(one.size())) {
-        const double angle_i = inner_angle(draft, one, i);
         for (const std::size_t j : spread(two.size())) {
-            const Vec2 &p = draft.at(one[i]), &q = draft.at(two[j]);
-            const double part_i = turn_between(draft.at(one[(i + 1) % one.size()]) - p, q - p);
-            if (part_i >= angle_i) continue;
-            const double angle_j = inner_angle(draft, two, j);
-            const double part_j = turn_between(draft.at(two[(j + 1) % two.size()]) - q, p - q);
-            if (part_j >= angle_j) continue;
-            const double length = (q - p).norm();
-            Bridge bridge{a, b, {i, j, 1}, 0};
-            bridge.cost = length * (1 + 0.3 * (end_cost(angle_i, part_i) + end_cost(angle_j, part_j)));
-            const double wanted = length / local_size(draft, p, q);
-            bridge.cut.edges = static_cast<std::size_t>(std::max(1L, std::lround(wanted)));
-            choices.push_back(bridge);
+            if (const auto bridge = judge(i, j)) choices.push_back(*bridge);
         }
     }
     std::sort(choices.begin(), choices.end(), [](const Bridge& x, const Bridge& y) {
         return std::tie(x.cost, x.cut.from, x.cut.to) < std::tie(y.cost, y.cut.from, y.cut.to);
     });
-    for (const Bridge& bridge : choices) {
-        const Index p = one[bridge.cut.from], q = two[bridge.cut.to];
-        if (p != q && std::all_of(loops.begin(), loops.end(),
-                                  [&](const Cycle& loop) { return is_clear(draft, loop, p, q); }))
-            return bridge;
+    const auto found = std::find_if(choices.begin(), choices.end(), is_free);
+    if (found == choices.end()) return std::nullopt;
+    // The places between those tried.
+    const std::size_t n = one.size(), m = two.size(), reach_n = stride_of(n), reach_m = stride_of(m);
+    Bridge best = *found;
+    for (std::size_t di = 0; di <= 2 * reach_n; ++di) {
+        for (std::size_t dj = 0; dj <= 2 * reach_m; ++dj) {
+            const auto bridge = judge((found->cut.from + n + di - reach_n) % n,
+                                      (found->cut.to + m + dj - reach_m) % m);
+            if (bridge && bridge->cost < best.cost && is_free(*bridge)) best = *bridge;
+        }
     }
-    return std::nullopt;
+    return best;
 }
 
 Bridge blind_bridge(const Draft& draft, const std::vector<Cycle>& loops)
