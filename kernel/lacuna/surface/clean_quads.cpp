@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/clean_quads.h>
 
+#include <lacuna/surface/marks.h>
 #include <lacuna/surface/measure_plane.h>
 #include <lacuna/surface/patch_patterns.h>
 #include <lacuna/surface/quad_net.h>
@@ -43,51 +44,6 @@ constexpr long kLeastBudget = 50'000;
 /// Loss of a quad for its area being off by a factor e from the one asked.
 constexpr double kSizeLoss = 0.1;
 
-/// A set of numbers that is emptied at no cost.
-class Marks {
-public:
-    void clear(std::size_t count)
-    {
-        of_.resize(count, 0);
-        ++now_;
-    }
-    [[nodiscard]] bool has(Index i) const
-    {
-        return static_cast<std::size_t>(i) < of_.size() && of_[static_cast<std::size_t>(i)] == now_;
-    }
-    /// @return true where it was not there
-    bool add(Index i)
-    {
-        if (has(i)) return false;
-        of_[static_cast<std::size_t>(i)] = now_;
-        return true;
-    }
-
-private:
-    std::vector<unsigned> of_;
-    unsigned now_ = 0;
-};
-
-/// A number for each of a set of numbers, forgotten at no cost.
-class Numbers {
-public:
-    void clear(std::size_t count)
-    {
-        value_.resize(count, 0);
-        known_.clear(count);
-    }
-    Index& operator[](Index i)
-    {
-        if (known_.add(i)) value_[static_cast<std::size_t>(i)] = 0;
-        return value_[static_cast<std::size_t>(i)];
-    }
-    [[nodiscard]] bool has(Index i) const { return known_.has(i); }
-
-private:
-    std::vector<Index> value_;
-    Marks known_;
-};
-
 /// Quads with one outline.
 struct Patch {
     std::vector<Index> quads;
@@ -127,14 +83,6 @@ private:
     static constexpr double kFarOff = 10;
     const CleanOptions& options_;
 };
-
-/// For sets of numbers, the order of which does not count.
-std::uint64_t mixed(std::uint64_t x)
-{
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-    return x ^ (x >> 31);
-}
 
 class Cleaner {
 public:
