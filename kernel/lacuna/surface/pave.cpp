@@ -104,6 +104,23 @@ PlanarQuads without_loose_points(const Draft& draft)
     return mesh;
 }
 
+/// Below what sine a quad counts as folded: no sweep bears a flatter one, unless the given corners are that sharp.
+double flat_below(const PlanarRegion& region)
+{
+    constexpr double kFlat = 0.02, kShare = 0.3;
+    double sharpest = 1;
+    for (const auto& loop : region.loops) {
+        for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
+            const auto at = [&](std::size_t k) {
+                return region.points[static_cast<std::size_t>(loop[k % n])];
+            };
+            const double angle = turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i));
+            if (angle < kRightAngle) sharpest = std::min(sharpest, std::sin(angle));
+        }
+    }
+    return std::min(kFlat, kShare * sharpest);
+}
+
 /// What lies along the boundary.
 enum class RowStyle {
     by_shape,  ///< as many rows as each loop is worth
@@ -153,15 +170,15 @@ void open_folds(Attempt& attempt, const Draft& draft, const PaveOptions& options
     constexpr int kLoosenings = 3;
     for (int round = 0;; ++round) {
         Attempt tried = attempt;
-        if (round > 0) loosen_folds(tried.mesh, 0);
+        if (round > 0) loosen_folds(tried.mesh, draft.flat);
         ease_folds(tried.mesh, draft.fixed);
         judge(tried);
-        if (tried.worst <= 0 && round == 0 && options.clean) {
+        if (tried.worst <= draft.flat && round == 0 && options.clean) {
             clean_quads(tried.mesh, draft.fixed, {.size = draft.size}, context);
             ease_folds(tried.mesh, draft.fixed);
             judge(tried);
         }
-        if (tried.worst <= 0) {
+        if (tried.worst <= draft.flat) {
             // What opens here is smoothed with the rest later.
             smooth_plane(tried.mesh.points, tried.mesh.quads, draft.fixed,
                          {.size = draft.size, .sweeps = 0, .repairs = 0}, context);
@@ -169,7 +186,7 @@ void open_folds(Attempt& attempt, const Draft& draft, const PaveOptions& options
         }
         const bool better = round == 0 || tried.worst > attempt.worst;
         if (better) attempt = std::move(tried);
-        if (!better || attempt.worst > 0 || round == kLoosenings) return;
+        if (!better || attempt.worst > draft.flat || round == kLoosenings) return;
     }
 }
 
@@ -183,11 +200,11 @@ double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
            quality.size_share() / 2 + quality.row_share() / 4 - quality.irregular_share() / 2;
 }
 
-Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style,
+Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style, double flat,
                  const RunContext& context)
 {
     Attempt attempt;
-    Draft draft{region.points, {}, region.points.size(), size_with_boundary(region), {}};
+    Draft draft{region.points, {}, region.points.size(), size_with_boundary(region), flat, {}};
     const auto& height = options.row_height ? options.row_height : draft.size;
     std::vector<Cycle> loops = region.loops;
     if (style == RowStyle::by_shape && options.rows < 0 && is_patch(draft, loops))
@@ -239,24 +256,27 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
     check_region(region);
     // Below this many quads it costs little to pave with and without rows and keep the better.
     constexpr std::size_t kFew = 4000;
+    const double flat = flat_below(region);
     Attempt best;
     double best_score = -2;
     const auto attempt = [&](RowStyle style) {
-        Attempt made = try_pave(region, options, style, context);
+        Attempt made = try_pave(region, options, style, flat, context);
         if (made.worst > 0 && !find_fault(made.mesh, region).empty()) made.worst = -1;
-        if (made.worst <= 0)
+        if (made.worst <= flat)
             log_line(context, "quads fold near " + place_of(made.where) + ": paving differently");
-        const double score = made.worst > 0 ? score_of(made.mesh, region) : made.worst;
+        const double score = made.worst > flat ? score_of(made.mesh, region) : made.worst;
         if (score <= best_score) return;
         best_score = score;
         best = std::move(made);
     };
     attempt(RowStyle::by_shape);
-    if (best.worst <= 0) attempt(RowStyle::buffer);
+    if (best.worst <= flat) attempt(RowStyle::buffer);
     for (const RowStyle style : {RowStyle::none, RowStyle::thin}) {
-        if (best.worst <= 0 || (options.rows < 0 && best.mesh.quads.size() <= kFew)) attempt(style);
+        if (best.worst <= flat || (options.rows < 0 && best.mesh.quads.size() <= kFew)) attempt(style);
     }
-    if (!(best.worst > 0)) {
+    // Where nothing was better, what is not quite flat is still valid.
+    constexpr double kLast = 0.1;
+    if (!(best.worst > kLast * flat)) {
         throw NotSweepable("surface.pave", "no valid quads were found for a region of " +
                                                std::to_string(region.points.size()) +
                                                " boundary nodes: near " + place_of(best.where) +
