@@ -74,9 +74,9 @@ bool is_patch(const Draft& draft, const std::vector<Cycle>& loops)
     return fit.quality > kGood;
 }
 
-/// Rows a loop is worth. A round outer loop gets four nodes of three quads where its rows end; with rows for about a
-/// fiftieth of its length they lie where a square of the same number of nodes has its corners. Round a hole
-/// every row is one more of stretched quads.
+/// Rows a loop is worth. A round outer loop gets four nodes of three quads where its rows end; with rows for
+/// about a fiftieth of its length they lie where a square of the same number of nodes has its corners. Round
+/// a hole every row is one more of stretched quads.
 int rows_for(const Draft& draft, const Cycle& loop, bool outer)
 {
     if (!needs_row(draft, loop)) return 0;
@@ -104,7 +104,8 @@ PlanarQuads without_loose_points(const Draft& draft)
     return mesh;
 }
 
-/// Below what sine a quad counts as folded: no sweep bears a flatter one, unless the given corners are that sharp.
+/// Below what sine a quad counts as folded: no sweep bears a flatter one, unless the given corners are that
+/// sharp.
 double flat_below(const PlanarRegion& region)
 {
     constexpr double kFlat = 0.02, kShare = 0.3;
@@ -190,8 +191,8 @@ void open_folds(Attempt& attempt, const Draft& draft, const PaveOptions& options
     }
 }
 
-/// How good quads are, to choose between two ways; higher is better. A mean of shapes, sizes, rows and the worst quad, less
-/// what is irregular; the worst quad counts double, for a sweep repeats it, up to kGood.
+/// How good quads are, to choose between two ways; higher is better. A mean of shapes, sizes, rows and the
+/// worst quad, less what is irregular; the worst quad counts double, for a sweep repeats it, up to kGood.
 double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
 {
     constexpr double kGood = 0.6;

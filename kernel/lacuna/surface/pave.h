@@ -10,29 +10,34 @@ namespace lacuna::surface {
 
 /// What `pave()` did.
 struct PaveReport {
-    int rows = 0;           ///< rows of quads laid inward, over all loops
-    int mapped = 0;         ///< parts filled by a grid, with at most a few irregular nodes
-    int cuts = 0;           ///< splitting lines drawn
-    int templates = 0;      ///< loops of six nodes or fewer closed
-    bool submapped = false; ///< what the rows left was one grid with stepped outline
-    std::string used;       ///< "mapped", "submapped" or "paved"
+    int rows = 0;      ///< rows of quads laid inward, over all loops
+    int mapped = 0;    ///< parts filled by a grid, with at most a few irregular nodes
+    int cuts = 0;      ///< splitting lines drawn
+    int templates = 0; ///< loops of six nodes or fewer closed
+    std::string used;  ///< "mapped": one patch without rows; "paved"
 };
 
 /// Options of `pave()`.
 struct PaveOptions {
     int rows = -1; ///< most rows to lay inward from each loop; -1: as many as its shape needs, mostly 1 to 3
-    bool submap = true; ///< try a grid with stepped outline before cutting
     bool clean = true;  ///< mend irregular nodes
     bool smooth = true; ///< move inner nodes
-    /// Height of the rows at a place, for layers flatter or taller than the size; empty: the size [model length].
+    /// Height of the rows at a place, for layers flatter or taller than the size; empty: the size [model
+    /// length].
     std::function<double(const Vec2&)> row_height{};
     PaveReport* report = nullptr; ///< filled where given
 };
 
-/// Fill a region of the plane with quads: rows laid inward from the loops, the rest cut in two again and again
-/// along the best line until the parts can be filled by grids or templates (CSALF-Q).
+/// Fill a region of the plane with quads: rows laid inward from the loops, the rest cut in two again and
+/// again along the best line until the parts can be filled by grids or templates (CSALF-Q).
 ///
-/// Boundary nodes are kept, in order, bit for bit. The quads are counter-clockwise and convex.
+/// Rows are laid where a loop turns without corners and there is room; a cut is straight, with nodes as the
+/// size asks, and its ends square to the outline where that goes; its number of edges leaves even parts
+/// whose sides agree. A part that is a good patch of 3 to 5 sides is filled with grids that meet in 1, 2 or
+/// 4 irregular nodes. Then corners that lack a quad get one, folds are opened, irregular nodes paired off,
+/// nodes smoothed, rows made true. Up to 4000 quads are made with and without rows, and the better kept;
+/// where quads fold, other ways are tried first. Boundary nodes are kept, in order, bit for bit. The quads
+/// are counter-clockwise and convex.
 /// @throw InvalidInput  a loop that is too short, or repeats a node; an odd number of boundary sides.
 /// @throw NotSweepable "surface.pave"  no valid quads were found; names the place.
 /// @note  Deterministic. Near linear in the number of quads.

@@ -13,8 +13,8 @@ struct CoreCount {
     int patches = 0, cuts = 0, templates = 0;
 };
 
-/// Fill what lies between loops with quads: holes are joined to the outer loop, then the loop is cut in two again
-/// and again until every part is a patch or a loop of six nodes or fewer.
+/// Fill what lies between loops with quads: holes are joined to the outer loop, then the loop is cut in two
+/// again and again until every part is a patch or a loop of six nodes or fewer.
 /// @param one_patch  the only loop is to be filled as it is, if that goes at all.
 /// @pre the loops' lengths are even in sum.
 CoreCount fill_core(Draft& draft, const std::vector<Cycle>& loops, bool one_patch, const RunContext& context);

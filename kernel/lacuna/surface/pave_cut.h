@@ -31,7 +31,8 @@ std::optional<Bridge> best_bridge(const Draft& draft, const std::vector<Cycle>& 
 /// The shortest line from the first loop to another, whatever it crosses: its nodes move later.
 Bridge blind_bridge(const Draft& draft, const std::vector<Cycle>& loops);
 
-/// Divide a loop of even length by the shortest way round: where no line is seen. Both parts are even and smaller.
+/// Divide a loop of even length by the shortest way round: where no line is seen. Both parts are even and
+/// smaller.
 Cut blind_cut(const Draft& draft, const Cycle& cycle);
 
 /// New nodes along a line, spaced as the size asks at both ends; both ends included.

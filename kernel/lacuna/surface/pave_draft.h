@@ -28,7 +28,8 @@ struct Draft {
     std::size_t fixed = 0;
     std::function<double(const Vec2&)> size;
     double flat = 0; ///< quads with a smaller sine count as folded
-    /// Single edges drawn between nodes that were there before: a second one between the same two would be no mesh.
+    /// Single edges drawn between nodes that were there before: a second one between the same two would be
+    /// no mesh.
     std::unordered_set<std::uint64_t> links;
 
     static std::uint64_t link_key(Index a, Index b)

@@ -15,8 +15,8 @@ struct Fit {
 
 /// The best corners of a loop, and what a patch over them would be like, by a few sample cells.
 ///
-/// Places where the outline turns are corners. A round loop of inner nodes gets four where they lie best: rows lie
-/// around it, so its nodes need not be flat.
+/// Places where the outline turns are corners. A round loop of inner nodes gets four where they lie best:
+/// rows lie around it, so its nodes need not be flat.
 Fit fit_patch(const Draft& draft, const Cycle& cycle, const std::vector<double>& angles);
 
 /// The inner angles at all places of a loop.

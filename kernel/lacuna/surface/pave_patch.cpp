@@ -258,11 +258,12 @@ void fill_four(Draft& draft, Sides s)
         std::swap(draft.quads[q][1], draft.quads[q][3]);
 }
 
-/// Edges p[i] from corner i to the foot on side i of the line from the centre, for a patch of 3 or 5 sides; empty
-/// where it does not go.
+/// Edges p[i] from corner i to the foot on side i of the line from the centre, for a patch of 3 or 5 sides;
+/// empty where it does not go.
 ///
-/// The block at corner i lies between the lines to sides i and i − 1. Its opposite sides have as many edges where
-/// the line to side i has p[i + 1] edges and p[i] + p[i + 2] = side i. With 3 or 5 sides that has one solution.
+/// The block at corner i lies between the lines to sides i and i − 1. Its opposite sides have as many edges
+/// where the line to side i has p[i + 1] edges and p[i] + p[i + 2] = side i. With 3 or 5 sides that has one
+/// solution.
 std::vector<long> shares(std::span<const std::size_t> sides)
 {
     const auto n = sides.size();

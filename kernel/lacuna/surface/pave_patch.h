@@ -11,7 +11,8 @@ namespace lacuna::surface::paving {
 /// Can `fill_patch()` fill a patch of 3, 4 or 5 sides of so many edges each?
 bool can_fill(std::span<const std::size_t> sides);
 
-/// Where on each side of a patch of 3 or 5 sides the line from its centre ends, in edges from the side's start.
+/// Where on each side of a patch of 3 or 5 sides the line from its centre ends, in edges from the side's
+/// start.
 /// @pre can_fill()
 std::vector<std::size_t> star_feet(std::span<const std::size_t> sides);
 

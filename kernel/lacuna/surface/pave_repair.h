@@ -7,13 +7,13 @@
 
 namespace lacuna::surface::paving {
 
-/// Give every boundary node as many quads as its angle cannot do without, so that no corner at it must be straight or more:
-/// a side nearby is turned towards it, or a quad at it is surrounded by four others.
+/// Give every boundary node as many quads as its angle cannot do without, so that no corner at it must be
+/// straight or more: a side nearby is turned towards it, or a quad at it is surrounded by four others.
 /// @return how many changes were made.
 int open_corners(PlanarQuads& mesh, const PlanarRegion& region);
 
-/// Move the inner nodes of folded or flat quads, one at a time, to where the worst quad around is better: what straight
-/// lines made flat opens at once, and less is left to untangle.
+/// Move the inner nodes of folded or flat quads, one at a time, to where the worst quad around is better:
+/// what straight lines made flat opens at once, and less is left to untangle.
 void ease_folds(PlanarQuads& mesh, std::size_t fixed);
 
 /// Surround each quad with a corner that is not positive by four quads, whose new nodes can move.
