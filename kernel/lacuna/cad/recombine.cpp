@@ -2,9 +2,9 @@
 #include <lacuna/cad/load.h>
 
 #include <lacuna/cad/gmsh_api.h>
-#include <lacuna/cad/quad_repair.h>
 #include <lacuna/cad/session.h>
 #include <lacuna/geometry/triangulate.h>
+#include <lacuna/surface/triangle_quads.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,8 @@ namespace lacuna::cad {
 
 namespace {
 
-using Loops = std::vector<std::vector<Index>>;
+using surface::Loops;
+using surface::MixedMesh;
 
 /// Wanted edge lengths on a raster: what the caller asks for, but growing no faster away from the rim than
 /// quads can. The raster spares the caller's function, which may be a script, a call for every node.
@@ -215,81 +216,6 @@ void orient(MixedMesh& mesh)
         std::reverse(cell.begin(), MixedMesh::is_triangle(cell) ? cell.end() - 1 : cell.end());
 }
 
-/// Every loop with each second node only, starting so that what is dropped turns least.
-Loops halve(const std::vector<Vec2>& points, const Loops& loops)
-{
-    Loops half;
-    for (const std::vector<Index>& loop : loops) {
-        const std::size_t n = loop.size();
-        std::array<double, 2> turning{0, 0};
-        for (std::size_t i = 0; i < n; ++i) {
-            const Vec2 in = points[static_cast<std::size_t>(loop[i])] -
-                            points[static_cast<std::size_t>(loop[(i + n - 1) % n])];
-            const Vec2 out = points[static_cast<std::size_t>(loop[(i + 1) % n])] -
-                             points[static_cast<std::size_t>(loop[i])];
-            const double turn = std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
-            turning[i % 2] += turn * turn;
-        }
-        std::vector<Index> kept;
-        for (std::size_t i = turning[1] <= turning[0] ? 0 : 1; i < n; i += 2) kept.push_back(loop[i]);
-        half.push_back(std::move(kept));
-    }
-    return half;
-}
-
-/// Is the loop with every second node still near enough to the loop: no corner dropped, nothing crossed?
-bool can_halve(const std::vector<Vec2>& points, const Loops& loops, const Loops& half)
-{
-    constexpr double kSharpest = 30 * std::numbers::pi / 180;
-    for (std::size_t l = 0; l < loops.size(); ++l) {
-        const std::vector<Index>& loop = loops[l];
-        if (loop.size() % 2 != 0 || half[l].size() < 4) return false;
-        const std::size_t first = loop[0] == half[l][0] ? 1 : 0;
-        for (std::size_t i = first; i < loop.size(); i += 2) {
-            const Vec2& here = points[static_cast<std::size_t>(loop[i])];
-            const Vec2 in = here -
-                            points[static_cast<std::size_t>(loop[(i + loop.size() - 1) % loop.size()])];
-            const Vec2 out = points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])] - here;
-            if (std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out))) > kSharpest)
-                return false;
-        }
-    }
-    return !geometry::find_crossing(points, half);
-}
-
-/// Numbers of loop nodes as `mesh_with_gmsh()` orders them.
-std::vector<Index> in_order(const Loops& loops)
-{
-    std::vector<Index> order;
-    for (const std::vector<Index>& loop : loops) order.insert(order.end(), loop.begin(), loop.end());
-    return order;
-}
-
-/// Cut the cells of a mesh over `half` so that its boundary becomes that of `loops`.
-MixedMesh refine(const MixedMesh& mesh, const std::vector<Vec2>& points, const Loops& loops,
-                 const Loops& half)
-{
-    std::vector<Vec2> fixed;
-    std::vector<Index> points_of;
-    std::vector<Triangle> middles;
-    Index start = 0;
-    for (std::size_t l = 0; l < loops.size(); ++l) {
-        const std::size_t n = loops[l].size();
-        const std::size_t first = loops[l][0] == half[l][0] ? 0 : 1;
-        const auto coarse = static_cast<Index>(points_of.size());
-        const auto count = static_cast<Index>(half[l].size());
-        for (Index i = 0; i < count; ++i) {
-            const std::size_t at = first + 2 * static_cast<std::size_t>(i);
-            points_of.push_back(start + static_cast<Index>(at));
-            middles.push_back(
-                {coarse + i, coarse + (i + 1) % count, start + static_cast<Index>((at + 1) % n)});
-        }
-        for (const Index p : loops[l]) fixed.push_back(points[static_cast<std::size_t>(p)]);
-        start += static_cast<Index>(n);
-    }
-    return subdivide(mesh, middles, fixed, points_of);
-}
-
 /// All quads, the boundary sides exactly those of the loops, no quad turned over?
 bool is_sound(const MixedMesh& mesh, const Loops& loops)
 {
@@ -337,24 +263,6 @@ void check_region(const surface::PlanarRegion& region)
             "a region with " + std::to_string(sides) +
                 " boundary sides cannot be filled with quads; their number must be even and 4 at least");
     }
-}
-
-/// The nodes in the region's own order; points in no loop are kept, unused.
-surface::PlanarQuads deliver(const MixedMesh& mesh, const surface::PlanarRegion& region, const Loops& loops,
-                             const Vec2& origin, double scale)
-{
-    surface::PlanarQuads result;
-    result.points = region.points;
-    std::vector<Index> place = in_order(loops);
-    for (std::size_t p = mesh.fixed; p < mesh.points.size(); ++p) {
-        place.push_back(static_cast<Index>(result.points.size()));
-        result.points.push_back(origin + scale * mesh.points[p]);
-    }
-    for (Quad q : mesh.cells) {
-        for (Index& p : q) p = place[static_cast<std::size_t>(p)];
-        result.quads.push_back(q);
-    }
-    return result;
 }
 
 } // namespace

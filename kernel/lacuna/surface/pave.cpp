@@ -201,11 +201,10 @@ double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
            quality.size_share() / 2 + quality.row_share() / 4 - quality.irregular_share() / 2;
 }
 
-Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style, double flat,
-                 const RunContext& context)
+/// Rows from the loops, the rest cut and filled.
+void lay_and_fill(Attempt& attempt, Draft& draft, const PlanarRegion& region, const PaveOptions& options, RowStyle style,
+                  const RunContext& context)
 {
-    Attempt attempt;
-    Draft draft{region.points, {}, region.points.size(), size_with_boundary(region), flat, {}};
     const auto& height = options.row_height ? options.row_height : draft.size;
     std::vector<Cycle> loops = region.loops;
     if (style == RowStyle::by_shape && options.rows < 0 && is_patch(draft, loops))
@@ -236,6 +235,36 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
     attempt.report.used = count.cuts == 0 && count.patches == 1 && attempt.report.rows == 0 ? "mapped"
                                                                                             : "paved";
     attempt.mesh = without_loose_points(draft);
+}
+
+/// The way of triangles a style means, if any.
+std::optional<TriangleWay> triangle_way(RowStyle style)
+{
+    switch (style) {
+    case RowStyle::halved_triangles:
+        return TriangleWay::halved;
+    case RowStyle::paired_triangles:
+        return TriangleWay::paired;
+    case RowStyle::fine_triangles:
+        return TriangleWay::fine;
+    default:
+        return std::nullopt;
+    }
+}
+
+Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style, double flat,
+                 const RunContext& context)
+{
+    Attempt attempt;
+    Draft draft{region.points, {}, region.points.size(), size_with_boundary(region), flat, {}};
+    const auto& height = options.row_height ? options.row_height : draft.size;
+    if (const std::optional<TriangleWay> way = triangle_way(style)) {
+        attempt.mesh = quads_of_triangles(region, *way);
+        attempt.report.used = "paired";
+        if (attempt.mesh.quads.empty()) return attempt;
+    } else {
+        lay_and_fill(attempt, draft, region, options, style, context);
+    }
     if (!sides_match(attempt.mesh.quads)) return attempt;
     open_corners(attempt.mesh, region);
     judge(attempt);

@@ -1,12 +1,12 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/quad_repair.h>
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/quad_repair.h>
 
-#include <lacuna/cad/quad_sides.h>
+#include <lacuna/surface/quad_sides.h>
 
 #include <cmath>
 #include <numbers>
 
-namespace lacuna::cad {
+namespace lacuna::surface {
 
 namespace {
 
@@ -362,4 +362,4 @@ void improve(MixedMesh& mesh)
     Smoother(mesh).optimise();
 }
 
-} // namespace lacuna::cad
+} // namespace lacuna::surface

@@ -1,12 +1,12 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/quad_repair.h>
-#include <lacuna/cad/quad_sides.h>
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/quad_repair.h>
+#include <lacuna/surface/quad_sides.h>
 
 #include <functional>
 #include <limits>
 #include <tuple>
 
-namespace lacuna::cad {
+namespace lacuna::surface {
 
 namespace {
 
@@ -277,4 +277,4 @@ MixedMesh subdivide(const MixedMesh& mesh, const std::vector<Triangle>& middles,
     return fine;
 }
 
-} // namespace lacuna::cad
+} // namespace lacuna::surface

@@ -1,16 +1,16 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 /// What the pairing of triangles and the repair of quads share. Only sources of this folder include it.
 
-#include <lacuna/cad/quad_repair.h>
+#include <lacuna/surface/quad_repair.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <unordered_map>
 
-namespace lacuna::cad {
+namespace lacuna::surface {
 
 inline std::uint64_t side_key(Index a, Index b)
 {
@@ -82,4 +82,4 @@ inline void replace(MixedMesh& mesh, Sides& sides, Index c, const Quad& cell)
     mesh.cells[static_cast<std::size_t>(c)] = cell;
 }
 
-} // namespace lacuna::cad
+} // namespace lacuna::surface

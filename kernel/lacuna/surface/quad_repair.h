@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <lacuna/core/types.h>
@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace lacuna::cad {
+namespace lacuna::surface {
 
 /// Quads and triangles of the plane, counter-clockwise; the last corner of a triangle is -1. The first
 /// `fixed` points are the boundary's and stay where they are.
@@ -41,4 +41,4 @@ MixedMesh subdivide(const MixedMesh& mesh, const std::vector<Triangle>& middles,
 /// the worst of the two quads, and inner points move to where the worst around them is best.
 void improve(MixedMesh& mesh);
 
-} // namespace lacuna::cad
+} // namespace lacuna::surface
