@@ -17,7 +17,7 @@ using namespace lacuna;
 namespace {
 
 /// Share of the domains that could be filled but are not: as measured, and to become none.
-constexpr double kGivenUp = 0.35;
+constexpr double kGivenUp = 0.1;
 
 /// A sweep of loops of up to 400 edges, as many as LACUNA_RANDOM_DOMAINS says from LACUNA_RANDOM_FIRST on; else 30 of
 /// smaller ones, which take seconds.

@@ -18,6 +18,9 @@ namespace lacuna::cad {
 namespace {
 
 using surface::Loops;
+using surface::can_halve;
+using surface::halve;
+using surface::in_order;
 using surface::MixedMesh;
 
 /// Wanted edge lengths on a raster: what the caller asks for, but growing no faster away from the rim than

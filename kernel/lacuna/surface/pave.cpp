@@ -12,7 +12,9 @@
 #include <lacuna/surface/pave_size.h>
 #include <lacuna/surface/pave_true_rows.h>
 #include <lacuna/surface/smooth_plane.h>
+#include <lacuna/surface/triangle_quads.h>
 
+#include <optional>
 #include <sstream>
 
 namespace lacuna::surface {
@@ -128,7 +130,10 @@ enum class RowStyle {
     one_patch, ///< none: the region is one patch
     none,      ///< the region is cut as it is
     thin,      ///< rows also where loops are near each other
-    buffer     ///< one row with two quads at least at every node, so that all other nodes are free to move
+    buffer,    ///< one row with two quads at least at every node, so that all other nodes are free to move
+    halved_triangles, ///< no rows: `TriangleWay`
+    paired_triangles,
+    fine_triangles
 };
 
 struct Attempt {
@@ -202,8 +207,8 @@ double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
 }
 
 /// Rows from the loops, the rest cut and filled.
-void lay_and_fill(Attempt& attempt, Draft& draft, const PlanarRegion& region, const PaveOptions& options, RowStyle style,
-                  const RunContext& context)
+void lay_and_fill(Attempt& attempt, Draft& draft, const PlanarRegion& region, const PaveOptions& options,
+                  RowStyle style, const RunContext& context)
 {
     const auto& height = options.row_height ? options.row_height : draft.size;
     std::vector<Cycle> loops = region.loops;
@@ -303,6 +308,14 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
     if (best.worst <= flat) attempt(RowStyle::buffer);
     for (const RowStyle style : {RowStyle::none, RowStyle::thin}) {
         if (best.worst <= flat || (options.rows < 0 && best.mesh.quads.size() <= kFew)) attempt(style);
+    }
+    // A worst quad poorer than this is worth another way, where that costs little.
+    constexpr double kPoor = 0.5;
+    for (const RowStyle style :
+         {RowStyle::halved_triangles, RowStyle::paired_triangles, RowStyle::fine_triangles}) {
+        const bool few = options.rows < 0 && best.mesh.quads.size() <= kFew &&
+                         style != RowStyle::fine_triangles;
+        if (best.worst <= flat || (few && best.worst < kPoor)) attempt(style);
     }
     // Where nothing was better, what is not quite flat is still valid.
     constexpr double kLast = 0.1;

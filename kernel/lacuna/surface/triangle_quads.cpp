@@ -139,8 +139,8 @@ MixedMesh refine(const MixedMesh& mesh, const std::vector<Vec2>& points, const L
     return subdivide(mesh, middles, fixed, points_of);
 }
 
-PlanarQuads deliver(const MixedMesh& mesh, const PlanarRegion& region, const Loops& loops,
-                             const Vec2& origin, double scale)
+PlanarQuads deliver(const MixedMesh& mesh, const PlanarRegion& region, const Loops& loops, const Vec2& origin,
+                    double scale)
 {
     PlanarQuads result;
     result.points = region.points;

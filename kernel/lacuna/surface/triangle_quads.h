@@ -33,9 +33,11 @@ bool can_halve(const std::vector<Vec2>& points, const Loops& loops, const Loops&
 std::vector<Index> in_order(const Loops& loops);
 
 /// Cut the cells of a mesh over `half` so that its boundary becomes that of `loops`.
-MixedMesh refine(const MixedMesh& mesh, const std::vector<Vec2>& points, const Loops& loops, const Loops& half);
+MixedMesh refine(const MixedMesh& mesh, const std::vector<Vec2>& points, const Loops& loops,
+                 const Loops& half);
 
 /// The nodes in the region's own order; points in no loop are kept, unused. Added points are scaled, then moved by `origin`.
-PlanarQuads deliver(const MixedMesh& mesh, const PlanarRegion& region, const Loops& loops, const Vec2& origin, double scale);
+PlanarQuads deliver(const MixedMesh& mesh, const PlanarRegion& region, const Loops& loops, const Vec2& origin,
+                    double scale);
 
 } // namespace lacuna::surface
