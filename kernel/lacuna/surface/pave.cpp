@@ -317,9 +317,9 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
                          style != RowStyle::fine_triangles;
         if (best.worst <= flat || (few && best.worst < kPoor)) attempt(style);
     }
-    // Where nothing was better, what is not quite flat is still valid.
-    constexpr double kLast = 0.1;
-    if (!(best.worst > kLast * flat)) {
+    // Where nothing was better, what is not flat is still valid: needles between loops that all but touch.
+    constexpr double kFlat = 1e-4;
+    if (!(best.worst > std::min(kFlat, flat))) {
         throw NotSweepable("surface.pave", "no valid quads were found for a region of " +
                                                std::to_string(region.points.size()) +
                                                " boundary nodes: near " + place_of(best.where) +

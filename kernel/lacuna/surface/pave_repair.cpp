@@ -3,21 +3,60 @@
 
 #include <lacuna/surface/pave_draft.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 namespace lacuna::surface::paving {
 namespace {
 
+double cross(const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); }
+
+/// A small square, as seen from its corners, about a point that sees all corners of a quad that is not convex: nodes with which four
+/// quads round a fifth are convex. None where no such point is known.
+std::optional<std::array<Vec2, 4>> small_within(const std::array<Vec2, 4>& outer)
+{
+    // From the corner that turns in, the diagonal to the opposite one is seen from everywhere.
+    std::size_t inward = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Vec2 out = outer[(k + 1) % 4] - outer[k], back = outer[(k + 3) % 4] - outer[k];
+        const double sine = cross(out, back) / std::max(out.norm() * back.norm(), 1e-300);
+        if (sine < least) {
+            least = sine;
+            inward = k;
+        }
+    }
+    const Vec2 centre = (outer[inward] + outer[(inward + 2) % 4]) / 2;
+    double room = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Vec2 side = outer[(k + 1) % 4] - outer[k];
+        room = std::min(room, cross(side, centre - outer[k]) / std::max(side.norm(), 1e-300));
+    }
+    if (!(room > 0)) return std::nullopt;
+    std::array<Vec2, 4> inner;
+    for (std::size_t k = 0; k < 4; ++k) inner[k] = centre + 0.4 * room * (outer[k] - centre).normalized();
+    return inner;
+}
+
 /// Four quads round a smaller one in the place of a quad.
 void surround(PlanarQuads& mesh, std::size_t q)
 {
     const Quad outer = mesh.quads[q];
-    Vec2 centre = Vec2::Zero();
-    for (const Index p : outer) centre += mesh.points[static_cast<std::size_t>(p)] / 4;
+    std::array<Vec2, 4> corner;
+    for (std::size_t k = 0; k < 4; ++k) corner[k] = mesh.points[static_cast<std::size_t>(outer[k])];
+    const Vec2 centre = (corner[0] + corner[1] + corner[2] + corner[3]) / 4;
+    std::array<Vec2, 4> place;
+    for (std::size_t k = 0; k < 4; ++k) place[k] = (corner[k] + centre) / 2;
+    constexpr double kFlat = 0.1; // a corner straighter than this leaves no room half way to the middle
+    if (least_sine(corner[0], corner[1], corner[2], corner[3]) < kFlat)
+        place = small_within(corner).value_or(place);
     Quad inner{};
     for (std::size_t k = 0; k < 4; ++k) {
         inner[k] = static_cast<Index>(mesh.points.size());
-        mesh.points.push_back((mesh.points[static_cast<std::size_t>(outer[k])] + centre) / 2);
+        mesh.points.push_back(place[k]);
     }
     mesh.quads[q] = inner;
     for (std::size_t k = 0; k < 4; ++k)
