@@ -7,8 +7,8 @@
 #include <lacuna/surface/pave.h>
 #include <lacuna/surface/projector.h>
 #include <lacuna/surface/source_mesh.h>
-#include <lacuna/sweep/improve.h>
 #include <lacuna/sweep/layers.h>
+#include <lacuna/sweep/mend.h>
 #include <lacuna/sweep/normals.h>
 
 #include <algorithm>
@@ -20,7 +20,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
 
 namespace lacuna::sweep {
 
@@ -249,96 +248,6 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
         }
     }
     return patches.faces();
-}
-
-/// Skin nodes within one face slide on it; those between faces stay, as do those of faces that keep their own quads.
-std::vector<Index> sliding_nodes(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
-                                 const std::set<FaceId>& kept)
-{
-    constexpr Index kInside = -1, kLocked = -2;
-    std::vector<Index> surface(mesh.nodes.size(), kInside);
-    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
-        const mesh::SkinQuad quad = mesh::skin_quad(mesh, i);
-        for (const Index n : quad.nodes) {
-            Index& at = surface[static_cast<std::size_t>(n)];
-            at = at == kInside || at == quad.patch ? quad.patch : kLocked;
-            if (kept.contains(faces[static_cast<std::size_t>(quad.patch)])) at = kLocked;
-        }
-    }
-    return surface;
-}
-
-/// Projectors made when first asked for.
-class FaceProjectors {
-public:
-    FaceProjectors(const Model& model, std::vector<FaceId> faces, const RunContext& context)
-        : model_(model), faces_(std::move(faces)), context_(context)
-    {
-    }
-
-    void project(Index patch, std::span<Vec3> points)
-    {
-        const FaceId face = faces_[static_cast<std::size_t>(patch)];
-        projector_.try_emplace(patch, model_, std::vector<FaceId>{face})
-            .first->second.project(points, context_);
-    }
-
-private:
-    const Model& model_;
-    std::vector<FaceId> faces_;
-    const RunContext& context_;
-    std::map<Index, surface::Projector> projector_;
-};
-
-/// What moving nodes can mend.
-bool is_poor(const NotSweepable& error)
-{
-    return error.code() == "quality.inverted" || error.code() == "quality.not_certified" ||
-           error.code() == "quality.below_limit";
-}
-
-std::string in_words(const Improved& improved)
-{
-    std::array<char, 240> words{};
-    std::snprintf(
-        words.data(), words.size(),
-        "%s: %zu cells, %zu nodes, least scaled Jacobian %.3f before, %.3f after, mean %.3f and %.3f%s",
-        improved.untangled ? "untangled" : "improved", improved.cells, improved.moved, improved.before,
-        improved.after, improved.mean_before, improved.mean_after,
-        improved.unfinished ? "; ended before it was done: improve = { seconds = … } gives it more" : "");
-    return words.data();
-}
-
-/// What was done about a mesh that is refused all the same.
-[[noreturn]] void refuse(const NotSweepable& error, const Improved& improved)
-{
-    throw NotSweepable(error.code(), std::string(error.what()) + "\n" + in_words(improved));
-}
-
-/// Prove the mesh; where cells are folded or poor, move nodes and prove it again.
-quality::Quality prove_or_mend(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
-                               const std::set<FaceId>& kept, const SweepOptions& options,
-                               const RunContext& context)
-{
-    ImproveOptions improving = options.improving;
-    improving.good_enough = std::max(improving.good_enough, options.min_scaled_jacobian);
-    try {
-        const quality::Quality quality = quality::prove(swept.mesh, options.min_scaled_jacobian, context);
-        if (!options.improve || quality.min_scaled_jacobian >= improving.good_enough) return quality;
-    } catch (const NotSweepable& error) {
-        if (!options.improve || !is_poor(error)) throw;
-    }
-    FaceProjectors projectors(model, faces, context);
-    const Sliding sliding{sliding_nodes(swept.mesh, faces, kept),
-                          [&](Index patch, std::span<Vec3> points) { projectors.project(patch, points); }};
-    const Improved improved = improve(swept.mesh, improving, sliding, context);
-    if (improved.won || improved.unfinished) swept.report.push_back(in_words(improved));
-    try {
-        return quality::prove(swept.mesh, options.min_scaled_jacobian, context);
-    } catch (const NotSweepable& error) {
-        if (!is_poor(error)) throw;
-        refuse(error, improved);
-    }
 }
 
 /// The layers, by the way whose worst cell is best: with the rim's residual spread over each layer, and, where that leaves poor
