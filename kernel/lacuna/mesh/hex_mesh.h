@@ -26,6 +26,10 @@ inline constexpr std::array<Quad, 6> kHexSides{{
     {3, 0, 4, 7},
 }};
 
+/// Neighbours of each corner along u, v and w.
+inline constexpr std::array<std::array<std::size_t, 3>, 8> kHexNeighbours{
+    {{1, 3, 4}, {0, 2, 5}, {3, 1, 6}, {2, 0, 7}, {5, 7, 0}, {4, 6, 1}, {7, 5, 2}, {6, 4, 3}}};
+
 /// A part of the skin with names: what Gmsh calls a surface entity.
 struct SkinPatch {
     int tag = 0; ///< entity tag written to files, unique in the mesh, > 0

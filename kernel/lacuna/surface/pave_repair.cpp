@@ -12,8 +12,6 @@
 namespace lacuna::surface::paving {
 namespace {
 
-double cross(const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); }
-
 /// A small square, as seen from its corners, about a point that sees all corners of a quad that is not convex: nodes with which four
 /// quads round a fifth are convex. None where no such point is known.
 std::optional<std::array<Vec2, 4>> small_within(const std::array<Vec2, 4>& outer)

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/plane_stars.h>
 
+#include <lacuna/geometry/minimise.h>
 #include <lacuna/surface/measure_plane.h>
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
+#include <functional>
 
 namespace lacuna::surface {
 
@@ -165,58 +166,6 @@ private:
     const Region& region_;
 };
 
-/// Limited-memory BFGS with backtracking; stops when a step wins next to nothing.
-void minimise(const Energy& energy, Eigen::VectorXd& x)
-{
-    struct Pair {
-        Eigen::VectorXd step, change;
-        double inverse;
-    };
-    std::deque<Pair> memory;
-    Eigen::VectorXd gradient(x.size()), next_gradient(x.size()), direction, tried;
-    double value = energy(x, gradient);
-    for (int count = 0; count < kSteps; ++count) {
-        direction = -gradient;
-        std::vector<double> alpha(memory.size());
-        for (std::size_t i = memory.size(); i-- > 0;) {
-            alpha[i] = memory[i].inverse * memory[i].step.dot(direction);
-            direction -= alpha[i] * memory[i].change;
-        }
-        if (!memory.empty())
-            direction *= memory.back().step.dot(memory.back().change) / memory.back().change.squaredNorm();
-        for (std::size_t i = 0; i < memory.size(); ++i)
-            direction += (alpha[i] - memory[i].inverse * memory[i].change.dot(direction)) * memory[i].step;
-        double slope = gradient.dot(direction);
-        if (!(slope < 0)) {
-            memory.clear();
-            direction = -gradient;
-            slope = -gradient.squaredNorm();
-        }
-        if (!(slope < 0)) return;
-        double length = memory.empty() ? 0.1 * std::abs(value) / -slope : 1;
-        double found = value;
-        bool won = false;
-        for (int half = 0; half < 30 && !won; ++half, length /= 2) {
-            tried = x + length * direction;
-            found = energy(tried, next_gradient);
-            won = std::isfinite(found) && found <= value + 1e-4 * length * slope;
-        }
-        if (!won) return;
-        Pair pair{tried - x, next_gradient - gradient, 0};
-        const double curvature = pair.step.dot(pair.change);
-        if (curvature > 1e-12 * pair.step.norm() * pair.change.norm()) {
-            pair.inverse = 1 / curvature;
-            memory.push_back(std::move(pair));
-            if (memory.size() > kMemory) memory.pop_front();
-        }
-        const double won_by = value - found;
-        x = tried;
-        gradient = next_gradient;
-        value = found;
-        if (won_by < 1e-5 * std::abs(value)) return;
-    }
-}
-
 } // namespace
 
 bool untangle_plane(std::vector<Vec2>& points, std::span<const Quad> quads, const std::vector<char>& fixed,
@@ -231,10 +180,15 @@ bool untangle_plane(std::vector<Vec2>& points, std::span<const Quad> quads, cons
             x.segment<2>(2 *
                          static_cast<Eigen::Index>(v)) = points[static_cast<std::size_t>(region.moving[v])];
         Energy energy(points, region);
+        geometry::MinimiseOptions how;
+        how.iterations = kSteps;
+        how.least_gain = 1e-5;
+        how.memory = kMemory;
+        how.start_anew = false;
         double last = energy.least_determinant(x);
         for (int round = 0, idle = 0; round < kRounds && last <= 0 && idle < 3; ++round) {
             energy.epsilon = std::sqrt(kLeastEpsilon * kLeastEpsilon + 0.04 * last * last);
-            minimise(energy, x);
+            geometry::minimise(std::cref(energy), x, how);
             const double now = energy.least_determinant(x);
             idle = now > last + 1e-4 * std::abs(last) ? 0 : idle + 1;
             last = now;

@@ -2,7 +2,7 @@
 #include <lacuna/sweep/improve.h>
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/sweep/minimise.h>
+#include <lacuna/geometry/minimise.h>
 #include <lacuna/sweep/region.h>
 
 #include <algorithm>
@@ -99,7 +99,7 @@ private:
     void descend(Eigen::VectorXd& x, double mean_floor)
     {
         energy_.set_planes(x);
-        MinimiseOptions how;
+        geometry::MinimiseOptions how;
         how.iterations = options_.iterations;
         how.stop = [&] {
             check_cancelled(context_);
@@ -111,7 +111,7 @@ private:
             keep(there, mean_floor);
             return best_quality_.least > 0 && best_quality_.lacking <= 0;
         };
-        minimise(
+        geometry::minimise(
             [&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) {
                 work_ += static_cast<double>(region_.cells.size());
                 return energy_(at, gradient);

@@ -15,10 +15,6 @@ namespace {
 /// Cells worked on at a time; sums are made chunk by chunk.
 constexpr std::size_t kChunk = 512;
 
-/// Neighbours of each corner along the cell's edges.
-constexpr std::array<std::array<std::size_t, 3>, 8> kNext{
-    {{1, 3, 4}, {0, 2, 5}, {3, 1, 6}, {2, 0, 7}, {5, 7, 0}, {4, 6, 1}, {7, 5, 2}, {6, 4, 3}}};
-
 std::array<Vec3, 8> corners_of(const std::vector<Vec3>& places, const Hex& hex)
 {
     std::array<Vec3, 8> corners;
@@ -45,14 +41,16 @@ double bound_of(const std::array<Vec3, 8>& corners, const Hex& hex, const std::v
     const auto stays = [&](std::size_t corner) { return locked[static_cast<std::size_t>(hex[corner])] != 0; };
     for (std::size_t c = 0; c < 8; ++c) {
         if (!stays(c)) continue;
-        if (stays(kNext[c][0]) && stays(kNext[c][1]) && stays(kNext[c][2])) {
-            const Vec3 u = corners[kNext[c][0]] - corners[c], v = corners[kNext[c][1]] - corners[c],
-                       w = corners[kNext[c][2]] - corners[c];
+        if (stays(mesh::kHexNeighbours[c][0]) && stays(mesh::kHexNeighbours[c][1]) &&
+            stays(mesh::kHexNeighbours[c][2])) {
+            const Vec3 u = corners[mesh::kHexNeighbours[c][0]] - corners[c],
+                       v = corners[mesh::kHexNeighbours[c][1]] - corners[c],
+                       w = corners[mesh::kHexNeighbours[c][2]] - corners[c];
             const double lengths = u.norm() * v.norm() * w.norm();
             bound = std::min(bound, lengths > 0 ? std::abs(u.dot(v.cross(w))) / lengths : 0.0);
         }
         for (std::size_t i = 0; i < 3; ++i) {
-            const std::size_t a = kNext[c][i], b = kNext[c][(i + 1) % 3];
+            const std::size_t a = mesh::kHexNeighbours[c][i], b = mesh::kHexNeighbours[c][(i + 1) % 3];
             if (locked[static_cast<std::size_t>(hex[a])] == 0 ||
                 locked[static_cast<std::size_t>(hex[b])] == 0)
                 continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/minimise.h>
+#include <lacuna/geometry/minimise.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,10 @@
 #include <utility>
 #include <vector>
 
-namespace lacuna::sweep {
+namespace lacuna::geometry {
 
 namespace {
 
-constexpr std::size_t kMemory = 10;
 constexpr int kHalvings = 30;
 constexpr double kEnough = 1e-4; ///< share of the promised descent that a step must bring (Armijo)
 
@@ -63,7 +62,7 @@ double minimise(const Function& function, Eigen::VectorXd& x, const MinimiseOpti
             if (!won) length /= 2;
         }
         if (!won) {
-            if (memory.empty()) break;
+            if (memory.empty() || !options.start_anew) break;
             memory.clear(); // What it learnt elsewhere misleads here: once more, straight down.
             continue;
         }
@@ -72,7 +71,7 @@ double minimise(const Function& function, Eigen::VectorXd& x, const MinimiseOpti
         if (curvature > 1e-12 * pair.step.norm() * pair.change.norm()) {
             pair.inverse = 1 / curvature;
             memory.push_back(std::move(pair));
-            if (memory.size() > kMemory) memory.pop_front();
+            if (memory.size() > options.memory) memory.pop_front();
         }
         const double won_by = value - found;
         std::swap(x, tried);
@@ -84,4 +83,4 @@ double minimise(const Function& function, Eigen::VectorXd& x, const MinimiseOpti
     return value;
 }
 
-} // namespace lacuna::sweep
+} // namespace lacuna::geometry
