@@ -6,9 +6,7 @@
 // sweep does), and the paper's advance along normals. Prints a table; --list adds a line a member and method, --only one member's report.
 #include "support/stress.h"
 
-#include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
-#include <lacuna/matching/match.h>
 #include <lacuna/quality/quality.h>
 #ifdef LACUNA_WITH_CAD
 #include <lacuna/cad/load.h>
@@ -145,10 +143,7 @@ int main(int argc, char** argv)
     Sum sums[2][std::size(kMethods)];
     for (const test::StressMember& member : test::stress_family(a.members, a.seed)) {
         if (a.only >= 0 && member.number != a.only) continue;
-        topology::OpenVolume volume = test::stress_volume(member);
-        const bool ends = !volume.faces(topology::Role::source).empty() &&
-                          !volume.faces(topology::Role::target).empty();
-        closure::close(volume, ends ? matching::match(volume) : matching::Match{});
+        const topology::OpenVolume volume = test::sealed_stress_volume(member);
         for (std::size_t m = 0; m < std::size(kMethods); ++m) {
             const Result r = run(member, volume, kMethods[m]);
             sums[member.mild ? 0 : 1][m].add(r, member.mild ? 0.5 : 0.2);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "made_files.h"
+#include "support/refusal.h"
 #include "support/volumes.h"
 
 #include <lacuna/cad/session.h>
@@ -24,6 +25,7 @@
 #include <thread>
 
 using namespace lacuna;
+using test::refusal;
 namespace occ = gmsh::model::occ;
 
 namespace {
@@ -100,22 +102,6 @@ int face_at(const topology::Model& model, const Vec3& place)
     for (std::size_t f = 1; f < model.faces.size(); ++f)
         if (distance(f) < distance(best)) best = f;
     return model.faces[best].tag;
-}
-
-/// The code of the error that work ends with; "done" without one.
-std::string refusal(const std::function<void()>& work, const std::vector<std::string>& words = {})
-{
-    try {
-        work();
-    } catch (const Error& error) {
-        const std::string what = error.what();
-        for (const std::string& word : words) {
-            CAPTURE(what);
-            CHECK(what.find(word) != std::string::npos);
-        }
-        return error.code();
-    }
-    return "done";
 }
 
 std::string bytes_of(const std::string& path)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "support/refusal.h"
 #include "support/volumes.h"
 
 #include <lacuna/closure/close.h>
@@ -57,23 +58,6 @@ inline void check_sealed(const topology::OpenVolume& volume)
     CHECK(volume.role.size() == volume.model.faces.size());
     CHECK(closure::is_watertight(volume));
     CHECK(closure::enclosed_volume(volume) > 0);
-}
-
-/// The code of the error that work ends with, its message holding all the words; "done" without one.
-inline std::string refusal(const std::function<void()>& work, const std::vector<std::string>& words = {})
-{
-    try {
-        work();
-    } catch (const Error& error) {
-        const std::string what = error.what();
-        for (const std::string& word : words) {
-            CAPTURE(what);
-            CAPTURE(word);
-            CHECK(what.find(word) != std::string::npos);
-        }
-        return error.code();
-    }
-    return "done";
 }
 
 } // namespace lacuna::test

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/refusal.h"
 #include "support/volumes.h"
 
 #include <lacuna/core/error.h>
@@ -22,6 +23,7 @@ using matching::MatchOptions;
 using test::End;
 using test::Part;
 using test::PrismOptions;
+using test::refusal;
 using test::without;
 
 namespace {
@@ -153,22 +155,6 @@ void check_undone(const OpenVolume& volume, const Match& found, const std::funct
         loops.insert(found.loops[l].target);
     }
     CHECK(loops.size() == found.source_loops.size());
-}
-
-std::string code_of(const std::function<void()>& work, const std::vector<std::string>& words)
-{
-    try {
-        work();
-    } catch (const Error& error) {
-        const std::string what = error.what();
-        for (const std::string& word : words) {
-            CAPTURE(what);
-            CAPTURE(word);
-            CHECK(what.find(word) != std::string::npos);
-        }
-        return error.code();
-    }
-    return "done";
 }
 
 /// The (source, target) tags of corners that lie over each other along z, turned on by `shift` corners.
@@ -394,36 +380,36 @@ TEST_CASE("forced parts that contradict the faces or each other are refused by n
     while (!found.hard[hard]) ++hard;
     MatchOptions vertices;
     vertices.vertices = {{pairs[hard].first, pairs[(hard + 1) % 4].second}};
-    CHECK(code_of([&] { matching::match(walls, vertices); }, {"vertex " + std::to_string(pairs[hard].first),
+    CHECK(refusal([&] { matching::match(walls, vertices); }, {"vertex " + std::to_string(pairs[hard].first),
                                                               "walls"}) == "matching.vertices_contradict");
     MatchOptions loops;
     loops.loops = {{0, 1}};
-    CHECK(code_of([&] { matching::match(walls, loops); }, {"source loop 1", "target loop 2"}) ==
+    CHECK(refusal([&] { matching::match(walls, loops); }, {"source loop 1", "target loop 2"}) ==
           "matching.loops_contradict");
     for (const auto& pair : std::vector<std::pair<int, int>>{{0, 2}, {2, 0}, {-1, 0}, {0, -1}, {5, 5}}) {
         MatchOptions options;
         options.loops = {pair};
-        CHECK(code_of([&] { matching::match(walls, options); }, {"from 1 to 2"}) == "matching.unknown_loop");
+        CHECK(refusal([&] { matching::match(walls, options); }, {"from 1 to 2"}) == "matching.unknown_loop");
     }
     MatchOptions unknown;
     unknown.vertices = {{9999, pairs[0].second}};
-    CHECK(code_of([&] { matching::match(walls, unknown); }, {"9999", "source"}) == "matching.unknown_vertex");
+    CHECK(refusal([&] { matching::match(walls, unknown); }, {"9999", "source"}) == "matching.unknown_vertex");
     unknown.vertices = {{pairs[0].first, 9999}};
-    CHECK(code_of([&] { matching::match(walls, unknown); }, {"9999", "target"}) == "matching.unknown_vertex");
+    CHECK(refusal([&] { matching::match(walls, unknown); }, {"9999", "target"}) == "matching.unknown_vertex");
     const auto open = test::prism({.sides = 4, .holes = 1, .drop = without(false, false, true)}).open();
     MatchOptions both;
     both.loops = {{0, 0}, {1, 0}};
-    CHECK(code_of([&] { matching::match(open, both); }, {"loop"}) != "done");
+    CHECK(refusal([&] { matching::match(open, both); }, {"loop"}) != "done");
     for (const int s : {-1, 2, 7}) {
         MatchOptions flip;
         flip.flip = {s};
-        CHECK(code_of([&] { matching::match(open, flip); }, {"loop"}) == "matching.unknown_loop");
+        CHECK(refusal([&] { matching::match(open, flip); }, {"loop"}) == "matching.unknown_loop");
     }
     // Two vertex pairs of one loop that no turn of it keeps.
     const auto tagged = tags(open, matching::match(open));
     MatchOptions crossed;
     crossed.vertices = {{tagged[0].first, tagged[0].second}, {tagged[1].first, tagged[2].second}};
-    CHECK(code_of([&] { matching::match(open, crossed); }, {}) != "done");
+    CHECK(refusal([&] { matching::match(open, crossed); }, {}) != "done");
 }
 
 TEST_CASE("a target that could be turned either way has little confidence, one that could not has much")
@@ -556,12 +542,12 @@ TEST_CASE("loops that differ in number are refused, and both numbers named")
             split.whole_labels = true;
             const auto volume = open_volume(split_facets(soup, split),
                                             {{FaceId(std::size_t(0))}, {FaceId(std::size_t(1))}, {}});
-            CHECK(code_of([&] { matching::match(volume); },
+            CHECK(refusal([&] { matching::match(volume); },
                           {std::to_string(low + 1) + (low == 0 ? " loop " : " loops "),
                            std::to_string(high + 1) + (high == 0 ? " loop;" : " loops;")}) ==
                   "matching.loop_counts");
         }
     }
     const auto no_target = test::prism({.drop = without(false, true, false)}).open();
-    CHECK(code_of([&] { matching::match(no_target); }, {"target"}) == "matching.no_rim");
+    CHECK(refusal([&] { matching::match(no_target); }, {"target"}) == "matching.no_rim");
 }

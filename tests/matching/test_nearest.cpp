@@ -16,7 +16,7 @@ using test::Ends;
 using test::lifted;
 using test::Place;
 using test::polygon;
-using test::refused;
+using test::refusal;
 using test::regular;
 using test::two_ends;
 
@@ -162,7 +162,7 @@ TEST_CASE("a map that is not unique is cured by the reverse distances")
             met.insert(VertexId(best));
         }
         if (met.size() == half) continue;
-        const std::string code = refused([&] {
+        const std::string code = refusal([&] {
             const Match found = matching::match(volume, nearest());
             check_map(volume, found);
             ++cured;
@@ -188,7 +188,7 @@ TEST_CASE("whatever the motion, nearest gives a map that is one-to-one and in or
         const auto volume = two_ends(ends, ends,
                                      lifted(5 * (1 + chance(dice)), std::exp(chance(dice)),
                                             kPi * chance(dice), Vec2(15 * chance(dice), 15 * chance(dice))));
-        const std::string code = refused(
+        const std::string code = refusal(
             [&] {
                 check_map(volume, matching::match(volume, nearest()));
                 ++given;
@@ -197,7 +197,7 @@ TEST_CASE("whatever the motion, nearest gives a map that is one-to-one and in or
         if (code == "done") continue;
         ++refusals;
         CHECK((code == "matching.nearest_failed" || code == "matching.edge_counts"));
-        refused([&] { matching::match(volume, nearest()); }, {"source loop", "aligned"});
+        refusal([&] { matching::match(volume, nearest()); }, {"source loop", "aligned"});
     }
     CHECK(given > 50);
     CHECK(refusals > 50);
@@ -210,7 +210,7 @@ TEST_CASE("far, turned and concentric ends, which defeat the nearest vertex, are
     const Ends square{polygon(regular(4))};
     // Far: all source vertices are nearest to the same target vertex, and the other way round.
     const auto far = two_ends(square, square, lifted(1, 1, 0.1, {40, 3}));
-    CHECK(refused([&] { matching::match(far, nearest()); },
+    CHECK(refusal([&] { matching::match(far, nearest()); },
                   {"source loop 1", "vertices ", "both nearest to vertex"}) == "matching.nearest_failed");
     // Concentric: the holes' vertices of a ring that opens are nearest to its outer loop's.
     const Ends thick{polygon(regular(6, 10)), polygon(regular(6, 2))};
@@ -220,12 +220,12 @@ TEST_CASE("far, turned and concentric ends, which defeat the nearest vertex, are
     const Ends inner{polygon(regular(6, 10)), polygon(regular(6, 9))};
     const Ends outer{polygon(regular(6, 30)), polygon(regular(6, 12))};
     const auto grown = two_ends(inner, outer, lifted(1));
-    CHECK(refused([&] { matching::match(grown, nearest()); }, {"source loop"}) == "matching.nearest_failed");
+    CHECK(refusal([&] { matching::match(grown, nearest()); }, {"source loop"}) == "matching.nearest_failed");
     CHECK_NOTHROW(matching::match(grown)); // aligned does not mind
     // A turn of a step of a regular loop comes out as no turn: one-to-one, so it cannot know; half a step is
     // a toss-up, and it says so.
     const auto half = two_ends(square, square, lifted(1, 1, kPi / 4 + 1e-9));
-    const std::string code = refused([&] { CHECK(matching::match(half, nearest()).confidence < 0.01); });
+    const std::string code = refusal([&] { CHECK(matching::match(half, nearest()).confidence < 0.01); });
     CHECK((code == "done" || code == "matching.nearest_failed"));
 }
 
@@ -236,7 +236,7 @@ TEST_CASE("an outlier of distance follows the others of its loop, and a note nam
     high[0] = Vec2(10, 0) * 0.55 + Vec2(0, 7.5);
     high[1] = Vec2(9.0, 7.0);
     const auto volume = two_ends({polygon(low, 2)}, {polygon(high, 2)}, lifted(1));
-    const std::string code = refused([&] {
+    const std::string code = refusal([&] {
         const Match found = matching::match(volume, nearest());
         check_map(volume, found);
         for (const auto& [s, t] : tags(volume, found)) CHECK(t == s + 12);
@@ -250,7 +250,7 @@ TEST_CASE("an outlier of distance follows the others of its loop, and a note nam
 TEST_CASE("unlike numbers of edges are refused by nearest, with both, and taken by aligned")
 {
     const auto volume = two_ends({polygon(regular(5))}, {polygon(regular(4))}, lifted(1));
-    CHECK(refused([&] { matching::match(volume, nearest()); },
+    CHECK(refusal([&] { matching::match(volume, nearest()); },
                   {"source loop 1 has 5 edges", "has 4", "aligned"}) == "matching.edge_counts");
     CHECK_NOTHROW(matching::match(volume));
 }
@@ -277,17 +277,17 @@ TEST_CASE("vertices, loops and flip given by hand are obeyed by nearest, and con
     CHECK(flipped.loops[0].flipped != free.loops[0].flipped);
     MatchOptions crossed = nearest();
     crossed.vertices = {{1, 6}, {2, 8}};
-    CHECK(refused([&] { matching::match(volume, crossed); }, {"source loop 1"}) != "done");
+    CHECK(refusal([&] { matching::match(volume, crossed); }, {"source loop 1"}) != "done");
     MatchOptions unknown = nearest();
     unknown.vertices = {{1, 2}};
-    CHECK(refused([&] { matching::match(volume, unknown); }, {"vertex 2"}) == "matching.unknown_vertex");
+    CHECK(refusal([&] { matching::match(volume, unknown); }, {"vertex 2"}) == "matching.unknown_vertex");
     MatchOptions twice = nearest();
     twice.vertices = {{1, 6}, {1, 7}};
-    CHECK(refused([&] { matching::match(volume, twice); }, {"vertex 1", "6", "7"}) ==
+    CHECK(refusal([&] { matching::match(volume, twice); }, {"vertex 1", "6", "7"}) ==
           "matching.vertices_contradict");
     MatchOptions shared = nearest();
     shared.vertices = {{1, 6}, {2, 6}};
-    CHECK(refused([&] { matching::match(volume, shared); }, {"6"}) == "matching.vertices_contradict");
+    CHECK(refusal([&] { matching::match(volume, shared); }, {"6"}) == "matching.vertices_contradict");
 
     // Two holes of a kind: sent to each other's place by hand.
     const Ends two{polygon(regular(4, 10)), polygon({{2, -1}, {4, -1}, {4, 1}, {2, 1}}),
@@ -298,7 +298,7 @@ TEST_CASE("vertices, loops and flip given by hand are obeyed by nearest, and con
     MatchOptions swapped = nearest();
     swapped.loops = {{1, plain.loops[2].target}, {2, plain.loops[1].target}};
     // Their nearest sides clash; a pair of vertices each settles it.
-    CHECK(refused([&] { matching::match(holes, swapped); }, {"source loop"}) == "matching.nearest_failed");
+    CHECK(refusal([&] { matching::match(holes, swapped); }, {"source loop"}) == "matching.nearest_failed");
     const auto loop_tags = [&](const Match& found, int loop) {
         std::vector<int> result;
         for (const EdgeUse& use : found.source_loops[static_cast<std::size_t>(loop)].uses)
@@ -315,5 +315,5 @@ TEST_CASE("vertices, loops and flip given by hand are obeyed by nearest, and con
     for (const auto& pair : swapped.vertices) CHECK(tags(holes, found).at(pair.first) == pair.second);
     MatchOptions both = nearest();
     both.loops = {{1, 1}, {2, 1}};
-    CHECK(refused([&] { matching::match(holes, both); }, {"loop"}) != "done");
+    CHECK(refusal([&] { matching::match(holes, both); }, {"loop"}) != "done");
 }

@@ -28,7 +28,7 @@ using test::even;
 using test::lifted;
 using test::Outline;
 using test::polygon;
-using test::refused;
+using test::refusal;
 using test::regular;
 using test::two_ends;
 
@@ -474,11 +474,11 @@ TEST_CASE("vertices given by hand are obeyed on loops paired by length, and cros
     check_swept(volume, (area(polygon(regular(5))) + area(polygon(regular(4)))) / 2, 0.1, two, false);
     MatchOptions crossed;
     crossed.vertices = {{1, 6}, {2, 8}, {3, 7}};
-    CHECK(refused([&] { matching::match(volume, crossed); },
+    CHECK(refusal([&] { matching::match(volume, crossed); },
                   {"source loop 1", "1 to 6", "2 to 8", "3 to 7"}) == "matching.vertices_contradict");
     MatchOptions shared;
     shared.vertices = {{1, 6}, {2, 6}};
-    CHECK(refused([&] { matching::match(volume, shared); }, {"1", "2", "6"}) ==
+    CHECK(refusal([&] { matching::match(volume, shared); }, {"1", "2", "6"}) ==
           "matching.vertices_contradict");
     const Match free = matching::match(volume);
     MatchOptions flip;

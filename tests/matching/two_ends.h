@@ -3,6 +3,8 @@
 
 // Source and target with nothing between them, made of outlines whose vertices stand wherever a test wants
 // them.
+#include "support/refusal.h"
+
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/triangulate.h>
@@ -160,23 +162,6 @@ inline Place lifted(double height, double scale = 1, double turn = 0, const Vec2
         return Vec3(scale * (c * p.x() - s * p.y()) + shift.x(), scale * (s * p.x() + c * p.y()) + shift.y(),
                     height);
     };
-}
-
-/// The code of the error that work ends with, its message holding all the words; "done" without one.
-inline std::string refused(const std::function<void()>& work, const std::vector<std::string>& words = {})
-{
-    try {
-        work();
-    } catch (const Error& error) {
-        const std::string what = error.what();
-        for (const std::string& word : words) {
-            CAPTURE(what);
-            CAPTURE(word);
-            CHECK(what.find(word) != std::string::npos);
-        }
-        return error.code();
-    }
-    return "done";
 }
 
 } // namespace lacuna::test

@@ -2,9 +2,7 @@
 #include "support/check_valid.h"
 #include "support/stress.h"
 
-#include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
-#include <lacuna/matching/match.h>
 #include <lacuna/quality/quality.h>
 #ifdef LACUNA_WITH_CAD
 #include <lacuna/cad/load.h>
@@ -24,15 +22,6 @@ int member_count()
 {
     const char* asked = std::getenv("LACUNA_STRESS_MEMBERS");
     return std::max(520, asked != nullptr ? std::atoi(asked) : 0);
-}
-
-topology::OpenVolume sealed(const test::StressMember& member)
-{
-    topology::OpenVolume volume = test::stress_volume(member);
-    const bool ends = !volume.faces(topology::Role::source).empty() &&
-                      !volume.faces(topology::Role::target).empty();
-    closure::close(volume, ends ? matching::match(volume) : matching::Match{});
-    return volume;
 }
 
 sweep::Swept swept(const test::StressMember& member, const topology::OpenVolume& volume, int threads)
@@ -58,7 +47,7 @@ TEST_CASE("every member of the stress family is meshed without an invalid cell, 
         const std::string name = member.name();
         CAPTURE(name);
         try {
-            const sweep::Swept result = swept(member, sealed(member), 0);
+            const sweep::Swept result = swept(member, test::sealed_stress_volume(member), 0);
             test::check_valid(result.mesh);
             const double least = quality::measure(result.mesh).min_scaled_jacobian;
             const double bar = member.mild ? 0.5 : 0.2;
@@ -84,7 +73,7 @@ TEST_CASE("hard volumes come out the same for any number of threads")
     for (const test::StressMember& member : test::stress_family(40, 7)) {
         const std::string name = member.name();
         CAPTURE(name);
-        const topology::OpenVolume volume = sealed(member);
+        const topology::OpenVolume volume = test::sealed_stress_volume(member);
         const sweep::Swept one = swept(member, volume, 1);
         const sweep::Swept three = swept(member, volume, 3);
         CHECK(one.mesh.nodes == three.mesh.nodes);

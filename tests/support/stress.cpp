@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "support/stress.h"
 
+#include <lacuna/closure/close.h>
+#include <lacuna/matching/match.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -221,6 +224,14 @@ OpenVolume stress_volume(const StressMember& member)
     return prism(o).open();
 }
 
+OpenVolume sealed_stress_volume(const StressMember& member)
+{
+    OpenVolume volume = stress_volume(member);
+    const bool ends = !volume.faces(Role::source).empty() && !volume.faces(Role::target).empty();
+    closure::close(volume, ends ? matching::match(volume) : matching::Match{});
+    return volume;
+}
+
 sweep::SweepOptions stress_options(const StressMember& member)
 {
     sweep::SweepOptions options;
@@ -243,8 +254,6 @@ double edge_bound(const mesh::HexMesh& mesh)
             known = quad.patch;
         }
     }
-    constexpr std::array<std::array<std::size_t, 3>, 8> next{
-        {{1, 3, 4}, {0, 2, 5}, {3, 1, 6}, {2, 0, 7}, {5, 7, 0}, {4, 6, 1}, {7, 5, 2}, {6, 4, 3}}};
     double bound = 1;
     for (std::size_t c = 0; c < mesh.hex_count(); ++c) {
         const Hex hex = mesh.hex(c);
@@ -253,7 +262,7 @@ double edge_bound(const mesh::HexMesh& mesh)
             std::array<Vec3, 3> edge;
             std::array<bool, 3> stays{};
             for (std::size_t e = 0; e < 3; ++e) {
-                const auto to = static_cast<std::size_t>(hex[next[corner][e]]);
+                const auto to = static_cast<std::size_t>(hex[mesh::kHexNeighbours[corner][e]]);
                 edge[e] = (mesh.nodes[to] - mesh.nodes[static_cast<std::size_t>(hex[corner])]).normalized();
                 stays[e] = on_edge[to] != 0;
             }

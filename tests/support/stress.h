@@ -40,6 +40,8 @@ std::vector<StressMember> stress_family(int count, unsigned seed = 1);
 
 /// The open volume of a member.
 topology::OpenVolume stress_volume(const StressMember& member);
+/// The same, matched and closed.
+topology::OpenVolume sealed_stress_volume(const StressMember& member);
 
 /// What is asked of the sweep.
 sweep::SweepOptions stress_options(const StressMember& member);

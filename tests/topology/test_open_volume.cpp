@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/refusal.h"
 #include "support/volumes.h"
 
 #include <lacuna/core/error.h>
@@ -12,25 +13,10 @@
 using namespace lacuna;
 using namespace lacuna::topology;
 using test::Part;
+using test::refusal;
 using test::without;
 
 namespace {
-
-std::string refusal(const std::function<void()>& work, const std::vector<std::string>& words)
-{
-    try {
-        work();
-    } catch (const Error& error) {
-        const std::string what = error.what();
-        for (const std::string& word : words) {
-            CAPTURE(what);
-            CAPTURE(word);
-            CHECK(what.find(word) != std::string::npos);
-        }
-        return error.code();
-    }
-    return "taken";
-}
 
 /// A corner is on no wall when the walls on both its sides are gone.
 bool free_corner(const std::set<int>& gone, int sides)
