@@ -7,6 +7,7 @@
 #include <lacuna/surface/measure_plane.h>
 #include <lacuna/surface/pave_core.h>
 #include <lacuna/surface/pave_fit.h>
+#include <lacuna/surface/pave_refill.h>
 #include <lacuna/surface/pave_repair.h>
 #include <lacuna/surface/pave_rows.h>
 #include <lacuna/surface/pave_size.h>
@@ -133,7 +134,7 @@ enum class RowStyle {
     buffer,    ///< one row with two quads at least at every node, so that all other nodes are free to move
     halved_triangles, ///< no rows: `TriangleWay`
     paired_triangles,
-    fine_triangles
+    split_triangles
 };
 
 struct Attempt {
@@ -170,11 +171,12 @@ void judge(Attempt& attempt)
     }
 }
 
-/// Open what is folded: by moving nodes, then with more of them.
-void open_folds(Attempt& attempt, const Draft& draft, const PaveOptions& options, const RunContext& context)
+/// Open what is folded: by moving nodes, with more of them, and what does not open is filled anew.
+void open_folds(Attempt& attempt, const PlanarRegion& region, const Draft& draft, const PaveOptions& options,
+                const RunContext& context)
 {
     constexpr int kLoosenings = 3;
-    for (int round = 0;; ++round) {
+    for (int round = 0; round <= kLoosenings; ++round) {
         Attempt tried = attempt;
         if (round > 0) loosen_folds(tried.mesh, draft.flat);
         ease_folds(tried.mesh, draft.fixed);
@@ -192,8 +194,11 @@ void open_folds(Attempt& attempt, const Draft& draft, const PaveOptions& options
         }
         const bool better = round == 0 || tried.worst > attempt.worst;
         if (better) attempt = std::move(tried);
-        if (!better || attempt.worst > draft.flat || round == kLoosenings) return;
+        if (!better || attempt.worst > draft.flat) break;
     }
+    if (attempt.worst > 0) return;
+    attempt.report.refilled = refill_folds(attempt.mesh, region, 0, draft.size);
+    judge(attempt);
 }
 
 /// How good quads are, to choose between two ways; higher is better. A mean of shapes, sizes, rows and the
@@ -250,8 +255,8 @@ std::optional<TriangleWay> triangle_way(RowStyle style)
         return TriangleWay::halved;
     case RowStyle::paired_triangles:
         return TriangleWay::paired;
-    case RowStyle::fine_triangles:
-        return TriangleWay::fine;
+    case RowStyle::split_triangles:
+        return TriangleWay::split;
     default:
         return std::nullopt;
     }
@@ -271,9 +276,9 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
         lay_and_fill(attempt, draft, region, options, style, context);
     }
     if (!sides_match(attempt.mesh.quads)) return attempt;
-    open_corners(attempt.mesh, region);
+    if (style != RowStyle::split_triangles) open_corners(attempt.mesh, region);
     judge(attempt);
-    if (options.smooth) open_folds(attempt, draft, options, context);
+    if (options.smooth) open_folds(attempt, region, draft, options, context);
     if (attempt.worst <= 0) return attempt;
     if (options.clean) clean_quads(attempt.mesh, draft.fixed, {.size = draft.size}, context);
     if (options.smooth) {
@@ -304,26 +309,28 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
         best_score = score;
         best = std::move(made);
     };
+    const auto is_few = [&] { return options.rows < 0 && best.mesh.quads.size() <= kFew; };
     attempt(RowStyle::by_shape);
     if (best.worst <= flat) attempt(RowStyle::buffer);
     for (const RowStyle style : {RowStyle::none, RowStyle::thin}) {
-        if (best.worst <= flat || (options.rows < 0 && best.mesh.quads.size() <= kFew)) attempt(style);
+        if (best.worst <= 0 || is_few()) attempt(style);
     }
     // A worst quad poorer than this is worth another way, where that costs little.
     constexpr double kPoor = 0.5;
-    for (const RowStyle style :
-         {RowStyle::halved_triangles, RowStyle::paired_triangles, RowStyle::fine_triangles}) {
-        const bool few = options.rows < 0 && best.mesh.quads.size() <= kFew &&
-                         style != RowStyle::fine_triangles;
-        if (best.worst <= flat || (few && best.worst < kPoor)) attempt(style);
+    for (const RowStyle style : {RowStyle::halved_triangles, RowStyle::paired_triangles}) {
+        if (best.worst <= 0 || (is_few() && best.worst < kPoor)) attempt(style);
     }
-    // Where nothing was better, what is not flat is still valid: needles between loops that all but touch.
-    constexpr double kFlat = 1e-4;
-    if (!(best.worst > std::min(kFlat, flat))) {
+    if (best.worst <= 0) attempt(RowStyle::split_triangles);
+    if (best.worst <= 0) {
         throw NotSweepable("surface.pave", "no valid quads were found for a region of " +
                                                std::to_string(region.points.size()) +
                                                " boundary nodes: near " + place_of(best.where) +
                                                " they fold; try a smaller size there, or quads = \"gmsh\"");
+    }
+    // Between sides that all but touch, or in spikes, there are none but flat ones.
+    if (best.worst <= flat) {
+        log_line(context, "the flattest quad, near " + place_of(best.where) + ", has a scaled Jacobian of " +
+                              std::to_string(best.worst) + ": the boundary's sides are long for the gap there");
     }
     best.mesh.how = best.report.used;
     if (options.report) *options.report = best.report;

@@ -14,6 +14,7 @@ struct PaveReport {
     int mapped = 0;    ///< parts filled by a grid, with at most a few irregular nodes
     int cuts = 0;      ///< splitting lines drawn
     int templates = 0; ///< loops of six nodes or fewer closed
+    int refilled = 0;  ///< places where rows and cuts folded, filled with split triangles
     std::string used;  ///< "mapped": one patch without rows; "paved"
 };
 

@@ -91,8 +91,13 @@ public:
         : draft_(draft), cycle_(cycle), angles_(angles), n_(cycle.size())
     {
         arc_.assign(n_ + 1, 0);
-        for (std::size_t i = 0; i < n_; ++i) arc_[i + 1] = arc_[i] + (at(i + 1) - at(i)).norm();
+        heading_.resize(n_);
+        pace_.resize(n_);
         for (std::size_t i = 0; i < n_; ++i) {
+            const Vec2 side = at(i + 1) - at(i);
+            arc_[i + 1] = arc_[i] + side.norm();
+            heading_[i] = std::atan2(side.y(), side.x());
+            pace_[i] = 1 / draft.size(at(i));
             if (angles[i] < kCornerBelow) corners_.push_back(i);
         }
     }
@@ -171,13 +176,14 @@ private:
     {
         if (cycle_[i] == cycle_[j]) return std::nullopt;
         const Vec2 along = at(j) - at(i);
-        const double part_i = turn_between(at(i + 1) - at(i), along);
-        const double part_j = turn_between(at(j + 1) - at(j), -along);
-        if (part_i < kLeastAngle || part_i > angles_[i] - kLeastAngle || part_j < kLeastAngle ||
-            part_j > angles_[j] - kLeastAngle)
-            return std::nullopt;
+        const double heading = std::atan2(along.y(), along.x());
+        const double part_i = whole_turn(heading - heading_[i]);
+        if (part_i < kLeastAngle || part_i > angles_[i] - kLeastAngle) return std::nullopt;
+        const double part_j = whole_turn(heading + std::numbers::pi - heading_[j]);
+        if (part_j < kLeastAngle || part_j > angles_[j] - kLeastAngle) return std::nullopt;
         const double length = along.norm();
-        const double wanted = length / local_size(draft_, at(i), at(j));
+        // Edges go as the mean of one over the size.
+        const double wanted = length * (pace_[i] + 1 / draft_.size((at(i) + at(j)) / 2) + pace_[j]) / 3;
         const std::size_t between = j - i, rest = n_ - between;
         auto edges = static_cast<std::size_t>(std::max(1L, std::lround(wanted)));
         edges = std::min(edges, n_);
@@ -198,6 +204,14 @@ private:
         choice.cost += ratio * ratio / 2 + mismatch(choice.cut, part_i, part_j);
         for (const std::size_t end : {i, j}) choice.cost -= angles_[end] > kBentAbove ? 0.5 : 0.0;
         return choice;
+    }
+
+    /// A turn of -2π to 4π as one of 0 to 2π.
+    static double whole_turn(double angle)
+    {
+        constexpr double kTurn = 2 * std::numbers::pi;
+        if (angle < 0) return angle + kTurn;
+        return angle < kTurn ? angle : angle - kTurn;
     }
 
     /// Inner nodes move, so that angles at them matter less.
@@ -281,7 +295,9 @@ private:
     const Cycle& cycle_;
     const std::vector<double>& angles_;
     std::size_t n_;
-    std::vector<double> arc_;
+    std::vector<double> arc_;     ///< along the loop, up to each node
+    std::vector<double> heading_; ///< of the side that leaves each node [radians]
+    std::vector<double> pace_;    ///< one over the size at each node
     std::vector<std::size_t> corners_;
     std::size_t stride_ = 1;
 };

@@ -68,7 +68,7 @@ inline double inner_angle(const Draft& draft, const Cycle& cycle, std::size_t i)
 }
 
 /// How many quads an angle is right for, at least one.
-inline int quads_in(double angle) { return std::max(1, static_cast<int>(std::lround(angle / kRightAngle))); }
+inline int quads_in(double angle) { return std::max(1, static_cast<int>(angle / kRightAngle + 0.5)); }
 
 /// Twice the area a cycle goes round, > 0 counter-clockwise.
 inline double twice_area(const Draft& draft, const Cycle& cycle)

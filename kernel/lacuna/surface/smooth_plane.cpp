@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A move shorter than this share of the length of the sides around does not wake the neighbours.
-constexpr double kStill = 0.005;
+constexpr double kStill = 0.02;
 /// Steps are lengthened so much, but in the first sweep and the last: what is off over many quads is mended in a tenth of the
 /// sweeps (measured: 1.5 and 1.7 need more, 1.9 overshoots between poor quads).
 constexpr double kOverstep = 1.85;

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/triangulate.h>
+#include <lacuna/surface/split_cells.h>
 
 #include <algorithm>
 #include <array>
@@ -55,8 +56,13 @@ PlanarQuads quads_of_triangles(const PlanarRegion& region, TriangleWay way)
             mesh = triangles_over(region, half, 2 * kPairSize);
             match_triangles(mesh);
             mesh = refine(mesh, region.points, region.loops, half);
+        } else if (way == TriangleWay::split) {
+            mesh = triangles_over(region, region.loops, 2 * kPairSize);
+            match_triangles(mesh);
+            mesh = split_cells(mesh);
+            return deliver(mesh, region, region.loops, Vec2::Zero(), 1);
         } else {
-            mesh = triangles_over(region, region.loops, way == TriangleWay::fine ? kPairSize / 2 : kPairSize);
+            mesh = triangles_over(region, region.loops, kPairSize);
             match_triangles(mesh);
             pair_triangles(mesh);
         }
