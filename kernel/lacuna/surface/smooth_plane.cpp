@@ -2,7 +2,7 @@
 #include <lacuna/surface/smooth_plane.h>
 
 #include <lacuna/surface/measure_plane.h>
-#include <lacuna/surface/plane_stars.h>
+#include <lacuna/surface/plane_energy.h>
 
 #include <algorithm>
 #include <array>
@@ -18,117 +18,6 @@ constexpr double kStill = 0.02;
 /// Steps are lengthened so much, but in the first sweep and the last: what is off over many quads is mended in a tenth of the
 /// sweeps (measured: 1.5 and 1.7 need more, 1.9 overshoots between poor quads).
 constexpr double kOverstep = 1.85;
-
-/// Areas asked of the quads round each point.
-struct Areas {
-    struct Asked {
-        double area = 0, inverse = 0; ///< 0: none is asked
-    };
-    double weight = 0;
-    std::vector<Asked> asked; ///< of each point; empty: of none
-
-    template <class Number>
-    [[nodiscard]] Asked at(Number p) const
-    {
-        return asked.empty() ? Asked{} : asked[static_cast<std::size_t>(p)];
-    }
-};
-
-/// Energy of the corners at one point, with its slope and curvature as the point moves.
-struct Around {
-    double value = 0;
-    Vec2 slope{0, 0};
-    double xx = 0, xy = 0, yy = 0;
-    double sides = 0; ///< squared lengths of the sides at the point, each quad's two
-
-    /// @param det    of the corner; linear in the point, slope `dx`, `dy`
-    /// @param sum    squared lengths of its sides, `aa` + `bb`; slope `sx`, `sy`, curvature `curve` in x and in y
-    /// @return  false where the corner is folded
-    bool add(double det, double dx, double dy, double aa, double bb, double sx, double sy, double curve,
-             const Areas::Asked& asked, double weight)
-    {
-        if (!(det > 0)) return false;
-        const double over = 1 / det;
-        const double sum = aa + bb;
-        const double f = sum * over / 2;
-        // f = sum / 2 det
-        const double gx = (sx / 2 - f * dx) * over, gy = (sy / 2 - f * dy) * over;
-        double hxx = (curve / 2 - 2 * gx * dx) * over, hyy = (curve / 2 - 2 * gy * dy) * over;
-        double hxy = -(gx * dy + gy * dx) * over;
-        // f²: what is bad counts for more.
-        value += f * f;
-        slope.x() += 2 * f * gx;
-        slope.y() += 2 * f * gy;
-        hxx = 2 * (f * hxx + gx * gx);
-        hyy = 2 * (f * hyy + gy * gy);
-        hxy = 2 * (f * hxy + gx * gy);
-        if (asked.area > 0) {
-            const double v = asked.area * over;
-            const double first = weight * (asked.inverse - v * over) / 2;
-            const double second = weight * v * over * over;
-            value += weight * (det * asked.inverse + v) / 2;
-            slope.x() += first * dx;
-            slope.y() += first * dy;
-            hxx += second * dx * dx;
-            hyy += second * dy * dy;
-            hxy += second * dx * dy;
-        }
-        xx += hxx;
-        xy += hxy;
-        yy += hyy;
-        return true;
-    }
-};
-
-/// @return false where a corner is folded
-bool look_around(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t p, const Vec2& x,
-                 const Areas& areas, Around& around)
-{
-    around = {};
-    for (const Spoke& spoke : star) {
-        const Vec2& n = points[static_cast<std::size_t>(spoke.next)];
-        const Vec2& o = points[static_cast<std::size_t>(spoke.across)];
-        const Vec2& r = points[static_cast<std::size_t>(spoke.before)];
-        const Vec2 a = n - x, b = r - x, c = o - n, d = o - r;
-        const double aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm(), dd = d.squaredNorm();
-        around.sides += aa + bb;
-        if (!around.add(a.x() * b.y() - a.y() * b.x(), a.y() - b.y(), b.x() - a.x(), aa, bb,
-                        -2 * (a.x() + b.x()), -2 * (a.y() + b.y()), 4, areas.at(p), areas.weight) ||
-            !around.add(a.x() * c.y() - a.y() * c.x(), -c.y(), c.x(), aa, cc, -2 * a.x(), -2 * a.y(), 2,
-                        areas.at(spoke.next), areas.weight) ||
-            !around.add(d.x() * b.y() - d.y() * b.x(), d.y(), -d.x(), bb, dd, -2 * b.x(), -2 * b.y(), 2,
-                        areas.at(spoke.before), areas.weight))
-            return false;
-    }
-    return true;
-}
-
-/// The energy alone; infinite where a corner is folded, or its sine squared is less than `least`.
-double energy_around(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t p, const Vec2& x,
-                     const Areas& areas, double least)
-{
-    double value = 0;
-    const auto add = [&](double det, double aa, double bb, const Areas::Asked& asked) {
-        if (!(det > 0) || det * det < least * aa * bb) return false;
-        const double over = 1 / det;
-        const double f = (aa + bb) * over / 2;
-        value += f * f;
-        if (asked.area > 0) value += areas.weight * (det * asked.inverse + asked.area * over) / 2;
-        return true;
-    };
-    for (const Spoke& spoke : star) {
-        const Vec2& n = points[static_cast<std::size_t>(spoke.next)];
-        const Vec2& o = points[static_cast<std::size_t>(spoke.across)];
-        const Vec2& r = points[static_cast<std::size_t>(spoke.before)];
-        const Vec2 a = n - x, b = r - x, c = o - n, d = o - r;
-        const double aa = a.squaredNorm(), bb = b.squaredNorm();
-        if (!add(a.x() * b.y() - a.y() * b.x(), aa, bb, areas.at(p)) ||
-            !add(a.x() * c.y() - a.y() * c.x(), aa, c.squaredNorm(), areas.at(spoke.next)) ||
-            !add(d.x() * b.y() - d.y() * b.x(), bb, d.squaredNorm(), areas.at(spoke.before)))
-            return kInfinity;
-    }
-    return value;
-}
 
 struct Range {
     double least = 1;
