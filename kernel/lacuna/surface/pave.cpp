@@ -13,6 +13,7 @@
 #include <lacuna/surface/pave_size.h>
 #include <lacuna/surface/pave_true_rows.h>
 #include <lacuna/surface/smooth_plane.h>
+#include <lacuna/surface/submap.h>
 #include <lacuna/surface/triangle_quads.h>
 
 #include <optional>
@@ -289,6 +290,22 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
     return attempt;
 }
 
+/// Try the grid of a region of right angles. @return whether it is so good that nothing else need be tried.
+bool submapped(const PlanarRegion& region, const PaveOptions& options, Attempt& attempt,
+               const RunContext& context)
+{
+    auto mesh = submap(region, context);
+    if (!mesh) return false;
+    attempt.mesh = std::move(*mesh);
+    attempt.report.used = attempt.mesh.how;
+    attempt.report.mapped = 1;
+    true_rows(attempt.mesh, region, options.row_height ? options.row_height : size_with_boundary(region));
+    judge(attempt);
+    constexpr double kGood = 0.6, kOfSize = 0.95;
+    const PlaneQuality quality = measure_plane(attempt.mesh, region);
+    return quality.min_scaled_jacobian > kGood && quality.size_share() > kOfSize;
+}
+
 } // namespace
 
 PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
@@ -309,6 +326,11 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
         best_score = score;
         best = std::move(made);
     };
+    if (options.rows < 0 && submapped(region, options, best, context)) {
+        if (options.report) *options.report = best.report;
+        return std::move(best.mesh);
+    }
+    if (best.worst > flat) best_score = score_of(best.mesh, region);
     const auto is_few = [&] { return options.rows < 0 && best.mesh.quads.size() <= kFew; };
     attempt(RowStyle::by_shape);
     if (best.worst <= flat) attempt(RowStyle::buffer);
