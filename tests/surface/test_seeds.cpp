@@ -133,7 +133,7 @@ TEST_CASE("boards of source faces agree along the edges they share")
     MESSAGE(combinations << " boards");
 }
 
-TEST_CASE("a face that is to be mapped and has not four corners is refused by name")
+TEST_CASE("a face that is to be mapped and is no grid of right angles is refused by name")
 {
     for (const int sides : {3, 5, 0}) {
         const auto volume = test::sealed({.sides = sides});
@@ -146,8 +146,8 @@ TEST_CASE("a face that is to be mapped and has not four corners is refused by na
             CHECK(std::string(error.what()).find("face ") != std::string::npos);
         }
     }
-    // Four corners, and a hole.
-    const auto holed = test::sealed({.sides = 4, .holes = 1});
+    // Four corners, and a round hole.
+    const auto holed = test::sealed({.sides = 4, .holes = 1, .hole_sides = 0});
     CHECK_THROWS_AS(surface::seed_source(holed, surface::belts(holed), even(0.2), QuadStyle::mapped),
                     NotSweepable);
 }

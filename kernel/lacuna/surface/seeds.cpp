@@ -2,6 +2,7 @@
 #include <lacuna/surface/seeds.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/surface/face_sides.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +19,6 @@ using namespace topology;
 
 namespace {
 
-/// Below this inner angle a vertex is a corner of a mapped face, above its opposite it is a reversal [degrees].
-constexpr double kCorner = 135;
-constexpr double kReversal = 225;
-/// A face with opposite sides more unlike than this is not mapped unless asked to: its quads would be as unlike.
-constexpr double kUnlike = 3;
 /// However large the size asked for, a side of a quad stands for no more than this much of a bend [degrees]: a circle keeps eight.
 constexpr double kTurnPerSide = 45;
 /// Points per piece at which the size is asked.
@@ -44,68 +40,6 @@ double turning(const Model& model, EdgeId id)
         sum += std::atan2(in.cross(out).norm(), in.dot(out)) * 180 / std::numbers::pi;
     }
     return sum;
-}
-
-/// Inner angle of a face where use i of its loop starts [degrees].
-double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_t i)
-{
-    const std::vector<Index> before = use_points(model,
-                                                 loop.uses[(i + loop.uses.size() - 1) % loop.uses.size()]);
-    const std::vector<Index> after = use_points(model, loop.uses[i]);
-    const Index at = after.front();
-    Vec3 normal = Vec3::Zero();
-    for (const Triangle& t : model[face].triangles) {
-        // Facets on the two sides that meet here: the corner's own, also where the face comes by twice (a seam).
-        const bool touches = std::find(t.begin(), t.end(), at) != t.end();
-        const bool on_side = std::find(t.begin(), t.end(), after[1]) != t.end() ||
-                             std::find(t.begin(), t.end(), before[before.size() - 2]) != t.end();
-        if (!touches || !on_side) continue;
-        normal += (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
-    }
-    const Vec3 out = model.at(after[1]) - model.at(at);
-    const Vec3 back = model.at(before[before.size() - 2]) - model.at(at);
-    const double angle = std::atan2(normal.stableNormalized().dot(out.cross(back)), out.dot(back)) * 180 /
-                         std::numbers::pi;
-    return angle < 0 ? angle + 360 : angle;
-}
-
-/// The uses that start the four sides of a face; nothing when it has not four.
-std::optional<std::vector<std::size_t>> four_corners(const Model& model, FaceId face)
-{
-    const std::vector<Loop>& loops = model[face].loops;
-    if (loops.size() != 1) return std::nullopt;
-    std::vector<std::size_t> corners;
-    for (std::size_t i = 0; i < loops[0].uses.size(); ++i) {
-        const double angle = inner_angle(model, face, loops[0], i);
-        if (angle > kReversal) return std::nullopt;
-        if (angle < kCorner) corners.push_back(i);
-    }
-    return corners.size() == 4 ? std::optional(corners) : std::nullopt;
-}
-
-std::vector<EdgeId> side_edges(const Loop& loop, const std::vector<std::size_t>& corners, std::size_t side)
-{
-    std::vector<EdgeId> edges;
-    const std::size_t n = loop.uses.size();
-    for (std::size_t i = corners[side]; i != corners[(side + 1) % 4]; i = (i + 1) % n)
-        edges.push_back(loop.uses[i].edge);
-    return edges;
-}
-
-double length_of(const Model& model, const std::vector<EdgeId>& edges)
-{
-    return std::accumulate(edges.begin(), edges.end(), 0.0,
-                           [&](double sum, EdgeId e) { return sum + edge_length(model, e); });
-}
-
-bool alike(const Model& model, const Loop& loop, const std::vector<std::size_t>& corners)
-{
-    for (std::size_t side = 0; side < 2; ++side) {
-        const double a = length_of(model, side_edges(loop, corners, side));
-        const double b = length_of(model, side_edges(loop, corners, side + 2));
-        if (std::max(a, b) > kUnlike * std::min(a, b)) return false;
-    }
-    return true;
 }
 
 class Seeder {
@@ -252,16 +186,21 @@ private:
     {
         if (style_ == QuadStyle::free || seeds_.kept.contains(face)) return;
         const auto corners = four_corners(model_, face);
-        if (style_ == QuadStyle::mapped && !corners) {
+        const std::vector<OppositeSides> opposite = corners ? opposite_sides(model_, face, *corners)
+                                                            : grid_sides(model_, face);
+        if (style_ == QuadStyle::mapped && opposite.empty()) {
             throw NotSweepable(
                 "surface.not_four_sided",
                 name_of(model_, face) +
-                    " is to be mapped and has not four corners (vertices with an inner angle below 135°) "
-                    "on one loop; use quads = \"auto\"");
+                    " is to be mapped and has neither four corners (vertices with an inner angle below 135°) "
+                    "on one loop nor loops of right angles alone; use quads = \"auto\"");
         }
-        if (!corners || (style_ == QuadStyle::automatic && !alike(model_, model_[face].loops[0], *corners)))
-            return;
-        seeds_.corners[face] = *corners;
+        if (opposite.empty() || (style_ == QuadStyle::automatic && !alike(model_, opposite))) return;
+        opposite_[face] = opposite;
+        if (corners)
+            seeds_.corners[face] = *corners;
+        else
+            seeds_.submapped.insert(face);
     }
 
     /// One more side where the sides are longest. @return false where all are fixed
@@ -294,15 +233,12 @@ private:
         const std::size_t most = 4 * seeds_.pieces.size() + 16;
         for (std::size_t round = 0;; ++round) {
             bool changed = false;
-            for (auto it = seeds_.corners.begin(); it != seeds_.corners.end();) {
-                const Loop& loop = model_[it->first].loops[0];
+            for (auto it = opposite_.begin(); it != opposite_.end();) {
                 bool raised = false, stuck = false;
-                for (std::size_t side = 0; side < 2; ++side) {
-                    const std::vector<EdgeId> a = side_edges(loop, it->second, side);
-                    const std::vector<EdgeId> b = side_edges(loop, it->second, side + 2);
-                    const int difference = total(a) - total(b);
+                for (const OppositeSides& sides : it->second) {
+                    const int difference = total(sides[0]) - total(sides[1]);
                     if (difference == 0) continue;
-                    stuck = !raise(difference > 0 ? b : a, std::abs(difference)) || stuck;
+                    stuck = !raise(sides[difference > 0 ? 1 : 0], std::abs(difference)) || stuck;
                     raised = true;
                 }
                 changed = changed || raised;
@@ -313,7 +249,13 @@ private:
                                            "the one opposite; use "
                                            "quads = \"auto\"");
                 }
-                it = stuck || (raised && round > most) ? seeds_.corners.erase(it) : std::next(it);
+                if (stuck || (raised && round > most)) {
+                    seeds_.corners.erase(it->first);
+                    seeds_.submapped.erase(it->first);
+                    it = opposite_.erase(it);
+                } else {
+                    ++it;
+                }
             }
             if (!changed) return;
         }
@@ -330,7 +272,7 @@ private:
 
     [[nodiscard]] bool is_free(FaceId face) const
     {
-        return !seeds_.corners.contains(face) && !seeds_.kept.contains(face);
+        return !opposite_.contains(face) && !seeds_.kept.contains(face);
     }
 
     [[nodiscard]] bool is_fixed(EdgeId edge) const
@@ -388,6 +330,7 @@ private:
     const SizeField& size_;
     QuadStyle style_;
     Seeds seeds_;
+    std::map<FaceId, std::vector<OppositeSides>> opposite_; ///< of mapped and submapped faces
     std::set<EdgeId> rim_;
     std::map<EdgeId, std::set<FaceId>> users_;
 };

@@ -15,9 +15,9 @@ namespace lacuna::surface {
 
 /// How source faces are meshed.
 enum class QuadStyle {
-    automatic, ///< its own quads where it came with some; mapped where four-sided and not too unlike; else free
+    automatic, ///< its own quads where it came with some; mapped, or submapped, where its sides are not too unlike; else free
     kept,      ///< its own quads, or an error
-    mapped,    ///< mapped, or an error
+    mapped,    ///< mapped or submapped, or an error
     free,      ///< by the planar mesher
 };
 
@@ -36,12 +36,13 @@ struct SeedPiece {
     [[nodiscard]] std::vector<double> fractions() const;
 };
 
-/// Sides of every edge of the source faces, consistent: a mapped face has as many on opposite sides, a free face an
+/// Sides of every edge of the source faces, consistent: a mapped face has as many on opposite sides, a submapped one as many each way as back, a free face an
 /// even number in all.
 struct Seeds {
     std::map<EdgeId, std::vector<SeedPiece>> pieces; ///< in order along the edge
     std::map<FaceId, std::vector<std::size_t>>
         corners;           ///< of mapped faces: the four uses of the loop that start a side
+    std::set<FaceId> submapped; ///< faces whose counts are those of a grid of right angles
     std::set<FaceId> kept; ///< faces whose own quads are the mesh
     [[nodiscard]] int count(EdgeId edge) const;
     /// Fractions of the edge's nodes, both ends included.
@@ -54,7 +55,7 @@ struct Seeds {
 /// Opposite sides of mapped faces are raised to the larger count, a face at a time until nothing changes; then each free face with an
 /// odd total gets one more side on a rim edge of its own, or on an edge towards one.
 /// @throw NotSweepable  a face to be kept that has not quads all over, or whose rim has no node where the other end has a corner;
-///                      a face to be mapped that has not four sides; a face whose total cannot be made even; names them.
+///                      a face to be mapped that has neither four sides nor right angles alone; a face whose total cannot be made even; names them.
 Seeds seed_source(const topology::OpenVolume& volume, std::span<const Belt> belts, const SizeField& size,
                   QuadStyle style);
 

@@ -7,6 +7,7 @@
 #include <lacuna/surface/pave.h>
 #include <lacuna/surface/projector.h>
 #include <lacuna/surface/source_mesh.h>
+#include <lacuna/surface/submap.h>
 #include <lacuna/sweep/layers.h>
 #include <lacuna/sweep/mend.h>
 #include <lacuna/sweep/normals.h>
@@ -54,6 +55,15 @@ surface::PlanarQuadMesher mesher_of(const SweepOptions& options)
         return quads;
     };
     if (options.quads == Quads::gmsh) return options.quad_mesher ? given : surface::PlanarQuadMesher();
+    if (options.quads == Quads::mapped) {
+        return [](const surface::PlanarRegion& region, const RunContext& context) {
+            if (auto grid = surface::submap(region, context)) return std::move(*grid);
+            throw NotSweepable("surface.not_submapped",
+                               "a source face of right angles is to be mapped, and the grid its " +
+                                   std::to_string(region.points.size()) +
+                                   " boundary nodes enclose folds or overlaps; use quads = \"auto\"");
+        };
+    }
     const bool fall_back = options.quads != Quads::paved && options.quad_mesher;
     return [given, fall_back](const surface::PlanarRegion& region, const RunContext& context) {
         try {

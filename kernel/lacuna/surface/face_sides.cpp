@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/face_sides.h>
+
+#include <lacuna/surface/submap.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// Below this inner angle a vertex is a corner of a mapped face, above its opposite it is a reversal [degrees].
+constexpr double kCorner = 135;
+constexpr double kReversal = 225;
+/// A face with opposite sides more unlike than this is not mapped unless asked to: its quads would be as unlike.
+constexpr double kUnlike = 3;
+
+/// Inner angle of a face where use i of its loop starts [degrees].
+double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_t i)
+{
+    const std::vector<Index> before = use_points(model,
+                                                 loop.uses[(i + loop.uses.size() - 1) % loop.uses.size()]);
+    const std::vector<Index> after = use_points(model, loop.uses[i]);
+    const Index at = after.front();
+    Vec3 normal = Vec3::Zero();
+    for (const Triangle& t : model[face].triangles) {
+        // Facets on the two sides that meet here: the corner's own, also where the face comes by twice (a seam).
+        const bool touches = std::find(t.begin(), t.end(), at) != t.end();
+        const bool on_side = std::find(t.begin(), t.end(), after[1]) != t.end() ||
+                             std::find(t.begin(), t.end(), before[before.size() - 2]) != t.end();
+        if (!touches || !on_side) continue;
+        normal += (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+    }
+    const Vec3 out = model.at(after[1]) - model.at(at);
+    const Vec3 back = model.at(before[before.size() - 2]) - model.at(at);
+    const double angle = std::atan2(normal.stableNormalized().dot(out.cross(back)), out.dot(back)) * 180 /
+                         std::numbers::pi;
+    return angle < 0 ? angle + 360 : angle;
+}
+
+std::vector<EdgeId> side_edges(const Loop& loop, const std::vector<std::size_t>& corners, std::size_t side)
+{
+    std::vector<EdgeId> edges;
+    const std::size_t n = loop.uses.size();
+    for (std::size_t i = corners[side]; i != corners[(side + 1) % 4]; i = (i + 1) % n)
+        edges.push_back(loop.uses[i].edge);
+    return edges;
+}
+
+double length_of(const Model& model, const std::vector<EdgeId>& edges)
+{
+    return std::accumulate(edges.begin(), edges.end(), 0.0,
+                           [&](double sum, EdgeId e) { return sum + edge_length(model, e); });
+}
+
+} // namespace
+
+std::optional<std::vector<std::size_t>> four_corners(const Model& model, FaceId face)
+{
+    const std::vector<Loop>& loops = model[face].loops;
+    if (loops.size() != 1) return std::nullopt;
+    std::vector<std::size_t> corners;
+    for (std::size_t i = 0; i < loops[0].uses.size(); ++i) {
+        const double angle = inner_angle(model, face, loops[0], i);
+        if (angle > kReversal) return std::nullopt;
+        if (angle < kCorner) corners.push_back(i);
+    }
+    return corners.size() == 4 ? std::optional(corners) : std::nullopt;
+}
+
+std::vector<OppositeSides> opposite_sides(const Model& model, FaceId face,
+                                          const std::vector<std::size_t>& corners)
+{
+    const Loop& loop = model[face].loops[0];
+    return {{side_edges(loop, corners, 0), side_edges(loop, corners, 2)},
+            {side_edges(loop, corners, 1), side_edges(loop, corners, 3)}};
+}
+
+std::vector<OppositeSides> grid_sides(const Model& model, FaceId face)
+{
+    std::vector<OppositeSides> pairs;
+    int outer = 0;
+    for (const Loop& loop : model[face].loops) {
+        std::array<std::vector<EdgeId>, 4> along;
+        int heading = 0, turns = 0;
+        for (std::size_t i = 0; i < loop.uses.size(); ++i) {
+            const int quads = grid_quads(inner_angle(model, face, loop, i) * std::numbers::pi / 180);
+            if (quads == 0) return {};
+            turns += 2 - quads;
+            if (i > 0) heading = (heading + 2 - quads + 8) % 4;
+            along[static_cast<std::size_t>(heading)].push_back(loop.uses[i].edge);
+        }
+        if (turns != 4 && turns != -4) return {};
+        outer += turns == 4 ? 1 : 0;
+        pairs.push_back({along[0], along[2]});
+        pairs.push_back({along[1], along[3]});
+    }
+    return outer == 1 ? pairs : std::vector<OppositeSides>();
+}
+
+bool alike(const Model& model, const std::vector<OppositeSides>& pairs)
+{
+    return std::all_of(pairs.begin(), pairs.end(), [&](const OppositeSides& sides) {
+        const double a = length_of(model, sides[0]), b = length_of(model, sides[1]);
+        return std::max(a, b) <= kUnlike * std::min(a, b);
+    });
+}
+
+} // namespace lacuna::surface
