@@ -31,10 +31,11 @@ Cycle join_all(Draft& draft, std::vector<Cycle> loops)
 
 /// From what quality on a part of so many nodes is filled as it is. A cut costs irregular nodes, whatever the
 /// size of the part; a poor patch costs in every quad.
-double good_patch(std::size_t nodes)
+double good_patch(const Taste& taste, std::size_t nodes)
 {
-    constexpr double kLeast = 0.6, kMost = 0.9, kSlope = 0.2, kFrom = 32;
-    return std::clamp(kLeast + kSlope * std::log2(static_cast<double>(nodes) / kFrom), kLeast, kMost);
+    constexpr double kSlope = 0.2, kFrom = 32;
+    return std::clamp(taste.least_patch + kSlope * std::log2(static_cast<double>(nodes) / kFrom),
+                      taste.least_patch, taste.most_patch);
 }
 
 } // namespace
@@ -59,7 +60,7 @@ CoreCount fill_core(Draft& draft, const std::vector<Cycle>& loops, bool one_patc
         const std::vector<double> angles = angles_of(draft, cycle);
         const Fit fit = fit_patch(draft, cycle, angles);
         std::optional<Cut> cut;
-        if (!one_patch && fit.quality < good_patch(cycle.size())) cut = best_cut(draft, cycle, angles);
+        if (!one_patch && fit.quality < good_patch(draft.taste, cycle.size())) cut = best_cut(draft, cycle, angles);
         if (!cut && fit.quality > 0 && fill_patch(draft, cycle, fit.corners)) {
             ++count.patches;
             continue;

@@ -24,11 +24,11 @@ double angle_cost(double angle)
 }
 
 /// What a line costs that divides an angle: 0 where both parts suit whole quads and no quad is added.
-double end_cost(double whole, double part)
+double end_cost(double whole, double part, const Taste& taste)
 {
     const double rest = whole - part;
     const int added = quads_in(part) + quads_in(rest) - quads_in(whole);
-    return (angle_cost(part) + angle_cost(rest)) / 2 + std::abs(added);
+    return taste.corners * ((angle_cost(part) + angle_cost(rest)) / 2 + taste.added * std::abs(added));
 }
 
 /// Is the open segment from a to b free of the loop's sides?
@@ -198,11 +198,13 @@ private:
         if (edges == 1 && draft_.linked(cycle_[i], cycle_[j])) return std::nullopt;
         const double arc = arc_[j] - arc_[i];
         Choice choice{{i, j, edges}, 0};
-        choice.cost = end_cost(angles_[i], part_i) * ease(i) + end_cost(angles_[j], part_j) * ease(j) +
-                      length / std::min(arc, arc_[n_] - arc);
+        const Taste& taste = draft_.taste;
+        choice.cost = end_cost(angles_[i], part_i, taste) * ease(i) +
+                      end_cost(angles_[j], part_j, taste) * ease(j) +
+                      taste.length * length / std::min(arc, arc_[n_] - arc);
         const double ratio = std::abs(std::log2(static_cast<double>(edges) / wanted));
-        choice.cost += ratio * ratio / 2 + mismatch(choice.cut, part_i, part_j);
-        for (const std::size_t end : {i, j}) choice.cost -= angles_[end] > kBentAbove ? 0.5 : 0.0;
+        choice.cost += ratio * ratio / 2 + taste.mismatch * mismatch(choice.cut, part_i, part_j);
+        for (const std::size_t end : {i, j}) choice.cost -= angles_[end] > kBentAbove ? taste.bent : 0.0;
         return choice;
     }
 
@@ -337,7 +339,8 @@ std::optional<Bridge> best_bridge(const Draft& draft, const std::vector<Cycle>& 
         if (part_j >= angle_j) return std::nullopt;
         const double length = (q - p).norm();
         Bridge bridge{a, b, {i, j, 1}, 0};
-        bridge.cost = length * (1 + 0.3 * (end_cost(angle_i, part_i) + end_cost(angle_j, part_j)));
+        bridge.cost = length * (1 + 0.3 * (end_cost(angle_i, part_i, draft.taste) +
+                                           end_cost(angle_j, part_j, draft.taste)));
         const double wanted = length / local_size(draft, p, q);
         bridge.cut.edges = static_cast<std::size_t>(std::max(1L, std::lround(wanted)));
         return bridge;

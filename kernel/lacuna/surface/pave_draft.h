@@ -21,6 +21,17 @@ inline constexpr double kRightAngle = std::numbers::pi / 2;
 /// Node numbers in walking order, region on the left. A node may occur twice, where a cut was drawn.
 using Cycle = std::vector<Index>;
 
+/// What cuts are chosen by, as weights: none is best for all regions, so that small ones are filled in several ways.
+struct Taste {
+    double corners = 1;      ///< right angles between a cut and the outline
+    double added = 1;        ///< quads a cut adds at its ends
+    double length = 1;       ///< of a cut against the outline it takes off
+    double mismatch = 1;     ///< sides of a part that do not agree
+    double bent = 0.5;       ///< off for a cut that ends where the outline turns inward
+    double least_patch = 0.6; ///< from what quality on a small part is filled as it is [-]
+    double most_patch = 0.9;  ///< and a large one
+};
+
 /// The mesh being made. The first `fixed` points are the region's own.
 struct Draft {
     std::vector<Vec2> points;
@@ -30,7 +41,8 @@ struct Draft {
     double flat = 0; ///< quads with a smaller sine count as folded
     /// Single edges drawn between nodes that were there before: a second one between the same two would be
     /// no mesh.
-    std::unordered_set<std::uint64_t> links;
+    std::unordered_set<std::uint64_t> links{};
+    Taste taste{};
 
     static std::uint64_t link_key(Index a, Index b)
     {

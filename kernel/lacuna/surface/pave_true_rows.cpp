@@ -78,7 +78,7 @@ private:
 
     void raise(const Post& post)
     {
-        constexpr double kGood = 0.85;               ///< what a row may cost its neighbours
+        constexpr double kGood = 0.8;                ///< what a row may cost its neighbours
         constexpr double kHeight = 0.2, kLean = 0.2; ///< left as it is within this share of the height
         const Vec2 start = at(post.top), arm = start - at(post.foot);
         const Vec2 along(post.inward.y(), -post.inward.x());

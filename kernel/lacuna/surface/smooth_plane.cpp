@@ -78,7 +78,7 @@ public:
                 points_[p] = to;
                 if (length * length * step.squaredNorm() > kStill * kStill * side) {
                     ++moved;
-                    wake(p);
+                    wake(p, awake_);
                 }
                 break;
             }
@@ -86,9 +86,11 @@ public:
         return moved;
     }
 
-    /// Move the points of poor quads to where the least sine around is largest. @return whether any moved.
+    /// Move the points of poor quads to where the least sine around is largest; later only those with a neighbour
+    /// that moved. @return whether any moved.
     bool raise(double floor)
     {
+        if (restless_.empty()) restless_.assign(points_.size(), 1);
         std::vector<char> poor(points_.size(), 0);
         for (const Quad& quad : quads_) {
             if (scaled_jacobian(points_, quad) >= floor) continue;
@@ -96,7 +98,11 @@ public:
         }
         bool moved = false;
         for (std::size_t p = fixed_; p < points_.size(); ++p) {
-            if (poor[p] != 0 && raise_at(p)) moved = true;
+            if (poor[p] == 0 || restless_[p] == 0) continue;
+            restless_[p] = 0;
+            if (!raise_at(p)) continue;
+            moved = true;
+            wake(p, restless_);
         }
         return moved;
     }
@@ -112,12 +118,13 @@ public:
     }
 
 private:
-    void wake(std::size_t p)
+    /// Mark a point and its neighbours.
+    void wake(std::size_t p, std::vector<char>& marks) const
     {
-        awake_[p] = 1;
+        marks[p] = 1;
         for (const Spoke& spoke : stars_[p]) {
-            awake_[static_cast<std::size_t>(spoke.next)] = 1;
-            awake_[static_cast<std::size_t>(spoke.across)] = 1;
+            marks[static_cast<std::size_t>(spoke.next)] = 1;
+            marks[static_cast<std::size_t>(spoke.across)] = 1;
         }
     }
 
@@ -157,7 +164,8 @@ private:
     std::size_t fixed_;
     const SmoothPlaneOptions& options_;
     Stars stars_;
-    std::vector<char> awake_;
+    std::vector<char> awake_;    ///< points to be swept
+    std::vector<char> restless_; ///< points to be raised where quads are poor
     Areas areas_;
 };
 
