@@ -2,51 +2,17 @@
 #include <lacuna/surface/submap.h>
 
 #include <lacuna/surface/measure_plane.h>
-#include <lacuna/surface/pave_draft.h>
+#include <lacuna/surface/pave_rows.h>
+#include <lacuna/surface/pave_size.h>
 #include <lacuna/surface/smooth_plane.h>
+#include <lacuna/surface/submap_grid.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
 
 namespace lacuna::surface {
 namespace {
-
-using paving::cross;
-using paving::kRightAngle;
-using paving::turn_between;
-
-/// A node's place in the grid.
-using Spot = std::array<int, 2>;
-constexpr std::array<Spot, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-
-/// A loop with grid coordinates from (0, 0) on, its first side along the first axis.
-struct GridLoop {
-    std::vector<Index> nodes;
-    std::vector<Spot> spots;
-};
-
-/// @param turns  right angles a loop turns in all: 4 round an outer loop, -4 round a hole.
-std::optional<GridLoop> walk(const PlanarRegion& region, const std::vector<Index>& loop, int turns)
-{
-    GridLoop grid{loop, {}};
-    const std::size_t n = loop.size();
-    const auto at = [&](std::size_t i) { return region.points[static_cast<std::size_t>(loop[i % n])]; };
-    Spot spot{0, 0};
-    int heading = 0, sum = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const int quads = grid_quads(turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i)));
-        if (quads == 0) return std::nullopt;
-        sum += 2 - quads;
-        // The first side's heading is what the axes are named after.
-        if (i > 0) heading = (heading + 2 - quads + 8) % 4;
-        grid.spots.push_back(spot);
-        const Spot& step = kSteps[static_cast<std::size_t>(heading)];
-        spot = {spot[0] + step[0], spot[1] + step[1]};
-    }
-    if (sum != turns || spot != Spot{0, 0}) return std::nullopt;
-    return grid;
-}
 
 /// How many nodes the grid's outline turns at.
 std::size_t corner_count(const GridLoop& loop)
@@ -59,187 +25,81 @@ std::size_t corner_count(const GridLoop& loop)
     return count;
 }
 
-/// Grid coordinates at a point inside the outer loop, by mean values.
-Vec2 carried_inward(const PlanarRegion& region, const GridLoop& outer, const Vec2& p)
+/// Lay a row along every round loop. @return false where there is no room for one.
+bool row_round(paving::Draft& draft, std::vector<std::vector<Index>>& loops, const std::vector<bool>& round)
 {
-    const std::size_t n = outer.nodes.size();
-    const auto to = [&](std::size_t i) -> Vec2 {
-        return region.points[static_cast<std::size_t>(outer.nodes[i % n])] - p;
-    };
-    const auto half_tangent = [](const Vec2& a, const Vec2& b) {
-        return std::tan(std::atan2(cross(a, b), a.dot(b)) / 2);
-    };
-    Vec2 sum = Vec2::Zero();
-    double weights = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const double weight = (half_tangent(to(i + n - 1), to(i)) + half_tangent(to(i), to(i + 1))) / to(i).norm();
-        sum += weight * Vec2(outer.spots[i][0], outer.spots[i][1]);
-        weights += weight;
+    std::vector<bool> wanted = round;
+    paving::lay_rows(draft, loops, wanted, draft.size);
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        if (round[l] && (!wanted[l] || loops[l].size() % 2 != 0 || loops[l].size() < 8)) return false;
     }
-    return sum / weights;
+    return true;
 }
 
-Spot rotated(Spot spot, int quarters)
+/// Give the holes their places in an outer loop's grid. @return how far off they are, in sum.
+double settle_all(const std::vector<Vec2>& points, const std::vector<std::vector<Index>>& loops,
+                  const std::vector<bool>& round, std::vector<GridLoop>& grid)
 {
-    for (; quarters > 0; --quarters) spot = {-spot[1], spot[0]};
-    return spot;
+    double off = 0;
+    for (std::size_t l = 1; l < loops.size(); ++l) {
+        std::vector<Vec2> goal;
+        for (const Index p : loops[l])
+            goal.push_back(carried_inward(points, grid.front(), points[static_cast<std::size_t>(p)]));
+        if (!round[l]) {
+            off += settle(goal, grid[l]);
+            continue;
+        }
+        // Corners where they lie nearest to a square's.
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t start = 0; start < loops[l].size() / 2; ++start) {
+            GridLoop turned = with_corners(loops[l], start, false);
+            const double error = settle(goal, turned);
+            if (error >= least) continue;
+            least = error;
+            grid[l] = std::move(turned);
+        }
+        off += least;
+    }
+    return off;
 }
 
-/// Turn and move a hole's coordinates to where the outline's say it is.
-void settle(const PlanarRegion& region, const GridLoop& outer, GridLoop& hole)
+/// Grid coordinates of all loops; nothing where they do not close.
+std::optional<std::vector<GridLoop>> place_loops(const std::vector<Vec2>& points,
+                                                 const std::vector<std::vector<Index>>& loops,
+                                                 const std::vector<bool>& round)
 {
-    std::vector<Vec2> goal;
-    Vec2 middle = Vec2::Zero();
-    for (const Index p : hole.nodes) {
-        goal.push_back(carried_inward(region, outer, region.points[static_cast<std::size_t>(p)]));
-        middle += goal.back() / static_cast<double>(hole.nodes.size());
+    std::vector<GridLoop> grid(loops.size());
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        if (round[l]) continue;
+        auto walked = walk(points, loops[l], l == 0 ? 4 : -4);
+        if (!walked) return std::nullopt;
+        grid[l] = std::move(*walked);
     }
-    double best_error = std::numeric_limits<double>::infinity();
-    std::vector<Spot> best;
-    for (int quarter = 0; quarter < 4; ++quarter) {
-        std::vector<Spot> spots;
-        Vec2 mean = Vec2::Zero();
-        for (const Spot& spot : hole.spots) {
-            spots.push_back(rotated(spot, quarter));
-            mean += Vec2(spots.back()[0], spots.back()[1]) / static_cast<double>(hole.spots.size());
-        }
-        const Vec2 move = middle - mean;
-        const Spot by{static_cast<int>(std::lround(move.x())), static_cast<int>(std::lround(move.y()))};
-        double error = 0;
-        for (std::size_t i = 0; i < spots.size(); ++i) {
-            spots[i] = {spots[i][0] + by[0], spots[i][1] + by[1]};
-            error += (Vec2(spots[i][0], spots[i][1]) - goal[i]).squaredNorm();
-        }
-        if (error >= best_error) continue;
-        best_error = error;
-        best = std::move(spots);
+    if (!round[0]) {
+        settle_all(points, loops, round, grid);
+        return grid;
     }
-    hole.spots = std::move(best);
+    // A round outline may have its corners anywhere: where the holes fit best.
+    constexpr std::size_t kStarts = 8;
+    const std::size_t quarter = loops[0].size() / 4;
+    std::vector<GridLoop> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < (loops.size() > 1 ? kStarts : 1); ++k) {
+        grid[0] = with_corners(loops[0], k * quarter / kStarts, true);
+        std::vector<GridLoop> settled = grid;
+        const double off = settle_all(points, loops, round, settled);
+        if (off >= least) continue;
+        least = off;
+        best = std::move(settled);
+    }
+    return best;
 }
-
-/// The grid a region's loops enclose: which cells are in, and the node at every grid point.
-class Grid {
-public:
-    explicit Grid(const std::vector<GridLoop>& loops)
-    {
-        low_ = loops.front().spots.front();
-        Spot high = low_;
-        for (const GridLoop& loop : loops) {
-            for (const Spot& s : loop.spots) {
-                for (std::size_t k = 0; k < 2; ++k) {
-                    low_[k] = std::min(low_[k], s[k]);
-                    high[k] = std::max(high[k], s[k]);
-                }
-            }
-        }
-        width_ = high[0] - low_[0] + 1;
-        height_ = high[1] - low_[1] + 1;
-    }
-
-    /// @return false where the loops touch or overlap in the grid.
-    bool enclose(const std::vector<GridLoop>& loops)
-    {
-        node_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), -1);
-        // How often each cell is gone round: summed along its row over the sides that run up or down.
-        std::vector<int> change(node_.size(), 0);
-        for (const GridLoop& loop : loops) {
-            for (std::size_t i = 0, n = loop.spots.size(); i < n; ++i) {
-                const Spot &a = loop.spots[i], &b = loop.spots[(i + 1) % n];
-                Index& here = node_[place(a)];
-                if (here >= 0) return false;
-                here = loop.nodes[i];
-                // The region lies left of a side: leaving it to the right of one that runs up.
-                if (b[1] > a[1]) --change[place(a)];
-                if (b[1] < a[1]) ++change[place(b)];
-            }
-        }
-        in_.assign(node_.size(), 0);
-        for (int y = 0; y < height_; ++y) {
-            int around = 0;
-            for (int x = 0; x < width_; ++x) {
-                const std::size_t c = index(x, y);
-                around += change[c];
-                if (around != 0 && around != 1) return false;
-                in_[c] = static_cast<char>(around);
-            }
-        }
-        return true;
-    }
-
-    /// Number the inner grid points from `first` on. @return how many there are.
-    Index number_inner(Index first)
-    {
-        const Index start = first;
-        for (int y = 0; y + 1 < height_; ++y) {
-            for (int x = 0; x + 1 < width_; ++x) {
-                if (!in_[index(x, y)]) continue;
-                for (const std::size_t c : {index(x, y), index(x + 1, y), index(x + 1, y + 1), index(x, y + 1)})
-                    if (node_[c] < 0) node_[c] = first++;
-            }
-        }
-        return first - start;
-    }
-
-    [[nodiscard]] std::vector<Quad> quads() const
-    {
-        std::vector<Quad> result;
-        for (int y = 0; y + 1 < height_; ++y) {
-            for (int x = 0; x + 1 < width_; ++x) {
-                if (in_[index(x, y)])
-                    result.push_back({node_[index(x, y)], node_[index(x + 1, y)], node_[index(x + 1, y + 1)],
-                                      node_[index(x, y + 1)]});
-            }
-        }
-        return result;
-    }
-
-    /// Put each inner node between the boundary nodes of its row and of its column, the nearer pair counting more.
-    void place_inner(std::vector<Vec2>& points, Index fixed) const
-    {
-        std::vector<double> weight(points.size(), 0);
-        std::vector<Vec2> sum(points.size(), Vec2::Zero());
-        const auto along = [&](int lines, int length, const auto& at) {
-            for (int l = 0; l < lines; ++l) {
-                for (int a = 0; a < length; ++a) {
-                    if (at(l, a) < 0 || at(l, a) >= fixed) continue;
-                    int b = a + 1;
-                    while (b < length && at(l, b) >= fixed) ++b;
-                    if (b == length || at(l, b) < 0) continue;
-                    const Vec2 &from = points[static_cast<std::size_t>(at(l, a))],
-                               &to = points[static_cast<std::size_t>(at(l, b))];
-                    for (int k = a + 1; k < b; ++k) {
-                        const double t = static_cast<double>(k - a) / (b - a), w = 1.0 / ((b - a) * (b - a));
-                        const auto p = static_cast<std::size_t>(at(l, k));
-                        sum[p] += w * ((1 - t) * from + t * to);
-                        weight[p] += w;
-                    }
-                }
-            }
-        };
-        along(height_, width_, [&](int y, int x) { return node_[index(x, y)]; });
-        along(width_, height_, [&](int x, int y) { return node_[index(x, y)]; });
-        for (auto p = static_cast<std::size_t>(fixed); p < points.size(); ++p) {
-            if (weight[p] > 0) points[p] = sum[p] / weight[p];
-        }
-    }
-
-private:
-    [[nodiscard]] std::size_t index(int x, int y) const
-    {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-    }
-    [[nodiscard]] std::size_t place(const Spot& s) const { return index(s[0] - low_[0], s[1] - low_[1]); }
-
-    Spot low_{};
-    int width_ = 0, height_ = 0;
-    std::vector<Index> node_; ///< at each grid point, -1: none
-    std::vector<char> in_;    ///< whether the cell up and right of each grid point is in
-};
 
 } // namespace
 
 int grid_quads(double angle)
 {
+    using paving::kRightAngle;
     constexpr double kOff = kRightAngle * 4 / 9; // 40°: a sine of 0.77 left at a corner
     const int quads = paving::quads_in(angle);
     // A side is whatever no right angle is near to: outlines of few nodes bend by up to 45° at each.
@@ -249,22 +109,25 @@ int grid_quads(double angle)
 
 std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& context)
 {
-    std::vector<GridLoop> loops;
-    for (std::size_t l = 0; l < region.loops.size(); ++l) {
-        auto loop = walk(region, region.loops[l], l == 0 ? 4 : -4);
-        if (!loop) return std::nullopt;
-        if (l > 0) settle(region, loops.front(), *loop);
-        loops.push_back(std::move(*loop));
-    }
-    Grid grid(loops);
-    if (!grid.enclose(loops)) return std::nullopt;
-    const bool four_sided = loops.size() == 1 && corner_count(loops.front()) == 4;
-    PlanarQuads mesh{region.points, {}, four_sided ? "mapped" : "submapped"};
-    const auto fixed = static_cast<Index>(region.points.size());
-    mesh.points.resize(mesh.points.size() + static_cast<std::size_t>(grid.number_inner(fixed)), Vec2::Zero());
-    mesh.quads = grid.quads();
-    grid.place_inner(mesh.points, fixed);
-    smooth_plane(mesh.points, mesh.quads, region.points.size(), {.size = region.size}, context);
+    const std::size_t fixed = region.points.size();
+    paving::Draft draft{region.points, {}, fixed, paving::size_with_boundary(region), 0};
+    std::vector<std::vector<Index>> loops = region.loops;
+    std::vector<bool> round;
+    for (const auto& loop : loops) round.push_back(is_round(region.points, loop));
+    const bool rows = std::find(round.begin(), round.end(), true) != round.end();
+    if (rows && !row_round(draft, loops, round)) return std::nullopt;
+    const auto grid_loops = place_loops(draft.points, loops, round);
+    if (!grid_loops) return std::nullopt;
+    Grid grid(*grid_loops);
+    if (!grid.enclose(*grid_loops)) return std::nullopt;
+    const bool four_sided = !rows && loops.size() == 1 && corner_count(grid_loops->front()) == 4;
+    PlanarQuads mesh{std::move(draft.points), std::move(draft.quads), four_sided ? "mapped" : "submapped"};
+    const auto first = static_cast<Index>(mesh.points.size());
+    mesh.points.resize(mesh.points.size() + static_cast<std::size_t>(grid.number_inner(first)), Vec2::Zero());
+    grid.place_inner(mesh.points, first);
+    const std::vector<Quad> cells = grid.quads();
+    mesh.quads.insert(mesh.quads.end(), cells.begin(), cells.end());
+    smooth_plane(mesh.points, mesh.quads, fixed, {.size = draft.size}, context);
     if (!find_fault(mesh, region).empty()) return std::nullopt;
     return mesh;
 }
