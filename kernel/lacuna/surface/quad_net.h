@@ -36,12 +36,8 @@ public:
     {
         return opposite(out_[static_cast<std::size_t>(point)]) < 0;
     }
-    [[nodiscard]] int valence(Index point) const
-    {
-        int count = 0;
-        for_sides(point, [&](Index) { ++count; });
-        return count;
-    }
+    /// Quads at a point.
+    [[nodiscard]] int valence(Index point) const { return valence_[static_cast<std::size_t>(point)]; }
     /// Call `visit(side)` with the side that leaves the point in each of its quads, counter-clockwise.
     template <class Visit>
     void for_sides(Index point, const Visit& visit) const
@@ -58,6 +54,7 @@ public:
     Index add_point()
     {
         out_.push_back(-1);
+        valence_.push_back(0);
         return static_cast<Index>(out_.size()) - 1;
     }
     /// Put quads in the place of others with the same outline. @return the new quads' numbers.
@@ -70,6 +67,7 @@ private:
     std::vector<Index> opposite_;
     std::vector<Index>
         out_; ///< a side that leaves each point; on the boundary the first counter-clockwise; -1: no quad
+    std::vector<int> valence_;
     std::vector<Index> free_;
 };
 
