@@ -174,7 +174,9 @@ std::vector<Cut> find_cuts(std::span<const Vec2> loop, std::span<const std::size
     const CutRanker ranker(loop);
     // Between the two sides cut there are one or three corners: a part of four sides, a strip, mends nothing.
     const std::size_t between = n / 2 - (n == 4 ? 1 : 0);
-    for (std::size_t side = 0; side < n; ++side) {
+    // Sides opposite each other are a pair once.
+    const std::size_t pairs = 2 * between == n ? n / 2 : n;
+    for (std::size_t side = 0; side < pairs; ++side) {
         const std::size_t other = (side + between) % n;
         const PieceBounds bounds(lengths, side, between);
         for (int a = 1; a < lengths.side[side]; ++a) {
@@ -186,7 +188,7 @@ std::vector<Cut> find_cuts(std::span<const Vec2> loop, std::span<const std::size
             }
         }
     }
-    const auto best = found.begin() + static_cast<std::ptrdiff_t>(std::min(most, found.size()));
+    const auto best = found.begin() + static_cast<std::ptrdiff_t>(std::min(2 * between == n ? (most + 1) / 2 : most, found.size()));
     std::partial_sort(found.begin(), best, found.end(),
                       [](const Cut& x, const Cut& y) { return x.fault < y.fault; });
     found.erase(best, found.end());
