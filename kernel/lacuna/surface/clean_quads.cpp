@@ -42,9 +42,9 @@ public:
     /// Look at everything again, with so much care.
     void begin(const Care& care)
     {
+        if (care.hopeless > care_.hopeless) tried_.clear();
         care_ = care;
         due_.assign(mesh_.points().size(), 1);
-        tried_.clear();
     }
     /// @return patches filled anew
     std::size_t pass(CleanReport& report, const RunContext& context);
@@ -60,7 +60,8 @@ private:
     Care care_ = kCares[0];
     long budget_ = 0;
     std::vector<char> due_;                   ///< points to be looked at, if irregular
-    std::unordered_set<std::uint64_t> tried_; ///< patches that were filled for trial
+    std::unordered_set<std::uint64_t> tried_; ///< patches that were filled for trial with no less patience
+    std::unordered_set<std::uint64_t> poor_;  ///< fillings of patches that were smoothed to the end in vain
     std::vector<Vec2> loop_;
 };
 
@@ -77,10 +78,14 @@ bool Cleaner::fill_anew(const Patch& patch, CleanReport& report)
     const std::vector<Index>& around = grower_.rings(kRings);
     trial_.set_patch(patch, around);
     for (const Cut& cut : cuts) {
+        const std::uint64_t filled = key + mixed(cut.from) + mixed((cut.to << 32) + static_cast<std::size_t>(cut.pieces));
+        if (poor_.contains(filled)) continue;
         const Filling filling = fill(loop_, patch.corners, cut);
         budget_ -= static_cast<long>(filling.quads.size() + around.size());
         ++report.tried;
-        if (!trial_.run(filling, care_.sweeps, care_.hopeless)) continue;
+        const Verdict verdict = trial_.run(filling, care_.sweeps, care_.hopeless);
+        if (verdict == Verdict::poor) poor_.insert(filled);
+        if (verdict != Verdict::good) continue;
         due_.resize(mesh_.points().size(), 1);
         ++report.patches;
         return true;

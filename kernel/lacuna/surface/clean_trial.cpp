@@ -44,14 +44,14 @@ void Trial::set_patch(const Patch& patch, std::span<const Index> around)
     }
 }
 
-bool Trial::run(const Filling& filling, int sweeps, double hopeless)
+Verdict Trial::run(const Filling& filling, int sweeps, double hopeless)
 {
     const double allowed = loss_ + kLossForgiven * (patch_->irregular - filling.irregular);
-    if (!settles(filling, sweeps, hopeless * allowed)) return false;
+    if (!settles(filling, sweeps, hopeless * allowed)) return Verdict::hopeless;
     number_points();
-    if (!fits(filling, allowed)) return false;
+    if (!fits(filling, allowed)) return Verdict::poor;
     put_in(filling);
-    return true;
+    return Verdict::good;
 }
 
 /// Is the loss of the first so many quads, and of those around as they are, larger?

@@ -12,6 +12,13 @@
 
 namespace lacuna::surface::cleaning {
 
+/// What became of a filling.
+enum class Verdict {
+    hopeless, ///< given up early
+    poor,     ///< smoothed with what is around, and not good
+    good      ///< put into the mesh; the patch is gone
+};
+
 /// Smooths fillings of one patch after the other with what is around, and puts the good ones into the mesh.
 class Trial {
 public:
@@ -25,8 +32,7 @@ public:
     ///
     /// It is judged three times: as it is, after a few sweeps over its own points, and smoothed together with what is around.
     /// @param hopeless  given up the first times where the loss is so many times what is allowed
-    /// @return whether it was put in; the patch is gone then
-    bool run(const Filling& filling, int sweeps, double hopeless);
+    Verdict run(const Filling& filling, int sweeps, double hopeless);
 
 private:
     bool settles(const Filling& filling, int sweeps, double most);

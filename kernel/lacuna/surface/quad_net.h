@@ -22,15 +22,20 @@ public:
     [[nodiscard]] std::size_t points() const { return out_.size(); }
     [[nodiscard]] bool is_used(Index point) const { return out_[static_cast<std::size_t>(point)] >= 0; }
     [[nodiscard]] bool is_live(Index q) const { return quad(q)[0] >= 0; }
-    [[nodiscard]] Index from(Index side) const { return quad(side / 4)[static_cast<std::size_t>(side % 4)]; }
+    [[nodiscard]] Index from(Index side) const
+    {
+        const auto i = static_cast<std::size_t>(side);
+        return quads_[i / 4][i % 4];
+    }
     [[nodiscard]] Index to(Index side) const
     {
-        return quad(side / 4)[static_cast<std::size_t>((side + 1) % 4)];
+        const auto i = static_cast<std::size_t>(side);
+        return quads_[i / 4][(i + 1) % 4];
     }
     /// The same side in the neighbour, or -1.
     [[nodiscard]] Index opposite(Index side) const { return opposite_[static_cast<std::size_t>(side)]; }
-    [[nodiscard]] static Index before(Index side) { return side - side % 4 + (side + 3) % 4; }
-    [[nodiscard]] static Index after(Index side) { return side - side % 4 + (side + 1) % 4; }
+    [[nodiscard]] static Index before(Index side) { return (side & ~3) + ((side + 3) & 3); }
+    [[nodiscard]] static Index after(Index side) { return (side & ~3) + ((side + 1) & 3); }
 
     [[nodiscard]] bool on_boundary(Index point) const
     {
