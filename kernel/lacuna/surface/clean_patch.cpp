@@ -147,16 +147,20 @@ const std::vector<Index>& PatchGrower::rings(int layers)
     rings_.clear();
     front_ = patch_.loop;
     in_rings_.clear(net.quad_slots());
+    passed_.clear(net.points());
     for (int ring = 0; ring < layers; ++ring) {
         const std::size_t first = rings_.size();
         for (const Index p : front_) {
+            passed_.add(p);
             net.for_sides(p, [&](Index side) {
                 if (!in_patch_.has(side / 4) && in_rings_.add(side / 4)) rings_.push_back(side / 4);
             });
         }
         front_.clear();
         for (std::size_t i = first; i < rings_.size(); ++i) {
-            for (const Index p : net.quad(rings_[i])) front_.push_back(p);
+            for (const Index p : net.quad(rings_[i])) {
+                if (passed_.add(p)) front_.push_back(p);
+            }
         }
     }
     return rings_;

@@ -53,7 +53,7 @@ private:
 
     const CleanMesh& mesh_;
     Patch patch_;
-    Marks in_patch_, in_rings_;
+    Marks in_patch_, in_rings_, passed_;
     Numbers count_;  ///< quads of the patch at each point
     Numbers parent_; ///< of points seen: the next on the way back to the seed
     Numbers next_;   ///< of points on the outline

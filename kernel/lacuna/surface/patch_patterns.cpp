@@ -13,7 +13,14 @@ using Chain = std::vector<Index>; ///< point numbers along a line, both ends inc
 
 class Filler {
 public:
-    explicit Filler(std::span<const Vec2> loop) : points_(loop.begin(), loop.end()) {}
+    explicit Filler(std::span<const Vec2> loop)
+    {
+        // A patch as long as wide has this many points; others have fewer, as a rule.
+        const std::size_t most = (loop.size() / 4 + 1) * (loop.size() / 4 + 1);
+        points_.reserve(loop.size() + most);
+        points_.assign(loop.begin(), loop.end());
+        quads_.reserve(most);
+    }
 
     /// @pre  it can be filled without a cut
     void fill(const std::vector<Chain>& sides, bool is_cut)
@@ -97,7 +104,12 @@ private:
         if (m == 0 || n == 0) return;
         Chain row = bottom;
         for (std::size_t j = 1; j <= n; ++j) {
-            Chain next = j == n ? top : Chain{left[j]};
+            Chain next;
+            next.reserve(m + 1);
+            if (j == n)
+                next = top;
+            else
+                next.push_back(left[j]);
             const double t = static_cast<double>(j) / static_cast<double>(n);
             for (std::size_t i = 1; j < n && i < m; ++i) {
                 const double s = static_cast<double>(i) / static_cast<double>(m);
