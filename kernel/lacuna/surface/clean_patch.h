@@ -54,11 +54,11 @@ private:
     const CleanMesh& mesh_;
     Patch patch_;
     Marks in_patch_, in_rings_, passed_;
-    Numbers count_;  ///< quads of the patch at each point
-    Numbers parent_; ///< of points seen: the next on the way back to the seed
-    Numbers next_;   ///< of points on the outline
-    Index start_ = -1;           ///< a point on the outline
-    std::size_t sides_ = 0;      ///< of the outline
+    Numbers count_;         ///< quads of the patch at each point
+    Numbers parent_;        ///< of points seen: the next on the way back to the seed
+    Numbers next_;          ///< of points on the outline
+    Index start_ = -1;      ///< a point on the outline
+    std::size_t sides_ = 0; ///< of the outline
     std::vector<Index> seen_points_, others_, rings_, front_;
 };
 

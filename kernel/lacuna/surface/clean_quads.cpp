@@ -78,7 +78,8 @@ bool Cleaner::fill_anew(const Patch& patch, CleanReport& report)
     const std::vector<Index>& around = grower_.rings(kRings);
     trial_.set_patch(patch, around);
     for (const Cut& cut : cuts) {
-        const std::uint64_t filled = key + mixed(cut.from) + mixed((cut.to << 32) + static_cast<std::size_t>(cut.pieces));
+        const std::uint64_t filled = key + mixed(cut.from) +
+                                     mixed((cut.to << 32) + static_cast<std::size_t>(cut.pieces));
         if (poor_.contains(filled)) continue;
         const Filling filling = fill(loop_, patch.corners, cut);
         budget_ -= static_cast<long>(filling.quads.size() + around.size());

@@ -53,8 +53,8 @@ private:
     // Of the filling.
     std::vector<Vec2> points_, inner_;
     std::vector<Quad> quads_;
-    Marks in_reach_;               ///< quads of the patch and around
-    Numbers number_;               ///< in `points_`
+    Marks in_reach_;                      ///< quads of the patch and around
+    Numbers number_;                      ///< in `points_`
     std::vector<Index> staying_, moving_; ///< points of the patch's loop and around
 };
 

@@ -188,7 +188,8 @@ std::vector<Cut> find_cuts(std::span<const Vec2> loop, std::span<const std::size
             }
         }
     }
-    const auto best = found.begin() + static_cast<std::ptrdiff_t>(std::min(2 * between == n ? (most + 1) / 2 : most, found.size()));
+    const auto best = found.begin() + static_cast<std::ptrdiff_t>(
+                                          std::min(2 * between == n ? (most + 1) / 2 : most, found.size()));
     std::partial_sort(found.begin(), best, found.end(),
                       [](const Cut& x, const Cut& y) { return x.fault < y.fault; });
     found.erase(best, found.end());

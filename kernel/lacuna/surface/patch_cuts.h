@@ -39,7 +39,8 @@ struct Cut {
 /// @param loop     in order, the patch on the left
 /// @param corners  places in the loop, rising
 /// @note  Which cuts there are follows from the numbers of sides alone; places only rank them.
-std::vector<Cut> find_cuts(std::span<const Vec2> loop, std::span<const std::size_t> corners, std::size_t most);
+std::vector<Cut> find_cuts(std::span<const Vec2> loop, std::span<const std::size_t> corners,
+                           std::size_t most);
 
 /// Irregular points at most of what the cuts of `find_cuts()` give, where it finds one; a large number for other numbers of
 /// corners.

@@ -8,7 +8,8 @@
 
 namespace lacuna::surface {
 
-QuadNet::QuadNet(std::size_t points, std::vector<Quad> quads) : quads_(std::move(quads)), out_(points, -1), valence_(points, 0)
+QuadNet::QuadNet(std::size_t points, std::vector<Quad> quads)
+    : quads_(std::move(quads)), out_(points, -1), valence_(points, 0)
 {
     opposite_ = mesh::opposite_sides(quads_, static_cast<Index>(points));
     for (std::size_t side = 0; side < opposite_.size(); ++side) {
