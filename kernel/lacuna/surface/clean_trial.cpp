@@ -140,13 +140,14 @@ bool Trial::fits(const Filling& filling, double allowed)
     smoothing_.sweeps = kSweeps;
     smoothing_.repairs = kRepairs;
     smooth_plane(points_, quads_, staying_.size(), smoothing_);
-    double loss = 0, least = 1;
+    const double bound = std::min(least_, options_.least);
+    double loss = 0;
     for (const Quad& quad : quads_) {
         const QuadLoss of = loss_of(points_, quad, options_);
         loss += of.loss;
-        least = std::min(least, of.jacobian);
+        if (!(of.jacobian > 0) || of.jacobian < bound || !(loss <= allowed)) return false;
     }
-    return least > 0 && least >= std::min(least_, options_.least) && loss <= allowed;
+    return true;
 }
 
 void Trial::put_in(const Filling& filling)

@@ -45,7 +45,7 @@ bool needs_no_cut(const SideLengths& lengths)
 
 /// Numbers of pieces, both ends included.
 struct Pieces {
-    int low = 1, high = std::numeric_limits<int>::max();
+    int low, high;
 };
 
 /// For cuts between two sides of a patch, the numbers of pieces that leave two parts to be filled without another cut.
@@ -66,21 +66,33 @@ public:
         add(second, n - between, 0);
     }
 
-    [[nodiscard]] Pieces at(int a, int b) const
+    /// For one a: the tightest of those that rise with b, and of those that fall.
+    struct Row {
+        std::array<int, 2> low, high;
+
+        [[nodiscard]] Pieces at(int b) const
+        {
+            return {std::max({1, low[0] - b, low[1] + b}), std::min(high[0] - b, high[1] + b)};
+        }
+    };
+    [[nodiscard]] Row row(int a) const
     {
-        Pieces pieces;
+        Row row{{-kFar, -kFar}, {kFar, kFar}};
         for (std::size_t i = 0; i < count_; ++i) {
             const Bound& bound = bounds_[i];
-            const int value = bound.constant + bound.a * a + bound.b * b;
+            const int value = bound.constant + bound.a * a;
+            const std::size_t rises = bound.b > 0 ? 1 : 0;
             if (bound.is_low)
-                pieces.low = std::max(pieces.low, value);
+                row.low[rises] = std::max(row.low[rises], value);
             else
-                pieces.high = std::min(pieces.high, value);
+                row.high[rises] = std::min(row.high[rises], value);
         }
-        return pieces;
+        return row;
     }
 
 private:
+    static constexpr int kFar = std::numeric_limits<int>::max() / 2; ///< more than any sum of sides
+
     struct Bound {
         int constant = 0, a = 0, b = 0;
         bool is_low = false;
@@ -180,16 +192,18 @@ std::vector<Cut> find_cuts(std::span<const Vec2> loop, std::span<const std::size
         const std::size_t other = (side + between) % n;
         const PieceBounds bounds(lengths, side, between);
         for (int a = 1; a < lengths.side[side]; ++a) {
+            const PieceBounds::Row row = bounds.row(a);
             for (int b = 1; b < lengths.side[other]; ++b) {
-                const Pieces pieces = bounds.at(a, b);
+                const Pieces pieces = row.at(b);
                 if (pieces.low > pieces.high) continue;
                 ranker.add((corners[side] + static_cast<std::size_t>(a)) % loop.size(),
                            (corners[other] + static_cast<std::size_t>(b)) % loop.size(), pieces, found);
             }
         }
     }
-    const auto best = found.begin() + static_cast<std::ptrdiff_t>(
-                                          std::min(2 * between == n ? (most + 1) / 2 : most, found.size()));
+    // Sides opposite each other have half as many cuts, and as many fewer of them are worth a look.
+    const std::size_t kept = std::min(pairs < n ? (most + 1) / 2 : most, found.size());
+    const auto best = found.begin() + static_cast<std::ptrdiff_t>(kept);
     std::partial_sort(found.begin(), best, found.end(),
                       [](const Cut& x, const Cut& y) { return x.fault < y.fault; });
     found.erase(best, found.end());

@@ -34,7 +34,7 @@ struct Cut {
     double fault = 0; ///< the less, the straighter and squarer
 };
 
-/// The cuts with which a loop of two to six corners is filled with the fewest irregular points, at most `most`, the
+/// The cuts with which a loop of two to six corners is filled with the fewest irregular points, at most `most` (half of that between sides opposite each other), the
 /// likeliest first: straight and square to the sides where it may be. One "cut" of no pieces where none is needed.
 /// @param loop     in order, the patch on the left
 /// @param corners  places in the loop, rising
