@@ -11,9 +11,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <vector>
 
 using namespace lacuna;
@@ -35,6 +37,15 @@ std::vector<Vec2> outline(const std::vector<int>& sides, std::vector<std::size_t
             loop.push_back(corner(i) + (corner(i + 1) - corner(i)) * k / sides[i]);
     }
     return loop;
+}
+
+std::vector<surface::Filling> fillings(const std::vector<Vec2>& loop, const std::vector<std::size_t>& corners,
+                                       std::size_t most)
+{
+    std::vector<surface::Filling> made;
+    for (const surface::Cut& cut : surface::find_cuts(loop, corners, most))
+        made.push_back(surface::fill(loop, corners, cut));
+    return made;
 }
 
 /// A filling uses every side of its loop once, others twice, and has one quad at a corner, two elsewhere on the loop.
@@ -75,7 +86,7 @@ TEST_CASE("patches of three to six sides are filled with as few irregular points
         for (bool more = true; more;) {
             std::vector<std::size_t> corners;
             const std::vector<Vec2> loop = outline(sides, corners);
-            const auto found = surface::fillings(loop, corners, 3);
+            const auto found = fillings(loop, corners, 3);
             const int promised = surface::fewest_irregular(loop.size(), corners);
             for (const surface::Filling& filling : found) {
                 check_filling(loop, corners, filling);
@@ -97,18 +108,18 @@ TEST_CASE("fillings of a rectangle are grids, and of two sides or lengths that d
     for (const int m : {1, 3, 6}) {
         std::vector<std::size_t> corners;
         const std::vector<Vec2> loop = outline({m, 4, m, 4}, corners);
-        const auto grid = surface::fillings(loop, corners, 3);
+        const auto grid = fillings(loop, corners, 3);
         REQUIRE(grid.size() == 1);
         CHECK(grid[0].irregular == 0);
         CHECK(grid[0].quads.size() == static_cast<std::size_t>(4 * m));
     }
     std::vector<std::size_t> corners;
     const std::vector<Vec2> loop = outline({5, 5, 6, 6}, corners);
-    for (const auto& filling : surface::fillings(loop, corners, 3)) {
+    for (const auto& filling : fillings(loop, corners, 3)) {
         check_filling(loop, corners, filling);
         CHECK(filling.irregular == 2);
     }
-    CHECK_FALSE(surface::fillings(loop, corners, 3).empty());
+    CHECK_FALSE(fillings(loop, corners, 3).empty());
 }
 
 TEST_CASE("quads over the named domains lose half of their irregular points and none of their quality")
@@ -133,6 +144,55 @@ TEST_CASE("quads over the named domains lose half of their irregular points and 
         CHECK(after.mean_scaled_jacobian >= before.mean_scaled_jacobian);
     }
     CHECK(2 * all_after <= all_before);
+}
+
+TEST_CASE("a patch is cut in each way once, the straightest and squarest first")
+{
+    for (const std::vector<int>& sides : {std::vector<int>{5, 5, 6, 6},
+                                          {4, 3, 5, 6},
+                                          {3, 3, 3, 3, 4, 4},
+                                          {2, 3, 4, 5, 4, 4},
+                                          {3, 5, 3, 4, 2, 5}}) {
+        std::vector<std::size_t> corners;
+        const std::vector<Vec2> loop = outline(sides, corners);
+        const auto cuts = surface::find_cuts(loop, corners, 1000);
+        REQUIRE_FALSE(cuts.empty());
+        std::set<std::array<std::size_t, 3>> seen;
+        for (std::size_t i = 0; i < cuts.size(); ++i) {
+            const auto [from, to] = std::minmax(cuts[i].from, cuts[i].to);
+            CHECK(seen.insert({from, to, static_cast<std::size_t>(cuts[i].pieces)}).second);
+            if (i > 0) CHECK(cuts[i - 1].fault <= cuts[i].fault);
+        }
+    }
+}
+
+TEST_CASE("no quad becomes worse than the worst there was, or than the least that was asked for")
+{
+    std::size_t changed = 0;
+    for (const test::PlaneDomain& domain : test::plane_domains()) {
+        CAPTURE(domain.name);
+        const test::SeededDomain seeded = test::seed_domain(domain, 300);
+        const std::size_t fixed = seeded.region.points.size();
+        surface::PlanarQuads start = test::midpoint_quads(seeded.region, {});
+        surface::smooth_plane(start.points, start.quads, fixed);
+        const double before = surface::measure_plane(start, seeded.region).min_scaled_jacobian;
+        for (const double least : {0.0, 0.3, 0.6, 1.0}) {
+            for (const bool sized : {false, true}) {
+                CAPTURE(least);
+                CAPTURE(sized);
+                surface::PlanarQuads mesh = start;
+                surface::CleanOptions options;
+                options.least = least;
+                if (sized) options.size = seeded.region.size;
+                const surface::CleanReport report = surface::clean_quads(mesh, fixed, options);
+                CHECK(report.doublets == 0); // else two quads with a straight angle or more are one now
+                const surface::PlaneQuality after = surface::measure_plane(mesh, seeded.region);
+                CHECK(after.min_scaled_jacobian >= std::min(before, least));
+                changed += report.patches;
+            }
+        }
+    }
+    CHECK(changed > 0);
 }
 
 TEST_CASE("points with two quads go")

@@ -41,19 +41,27 @@ class Numbers {
 public:
     void clear(std::size_t count)
     {
-        value_.resize(count, 0);
-        known_.clear(count);
+        of_.resize(count);
+        ++now_;
     }
     Index& operator[](Index i)
     {
-        if (known_.add(i)) value_[static_cast<std::size_t>(i)] = 0;
-        return value_[static_cast<std::size_t>(i)];
+        Entry& entry = of_[static_cast<std::size_t>(i)];
+        if (entry.known != now_) entry = {now_, 0};
+        return entry.value;
     }
-    [[nodiscard]] bool has(Index i) const { return known_.has(i); }
+    [[nodiscard]] bool has(Index i) const
+    {
+        return static_cast<std::size_t>(i) < of_.size() && of_[static_cast<std::size_t>(i)].known == now_;
+    }
 
 private:
-    std::vector<Index> value_;
-    Marks known_;
+    struct Entry {
+        unsigned known = 0;
+        Index value = 0;
+    };
+    std::vector<Entry> of_;
+    unsigned now_ = 0;
 };
 
 /// For sets of numbers, the order of which does not count.

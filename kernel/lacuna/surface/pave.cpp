@@ -102,18 +102,26 @@ double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
            quality.size_share() / 2 + quality.row_share() / 4 - 2 * quality.irregular_share();
 }
 
-/// Try the grid of a region of right angles. @return whether it is so good that nothing else need be tried.
-bool submapped(const PlanarRegion& region, const PaveOptions& options, Attempt& attempt,
-               const RunContext& context)
+/// The grid of a region of right angles, as an attempt like others.
+Attempt try_submap(const PlanarRegion& region, const PaveOptions& options, bool round_loops,
+                   const RunContext& context)
 {
-    auto mesh = submap(region, context);
-    if (!mesh) return false;
+    Attempt attempt;
+    auto mesh = submap(region, round_loops, context);
+    if (!mesh) return attempt;
     attempt.mesh = std::move(*mesh);
     attempt.report.used = attempt.mesh.how;
     attempt.report.mapped = 1;
     true_rows(attempt.mesh, region, options.row_height ? options.row_height : size_with_boundary(region));
     judge(attempt);
+    return attempt;
+}
+
+/// Is a grid so good that nothing else need be tried?
+bool is_good_grid(const Attempt& attempt, const PlanarRegion& region)
+{
     constexpr double kGood = 0.6, kOfSize = 0.95;
+    if (attempt.worst < kGood) return false;
     const PlaneQuality quality = measure_plane(attempt.mesh, region);
     return quality.min_scaled_jacobian > kGood && quality.size_share() > kOfSize;
 }
@@ -131,28 +139,32 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
     Attempt best;
     double best_score = -2;
     std::size_t made_in_all = 0;
-    const auto attempt = [&](RowStyle style, const Taste& taste = {}) {
-        Attempt made = try_pave(region, options, style, taste, flat, context);
+    const auto consider = [&](Attempt made) {
         made_in_all += made.mesh.quads.size();
         if (made.worst > 0 && !find_fault(made.mesh, region).empty()) made.worst = -1;
-        if (made.worst <= flat)
-            log_line(context, "quads fold near " + place_of(made.where) + ": paving differently");
         const double score = made.worst > flat ? score_of(made.mesh, region) : made.worst;
         if (score <= best_score) return;
         best_score = score;
         best = std::move(made);
     };
-    if (options.rows < 0 && submapped(region, options, best, context)) {
+    const auto attempt = [&](RowStyle style, const Taste& taste = {}) {
+        Attempt made = try_pave(region, options, style, taste, flat, context);
+        if (made.worst <= flat)
+            log_line(context, "quads fold near " + place_of(made.where) + ": paving differently");
+        consider(std::move(made));
+    };
+    if (options.rows < 0) consider(try_submap(region, options, false, context));
+    if (is_good_grid(best, region)) {
         if (options.report) *options.report = best.report;
         return std::move(best.mesh);
     }
-    if (best.worst > flat) best_score = score_of(best.mesh, region);
     const auto is_few = [&] { return options.rows < 0 && best.mesh.quads.size() <= kFew; };
     attempt(RowStyle::by_shape);
     if (best.worst <= flat) attempt(RowStyle::buffer);
     for (const RowStyle style : {RowStyle::none, RowStyle::thin}) {
         if (best.worst <= 0 || is_few()) attempt(style);
     }
+    if (is_few()) consider(try_submap(region, options, true, context));
     constexpr double kGoodEnough = 2.94; // of 2.95
     for (const Taste& taste : kTastes) {
         if (best.worst > flat && is_few() && made_in_all < kMostMade && best_score < kGoodEnough)

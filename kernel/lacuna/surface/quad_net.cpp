@@ -8,12 +8,14 @@
 
 namespace lacuna::surface {
 
-QuadNet::QuadNet(std::size_t points, std::vector<Quad> quads) : quads_(std::move(quads)), out_(points, -1)
+QuadNet::QuadNet(std::size_t points, std::vector<Quad> quads)
+    : quads_(std::move(quads)), out_(points, -1), valence_(points, 0)
 {
     opposite_ = mesh::opposite_sides(quads_, static_cast<Index>(points));
     for (std::size_t side = 0; side < opposite_.size(); ++side) {
         const auto p = static_cast<std::size_t>(quads_[side / 4][side % 4]);
         if (out_[p] < 0 || opposite_[side] < 0) out_[p] = static_cast<Index>(side);
+        ++valence_[p];
     }
 }
 
@@ -37,7 +39,10 @@ std::vector<Index> QuadNet::replace(std::span<const Index> removed, std::span<co
     };
     std::vector<Link> outline; // sides outside that met the removed quads, as those ran
     for (const Index q : removed) {
-        for (const Index p : quad(q)) out_[static_cast<std::size_t>(p)] = -1;
+        for (const Index p : quad(q)) {
+            out_[static_cast<std::size_t>(p)] = -1;
+            --valence_[static_cast<std::size_t>(p)];
+        }
     }
     for (const Index q : removed) {
         for (Index side = 4 * q; side < 4 * q + 4; ++side)
@@ -65,6 +70,7 @@ std::vector<Index> QuadNet::replace(std::span<const Index> removed, std::span<co
         for (Index side = 4 * q; side < 4 * q + 4; ++side) {
             sides.push_back({from(side), to(side), side});
             out_[static_cast<std::size_t>(from(side))] = side;
+            ++valence_[static_cast<std::size_t>(from(side))];
         }
     }
     std::sort(sides.begin(), sides.end(), less);

@@ -22,26 +22,27 @@ public:
     [[nodiscard]] std::size_t points() const { return out_.size(); }
     [[nodiscard]] bool is_used(Index point) const { return out_[static_cast<std::size_t>(point)] >= 0; }
     [[nodiscard]] bool is_live(Index q) const { return quad(q)[0] >= 0; }
-    [[nodiscard]] Index from(Index side) const { return quad(side / 4)[static_cast<std::size_t>(side % 4)]; }
+    [[nodiscard]] Index from(Index side) const
+    {
+        const auto i = static_cast<std::size_t>(side);
+        return quads_[i / 4][i % 4];
+    }
     [[nodiscard]] Index to(Index side) const
     {
-        return quad(side / 4)[static_cast<std::size_t>((side + 1) % 4)];
+        const auto i = static_cast<std::size_t>(side);
+        return quads_[i / 4][(i + 1) % 4];
     }
     /// The same side in the neighbour, or -1.
     [[nodiscard]] Index opposite(Index side) const { return opposite_[static_cast<std::size_t>(side)]; }
-    [[nodiscard]] static Index before(Index side) { return side - side % 4 + (side + 3) % 4; }
-    [[nodiscard]] static Index after(Index side) { return side - side % 4 + (side + 1) % 4; }
+    [[nodiscard]] static Index before(Index side) { return (side & ~3) + ((side + 3) & 3); }
+    [[nodiscard]] static Index after(Index side) { return (side & ~3) + ((side + 1) & 3); }
 
     [[nodiscard]] bool on_boundary(Index point) const
     {
         return opposite(out_[static_cast<std::size_t>(point)]) < 0;
     }
-    [[nodiscard]] int valence(Index point) const
-    {
-        int count = 0;
-        for_sides(point, [&](Index) { ++count; });
-        return count;
-    }
+    /// Quads at a point.
+    [[nodiscard]] int valence(Index point) const { return valence_[static_cast<std::size_t>(point)]; }
     /// Call `visit(side)` with the side that leaves the point in each of its quads, counter-clockwise.
     template <class Visit>
     void for_sides(Index point, const Visit& visit) const
@@ -58,6 +59,7 @@ public:
     Index add_point()
     {
         out_.push_back(-1);
+        valence_.push_back(0);
         return static_cast<Index>(out_.size()) - 1;
     }
     /// Put quads in the place of others with the same outline. @return the new quads' numbers.
@@ -70,6 +72,7 @@ private:
     std::vector<Index> opposite_;
     std::vector<Index>
         out_; ///< a side that leaves each point; on the boundary the first counter-clockwise; -1: no quad
+    std::vector<int> valence_;
     std::vector<Index> free_;
 };
 

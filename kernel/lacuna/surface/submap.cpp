@@ -107,7 +107,7 @@ int grid_quads(double angle)
     return quads <= 4 && std::abs(angle - quads * kRightAngle) <= kOff ? quads : 0;
 }
 
-std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& context)
+std::optional<PlanarQuads> submap(const PlanarRegion& region, bool round_loops, const RunContext& context)
 {
     const std::size_t fixed = region.points.size();
     paving::Draft draft{region.points, {}, fixed, paving::size_with_boundary(region), 0};
@@ -115,7 +115,7 @@ std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& 
     std::vector<bool> round;
     for (const auto& loop : loops) round.push_back(is_round(region.points, loop));
     const bool rows = std::find(round.begin(), round.end(), true) != round.end();
-    if (rows && !row_round(draft, loops, round)) return std::nullopt;
+    if (rows && (!round_loops || !row_round(draft, loops, round))) return std::nullopt;
     const auto grid_loops = place_loops(draft.points, loops, round);
     if (!grid_loops) return std::nullopt;
     Grid grid(*grid_loops);

@@ -57,7 +57,7 @@ surface::PlanarQuadMesher mesher_of(const SweepOptions& options)
     if (options.quads == Quads::gmsh) return options.quad_mesher ? given : surface::PlanarQuadMesher();
     if (options.quads == Quads::mapped) {
         return [](const surface::PlanarRegion& region, const RunContext& context) {
-            if (auto grid = surface::submap(region, context)) return std::move(*grid);
+            if (auto grid = surface::submap(region, false, context)) return std::move(*grid);
             throw NotSweepable("surface.not_submapped",
                                "a source face of right angles is to be mapped, and the grid its " +
                                    std::to_string(region.points.size()) +
