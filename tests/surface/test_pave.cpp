@@ -311,18 +311,30 @@ TEST_CASE("rows are as high as asked")
             region, {.rows = 2, .row_height = [height](const Vec2&) { return height; }});
         CHECK(surface::find_fault(mesh, region) == "");
         const auto on_rim = [&](Index p) { return static_cast<std::size_t>(p) < region.points.size(); };
-        double sum = 0, count = 0;
+        std::size_t spokes = 0;
         for (const Quad& q : mesh.quads) {
             for (std::size_t k = 0; k < 4; ++k) {
                 if (!on_rim(q[k]) || on_rim(q[(k + 1) % 4])) continue;
-                sum += (mesh.points[static_cast<std::size_t>(q[k])] -
-                        mesh.points[static_cast<std::size_t>(q[(k + 1) % 4])])
-                           .norm();
-                count += 1;
+                const double spoke = (mesh.points[static_cast<std::size_t>(q[k])] -
+                                      mesh.points[static_cast<std::size_t>(q[(k + 1) % 4])])
+                                         .norm();
+                CHECK(spoke == doctest::Approx(height).epsilon(0.02));
+                ++spokes;
             }
         }
-        REQUIRE(count > 0);
-        CHECK(sum / count == doctest::Approx(height).epsilon(0.3));
+        CHECK(spokes == region.points.size());
+        // The second row ends at twice the height, and nothing lies between.
+        std::size_t second = 0;
+        for (const Vec2& p : mesh.points) {
+            const double depth = 1 - p.norm();
+            CHECK((depth < 0.02 * height || depth > 0.95 * height));
+            if (depth > 1.05 * height && depth < 2.05 * height) {
+                CHECK(depth > 1.9 * height);
+                ++second;
+            }
+        }
+        CHECK(second >= region.points.size());
+        CHECK(mesh.how.find("2 rows of their own height") != std::string::npos);
     }
 }
 

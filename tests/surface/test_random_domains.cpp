@@ -20,10 +20,10 @@ namespace {
 /// but touch there are none but needles.
 constexpr double kFlat = 0.02, kOfTriangles = 0.2;
 
-/// A sweep of loops of up to 400 edges, as many as LACUNA_RANDOM_DOMAINS says from LACUNA_RANDOM_FIRST on; else 60 of
+/// A sweep of loops of up to 400 edges, as many as LACUNA_RANDOM_DOMAINS says from LACUNA_RANDOM_FIRST on; else 40 of
 /// smaller ones, which take seconds.
 struct Sweep {
-    std::uint32_t first = 0, count = 60;
+    std::uint32_t first = 0, count = 40;
     int most_edges = 32;
 };
 

@@ -5,6 +5,7 @@
 #include <lacuna/geometry/triangulate.h>
 #include <lacuna/surface/measure_plane.h>
 #include <lacuna/surface/pave_attempt.h>
+#include <lacuna/surface/pave_rows.h>
 #include <lacuna/surface/pave_size.h>
 #include <lacuna/surface/pave_true_rows.h>
 #include <lacuna/surface/submap.h>
@@ -103,8 +104,7 @@ double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
 }
 
 /// The grid of a region of right angles, as an attempt like others.
-Attempt try_submap(const PlanarRegion& region, const PaveOptions& options, bool round_loops,
-                   const RunContext& context)
+Attempt try_submap(const PlanarRegion& region, bool round_loops, const RunContext& context)
 {
     Attempt attempt;
     auto mesh = submap(region, round_loops, context);
@@ -112,7 +112,7 @@ Attempt try_submap(const PlanarRegion& region, const PaveOptions& options, bool 
     attempt.mesh = std::move(*mesh);
     attempt.report.used = attempt.mesh.how;
     attempt.report.mapped = 1;
-    true_rows(attempt.mesh, region, options.row_height ? options.row_height : size_with_boundary(region));
+    true_rows(attempt.mesh, region, size_with_boundary(region));
     judge(attempt);
     return attempt;
 }
@@ -126,11 +126,57 @@ bool is_good_grid(const Attempt& attempt, const PlanarRegion& region)
     return quality.min_scaled_jacobian > kGood && quality.size_share() > kOfSize;
 }
 
+/// Rows of their own height are laid first and stay as they are; what is inside them is a region by itself.
+PlanarQuads pave_inside_rows(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
+{
+    Draft draft{region.points, {}, region.points.size(), size_with_boundary(region), flat_below(region)};
+    std::vector<Cycle> loops = region.loops;
+    std::vector<bool> wanted(loops.size(), true);
+    int laid = 0;
+    for (int r = 0; r < std::max(options.rows, 1); ++r) {
+        const int now = lay_rows(draft, loops, wanted, options.row_height, RowKind::thin);
+        for (std::size_t l = 0; l < loops.size(); ++l) {
+            if (!wanted[l])
+                log_line(context, "no room for row " + std::to_string(r + 1) + " along loop " +
+                                      std::to_string(l + 1) + " of a region to be paved");
+        }
+        if (now == 0) break;
+        laid += now;
+    }
+    PlanarRegion core{{}, {}, region.size};
+    std::vector<Index> own;
+    for (const Cycle& loop : loops) {
+        core.loops.emplace_back();
+        for (const Index p : loop) {
+            core.loops.back().push_back(static_cast<Index>(own.size()));
+            core.points.push_back(draft.at(p));
+            own.push_back(p);
+        }
+    }
+    PaveOptions inside = options;
+    inside.row_height = nullptr;
+    inside.rows = -1;
+    const PlanarQuads filling = pave(core, inside, context);
+    PlanarQuads mesh{std::move(draft.points), std::move(draft.quads), filling.how};
+    for (std::size_t p = own.size(); p < filling.points.size(); ++p) {
+        own.push_back(static_cast<Index>(mesh.points.size()));
+        mesh.points.push_back(filling.points[p]);
+    }
+    for (Quad quad : filling.quads) {
+        for (Index& p : quad) p = own[static_cast<std::size_t>(p)];
+        mesh.quads.push_back(quad);
+    }
+    mesh.how += " inside " + std::to_string(laid) + (laid == 1 ? " row" : " rows") + " of their own height";
+    if (options.report) options.report->rows += laid;
+    return mesh;
+}
+
 } // namespace
 
 PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
 {
     check_region(region);
+    if (options.row_height && options.rows != 0) return pave_inside_rows(region, options, context);
     // Below this many quads it costs little to pave with and without rows and keep the better.
     constexpr std::size_t kFew = 4000;
     // And so many in all with every taste.
@@ -153,7 +199,7 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
             log_line(context, "quads fold near " + place_of(made.where) + ": paving differently");
         consider(std::move(made));
     };
-    if (options.rows < 0) consider(try_submap(region, options, false, context));
+    if (options.rows < 0) consider(try_submap(region, false, context));
     if (is_good_grid(best, region)) {
         if (options.report) *options.report = best.report;
         return std::move(best.mesh);
@@ -164,7 +210,7 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
     for (const RowStyle style : {RowStyle::none, RowStyle::thin}) {
         if (best.worst <= 0 || is_few()) attempt(style);
     }
-    if (is_few()) consider(try_submap(region, options, true, context));
+    if (is_few()) consider(try_submap(region, true, context));
     constexpr double kGoodEnough = 2.94; // of 2.95
     for (const Taste& taste : kTastes) {
         if (best.worst > flat && is_few() && made_in_all < kMostMade && best_score < kGoodEnough)

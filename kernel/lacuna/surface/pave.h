@@ -23,8 +23,8 @@ struct PaveOptions {
     int rows = -1; ///< most rows to lay inward from each loop; -1: as many as its shape needs, mostly 1 to 3
     bool clean = true;  ///< mend irregular nodes
     bool smooth = true; ///< move inner nodes
-    /// Height of the rows at a place, for layers flatter or taller than the size; empty: the size [model
-    /// length].
+    /// Height of rows at a place, flatter or taller than the size [model length]: `rows` of them (one at least) are
+    /// laid from every loop where there is room and stay as laid. Empty: rows are as high as the size.
     std::function<double(const Vec2&)> row_height{};
     PaveReport* report = nullptr; ///< filled where given
 };

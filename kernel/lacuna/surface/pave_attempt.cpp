@@ -105,7 +105,6 @@ void open_folds(Attempt& attempt, const PlanarRegion& region, const Draft& draft
 void lay_and_fill(Attempt& attempt, Draft& draft, const PlanarRegion& region, const PaveOptions& options,
                   RowStyle style, const RunContext& context)
 {
-    const auto& height = options.row_height ? options.row_height : draft.size;
     std::vector<Cycle> loops = region.loops;
     if (style == RowStyle::by_shape && options.rows < 0 && is_patch(draft, loops))
         style = RowStyle::one_patch;
@@ -123,7 +122,7 @@ void lay_and_fill(Attempt& attempt, Draft& draft, const PlanarRegion& region, co
         std::vector<bool> wanted;
         for (const int own : rows) wanted.push_back(own > r);
         if (std::none_of(wanted.begin(), wanted.end(), [](bool w) { return w; })) break;
-        attempt.report.rows += lay_rows(draft, loops, wanted, height, kind);
+        attempt.report.rows += lay_rows(draft, loops, wanted, draft.size, kind);
         for (std::size_t l = 0; l < loops.size(); ++l) {
             if (!wanted[l]) rows[l] = 0;
         }
@@ -172,7 +171,6 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
     Attempt attempt;
     attempt.style = style;
     Draft draft{region.points, {}, region.points.size(), size_with_boundary(region), flat, {}, taste};
-    const auto& height = options.row_height ? options.row_height : draft.size;
     if (const std::optional<TriangleWay> way = triangle_way(style)) {
         attempt.mesh = quads_of_triangles(region, *way);
         attempt.report.used = "paired";
@@ -188,7 +186,7 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
     if (options.clean) clean_quads(attempt.mesh, draft.fixed, {.size = draft.size}, context);
     if (options.smooth) {
         smooth_plane(attempt.mesh.points, attempt.mesh.quads, draft.fixed, {.size = draft.size}, context);
-        true_rows(attempt.mesh, region, height);
+        true_rows(attempt.mesh, region, draft.size);
     }
     judge(attempt);
     return attempt;
