@@ -87,6 +87,21 @@ public:
         return result;
     }
 
+    /// Nodes that are not on the rim, where the exact edges are off the surface by what the CAD system bears.
+    [[nodiscard]] std::vector<Vec3> inside() const
+    {
+        std::vector<char> rim(points_.size(), 0);
+        for (std::size_t s = 0; s < opposite_.size(); ++s) {
+            if (opposite_[s] != mesh::kRimSide) continue;
+            rim[static_cast<std::size_t>(quads_[s / 4][s % 4])] = 1;
+        }
+        std::vector<Vec3> nodes;
+        for (std::size_t p = 0; p < points_.size(); ++p) {
+            if (rim[p] == 0) nodes.push_back(points_[p]);
+        }
+        return nodes;
+    }
+
     std::string find_fault(std::size_t rim_sides, std::size_t loops, double least)
     {
         const auto rims = std::count(opposite_.begin(), opposite_.end(), mesh::kRimSide);
@@ -140,7 +155,7 @@ private:
     double asked_;
 };
 
-/// By Gmsh's own search, of at most so many nodes: it takes its time.
+/// The farthest from the exact surface, by Gmsh's own search, of at most so many nodes: it takes its time.
 double off_surface(const std::vector<Vec3>& points, const std::string& file)
 {
     constexpr std::size_t kMost = 20000;
@@ -172,7 +187,7 @@ SurfaceQuality measure_surface(const SurfaceQuads& mesh, const SeededFace& seede
     Meter meter(mesh, seeded);
     SurfaceQuality result;
     result.quads = meter.measure();
-    result.off_surface = off_surface(mesh.points, seeded.file);
+    result.off_surface = off_surface(meter.inside(), seeded.file);
     result.fault = meter.find_fault(seeded.rim.size(), seeded.loops.size(), result.quads.min_scaled_jacobian);
     return result;
 }

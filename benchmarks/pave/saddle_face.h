@@ -46,7 +46,7 @@ SurfaceQuads gmsh_quads(const SeededFace& seeded, const GmshWay& way);
 /// the boundary side in the plane of the quad's corner normals.
 struct SurfaceQuality {
     surface::PlaneQuality quads;
-    double off_surface = 0; ///< largest distance of a node from the exact surface [model length]
+    double off_surface = 0; ///< largest distance of an inner node from the exact surface [model length]
     std::string fault;      ///< what makes them no mesh of the face; empty where nothing does
 };
 

@@ -5,13 +5,13 @@
 #include <lacuna/geometry/flatten.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
+#include <lacuna/surface/fine_facets.h>
 #include <lacuna/surface/projector.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <unordered_map>
 #include <utility>
 
 namespace lacuna::surface {
@@ -72,37 +72,37 @@ FaceQuads fill_plane(const geometry::Plane& plane, std::span<const RimNode> rim,
 /// A curved face, laid flat.
 class FlatFace {
 public:
-    FlatFace(const Model& model, FaceId face)
+    FlatFace(const Model& model, FaceId face, const SizeField& size)
         : model_(model),
-          face_(face),
-          flat_(geometry::flatten(model.points, model[face].triangles)),
-          locator_(flat_)
+          fine_(fine_facets(model, face, size)),
+          flat_(geometry::flatten(fine_.points, fine_.triangles))
     {
+        if (flat_.folded) { // fewer facets have fewer ways to fold
+            fine_ = fine_facets(model, face, size, {.rounds = 0});
+            flat_ = geometry::flatten(fine_.points, fine_.triangles);
+        }
         if (flat_.folded) {
             throw NotSweepable("surface.not_flat",
                                name_of(model, face) +
                                    " cannot be laid flat without folding; split it into simpler faces");
         }
+        locator_ = geometry::PlanarLocator(flat_);
         measure_stretch();
     }
 
     [[nodiscard]] std::vector<Vec2> lay(std::span<const RimNode> rim) const
     {
-        std::unordered_map<Index, Vec2> position;
-        for (std::size_t i = 0; i < flat_.used.size(); ++i) position[flat_.used[i]] = flat_.position[i];
         std::map<EdgeId, std::vector<double>> arcs;
         std::vector<Vec2> places;
         for (const RimNode& node : rim) {
-            const std::vector<Index>& chain = model_[node.edge].points;
             std::vector<double>& arc = arcs[node.edge];
             if (arc.empty()) {
                 std::vector<Vec3> line;
-                for (const Index p : chain) line.push_back(model_.at(p));
+                for (const Index p : model_[node.edge].points) line.push_back(model_.at(p));
                 arc = geometry::arc_lengths(line);
             }
             const geometry::PolylinePlace at = geometry::place_at(arc, node.fraction * arc.back());
-            places.emplace_back((1 - at.fraction) * position.at(chain[at.segment]) +
-                                at.fraction * position.at(chain[at.segment + 1]));
+            places.push_back(place_on(node.edge, static_cast<double>(at.segment) + at.fraction));
         }
         return places;
     }
@@ -110,14 +110,14 @@ public:
     /// The size asked for on the face, as long as it is in the plane.
     [[nodiscard]] double size_at(const Vec2& p, const SizeField& size) const
     {
-        const FacetPlace at = place(p);
+        const auto at = locator_.locate(p);
         const auto number = static_cast<std::size_t>(at.triangle);
-        const Triangle &t = model_[face_].triangles[number], &f = flat_.triangles[number];
+        const Triangle &t = fine_.triangles[number], &f = flat_.triangles[number];
         Vec3 on_face = Vec3::Zero();
         double by = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const double weight = at.barycentric[static_cast<int>(k)];
-            on_face += weight * model_.at(t[k]);
+            on_face += weight * fine_.points[static_cast<std::size_t>(t[k])];
             by += weight * stretch_[static_cast<std::size_t>(f[k])];
         }
         return size(on_face) * by;
@@ -126,15 +126,30 @@ public:
     [[nodiscard]] std::vector<Vec3> lift(std::span<const Vec2> points) const
     {
         std::vector<FacetPlace> places;
-        for (const Vec2& p : points) places.push_back(place(p));
-        return points_at(model_, face_, places);
+        for (const Vec2& p : points) {
+            const auto found = locator_.locate(p);
+            places.push_back({found.triangle, found.barycentric});
+        }
+        return points_at({fine_.points, fine_.triangles, fine_.uv, fine_.surface.get()}, places);
     }
 
 private:
-    [[nodiscard]] FacetPlace place(const Vec2& p) const
+    /// The place of a side of an edge's own polyline and share of it.
+    [[nodiscard]] Vec2 place_on(EdgeId edge, double at) const
     {
-        const auto found = locator_.locate(p);
-        return {found.triangle, found.barycentric};
+        const std::vector<FineFacets::OnEdge>& chain = fine_.edges.at(edge);
+        auto after = std::upper_bound(chain.begin(), chain.end(), at,
+                                      [](double a, const FineFacets::OnEdge& b) { return a < b.at; });
+        after = std::clamp(after, chain.begin() + 1, chain.end() - 1);
+        const auto before = after - 1;
+        const double share = (at - before->at) / (after->at - before->at);
+        return (1 - share) * position(before->point) + share * position(after->point);
+    }
+
+    [[nodiscard]] const Vec2& position(Index point) const
+    {
+        const auto found = std::lower_bound(flat_.used.begin(), flat_.used.end(), point);
+        return flat_.position[static_cast<std::size_t>(found - flat_.used.begin())];
     }
 
     /// Lengths in the plane over those on the face, at each point used: the square root of the areas round it.
@@ -142,10 +157,10 @@ private:
     {
         std::vector<double> plane(flat_.used.size(), 0.0), space(flat_.used.size(), 0.0);
         for (std::size_t i = 0; i < flat_.triangles.size(); ++i) {
-            const Triangle &f = flat_.triangles[i], &t = model_[face_].triangles[i];
+            const Triangle &f = flat_.triangles[i], &t = fine_.triangles[i];
+            const auto at = [&](std::size_t k) { return fine_.points[static_cast<std::size_t>(t[k])]; };
             const double flat_area = std::abs(area_of(flat_.position, f));
-            const double area =
-                (model_.at(t[1]) - model_.at(t[0])).cross(model_.at(t[2]) - model_.at(t[0])).norm() / 2;
+            const double area = (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
             for (const Index p : f) {
                 plane[static_cast<std::size_t>(p)] += flat_area;
                 space[static_cast<std::size_t>(p)] += area;
@@ -156,7 +171,7 @@ private:
     }
 
     const Model& model_;
-    FaceId face_;
+    FineFacets fine_;
     geometry::Flattened flat_;
     geometry::PlanarLocator locator_;
     std::vector<double> stretch_;
@@ -175,7 +190,7 @@ FaceQuads fill_face(const Model& model, FaceId face, std::span<const RimNode> ri
     }
     if (bulge <= model.tolerance)
         return fill_plane(geometry::plane_across(origin, normal), rim, loops, size, mesher, context);
-    const FlatFace flat(model, face);
+    const FlatFace flat(model, face, size);
     const auto size_there = [&](const Vec2& p) { return flat.size_at(p, size); };
     PlanarQuads filling = mesher(region_of(flat.lay(rim), loops, size_there), context);
     const std::vector<Vec3> inside = flat.lift(inside_of(filling, rim.size()));
