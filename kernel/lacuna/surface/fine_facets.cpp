@@ -27,12 +27,15 @@ FineFacets copy_of(const Model& model, FaceId face)
     FineFacets fine;
     fine.uv = model[face].uv;
     fine.surface = model[face].surface;
-    std::unordered_map<Index, Index> local;
-    const auto own = [&](Index p) {
-        const auto [found, fresh] = local.try_emplace(p, static_cast<Index>(fine.points.size()));
-        if (fresh) fine.points.push_back(model.at(p));
-        return found->second;
-    };
+    std::map<Index, Index> local; // in the model's order
+    for (const Triangle& t : model[face].triangles) {
+        for (const Index p : t) local[p] = -1;
+    }
+    for (auto& [point, own] : local) {
+        own = static_cast<Index>(fine.points.size());
+        fine.points.push_back(model.at(point));
+    }
+    const auto own = [&](Index p) { return local.at(p); };
     for (const Triangle& t : model[face].triangles)
         fine.triangles.push_back({own(t[0]), own(t[1]), own(t[2])});
     for (const Loop& loop : model[face].loops) {

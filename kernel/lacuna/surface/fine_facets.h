@@ -4,6 +4,7 @@
 #include <lacuna/surface/quad_mesher.h>
 #include <lacuna/topology/model.h>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <vector>
