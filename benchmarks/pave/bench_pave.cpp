@@ -2,24 +2,27 @@
 /// One mesh of one domain by one mesher, measured: a JSON line. against_gmsh.py beside this runs it.
 ///
 /// usage: bench_pave DOMAIN QUADS MESHER [PICTURE]
-///   DOMAIN   disc plate gear L comb aerofoil saddle, or FILE:FACE for a plane face of a CAD file
+///   DOMAIN   disc plate gear L comb aerofoil, "saddle plan", saddle: a curved face, or FILE:FACE for a plane face of a
+///            CAD file
 ///   MESHER   lacuna, gmsh-8-3, gmsh-6-3, gmsh-6-s; each of Gmsh's with "+clean" and "+smooth" after it, to see what they do
-///   PICTURE  file for points and quads as text
+///   PICTURE  file for points and quads as text; of a curved face its plan
 
 #include "gmsh_quads.h"
+#ifdef LACUNA_WITH_CAD
+#include "saddle_face.h"
+#endif
 
 #include <lacuna/surface/clean_quads.h>
 #include <lacuna/surface/measure_plane.h>
-#include <lacuna/surface/smooth_plane.h>
-#if __has_include(<lacuna/surface/pave.h>)
 #include <lacuna/surface/pave.h>
-#define LACUNA_BENCH_PAVE 1
-#endif
+#include <lacuna/surface/smooth_plane.h>
 
 #include <cstdio>
 #include <ctime>
 #include <exception>
+#include <filesystem>
 #include <fstream>
+#include <random>
 #include <stdexcept>
 #include <string>
 
@@ -29,27 +32,28 @@ namespace {
 
 double seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
+bench::GmshWay way_of(const std::string& mesher)
+{
+    if (mesher == "gmsh-8-3") return {8, 3, false};
+    if (mesher == "gmsh-6-3") return {6, 3, false};
+    if (mesher == "gmsh-6-s") return {6, 0, true};
+    throw std::runtime_error("no mesher is called " + mesher);
+}
+
 bench::GmshQuads make(const test::PlaneDomain& domain, const test::SeededDomain& seeded,
                       const std::string& mesher)
 {
     const std::string name = mesher.substr(0, mesher.find('+'));
     if (name == "lacuna") {
         bench::GmshQuads made;
-#ifdef LACUNA_BENCH_PAVE
         RunContext context;
         context.threads = 1;
         const double start = seconds();
         made.mesh = surface::pave(seeded.region, {}, context);
         made.seconds = seconds() - start;
-#else
-        throw std::runtime_error("built without pave()");
-#endif
         return made;
     }
-    if (name == "gmsh-8-3") return bench::gmsh_quads(domain, seeded, {8, 3, false});
-    if (name == "gmsh-6-3") return bench::gmsh_quads(domain, seeded, {6, 3, false});
-    if (name == "gmsh-6-s") return bench::gmsh_quads(domain, seeded, {6, 0, true});
-    throw std::runtime_error("no mesher is called " + name);
+    return bench::gmsh_quads(domain, seeded, way_of(name));
 }
 
 void write_picture(const surface::PlanarQuads& mesh, const char* path)
@@ -60,20 +64,42 @@ void write_picture(const surface::PlanarQuads& mesh, const char* path)
     for (const Quad& q : mesh.quads) file << q[0] << ' ' << q[1] << ' ' << q[2] << ' ' << q[3] << '\n';
 }
 
-void report(const char* domain, const char* mesher, const bench::GmshQuads& made,
-            const surface::PlanarRegion& region)
+/// @param more  JSON members that only this mesh has, each with a comma after it
+void report(const char* domain, const char* mesher, const surface::PlaneQuality& q, std::size_t triangles,
+            double time, const std::string& more, const std::string& fault)
 {
-    const surface::PlaneQuality q = surface::measure_plane(made.mesh, region);
-    const std::string fault = surface::find_fault(made.mesh, region);
     std::printf(
         "{\"domain\": \"%s\", \"mesher\": \"%s\", \"quads\": %zu, \"triangles\": %zu, \"seconds\": %.4f, "
         "\"min_scaled_jacobian\": %.4f, \"mean_scaled_jacobian\": %.4f, \"irregular\": %zu, "
         "\"irregular_share\": %.5f, \"boundary_irregular\": %zu, \"row_share\": %.4f, "
-        "\"size_share\": %.4f, \"mean_edge_ratio\": %.4f, \"fault\": \"%s\"}\n",
-        domain, mesher, q.quads, made.triangles, made.seconds, q.min_scaled_jacobian, q.mean_scaled_jacobian,
-        q.irregular, q.irregular_share(), q.boundary_irregular, q.row_share(), q.size_share(),
-        q.mean_edge_ratio, fault.c_str());
+        "\"size_share\": %.4f, \"mean_edge_ratio\": %.4f, %s\"fault\": \"%s\"}\n",
+        domain, mesher, q.quads, triangles, time, q.min_scaled_jacobian, q.mean_scaled_jacobian, q.irregular,
+        q.irregular_share(), q.boundary_irregular, q.row_share(), q.size_share(), q.mean_edge_ratio,
+        more.c_str(), fault.c_str());
 }
+
+#ifdef LACUNA_WITH_CAD
+/// The saddle by one mesher, measured in space.
+void run_saddle(double quads, const char* mesher, const char* picture)
+{
+    const auto file = std::filesystem::temp_directory_path() /
+                      ("saddle_" + std::to_string(std::random_device{}()) + ".brep");
+    const bench::SeededFace seeded = bench::saddle_face(file.string(), quads);
+    const bench::SurfaceQuads made = mesher == std::string("lacuna")
+                                         ? bench::lacuna_quads(seeded)
+                                         : bench::gmsh_quads(seeded, way_of(mesher));
+    const bench::SurfaceQuality q = bench::measure_surface(made, seeded);
+    std::filesystem::remove(file);
+    char off[64];
+    std::snprintf(off, sizeof off, "\"off_surface\": %.3g, ", q.off_surface);
+    report("saddle", mesher, q.quads, made.triangles, made.seconds, off, q.fault);
+    if (picture == nullptr) return;
+    surface::PlanarQuads plan;
+    for (const Vec3& p : made.points) plan.points.emplace_back(p.x(), p.y());
+    plan.quads = made.quads;
+    write_picture(plan, picture);
+}
+#endif
 
 } // namespace
 
@@ -84,6 +110,12 @@ try {
         return 2;
     }
     const std::string name = argv[1], mesher = argv[3];
+#ifdef LACUNA_WITH_CAD
+    if (name == "saddle") {
+        run_saddle(std::stod(argv[2]), argv[3], argc > 4 ? argv[4] : nullptr);
+        return 0;
+    }
+#endif
     const auto colon = name.rfind(':');
     const test::PlaneDomain domain = colon == std::string::npos
                                          ? test::plane_domain(name)
@@ -106,7 +138,8 @@ try {
         std::fprintf(stderr, "smoothed in %.3f s\n", seconds() - before);
     }
     made.seconds += seconds() - start;
-    report(argv[1], argv[3], made, seeded.region);
+    report(argv[1], argv[3], surface::measure_plane(made.mesh, seeded.region), made.triangles, made.seconds,
+           {}, surface::find_fault(made.mesh, seeded.region));
     if (argc > 4) write_picture(made.mesh, argv[4]);
     return 0;
 } catch (const std::string& error) { // Gmsh 4.8 throws text

@@ -60,7 +60,7 @@ TEST_CASE("every member of the stress family is meshed without an invalid cell, 
                                               : "though its edges allow ";
             MESSAGE("least " << least << ", " << why << bound << ": " << name);
         } catch (const Error& error) {
-            FAIL_CHECK(error.what());
+            FAIL_CHECK(std::string(error.what()));
         }
     }
     CHECK(unexplained <= kUnexplained * static_cast<double>(family.size()));

@@ -121,7 +121,7 @@ PlaneDomain aerofoil()
 }
 
 /// Plan of z = (x² - y²) / 2 over a patch with four cubic sides; sizes shrink in plan where the face is steep.
-PlaneDomain saddle()
+PlaneDomain saddle_plan()
 {
     const std::array<Vec2, 4> corner{Vec2(-1, -1), Vec2(1.1, -0.9), Vec2(1, 1.1), Vec2(-0.9, 0.9)};
     const std::array<double, 4> bulge{0.25, -0.2, 0.3, 0.15};
@@ -140,7 +140,7 @@ PlaneDomain saddle()
         }
         rim.push_back(through(std::move(points)));
     }
-    return {"saddle", {rim}, [](const Vec2& p) { return std::pow(1 + p.squaredNorm(), -0.25); }};
+    return {"saddle plan", {rim}, [](const Vec2& p) { return std::pow(1 + p.squaredNorm(), -0.25); }};
 }
 
 /// A fine polyline of a curve.
@@ -244,7 +244,7 @@ std::vector<PlaneDomain> plane_domains()
             {"L", {polygon({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}})}, {}},
             comb(),
             aerofoil(),
-            saddle()};
+            saddle_plan()};
 }
 
 PlaneDomain plane_domain(const std::string& name)

@@ -296,12 +296,63 @@ PlanarLocator::PlanarLocator(std::span<const Vec2> points, std::span<const Trian
     lifted.reserve(points.size());
     for (const Vec2& p : points) lifted.push_back(in_space(p));
     tree_ = FacetTree(lifted, triangles);
+    if (triangles.empty()) return;
+
+    std::vector<Eigen::AlignedBox2d> boxes(triangles.size());
+    Eigen::AlignedBox2d all;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        for (const Index p : triangles[t]) boxes[t].extend(points[at(p)]);
+        all.extend(boxes[t]);
+        const Vec2 &o = points[at(triangles[t][0])], a = points[at(triangles[t][1])] - o,
+                   b = points[at(triangles[t][2])] - o;
+        // One of no area has infinite weights or none, and so no inside.
+        const double area = a.x() * b.y() - a.y() * b.x();
+        weights_.push_back({o, Vec2(b.y(), -b.x()) / area, Vec2(-a.y(), a.x()) / area});
+    }
+    // About two bins a triangle.
+    const Vec2 sides = all.sizes();
+    const double most = static_cast<double>(2 * triangles.size());
+    bin_ = std::max(std::sqrt(sides.prod() / most), sides.maxCoeff() / most);
+    if (!(bin_ > 0) || !std::isfinite(bin_)) bin_ = 1;
+    low_ = all.min();
+    across_ = static_cast<Index>(sides.x() / bin_) + 1;
+    up_ = static_cast<Index>(sides.y() / bin_) + 1;
+    const auto bins_of = [&](std::size_t t, const auto& visit) {
+        const auto bin = [&](double offset, Index count) {
+            return std::min(static_cast<Index>(offset / bin_), count - 1);
+        };
+        const Vec2 from = boxes[t].min() - low_, to = boxes[t].max() - low_;
+        for (Index j = bin(from.y(), up_); j <= bin(to.y(), up_); ++j)
+            for (Index i = bin(from.x(), across_); i <= bin(to.x(), across_); ++i) visit(at(j * across_ + i));
+    };
+    start_.assign(at(across_ * up_) + 1, 0);
+    for (std::size_t t = 0; t < boxes.size(); ++t) bins_of(t, [&](std::size_t b) { ++start_[b + 1]; });
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    listed_.resize(at(start_.back()));
+    std::vector<Index> next(start_.begin(), start_.end() - 1);
+    for (std::size_t t = 0; t < boxes.size(); ++t)
+        bins_of(t, [&](std::size_t b) { listed_[at(next[b]++)] = static_cast<Index>(t); });
+}
+
+PlanarLocator::Place PlanarLocator::in_bins(const Vec2& place) const
+{
+    const double x = (place.x() - low_.x()) / bin_, y = (place.y() - low_.y()) / bin_;
+    if (!(x >= 0 && x < across_ && y >= 0 && y < up_)) return {};
+    const std::size_t bin = at(static_cast<Index>(y) * across_ + static_cast<Index>(x));
+    for (Index k = start_[bin]; k < start_[bin + 1]; ++k) {
+        const Weights& w = weights_[at(listed_[at(k)])];
+        const Vec2 from = place - w.corner;
+        const double first = w.first.dot(from), second = w.second.dot(from), rest = 1 - first - second;
+        if (first >= 0 && second >= 0 && rest >= 0) return {listed_[at(k)], {rest, first, second}, 0};
+    }
+    return {};
 }
 
 PlanarLocator::PlanarLocator(const Flattened& flat) : PlanarLocator(flat.position, flat.triangles) {}
 
 PlanarLocator::Place PlanarLocator::locate(const Vec2& place) const
 {
+    if (const Place inside = in_bins(place); inside.triangle >= 0) return inside;
     const FacetTree::Hit hit = tree_.closest(in_space(place));
     return {hit.triangle, hit.barycentric, hit.triangle >= 0 ? std::sqrt(hit.distance2) : 0.0};
 }

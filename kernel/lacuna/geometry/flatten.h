@@ -56,8 +56,8 @@ struct Flattened {
 Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triangles,
                   const FlattenOptions& options = {});
 
-/// Finds the triangle over a place of the plane, to lift it back. O(log triangles), parallel-safe, allocates
-/// nothing; a value of its own.
+/// Finds the triangle over a place of the plane, to lift it back. A few comparisons inside the triangles, O(log triangles)
+/// outside; parallel-safe, allocates nothing; a value of its own.
 class PlanarLocator {
 public:
     PlanarLocator() = default;
@@ -73,7 +73,19 @@ public:
     [[nodiscard]] Place locate(const Vec2& place) const;
 
 private:
+    /// Two of the weights of a triangle's corners, which are linear in the place.
+    struct Weights {
+        Vec2 corner, first, second; ///< first and second weight: these times (place - corner)
+    };
+    [[nodiscard]] Place in_bins(const Vec2& place) const;
+
     FacetTree tree_;
+    // Square bins over all triangles: bin b may meet triangles listed_[start_[b]...start_[b + 1]).
+    Vec2 low_ = Vec2::Zero();
+    double bin_ = 1;
+    Index across_ = 0, up_ = 0;
+    std::vector<Index> start_, listed_;
+    std::vector<Weights> weights_;
 };
 
 /// The point in space at a place of the flat facets; `points` as given to flatten().

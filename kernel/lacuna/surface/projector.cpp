@@ -9,24 +9,30 @@ namespace lacuna::surface {
 
 using namespace topology;
 
-std::vector<Vec3> points_at(const Model& model, FaceId face, std::span<const FacetPlace> places)
+std::vector<Vec3> points_at(const FacetView& facets, std::span<const FacetPlace> places)
 {
-    const Face& f = model[face];
     std::vector<Vec3> points(places.size());
+    const auto at = [&](Index p) -> const Vec3& { return facets.points[static_cast<std::size_t>(p)]; };
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const Triangle& t = f.triangles[static_cast<std::size_t>(places[i].triangle)];
+        const Triangle& t = facets.triangles[static_cast<std::size_t>(places[i].triangle)];
         const Vec3& w = places[i].barycentric;
-        points[i] = w[0] * model.at(t[0]) + w[1] * model.at(t[1]) + w[2] * model.at(t[2]);
+        points[i] = w[0] * at(t[0]) + w[1] * at(t[1]) + w[2] * at(t[2]);
     }
-    if (f.surface == nullptr) return points;
+    if (facets.surface == nullptr) return points;
     std::vector<Vec2> uv(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const std::array<Vec2, 3>& c = f.uv[static_cast<std::size_t>(places[i].triangle)];
+        const std::array<Vec2, 3>& c = facets.uv[static_cast<std::size_t>(places[i].triangle)];
         const Vec3& w = places[i].barycentric;
         uv[i] = w[0] * c[0] + w[1] * c[1] + w[2] * c[2];
     }
-    f.surface->project(points, uv);
+    facets.surface->project(points, uv);
     return points;
+}
+
+std::vector<Vec3> points_at(const Model& model, FaceId face, std::span<const FacetPlace> places)
+{
+    const Face& f = model[face];
+    return points_at({model.points, f.triangles, f.uv, f.surface.get()}, places);
 }
 
 Projector::Projector(const Model& model, std::vector<FaceId> faces) : model_(&model)

@@ -16,6 +16,16 @@ struct FacetPlace {
     Vec3 barycentric = Vec3::Zero(); ///< weights of the corners
 };
 
+/// Facets and the surface they were cut from.
+struct FacetView {
+    std::span<const Vec3> points;
+    std::span<const Triangle> triangles;
+    std::span<const std::array<Vec2, 3>> uv;         ///< surface parameters at the corners
+    const geometry::ExactSurface* surface = nullptr; ///< null where the facets are all there is
+};
+
+/// Places on facets, as points of the exact surface; on the facets themselves where there is none.
+std::vector<Vec3> points_at(const FacetView& facets, std::span<const FacetPlace> places);
 /// Places on one face's facets, as points of its exact surface; on the facets themselves where there is none.
 std::vector<Vec3> points_at(const topology::Model& model, FaceId face, std::span<const FacetPlace> places);
 

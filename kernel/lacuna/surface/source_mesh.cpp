@@ -2,14 +2,11 @@
 #include <lacuna/surface/source_mesh.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/flatten.h>
-#include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/transfinite.h>
+#include <lacuna/surface/fill_face.h>
 #include <lacuna/surface/projector.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <unordered_map>
 
@@ -18,12 +15,6 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
-
-/// A node on an edge of the face that is being laid flat.
-struct EdgeNode {
-    EdgeId edge;
-    double fraction;
-};
 
 class SourceMesher {
 public:
@@ -209,7 +200,7 @@ private:
         }
     }
 
-    /// Free: laid flat, filled, lifted back.
+    /// Free: by the planar mesher.
     void fill(FaceId face)
     {
         if (!mesher_) {
@@ -218,7 +209,7 @@ private:
                                    " is not four-sided and no mesher for such faces is at hand");
         }
         std::vector<Index> boundary;
-        std::vector<EdgeNode> on_edge;
+        std::vector<RimNode> rim;
         std::vector<std::vector<Index>> loops;
         for (const Loop& loop : model_[face].loops) {
             std::vector<Index>& cycle = loops.emplace_back();
@@ -227,138 +218,23 @@ private:
                 std::vector<double> fractions = seeds_.fractions(use.edge);
                 if (use.reversed) std::reverse(fractions.begin(), fractions.end());
                 for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-                    cycle.push_back(static_cast<Index>(boundary.size()));
+                    cycle.push_back(static_cast<Index>(rim.size()));
                     boundary.push_back(chain[i]);
-                    on_edge.push_back({use.edge, fractions[i]});
+                    rim.push_back(
+                        {result_.quads.nodes[static_cast<std::size_t>(chain[i])], use.edge, fractions[i]});
                 }
             }
         }
-        const Vec3 normal = face_area_vector(model_, face).stableNormalized();
-        const Vec3 origin = face_centroid(model_, face);
-        double bulge = 0;
-        for (const Triangle& t : model_[face].triangles) {
-            for (const Index p : t) bulge = std::max(bulge, std::abs((model_.at(p) - origin).dot(normal)));
-        }
-        if (bulge <= model_.tolerance)
-            fill_plane(boundary, loops, geometry::plane_across(origin, normal));
-        else
-            fill_curved(face, boundary, on_edge, loops);
-    }
-
-    PlanarQuads fill_region(std::vector<Vec2> points, std::vector<std::vector<Index>> loops,
-                            std::function<double(const Vec2&)> size)
-    {
-        const auto area = [&](const std::vector<Index>& loop) {
-            double sum = 0;
-            for (std::size_t i = 0; i < loop.size(); ++i) {
-                const Vec2& a = points[static_cast<std::size_t>(loop[i])];
-                const Vec2& b = points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
-                sum += a.x() * b.y() - a.y() * b.x();
-            }
-            return sum;
-        };
-        std::stable_sort(loops.begin(), loops.end(),
-                         [&](const auto& a, const auto& b) { return area(a) > area(b); });
-        return mesher_({std::move(points), std::move(loops), std::move(size)}, context_);
-    }
-
-    template <class Lift>
-    void add_filling(const std::vector<Index>& boundary, const PlanarQuads& filling, const Lift& lift)
-    {
+        const FaceQuads filling = fill_face(model_, face, rim, loops, size_, mesher_, context_);
         how_ = filling.how.empty() ? "free" : filling.how;
-        std::vector<Index> node = boundary;
-        const std::vector<Vec2> inside(filling.points.begin() + static_cast<std::ptrdiff_t>(boundary.size()),
-                                       filling.points.end());
-        for (const Vec3& p : lift(inside)) node.push_back(add_node(p));
+        std::vector<Index> node = std::move(boundary);
+        for (std::size_t p = rim.size(); p < filling.points.size(); ++p)
+            node.push_back(add_node(filling.points[p]));
         for (const Quad& q : filling.quads) {
             Quad mapped{};
             for (std::size_t i = 0; i < 4; ++i) mapped[i] = node[static_cast<std::size_t>(q[i])];
             result_.quads.quads.push_back(mapped);
         }
-    }
-
-    void fill_plane(const std::vector<Index>& boundary, const std::vector<std::vector<Index>>& loops,
-                    const geometry::Plane& plane)
-    {
-        std::vector<Vec2> flat;
-        for (const Index node : boundary)
-            flat.push_back(geometry::to_plane(plane, result_.quads.nodes[static_cast<std::size_t>(node)]));
-        const PlanarQuads filling = fill_region(
-            flat, loops, [&](const Vec2& p) { return size_(geometry::from_plane(plane, p)); });
-        add_filling(boundary, filling, [&](const std::vector<Vec2>& points) {
-            std::vector<Vec3> lifted;
-            for (const Vec2& p : points) lifted.push_back(geometry::from_plane(plane, p));
-            return lifted;
-        });
-    }
-
-    void fill_curved(FaceId face, const std::vector<Index>& boundary, const std::vector<EdgeNode>& on_edge,
-                     const std::vector<std::vector<Index>>& loops)
-    {
-        const geometry::Flattened flat = geometry::flatten(model_.points, model_[face].triangles);
-        if (flat.folded) {
-            throw NotSweepable("surface.not_flat",
-                               name_of(model_, face) +
-                                   " cannot be laid flat without folding; split it into simpler faces");
-        }
-        std::unordered_map<Index, Vec2> position;
-        for (std::size_t i = 0; i < flat.used.size(); ++i) position[flat.used[i]] = flat.position[i];
-        std::vector<Vec2> rim;
-        for (const EdgeNode& node : on_edge) {
-            std::vector<Vec3> line;
-            for (const Index p : model_[node.edge].points) line.push_back(model_.at(p));
-            const std::vector<double> arc = geometry::arc_lengths(line);
-            const geometry::PolylinePlace at = geometry::place_at(arc, node.fraction * arc.back());
-            rim.emplace_back((1 - at.fraction) * position.at(model_[node.edge].points[at.segment]) +
-                             at.fraction * position.at(model_[node.edge].points[at.segment + 1]));
-        }
-        const geometry::PlanarLocator locator(flat);
-        const auto place = [&](const Vec2& p) {
-            const auto found = locator.locate(p);
-            return FacetPlace{found.triangle, found.barycentric};
-        };
-        const std::vector<double> stretch = stretches(face, flat);
-        const PlanarQuads filling = fill_region(rim, loops, [&](const Vec2& p) {
-            const FacetPlace at = place(p);
-            const auto number = static_cast<std::size_t>(at.triangle);
-            const Triangle &t = model_[face].triangles[number], &f = flat.triangles[number];
-            Vec3 on_face = Vec3::Zero();
-            double by = 0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double weight = at.barycentric[static_cast<int>(k)];
-                on_face += weight * model_.at(t[k]);
-                by += weight * stretch[static_cast<std::size_t>(f[k])];
-            }
-            return size_(on_face) * by;
-        });
-        add_filling(boundary, filling, [&](const std::vector<Vec2>& points) {
-            std::vector<FacetPlace> places;
-            for (const Vec2& p : points) places.push_back(place(p));
-            return points_at(model_, face, places);
-        });
-    }
-
-    /// Lengths in the plane over those on the face, at each point used: the square root of the areas round it.
-    [[nodiscard]] std::vector<double> stretches(FaceId face, const geometry::Flattened& flat) const
-    {
-        std::vector<double> plane(flat.used.size(), 0.0), space(flat.used.size(), 0.0);
-        for (std::size_t i = 0; i < flat.triangles.size(); ++i) {
-            const Triangle &f = flat.triangles[i], &t = model_[face].triangles[i];
-            const Vec2 u = flat.position[static_cast<std::size_t>(f[1])] -
-                           flat.position[static_cast<std::size_t>(f[0])];
-            const Vec2 v = flat.position[static_cast<std::size_t>(f[2])] -
-                           flat.position[static_cast<std::size_t>(f[0])];
-            const double flat_area = std::abs(u.x() * v.y() - u.y() * v.x());
-            const double area =
-                (model_.at(t[1]) - model_.at(t[0])).cross(model_.at(t[2]) - model_.at(t[0])).norm();
-            for (const Index p : f) {
-                plane[static_cast<std::size_t>(p)] += flat_area;
-                space[static_cast<std::size_t>(p)] += area;
-            }
-        }
-        for (std::size_t p = 0; p < plane.size(); ++p)
-            plane[p] = space[p] > 0 ? std::sqrt(plane[p] / space[p]) : 1;
-        return plane;
     }
 
     const OpenVolume& volume_;

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "saddle_face.h"
+
+#include <lacuna/cad/session.h>
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/mesh/quad_mesh.h>
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lacuna::bench {
+
+namespace {
+
+// Those of measure_plane().
+constexpr double kOffRight = 20 * std::numbers::pi / 180;
+constexpr double kOffHeight = 0.3;
+constexpr double kShortest = 0.6, kLongest = 1.6;
+
+class Meter {
+public:
+    Meter(const SurfaceQuads& mesh, const SeededFace& seeded)
+        : points_(mesh.points), quads_(mesh.quads), asked_(seeded.size)
+    {
+        const topology::Model& model = seeded.model;
+        const std::vector<Triangle>& facets = model[seeded.face].triangles;
+        const geometry::FacetTree tree(model.points, facets);
+        for (const Vec3& p : points_) {
+            const Triangle& t = facets[static_cast<std::size_t>(tree.closest(p).triangle)];
+            normals_.push_back(
+                (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])).normalized());
+        }
+        // Gmsh's quads may look the other way.
+        double sum = 0;
+        for (const Quad& q : quads_)
+            sum += (at(q[2]) - at(q[0])).cross(at(q[3]) - at(q[1])).dot(normal(q[0]));
+        if (sum < 0) {
+            for (Quad& quad : quads_) std::reverse(quad.begin(), quad.end());
+        }
+        opposite_ = mesh::opposite_sides(quads_, static_cast<Index>(points_.size()));
+    }
+
+    surface::PlaneQuality measure()
+    {
+        surface::PlaneQuality result;
+        result.quads = quads_.size();
+        result.points = points_.size();
+        std::vector<Index> valence(points_.size(), 0);
+        std::vector<double> turn(points_.size(), 0);
+        std::vector<char> rim(points_.size(), 0);
+        double jacobians = 0, ratios = 0;
+        for (std::size_t q = 0; q < quads_.size(); ++q) {
+            double least = 1;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const auto p = static_cast<std::size_t>(quads_[q][k]);
+                least = std::min(least, sine(quads_[q], k));
+                ++valence[p];
+                turn[p] += angle(quads_[q], k);
+                const Index other = opposite_[4 * q + k];
+                if (other >= 0 && static_cast<std::size_t>(other) < 4 * q + k) continue;
+                const double length = side(quads_[q], k).norm();
+                ++result.edges;
+                ratios += length / asked_;
+                if (length >= kShortest * asked_ && length <= kLongest * asked_) ++result.edges_of_size;
+                if (other != mesh::kRimSide) continue;
+                rim[p] = 1;
+                ++result.rows;
+                if (stands_well(quads_[q], k)) ++result.good_rows;
+            }
+            jacobians += least;
+            result.min_scaled_jacobian = std::min(result.min_scaled_jacobian, least);
+        }
+        for (std::size_t p = 0; p < points_.size(); ++p) {
+            if (rim[p] != 0) {
+                const double wanted = std::max(1.0, std::round(turn[p] / (std::numbers::pi / 2)));
+                if (valence[p] != static_cast<Index>(wanted)) ++result.boundary_irregular;
+                continue;
+            }
+            ++result.interior;
+            if (valence[p] != 4) ++result.irregular;
+        }
+        result.mean_scaled_jacobian = jacobians / static_cast<double>(std::max<std::size_t>(1, result.quads));
+        result.mean_edge_ratio = ratios / static_cast<double>(std::max<std::size_t>(1, result.edges));
+        return result;
+    }
+
+    /// Nodes that are not on the rim, where the exact edges are off the surface by what the CAD system bears.
+    [[nodiscard]] std::vector<Vec3> inside() const
+    {
+        std::vector<char> rim(points_.size(), 0);
+        for (std::size_t s = 0; s < opposite_.size(); ++s) {
+            if (opposite_[s] != mesh::kRimSide) continue;
+            rim[static_cast<std::size_t>(quads_[s / 4][s % 4])] = 1;
+        }
+        std::vector<Vec3> nodes;
+        for (std::size_t p = 0; p < points_.size(); ++p) {
+            if (rim[p] == 0) nodes.push_back(points_[p]);
+        }
+        return nodes;
+    }
+
+    std::string find_fault(std::size_t rim_sides, std::size_t loops, double least)
+    {
+        const auto rims = std::count(opposite_.begin(), opposite_.end(), mesh::kRimSide);
+        if (std::count(opposite_.begin(), opposite_.end(), mesh::kBadSide) > 0)
+            return "a side is used by more than two quads or twice in one direction";
+        if (rims != static_cast<std::ptrdiff_t>(rim_sides))
+            return std::to_string(rims) + " boundary sides instead of " + std::to_string(rim_sides);
+        const auto edges = (static_cast<long>(opposite_.size()) + rims) / 2;
+        if (static_cast<long>(points_.size() + quads_.size()) - edges != 2 - static_cast<long>(loops))
+            return "the mesh comes apart or is pinched";
+        if (!(least > 0)) return "a corner is not positive";
+        return {};
+    }
+
+private:
+    [[nodiscard]] const Vec3& at(Index p) const { return points_[static_cast<std::size_t>(p)]; }
+    [[nodiscard]] const Vec3& normal(Index p) const { return normals_[static_cast<std::size_t>(p)]; }
+    [[nodiscard]] Vec3 side(const Quad& quad, std::size_t k) const
+    {
+        return at(quad[(k + 1) % 4]) - at(quad[k]);
+    }
+    [[nodiscard]] double sine(const Quad& quad, std::size_t k) const
+    {
+        const Vec3 a = side(quad, k), b = -side(quad, (k + 3) % 4), cross = a.cross(b);
+        const double both = a.norm() * b.norm();
+        return both > 0 ? std::copysign(cross.norm() / both, cross.dot(normal(quad[k]))) : 0;
+    }
+    [[nodiscard]] double angle(const Quad& quad, std::size_t k) const
+    {
+        const Vec3 a = side(quad, k), b = -side(quad, (k + 3) % 4), cross = a.cross(b);
+        const double turn = std::atan2(cross.norm(), a.dot(b));
+        return cross.dot(normal(quad[k])) >= 0 ? turn : 2 * std::numbers::pi - turn;
+    }
+    [[nodiscard]] bool stands_well(const Quad& quad, std::size_t k) const
+    {
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (std::abs(angle(quad, i) - std::numbers::pi / 2) > kOffRight) return false;
+        }
+        const Vec3 across = (normal(quad[k]) + normal(quad[(k + 1) % 4])).cross(side(quad, k)).normalized();
+        for (const std::size_t far : {k + 2, k + 3}) {
+            const double above = (at(quad[far % 4]) - at(quad[k])).dot(across);
+            if (std::abs(above - asked_) > kOffHeight * asked_) return false;
+        }
+        return true;
+    }
+
+    const std::vector<Vec3>& points_;
+    std::vector<Quad> quads_;
+    std::vector<Vec3> normals_;
+    std::vector<Index> opposite_;
+    double asked_;
+};
+
+/// The farthest from the exact surface, by Gmsh's own search, of at most so many nodes: it takes its time.
+double off_surface(const std::vector<Vec3>& points, const std::string& file)
+{
+    constexpr std::size_t kMost = 20000;
+    cad::Session session(file);
+    const cad::GmshModel model(session);
+    return session.run([&] {
+        gmsh::vectorpair shapes;
+        gmsh::model::occ::importShapes(file, shapes, false);
+        gmsh::model::occ::synchronize();
+        gmsh::model::getEntities(shapes, 2);
+        std::vector<double> coordinates, closest, parameters;
+        const std::size_t step = points.size() / kMost + 1;
+        for (std::size_t p = 0; p < points.size(); p += step)
+            coordinates.insert(coordinates.end(), {points[p].x(), points[p].y(), points[p].z()});
+        gmsh::model::getClosestPoint(2, shapes.front().second, coordinates, closest, parameters);
+        double most = 0;
+        for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3)
+            most = std::max(most, Vec3(coordinates[i] - closest[i], coordinates[i + 1] - closest[i + 1],
+                                       coordinates[i + 2] - closest[i + 2])
+                                      .norm());
+        return most;
+    });
+}
+
+} // namespace
+
+SurfaceQuality measure_surface(const SurfaceQuads& mesh, const SeededFace& seeded)
+{
+    Meter meter(mesh, seeded);
+    SurfaceQuality result;
+    result.quads = meter.measure();
+    result.off_surface = off_surface(meter.inside(), seeded.file);
+    result.fault = meter.find_fault(seeded.rim.size(), seeded.loops.size(), result.quads.min_scaled_jacobian);
+    return result;
+}
+
+} // namespace lacuna::bench

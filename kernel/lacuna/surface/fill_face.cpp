@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/fill_face.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/flatten.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/surface/fine_facets.h>
+#include <lacuna/surface/projector.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+using Loops = std::vector<std::vector<Index>>;
+
+double area_of(const std::vector<Vec2>& points, std::span<const Index> loop)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Vec2& a = points[static_cast<std::size_t>(loop[i])];
+        const Vec2& b = points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
+        sum += a.x() * b.y() - a.y() * b.x();
+    }
+    return sum / 2;
+}
+
+/// The outer loop first, as the planar meshers want it.
+PlanarRegion region_of(std::vector<Vec2> points, Loops loops, std::function<double(const Vec2&)> size)
+{
+    std::stable_sort(loops.begin(), loops.end(),
+                     [&](const auto& a, const auto& b) { return area_of(points, a) > area_of(points, b); });
+    return {std::move(points), std::move(loops), std::move(size)};
+}
+
+/// The points a filling has added.
+std::span<const Vec2> inside_of(const PlanarQuads& filling, std::size_t rim)
+{
+    return std::span(filling.points).subspan(rim);
+}
+
+FaceQuads lifted(PlanarQuads filling, std::span<const RimNode> rim, const std::vector<Vec3>& inside)
+{
+    FaceQuads result;
+    for (const RimNode& node : rim) result.points.push_back(node.point);
+    result.points.insert(result.points.end(), inside.begin(), inside.end());
+    result.quads = std::move(filling.quads);
+    result.how = std::move(filling.how);
+    return result;
+}
+
+FaceQuads fill_plane(const geometry::Plane& plane, std::span<const RimNode> rim, const Loops& loops,
+                     const SizeField& size, const PlanarQuadMesher& mesher, const RunContext& context)
+{
+    std::vector<Vec2> flat;
+    for (const RimNode& node : rim) flat.push_back(geometry::to_plane(plane, node.point));
+    const auto size_there = [&](const Vec2& p) { return size(geometry::from_plane(plane, p)); };
+    PlanarQuads filling = mesher(region_of(std::move(flat), loops, size_there), context);
+    std::vector<Vec3> inside;
+    for (const Vec2& p : inside_of(filling, rim.size())) inside.push_back(geometry::from_plane(plane, p));
+    return lifted(std::move(filling), rim, inside);
+}
+
+/// A curved face, laid flat.
+class FlatFace {
+public:
+    FlatFace(const Model& model, FaceId face, const SizeField& size)
+        : model_(model),
+          fine_(fine_facets(model, face, size)),
+          flat_(geometry::flatten(fine_.points, fine_.triangles))
+    {
+        if (flat_.folded) { // fewer facets have fewer ways to fold
+            fine_ = fine_facets(model, face, size, {.rounds = 0});
+            flat_ = geometry::flatten(fine_.points, fine_.triangles);
+        }
+        if (flat_.folded) {
+            throw NotSweepable("surface.not_flat",
+                               name_of(model, face) +
+                                   " cannot be laid flat without folding; split it into simpler faces");
+        }
+        locator_ = geometry::PlanarLocator(flat_);
+        measure_stretch();
+    }
+
+    [[nodiscard]] std::vector<Vec2> lay(std::span<const RimNode> rim) const
+    {
+        std::map<EdgeId, std::vector<double>> arcs;
+        std::vector<Vec2> places;
+        for (const RimNode& node : rim) {
+            std::vector<double>& arc = arcs[node.edge];
+            if (arc.empty()) {
+                std::vector<Vec3> line;
+                for (const Index p : model_[node.edge].points) line.push_back(model_.at(p));
+                arc = geometry::arc_lengths(line);
+            }
+            const geometry::PolylinePlace at = geometry::place_at(arc, node.fraction * arc.back());
+            places.push_back(place_on(node.edge, static_cast<double>(at.segment) + at.fraction));
+        }
+        return places;
+    }
+
+    /// The size asked for on the face, as long as it is in the plane.
+    [[nodiscard]] double size_at(const Vec2& p, const SizeField& size) const
+    {
+        const auto at = locator_.locate(p);
+        const auto number = static_cast<std::size_t>(at.triangle);
+        const Triangle &t = fine_.triangles[number], &f = flat_.triangles[number];
+        Vec3 on_face = Vec3::Zero();
+        double by = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double weight = at.barycentric[static_cast<int>(k)];
+            on_face += weight * fine_.points[static_cast<std::size_t>(t[k])];
+            by += weight * stretch_[static_cast<std::size_t>(f[k])];
+        }
+        return size(on_face) * by;
+    }
+
+    [[nodiscard]] std::vector<Vec3> lift(std::span<const Vec2> points) const
+    {
+        std::vector<FacetPlace> places;
+        for (const Vec2& p : points) {
+            const auto found = locator_.locate(p);
+            places.push_back({found.triangle, found.barycentric});
+        }
+        return points_at({fine_.points, fine_.triangles, fine_.uv, fine_.surface.get()}, places);
+    }
+
+private:
+    /// The place of a side of an edge's own polyline and share of it.
+    [[nodiscard]] Vec2 place_on(EdgeId edge, double at) const
+    {
+        const std::vector<FineFacets::OnEdge>& chain = fine_.edges.at(edge);
+        auto after = std::upper_bound(chain.begin(), chain.end(), at,
+                                      [](double a, const FineFacets::OnEdge& b) { return a < b.at; });
+        after = std::clamp(after, chain.begin() + 1, chain.end() - 1);
+        const auto before = after - 1;
+        const double share = (at - before->at) / (after->at - before->at);
+        return (1 - share) * position(before->point) + share * position(after->point);
+    }
+
+    [[nodiscard]] const Vec2& position(Index point) const
+    {
+        const auto found = std::lower_bound(flat_.used.begin(), flat_.used.end(), point);
+        return flat_.position[static_cast<std::size_t>(found - flat_.used.begin())];
+    }
+
+    /// Lengths in the plane over those on the face, at each point used: the square root of the areas round it.
+    void measure_stretch()
+    {
+        std::vector<double> plane(flat_.used.size(), 0.0), space(flat_.used.size(), 0.0);
+        for (std::size_t i = 0; i < flat_.triangles.size(); ++i) {
+            const Triangle &f = flat_.triangles[i], &t = fine_.triangles[i];
+            const auto at = [&](std::size_t k) { return fine_.points[static_cast<std::size_t>(t[k])]; };
+            const double flat_area = std::abs(area_of(flat_.position, f));
+            const double area = (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
+            for (const Index p : f) {
+                plane[static_cast<std::size_t>(p)] += flat_area;
+                space[static_cast<std::size_t>(p)] += area;
+            }
+        }
+        for (std::size_t p = 0; p < plane.size(); ++p)
+            stretch_.push_back(space[p] > 0 ? std::sqrt(plane[p] / space[p]) : 1);
+    }
+
+    const Model& model_;
+    FineFacets fine_;
+    geometry::Flattened flat_;
+    geometry::PlanarLocator locator_;
+    std::vector<double> stretch_;
+};
+
+} // namespace
+
+FaceQuads fill_face(const Model& model, FaceId face, std::span<const RimNode> rim, const Loops& loops,
+                    const SizeField& size, const PlanarQuadMesher& mesher, const RunContext& context)
+{
+    const Vec3 normal = face_area_vector(model, face).stableNormalized();
+    const Vec3 origin = face_centroid(model, face);
+    double bulge = 0;
+    for (const Triangle& t : model[face].triangles) {
+        for (const Index p : t) bulge = std::max(bulge, std::abs((model.at(p) - origin).dot(normal)));
+    }
+    if (bulge <= model.tolerance)
+        return fill_plane(geometry::plane_across(origin, normal), rim, loops, size, mesher, context);
+    const FlatFace flat(model, face, size);
+    const auto size_there = [&](const Vec2& p) { return flat.size_at(p, size); };
+    PlanarQuads filling = mesher(region_of(flat.lay(rim), loops, size_there), context);
+    const std::vector<Vec3> inside = flat.lift(inside_of(filling, rim.size()));
+    return lifted(std::move(filling), rim, inside);
+}
+
+} // namespace lacuna::surface

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/surface/quad_mesher.h>
+#include <lacuna/topology/model.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// A node on the boundary of a face.
+struct RimNode {
+    Vec3 point;          ///< on the exact edge
+    EdgeId edge;         ///< of the face
+    double fraction = 0; ///< of the edge's length, as the edge runs
+};
+
+/// Quads over a face.
+struct FaceQuads {
+    std::vector<Vec3> points; ///< the rim's nodes first, then those inside, on the exact surface
+    std::vector<Quad> quads;  ///< counter-clockwise as the face is seen
+    std::string how{};        ///< by what they were made, as the planar mesher says
+};
+
+/// Fill a face with quads inside given boundary nodes.
+///
+/// A face in a plane is filled in that plane. Another is laid flat by facets that are fine enough for the size
+/// (`fine_facets()`), the nodes of its rim with its edges; the size is corrected for the stretch at each place, the plane is
+/// filled, and the new nodes go back by the facets they lie on to the exact surface.
+/// @param rim    nodes of the boundary; they stay, in this order.
+/// @param loops  cycles of places in `rim`, the face on the left.
+/// @throw NotSweepable "surface.not_flat"  a face that cannot be laid flat; what the mesher throws.
+FaceQuads fill_face(const topology::Model& model, FaceId face, std::span<const RimNode> rim,
+                    const std::vector<std::vector<Index>>& loops, const SizeField& size,
+                    const PlanarQuadMesher& mesher, const RunContext& context = {});
+
+} // namespace lacuna::surface

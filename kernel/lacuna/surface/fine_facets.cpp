@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/fine_facets.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+std::uint64_t key_of(Index a, Index b)
+{
+    if (a > b) std::swap(a, b);
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32) | static_cast<std::uint32_t>(b);
+}
+
+/// The face as it is.
+FineFacets copy_of(const Model& model, FaceId face)
+{
+    FineFacets fine;
+    fine.uv = model[face].uv;
+    fine.surface = model[face].surface;
+    std::map<Index, Index> local; // in the model's order
+    for (const Triangle& t : model[face].triangles) {
+        for (const Index p : t) local[p] = -1;
+    }
+    for (auto& [point, own] : local) {
+        own = static_cast<Index>(fine.points.size());
+        fine.points.push_back(model.at(point));
+    }
+    const auto own = [&](Index p) { return local.at(p); };
+    for (const Triangle& t : model[face].triangles)
+        fine.triangles.push_back({own(t[0]), own(t[1]), own(t[2])});
+    for (const Loop& loop : model[face].loops) {
+        for (const EdgeUse& use : loop.uses) {
+            auto [found, fresh] = fine.edges.try_emplace(use.edge);
+            if (!fresh) continue;
+            const std::vector<Index>& chain = model[use.edge].points;
+            for (std::size_t i = 0; i < chain.size(); ++i)
+                found->second.push_back({static_cast<double>(i), own(chain[i])});
+        }
+    }
+    return fine;
+}
+
+/// A side of facets and its middle on the exact face.
+struct Side {
+    Index a, b;
+    Vec3 middle;
+    Vec2 uv = Vec2::Zero(); ///< to start the projection from
+    bool on_edge = false;
+    bool halved = false;
+    Index point = -1; ///< the middle, once made
+};
+
+/// What becomes of a facet: corners are 0, 1 and 2, the middle of the side that starts at each 3, 4 and 5.
+std::vector<std::array<std::size_t, 3>> parts(const std::array<bool, 3>& halved)
+{
+    const auto count = std::count(halved.begin(), halved.end(), true);
+    if (count == 0) return {{0, 1, 2}};
+    if (count == 3) return {{0, 3, 5}, {1, 4, 3}, {2, 5, 4}, {3, 4, 5}};
+    const auto k = static_cast<std::size_t>(std::find(halved.begin(), halved.end(), true) - halved.begin());
+    return {{k, 3 + k, (k + 2) % 3}, {3 + k, (k + 1) % 3, (k + 2) % 3}};
+}
+
+/// Halves sides, a round at a time.
+class Halving {
+public:
+    Halving(const Model& model, FineFacets& fine, const SizeField& size, double off)
+        : model_(model), fine_(fine), size_(size), off_(off)
+    {
+    }
+
+    /// @return false when no side needs it, or facets would turn over: then all is as it was.
+    bool round()
+    {
+        collect();
+        find_middles();
+        bool any = false;
+        for (Side& side : sides_) {
+            if (is_settled(side)) continue;
+            const Vec3 chord = (fine_.points[at(side.a)] + fine_.points[at(side.b)]) / 2;
+            side.halved = (side.middle - chord).norm() > off_ * size_(side.middle);
+            any = any || side.halved;
+            if (!side.halved) settled_.insert(key_of(side.a, side.b));
+        }
+        if (!any) return false;
+        FineFacets before = fine_;
+        spread();
+        make_points();
+        if (cut()) return true;
+        fine_ = std::move(before);
+        return false;
+    }
+
+private:
+    [[nodiscard]] Side& side(const Triangle& t, std::size_t k)
+    {
+        return sides_[number_.at(key_of(t[k], t[(k + 1) % 3]))];
+    }
+
+    void collect()
+    {
+        sides_.clear();
+        number_.clear();
+        for (std::size_t i = 0; i < fine_.triangles.size(); ++i) {
+            const Triangle& t = fine_.triangles[i];
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index a = t[k], b = t[(k + 1) % 3];
+                if (!number_.try_emplace(key_of(a, b), sides_.size()).second) continue;
+                sides_.push_back({a, b, (fine_.points[at(a)] + fine_.points[at(b)]) / 2});
+                if (!fine_.uv.empty()) sides_.back().uv = (fine_.uv[i][k] + fine_.uv[i][(k + 1) % 3]) / 2;
+            }
+        }
+    }
+
+    /// On the exact edges and the exact surface, all at once. Known ones keep their chord's.
+    void find_middles()
+    {
+        for (const auto& [edge, chain] : fine_.edges) {
+            std::vector<double> params;
+            std::vector<std::size_t> which;
+            for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+                const auto found = number_.find(key_of(chain[i].point, chain[i + 1].point));
+                if (found == number_.end()) continue;
+                sides_[found->second].on_edge = true;
+                if (model_[edge].curve == nullptr) continue;
+                params.push_back(parameter(model_[edge], (chain[i].at + chain[i + 1].at) / 2));
+                which.push_back(found->second);
+            }
+            if (params.empty()) continue;
+            std::vector<Vec3> exact(params.size());
+            model_[edge].curve->evaluate(params, exact);
+            for (std::size_t i = 0; i < which.size(); ++i) sides_[which[i]].middle = exact[i];
+        }
+        std::vector<std::size_t> inside;
+        for (std::size_t s = 0; s < sides_.size(); ++s) {
+            if (!sides_[s].on_edge && !is_settled(sides_[s])) inside.push_back(s);
+        }
+        project(inside);
+    }
+
+    [[nodiscard]] bool is_settled(const Side& side) const
+    {
+        return settled_.contains(key_of(side.a, side.b));
+    }
+
+    void project(const std::vector<std::size_t>& which)
+    {
+        if (which.empty()) return;
+        std::vector<Vec3> points;
+        std::vector<Vec2> uv;
+        for (const std::size_t s : which) {
+            points.push_back(sides_[s].middle);
+            uv.push_back(sides_[s].uv);
+        }
+        fine_.surface->project(points, uv);
+        for (std::size_t i = 0; i < which.size(); ++i) sides_[which[i]].middle = points[i];
+    }
+
+    static double parameter(const Edge& edge, double where)
+    {
+        const std::size_t segment = std::min(static_cast<std::size_t>(where), edge.points.size() - 2);
+        const double share = where - static_cast<double>(segment);
+        return (1 - share) * edge.params[segment] + share * edge.params[segment + 1];
+    }
+
+    /// A facet with two sides to be halved has the third halved too, so that facets keep their shapes.
+    void spread()
+    {
+        for (bool again = true; again;) {
+            again = false;
+            for (const Triangle& t : fine_.triangles) {
+                int halved = 0;
+                for (std::size_t k = 0; k < 3; ++k) halved += side(t, k).halved ? 1 : 0;
+                if (halved != 2) continue;
+                again = true;
+                for (std::size_t k = 0; k < 3; ++k) side(t, k).halved = true;
+            }
+        }
+    }
+
+    void make_points()
+    {
+        // Sides settled in earlier rounds, halved after all for their neighbours' sake.
+        std::vector<std::size_t> late;
+        for (std::size_t s = 0; s < sides_.size(); ++s) {
+            if (sides_[s].halved && !sides_[s].on_edge && is_settled(sides_[s])) late.push_back(s);
+        }
+        project(late);
+        for (Side& side : sides_) {
+            if (!side.halved) continue;
+            side.point = static_cast<Index>(fine_.points.size());
+            fine_.points.push_back(side.middle);
+        }
+        for (auto& [edge, chain] : fine_.edges) {
+            std::vector<FineFacets::OnEdge> longer;
+            for (std::size_t i = 0; i < chain.size(); ++i) {
+                longer.push_back(chain[i]);
+                if (i + 1 == chain.size()) break;
+                const auto found = number_.find(key_of(chain[i].point, chain[i + 1].point));
+                if (found == number_.end() || !sides_[found->second].halved) continue;
+                longer.push_back({(chain[i].at + chain[i + 1].at) / 2, sides_[found->second].point});
+            }
+            chain = std::move(longer);
+        }
+    }
+
+    /// @return false where a facet turns over.
+    bool cut()
+    {
+        std::vector<Triangle> triangles;
+        std::vector<std::array<Vec2, 3>> uv;
+        bool upright = true;
+        for (std::size_t i = 0; i < fine_.triangles.size(); ++i) {
+            const Triangle& t = fine_.triangles[i];
+            std::array<Index, 6> point{t[0], t[1], t[2], -1, -1, -1};
+            std::array<Vec2, 6> place;
+            place.fill(Vec2::Zero());
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (side(t, k).halved) point[3 + k] = side(t, k).point;
+                if (fine_.uv.empty()) continue;
+                place[k] = fine_.uv[i][k];
+                place[3 + k] = (fine_.uv[i][k] + fine_.uv[i][(k + 1) % 3]) / 2;
+            }
+            const auto area = [&](const Triangle& c) -> Vec3 {
+                const Vec3& from = fine_.points[at(c[0])];
+                return (fine_.points[at(c[1])] - from).cross(fine_.points[at(c[2])] - from);
+            };
+            const Vec3 whole = area(t);
+            for (const auto& [a, b, c] : parts({point[3] >= 0, point[4] >= 0, point[5] >= 0})) {
+                triangles.push_back({point[a], point[b], point[c]});
+                upright = upright && area(triangles.back()).dot(whole) >= 0;
+                if (!fine_.uv.empty()) uv.push_back({place[a], place[b], place[c]});
+            }
+        }
+        fine_.triangles = std::move(triangles);
+        fine_.uv = std::move(uv);
+        return upright;
+    }
+
+    const Model& model_;
+    FineFacets& fine_;
+    const SizeField& size_;
+    double off_;
+    std::vector<Side> sides_;
+    std::unordered_map<std::uint64_t, std::size_t> number_; ///< of each side
+    std::unordered_set<std::uint64_t> settled_;             ///< sides found straight enough
+};
+
+} // namespace
+
+FineFacets fine_facets(const Model& model, FaceId face, const SizeField& size,
+                       const FineFacetOptions& options)
+{
+    FineFacets fine = copy_of(model, face);
+    if (fine.surface == nullptr) return fine;
+    Halving halving(model, fine, size, options.off);
+    for (int i = 0; i < options.rounds && static_cast<double>(fine.triangles.size()) < options.most; ++i) {
+        if (!halving.round()) break;
+    }
+    return fine;
+}
+
+} // namespace lacuna::surface
