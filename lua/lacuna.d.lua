@@ -55,7 +55,9 @@
 ---@class lacuna.SweepOptions
 ---@field layers? integer|number[]|lacuna.Layers a count, rising heights in (0, 1] or a spacing
 ---@field size? number|fun(x: number, y: number, z: number): number edge length on the source; default: the rim's spacing
----@field quads? "auto"|"paved"|"mapped"|"gmsh"|"keep" default "auto"
+---@field quads? "auto"|"paved"|"mapped"|"gmsh"|"keep" default "auto"; the report says which way each face was meshed
+---@field rows? integer rows of quads from every loop of the source that stay as they are laid; default: what the paver finds good
+---@field row_height? number|fun(x: number, y: number, z: number): number of those rows (one at least); default: the size
 ---@field order? 1|2 default 1
 ---@field serendipity? boolean
 ---@field min_scaled_jacobian? number below it the mesh is refused; default 0

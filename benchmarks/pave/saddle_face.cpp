@@ -158,7 +158,7 @@ SurfaceQuads lacuna_quads(const SeededFace& seeded)
     context.threads = 1;
     const double start = seconds();
     surface::FaceQuads made = surface::fill_face(
-        seeded.model, seeded.face, seeded.rim, seeded.loops, [&](const Vec3&) { return seeded.size; },
+        seeded.model, seeded.face, seeded.rim, seeded.loops, {[&](const Vec3&) { return seeded.size; }},
         [](const surface::PlanarRegion& region, const RunContext& c) { return surface::pave(region, {}, c); },
         context);
     return {std::move(made.points), std::move(made.quads), 0, seconds() - start};

@@ -21,6 +21,7 @@ struct SweepArguments {
     sweep::SweepOptions options;
     int threads = 0;
     int size_function = 0; ///< stack index of a Lua function, 0 for none
+    int row_height_function = 0;
     int order = 1;
     bool serendipity = false;
 };
@@ -94,19 +95,37 @@ void read_size(lua_State* L, int index, const Where& where, SweepArguments& argu
     }
 }
 
+void read_row_height(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    if (lua_type(L, index) == LUA_TFUNCTION) {
+        arguments.row_height_function = 1;
+    } else if (lua_type(L, index) == LUA_TNUMBER) {
+        const double height = read_positive(L, index, where);
+        guard(L, [&] { arguments.options.row_height = [height](const Vec3&) { return height; }; });
+    } else {
+        fail_value(L, where, "a positive number or a function(x, y, z) that returns one", index);
+    }
+}
+
+void read_rows(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.rows = read_whole(L, index, where, 1);
+}
+
 /// Calls back a recipe's function. The kernel samples sizes on the thread that called it; were it ever to ask
 /// from another, Lua, which knows no threads, would be lost: so that is refused.
 struct LuaSize {
     lua_State* state;
     int function;
     std::thread::id thread;
+    const char* option = "size";
 
     double operator()(const Vec3& place) const
     {
         lua_State* const L = state;
         if (std::this_thread::get_id() != thread || !lua_checkstack(L, 8))
-            throw Error("lua.size_function",
-                        "the size function cannot be called here; give size as a number");
+            throw Error("lua.size_function", std::string("the function of option '") + option +
+                                                 "' cannot be called here; give a number");
         lua_pushvalue(L, function);
         for (const double coordinate : place) lua_pushnumber(L, coordinate);
         if (lua_pcall(L, 3, 1, 0) != LUA_OK) {
@@ -117,8 +136,8 @@ struct LuaSize {
         lua_pop(L, 1);
         if (!(std::isfinite(size) && size > 0))
             throw InvalidInput("lua.size_function",
-                               "sweep: option 'size': the function must return a positive number "
-                               "everywhere; at (" +
+                               std::string("sweep: option '") + option +
+                                   "': the function must return a positive number everywhere; at (" +
                                    std::to_string(place.x()) + ", " + std::to_string(place.y()) + ", " +
                                    std::to_string(place.z()) + ") it did not");
         return size;
@@ -182,6 +201,8 @@ const Option<SweepArguments> kSweepOptions[] = {
     {"layers", read_layers},
     {"size", read_size},
     {"quads", read_quads},
+    {"rows", read_rows},
+    {"row_height", read_row_height},
     {"order", read_order},
     {"serendipity", boolean<&SweepArguments::serendipity>},
     {"min_scaled_jacobian", read_min_scaled_jacobian},
@@ -197,11 +218,22 @@ SweepArguments& push_arguments(lua_State* L, int index, const char* call)
     read_options(L, index, call, kSweepOptions, arguments);
     if (arguments.order == 2 || arguments.serendipity)
         fail(L, "%s: cells of order 2 are not available yet; leave 'order' and 'serendipity' out", call);
+    const bool unpaved = arguments.options.quads != Quads::automatic && arguments.options.quads != Quads::paved;
+    if (unpaved && (arguments.options.rows > 0 || arguments.options.row_height || arguments.row_height_function))
+        fail(L, "%s: 'rows' and 'row_height' are the paver's; use them with quads = \"auto\" or \"paved\"", call);
     if (arguments.size_function) {
         lua_getfield(L, index, "size");
         arguments.size_function = lua_gettop(L);
         guard(L, [&] {
             arguments.options.size = LuaSize{L, arguments.size_function, std::this_thread::get_id()};
+        });
+    }
+    if (arguments.row_height_function) {
+        lua_getfield(L, index, "row_height");
+        arguments.row_height_function = lua_gettop(L);
+        guard(L, [&] {
+            arguments.options.row_height = LuaSize{L, arguments.row_height_function,
+                                                   std::this_thread::get_id(), "row_height"};
         });
     }
 #ifdef LACUNA_WITH_CAD

@@ -158,7 +158,7 @@ TEST_CASE("counts of faces of right angles are made to agree, so that their grid
             for (const auto& sides : pairs) CHECK(total(sides[0]) == total(sides[1]));
         }
         const surface::SourceMesh mesh = surface::mesh_source(
-            volume, belts, seeds, even,
+            volume, belts, seeds, {even},
             [](const PlanarRegion& region, const RunContext& context) { return surface::pave(region, {}, context); });
         REQUIRE(mesh.notes.size() == 1);
         CHECK(mesh.notes.front().find("submapped") != std::string::npos);

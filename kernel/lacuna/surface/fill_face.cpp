@@ -34,11 +34,12 @@ double area_of(const std::vector<Vec2>& points, std::span<const Index> loop)
 }
 
 /// The outer loop first, as the planar meshers want it.
-PlanarRegion region_of(std::vector<Vec2> points, Loops loops, std::function<double(const Vec2&)> size)
+PlanarRegion region_of(std::vector<Vec2> points, Loops loops, std::function<double(const Vec2&)> size,
+                       std::function<double(const Vec2&)> row_height)
 {
     std::stable_sort(loops.begin(), loops.end(),
                      [&](const auto& a, const auto& b) { return area_of(points, a) > area_of(points, b); });
-    return {std::move(points), std::move(loops), std::move(size)};
+    return {std::move(points), std::move(loops), std::move(size), std::move(row_height)};
 }
 
 /// The points a filling has added.
@@ -58,12 +59,15 @@ FaceQuads lifted(PlanarQuads filling, std::span<const RimNode> rim, const std::v
 }
 
 FaceQuads fill_plane(const geometry::Plane& plane, std::span<const RimNode> rim, const Loops& loops,
-                     const SizeField& size, const PlanarQuadMesher& mesher, const RunContext& context)
+                     const SizeFields& sizes, const PlanarQuadMesher& mesher, const RunContext& context)
 {
     std::vector<Vec2> flat;
     for (const RimNode& node : rim) flat.push_back(geometry::to_plane(plane, node.point));
-    const auto size_there = [&](const Vec2& p) { return size(geometry::from_plane(plane, p)); };
-    PlanarQuads filling = mesher(region_of(std::move(flat), loops, size_there), context);
+    const auto there = [&](const SizeField& field) -> std::function<double(const Vec2&)> {
+        if (!field) return {};
+        return [&](const Vec2& p) { return field(geometry::from_plane(plane, p)); };
+    };
+    PlanarQuads filling = mesher(region_of(std::move(flat), loops, there(sizes.edge), there(sizes.row)), context);
     std::vector<Vec3> inside;
     for (const Vec2& p : inside_of(filling, rim.size())) inside.push_back(geometry::from_plane(plane, p));
     return lifted(std::move(filling), rim, inside);
@@ -180,7 +184,7 @@ private:
 } // namespace
 
 FaceQuads fill_face(const Model& model, FaceId face, std::span<const RimNode> rim, const Loops& loops,
-                    const SizeField& size, const PlanarQuadMesher& mesher, const RunContext& context)
+                    const SizeFields& sizes, const PlanarQuadMesher& mesher, const RunContext& context)
 {
     const Vec3 normal = face_area_vector(model, face).stableNormalized();
     const Vec3 origin = face_centroid(model, face);
@@ -189,10 +193,13 @@ FaceQuads fill_face(const Model& model, FaceId face, std::span<const RimNode> ri
         for (const Index p : t) bulge = std::max(bulge, std::abs((model.at(p) - origin).dot(normal)));
     }
     if (bulge <= model.tolerance)
-        return fill_plane(geometry::plane_across(origin, normal), rim, loops, size, mesher, context);
-    const FlatFace flat(model, face, size);
-    const auto size_there = [&](const Vec2& p) { return flat.size_at(p, size); };
-    PlanarQuads filling = mesher(region_of(flat.lay(rim), loops, size_there), context);
+        return fill_plane(geometry::plane_across(origin, normal), rim, loops, sizes, mesher, context);
+    const FlatFace flat(model, face, sizes.edge);
+    const auto there = [&](const SizeField& field) -> std::function<double(const Vec2&)> {
+        if (!field) return {};
+        return [&](const Vec2& p) { return flat.size_at(p, field); };
+    };
+    PlanarQuads filling = mesher(region_of(flat.lay(rim), loops, there(sizes.edge), there(sizes.row)), context);
     const std::vector<Vec3> inside = flat.lift(inside_of(filling, rim.size()));
     return lifted(std::move(filling), rim, inside);
 }

@@ -34,7 +34,7 @@ struct FaceQuads {
 /// @param loops  cycles of places in `rim`, the face on the left.
 /// @throw NotSweepable "surface.not_flat"  a face that cannot be laid flat; what the mesher throws.
 FaceQuads fill_face(const topology::Model& model, FaceId face, std::span<const RimNode> rim,
-                    const std::vector<std::vector<Index>>& loops, const SizeField& size,
+                    const std::vector<std::vector<Index>>& loops, const SizeFields& sizes,
                     const PlanarQuadMesher& mesher, const RunContext& context = {});
 
 } // namespace lacuna::surface

@@ -134,7 +134,7 @@ PlanarQuads pave_inside_rows(const PlanarRegion& region, const PaveOptions& opti
     std::vector<bool> wanted(loops.size(), true);
     int laid = 0;
     for (int r = 0; r < std::max(options.rows, 1); ++r) {
-        const int now = lay_rows(draft, loops, wanted, options.row_height, RowKind::thin);
+        const int now = lay_rows(draft, loops, wanted, region.row_height, RowKind::thin);
         for (std::size_t l = 0; l < loops.size(); ++l) {
             if (!wanted[l])
                 log_line(context, "no room for row " + std::to_string(r + 1) + " along loop " +
@@ -143,7 +143,7 @@ PlanarQuads pave_inside_rows(const PlanarRegion& region, const PaveOptions& opti
         if (now == 0) break;
         laid += now;
     }
-    PlanarRegion core{{}, {}, region.size};
+    PlanarRegion core{{}, {}, region.size, {}};
     std::vector<Index> own;
     for (const Cycle& loop : loops) {
         core.loops.emplace_back();
@@ -154,7 +154,6 @@ PlanarQuads pave_inside_rows(const PlanarRegion& region, const PaveOptions& opti
         }
     }
     PaveOptions inside = options;
-    inside.row_height = nullptr;
     inside.rows = -1;
     const PlanarQuads filling = pave(core, inside, context);
     PlanarQuads mesh{std::move(draft.points), std::move(draft.quads), filling.how};
@@ -166,7 +165,7 @@ PlanarQuads pave_inside_rows(const PlanarRegion& region, const PaveOptions& opti
         for (Index& p : quad) p = own[static_cast<std::size_t>(p)];
         mesh.quads.push_back(quad);
     }
-    mesh.how += " inside " + std::to_string(laid) + (laid == 1 ? " row" : " rows") + " of their own height";
+    mesh.how += " inside " + std::to_string(laid) + (laid == 1 ? " row of its own height" : " rows of their own height");
     if (options.report) options.report->rows += laid;
     return mesh;
 }
@@ -176,7 +175,7 @@ PlanarQuads pave_inside_rows(const PlanarRegion& region, const PaveOptions& opti
 PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
 {
     check_region(region);
-    if (options.row_height && options.rows != 0) return pave_inside_rows(region, options, context);
+    if (region.row_height && options.rows != 0) return pave_inside_rows(region, options, context);
     // Below this many quads it costs little to pave with and without rows and keep the better.
     constexpr std::size_t kFew = 4000;
     // And so many in all with every taste.

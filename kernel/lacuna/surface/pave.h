@@ -20,12 +20,11 @@ struct PaveReport {
 
 /// Options of `pave()`.
 struct PaveOptions {
-    int rows = -1; ///< most rows to lay inward from each loop; -1: as many as its shape needs, mostly 1 to 3
+    /// Most rows to lay inward from each loop; -1: as many as its shape needs, mostly 1 to 3. Where the region has a row
+    /// height of its own: rows of that height, one at least, that stay as they are laid wherever there is room.
+    int rows = -1;
     bool clean = true;  ///< mend irregular nodes
     bool smooth = true; ///< move inner nodes
-    /// Height of rows at a place, flatter or taller than the size [model length]: `rows` of them (one at least) are
-    /// laid from every loop where there is room and stay as laid. Empty: rows are as high as the size.
-    std::function<double(const Vec2&)> row_height{};
     PaveReport* report = nullptr; ///< filled where given
 };
 

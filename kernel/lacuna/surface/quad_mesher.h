@@ -13,12 +13,19 @@ namespace lacuna::surface {
 /// Target edge length at a place; positive and finite [model length].
 using SizeField = std::function<double(const Vec3&)>;
 
+/// Lengths asked for on faces.
+struct SizeFields {
+    SizeField edge;  ///< of the quads' sides
+    SizeField row{}; ///< height of rows along the loops that stay as they are laid; empty: none are asked for
+};
+
 /// A region of the plane to be filled with quads.
 struct PlanarRegion {
     std::vector<Vec2> points; ///< boundary nodes; kept, in this order, as the first nodes of the mesh
     std::vector<std::vector<Index>>
         loops; ///< node cycles, region on the left; the outer one first; each of even length in sum
     std::function<double(const Vec2&)> size; ///< target edge length in the plane
+    std::function<double(const Vec2&)> row_height{}; ///< of rows along the loops, where they are asked for
 };
 
 /// Quads over a planar region.

@@ -19,11 +19,11 @@ namespace {
 class SourceMesher {
 public:
     SourceMesher(const OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds,
-                 const SizeField& size, const PlanarQuadMesher& mesher, const RunContext& context)
+                 const SizeFields& sizes, const PlanarQuadMesher& mesher, const RunContext& context)
         : volume_(volume),
           model_(volume.model),
           seeds_(seeds),
-          size_(size),
+          sizes_(sizes),
           mesher_(mesher),
           context_(context)
     {
@@ -225,7 +225,7 @@ private:
                 }
             }
         }
-        const FaceQuads filling = fill_face(model_, face, rim, loops, size_, mesher_, context_);
+        const FaceQuads filling = fill_face(model_, face, rim, loops, sizes_, mesher_, context_);
         how_ = filling.how.empty() ? "free" : filling.how;
         std::vector<Index> node = std::move(boundary);
         for (std::size_t p = rim.size(); p < filling.points.size(); ++p)
@@ -240,7 +240,7 @@ private:
     const OpenVolume& volume_;
     const Model& model_;
     const Seeds& seeds_;
-    const SizeField& size_;
+    const SizeFields& sizes_;
     const PlanarQuadMesher& mesher_;
     const RunContext& context_;
     SourceMesh result_;
@@ -252,9 +252,9 @@ private:
 } // namespace
 
 SourceMesh mesh_source(const OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds,
-                       const SizeField& size, const PlanarQuadMesher& mesher, const RunContext& context)
+                       const SizeFields& sizes, const PlanarQuadMesher& mesher, const RunContext& context)
 {
-    return SourceMesher(volume, belts, seeds, size, mesher, context).run();
+    return SourceMesher(volume, belts, seeds, sizes, mesher, context).run();
 }
 
 } // namespace lacuna::surface

@@ -28,11 +28,13 @@ using namespace topology;
 
 namespace {
 
-surface::QuadStyle style_of(Quads quads)
+bool asks_rows(const SweepOptions& options) { return options.rows > 0 || options.row_height; }
+
+surface::QuadStyle style_of(const SweepOptions& options)
 {
-    switch (quads) {
+    switch (options.quads) {
     case Quads::automatic:
-        return surface::QuadStyle::automatic;
+        return asks_rows(options) ? surface::QuadStyle::free : surface::QuadStyle::automatic;
     case Quads::mapped:
         return surface::QuadStyle::mapped;
     case Quads::gmsh:
@@ -65,9 +67,10 @@ surface::PlanarQuadMesher mesher_of(const SweepOptions& options)
         };
     }
     const bool fall_back = options.quads != Quads::paved && options.quad_mesher;
-    return [given, fall_back](const surface::PlanarRegion& region, const RunContext& context) {
+    const int rows = asks_rows(options) ? std::max(options.rows, 1) : -1;
+    return [given, fall_back, rows](const surface::PlanarRegion& region, const RunContext& context) {
         try {
-            return surface::pave(region, {}, context);
+            return surface::pave(region, {.rows = rows}, context);
         } catch (const NotSweepable& error) {
             if (!fall_back) throw;
             log_line(context, error.what());
@@ -76,23 +79,33 @@ surface::PlanarQuadMesher mesher_of(const SweepOptions& options)
     };
 }
 
-/// Refuse what is no length before anything is divided by it.
-surface::SizeField checked_size(const OpenVolume& volume, const SweepOptions& options)
+/// A field that refuses what is no length before anything is divided by it.
+surface::SizeField checked(const surface::SizeField& field, const std::string& name)
 {
-    if (!options.size) {
-        const double spacing = surface::rim_spacing(volume);
-        return [spacing](const Vec3&) { return spacing; };
-    }
-    return [size = options.size](const Vec3& p) {
-        const double h = size(p);
+    return [field, name](const Vec3& p) {
+        const double h = field(p);
         if (!(h > 0) || !std::isfinite(h)) {
-            throw InvalidInput("sweep.size", "the size at (" + std::to_string(p.x()) + ", " +
+            throw InvalidInput("sweep.size", "the " + name + " at (" + std::to_string(p.x()) + ", " +
                                                  std::to_string(p.y()) + ", " + std::to_string(p.z()) +
                                                  ") is " + std::to_string(h) +
                                                  "; it must be a positive length");
         }
         return h;
     };
+}
+
+surface::SizeField checked_size(const OpenVolume& volume, const SweepOptions& options)
+{
+    if (options.size) return checked(options.size, "size");
+    const double spacing = surface::rim_spacing(volume);
+    return [spacing](const Vec3&) { return spacing; };
+}
+
+/// The size, and the height of rows where they are asked for.
+surface::SizeFields size_fields(const surface::SizeField& size, const SweepOptions& options)
+{
+    if (!asks_rows(options)) return {size};
+    return {size, options.row_height ? checked(options.row_height, "row height") : size};
 }
 
 /// Refuse at once what could never be numbered, instead of filling the memory first.
@@ -293,9 +306,9 @@ Swept sweep_between(const OpenVolume& volume, const std::vector<surface::Belt>& 
                     const SweepOptions& options, const RunContext& context)
 {
     Swept result;
-    const surface::Seeds seeds = surface::seed_source(volume, belts, size, style_of(options.quads));
-    surface::SourceMesh source = surface::mesh_source(volume, belts, seeds, size, mesher_of(options),
-                                                      context);
+    const surface::Seeds seeds = surface::seed_source(volume, belts, size, style_of(options));
+    surface::SourceMesh source = surface::mesh_source(volume, belts, seeds, size_fields(size, options),
+                                                      mesher_of(options), context);
     for (std::string& note : source.notes) result.report.push_back("source " + note);
     for (const Role role : {Role::target, Role::wall}) {
         for (const FaceId face : volume.faces(role)) {

@@ -1,0 +1,86 @@
+-- SPDX-License-Identifier: MIT
+-- Which way each source is meshed, said in the report, and rows of a height of their own.
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local lacuna = require "lacuna"
+
+-- A straight prism over corners that go round anticlockwise; walls by their side.
+local function prism(corners, height)
+  local model, n = lacuna.model(), #corners
+  local function at(k, z)
+    local p = corners[(k - 1) % n + 1]
+    return { p[1], p[2], z }
+  end
+  local function lid(name, z, cells)
+    local points = {}
+    for k = 1, n do points[k] = at(k, z) end
+    model:add_face { name = name, points = points, cells = cells }
+  end
+  return model, at, lid
+end
+
+local function ell(a, b)
+  -- An L of arms a long and 1 wide, b up.
+  local corners = { { 0, 0 }, { a, 0 }, { a, 1 }, { 1, 1 }, { 1, b }, { 0, b } }
+  local model, at, lid = prism(corners, 1)
+  lid("source", 0, { { 1, 4, 2 }, { 2, 4, 3 }, { 1, 6, 4 }, { 6, 5, 4 } })
+  lid("target", 1, { { 1, 2, 4 }, { 2, 3, 4 }, { 1, 4, 6 }, { 6, 4, 5 } })
+  for k = 1, 6 do
+    model:add_face { name = "wall_" .. k, points = { at(k, 0), at(k + 1, 0), at(k + 1, 1), at(k, 1) }, cells = { { 1, 2, 3 }, { 1, 3, 4 } } }
+  end
+  return model:open_volume { source = "source", target = "target", walls = "auto" }
+end
+
+local function said(mesh, what)
+  for _, line in ipairs(mesh.report) do
+    if line:find(what, 1, true) then return true end
+  end
+  return false, table.concat(mesh.report, "\n")
+end
+
+-- Faces of right angles are submapped, by "auto" and by "mapped", whatever the size: one grid, nothing lost.
+for _, size in ipairs { 0.31, 0.17, 0.093 } do
+  for _, quads in ipairs { "auto", "mapped" } do
+    local mesh = ell(2.7, 3.4):sweep { layers = 2, size = size, quads = quads }
+    check.that(said(mesh, "submapped"))
+    check.that(mesh:quality().min_scaled_jacobian > 0.9, "a grid of squares")
+  end
+end
+
+local function disc() return lacuna.synthetic.barrel { radius = 1, height = 1, bulge = 0 }:open_volume { source = "source", target = "target", walls = "auto" } end
+
+-- Depths of the source's nodes below its rim, from the shallowest.
+local function depths(mesh)
+  local found = {}
+  for i = 1, mesh.nodes do
+    local x, y, z = mesh:node(i)
+    if math.abs(z) < 1e-9 then found[#found + 1] = 1 - math.sqrt(x * x + y * y) end
+  end
+  table.sort(found)
+  return found
+end
+
+for _, height in ipairs { 0.03, 0.08 } do
+  local mesh = disc():sweep { layers = 2, size = 0.1, rows = 2, row_height = height }
+  check.that(said(mesh, "2 rows of their own height"))
+  local near = { 0, 0, 0 }
+  for _, depth in ipairs(depths(mesh)) do
+    for row = 0, 2 do
+      if math.abs(depth - row * height) < 0.1 * height then near[row + 1] = near[row + 1] + 1 end
+    end
+    check.that(depth < 0.1 * height or depth > 0.9 * height, "a node within the first row")
+  end
+  check.that(near[1] >= 60 and near[2] >= near[1] and near[3] >= near[1], "nodes at each row's end")
+end
+
+-- A height that changes, and rows alone, as high as the size.
+do
+  local mesh = disc():sweep { layers = 2, size = 0.1, row_height = function(x) return x > 0 and 0.06 or 0.04 end }
+  check.that(said(mesh, "1 row of its own height"))
+  check.that(said(disc():sweep { layers = 1, size = 0.1, rows = 3 }, "3 rows"))
+end
+
+check.fails(function() disc():sweep { layers = 1, size = 0.1, rows = 0 } end, "rows")
+check.fails(function() disc():sweep { layers = 1, size = 0.1, row_height = -1 } end, "row_height")
+check.fails(function() disc():sweep { layers = 1, size = 0.1, row_height = function() return 0 end } end, "row_height", "positive")
+check.fails(function() disc():sweep { layers = 1, size = 0.1, rows = 1, quads = "gmsh" } end, "rows", "paved")
+check.done()
