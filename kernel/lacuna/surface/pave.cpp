@@ -94,13 +94,19 @@ constexpr std::array<Taste, 7> kTastes{{
 }};
 
 /// How good quads are, to choose between two ways; higher is better. A mean of shapes, sizes, rows and the
-/// worst quad, less what is irregular; the worst quad counts double, for a sweep repeats it, up to kGood.
+/// worst quad, less what is irregular. The worst quad counts double up to kGood, for a sweep repeats it and makes
+/// it worse, and a little up to kBest. How many irregular nodes there must be hangs on the outline, not on the number of
+/// quads: of few quads their share says nothing.
 double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
 {
-    constexpr double kGood = 0.6;
+    constexpr double kGood = 0.6, kBest = 0.85, kFewNodes = 1500;
     const PlaneQuality quality = measure_plane(mesh, region);
-    return quality.mean_scaled_jacobian + 2 * std::min(quality.min_scaled_jacobian, kGood) +
-           quality.size_share() / 2 + quality.row_share() / 4 - 2 * quality.irregular_share();
+    const double least = quality.min_scaled_jacobian;
+    const double irregular = static_cast<double>(quality.irregular) /
+                             std::max(static_cast<double>(quality.interior), kFewNodes);
+    return quality.mean_scaled_jacobian + 2 * std::min(least, kGood) +
+           (std::clamp(least, kGood, kBest) - kGood) / 2 + quality.size_share() / 2 + quality.row_share() / 4 -
+           2 * irregular;
 }
 
 /// The grid of a region of right angles, as an attempt like others.
@@ -210,7 +216,7 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
         if (best.worst <= 0 || is_few()) attempt(style);
     }
     if (is_few()) consider(try_submap(region, true, context));
-    constexpr double kGoodEnough = 2.94; // of 2.95
+    constexpr double kGoodEnough = 3.05; // of 3.075
     for (const Taste& taste : kTastes) {
         if (best.worst > flat && is_few() && made_in_all < kMostMade && best_score < kGoodEnough)
             attempt(best.style, taste);

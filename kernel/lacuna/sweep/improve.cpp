@@ -20,6 +20,8 @@ constexpr double kLeastEpsilon = 1e-3;
 /// Rounds of untangling, each with a smaller regularisation, and how many may pass without gain.
 constexpr int kUntanglings = 40;
 constexpr int kPatience = 4;
+/// A share of what cells lack that is gain while untangling.
+constexpr double kGain = 0.01;
 /// Sharpness of the second stage, round by round: at first all poor corners count, at last the worst alone.
 constexpr std::array<double, 6> kSharpness{6, 12, 20, 30, 45, 60};
 /// Weight of the shape energy in the second stage: enough to keep lengths and not to fold.
@@ -138,12 +140,23 @@ private:
         }
     }
 
-    /// Keep `x` where it is better.
-    void keep(const Eigen::VectorXd& x, double mean_floor)
+    [[nodiscard]] std::vector<Vec3> places_at(const Eigen::VectorXd& x) const
     {
         std::vector<Vec3> places = best_;
         for (std::size_t i = 0; i < region_.free; ++i)
             places[i] = x.segment<3>(3 * static_cast<Eigen::Index>(i));
+        return places;
+    }
+
+    [[nodiscard]] RegionQuality quality_at(const Eigen::VectorXd& x) const
+    {
+        return measure(region_, places_at(x), context_);
+    }
+
+    /// Keep `x` where it is better.
+    void keep(const Eigen::VectorXd& x, double mean_floor)
+    {
+        std::vector<Vec3> places = places_at(x);
         const RegionQuality found = measure(region_, places, context_);
         if (!is_better(found, best_quality_) || found.mean < mean_floor) return;
         best_ = std::move(places);
@@ -155,6 +168,7 @@ private:
         Eigen::VectorXd x = variables(best_);
         energy_.energy = {};
         int without_gain = 0;
+        double least_lacking = best_quality_.lacking;
         for (int round = 0; round < kUntanglings && without_gain < kPatience && !out_of_time(); ++round) {
             const double determinant = energy_.least_determinant(x);
             energy_.energy.epsilon = determinant > 0 ? kLeastEpsilon
@@ -162,7 +176,11 @@ private:
                                                                  0.04 * determinant * determinant);
             const double before = best_quality_.least;
             descend(x, -1);
-            without_gain = best_quality_.least > before + kWorthIt ? 0 : without_gain + 1;
+            // The worst cell may be the last to open: that others do is gain too.
+            const double lacking = quality_at(x).lacking;
+            const bool gain = best_quality_.least > before + kWorthIt || lacking < least_lacking * (1 - kGain);
+            least_lacking = std::min(least_lacking, lacking);
+            without_gain = gain ? 0 : without_gain + 1;
             if (best_quality_.least > 0 && best_quality_.lacking <= 0) return;
         }
     }
