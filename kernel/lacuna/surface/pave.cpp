@@ -105,7 +105,7 @@ double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
     const double irregular = static_cast<double>(quality.irregular) /
                              std::max(static_cast<double>(quality.interior), kFewNodes);
     return quality.mean_scaled_jacobian + 2 * std::min(least, kGood) +
-           (std::clamp(least, kGood, kBest) - kGood) / 2 + quality.size_share() / 2 + quality.row_share() / 4 -
+           (std::clamp(least, kGood, kBest) - kGood) / 2 + quality.size_share() / 2 + quality.row_share() / 2 -
            2 * irregular;
 }
 
@@ -216,7 +216,7 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
         if (best.worst <= 0 || is_few()) attempt(style);
     }
     if (is_few()) consider(try_submap(region, true, context));
-    constexpr double kGoodEnough = 3.05; // of 3.075
+    constexpr double kGoodEnough = 3.1; // of 3.125
     for (const Taste& taste : kTastes) {
         if (best.worst > flat && is_few() && made_in_all < kMostMade && best_score < kGoodEnough)
             attempt(best.style, taste);

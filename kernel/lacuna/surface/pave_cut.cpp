@@ -156,7 +156,7 @@ private:
 
     [[nodiscard]] std::vector<std::size_t> candidates()
     {
-        constexpr std::size_t kSpread = 48;   ///< places tried evenly along the outline
+        constexpr std::size_t kSpread = 32;   ///< places tried evenly along the outline
         constexpr std::size_t kFeatures = 64; ///< and where it bends
         std::vector<std::size_t> bent;
         for (std::size_t i = 0; i < n_; ++i) {
