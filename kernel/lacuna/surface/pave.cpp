@@ -185,7 +185,7 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
     // Below this many quads it costs little to pave with and without rows and keep the better.
     constexpr std::size_t kFew = 4000;
     // And so many in all with every taste.
-    constexpr std::size_t kMostMade = 30'000;
+    constexpr std::size_t kMostMade = 30'000, kMostMadePoor = 6000;
     const double flat = flat_below(region);
     Attempt best;
     double best_score = -2;
@@ -216,13 +216,14 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
         if (best.worst <= 0 || is_few()) attempt(style);
     }
     if (is_few()) consider(try_submap(region, true, context));
-    constexpr double kGoodEnough = 3.1; // of 3.125
+    // A worst quad poorer than this is the outline's doing more than the cuts'.
+    constexpr double kPoor = 0.5, kGoodEnough = 3.3; // of 3.325
     for (const Taste& taste : kTastes) {
-        if (best.worst > flat && is_few() && made_in_all < kMostMade && best_score < kGoodEnough)
+        const std::size_t most = best.worst > kPoor ? kMostMade : kMostMadePoor;
+        if (best.worst > flat && is_few() && made_in_all < most && best_score < kGoodEnough)
             attempt(best.style, taste);
     }
-    // A worst quad poorer than this is worth another way, where that costs little.
-    constexpr double kPoor = 0.5;
+    // It is worth another way where that costs little.
     for (const RowStyle style : {RowStyle::halved_triangles, RowStyle::paired_triangles}) {
         if (best.worst <= 0 || (is_few() && best.worst < kPoor)) attempt(style);
     }
