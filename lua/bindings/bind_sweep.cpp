@@ -83,28 +83,27 @@ void read_layers(lua_State* L, int index, const Where& where, SweepArguments& ar
 
 // --- size -----------------------------------------------------------------------------------------------
 
-void read_size(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+/// A length, or a Lua function of place: where that stands is settled by push_arguments().
+void read_field(lua_State* L, int index, const Where& where, surface::SizeField& field, int& function)
 {
     if (lua_type(L, index) == LUA_TFUNCTION) {
-        arguments.size_function = 1; // where it stands is settled by sweep()
+        function = 1;
     } else if (lua_type(L, index) == LUA_TNUMBER) {
-        const double size = read_positive(L, index, where);
-        guard(L, [&] { arguments.options.size = [size](const Vec3&) { return size; }; });
+        const double length = read_positive(L, index, where);
+        guard(L, [&] { field = [length](const Vec3&) { return length; }; });
     } else {
         fail_value(L, where, "a positive number or a function(x, y, z) that returns one", index);
     }
 }
 
+void read_size(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    read_field(L, index, where, arguments.options.size, arguments.size_function);
+}
+
 void read_row_height(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
-    if (lua_type(L, index) == LUA_TFUNCTION) {
-        arguments.row_height_function = 1;
-    } else if (lua_type(L, index) == LUA_TNUMBER) {
-        const double height = read_positive(L, index, where);
-        guard(L, [&] { arguments.options.row_height = [height](const Vec3&) { return height; }; });
-    } else {
-        fail_value(L, where, "a positive number or a function(x, y, z) that returns one", index);
-    }
+    read_field(L, index, where, arguments.options.row_height, arguments.row_height_function);
 }
 
 void read_rows(lua_State* L, int index, const Where& where, SweepArguments& arguments)
@@ -211,6 +210,15 @@ const Option<SweepArguments> kSweepOptions[] = {
     {"threads", count<&SweepArguments::threads>},
 };
 
+/// Leave the function of an option on the stack, if it is one, for the field to call.
+void push_field(lua_State* L, int index, const char* option, int function, surface::SizeField& field)
+{
+    if (!function) return;
+    lua_getfield(L, index, option);
+    const int place = lua_gettop(L);
+    guard(L, [&] { field = LuaSize{L, place, std::this_thread::get_id(), option}; });
+}
+
 /// Read the options at `index`; leaves what they need on the stack.
 SweepArguments& push_arguments(lua_State* L, int index, const char* call)
 {
@@ -218,24 +226,14 @@ SweepArguments& push_arguments(lua_State* L, int index, const char* call)
     read_options(L, index, call, kSweepOptions, arguments);
     if (arguments.order == 2 || arguments.serendipity)
         fail(L, "%s: cells of order 2 are not available yet; leave 'order' and 'serendipity' out", call);
-    const bool unpaved = arguments.options.quads != Quads::automatic && arguments.options.quads != Quads::paved;
-    if (unpaved && (arguments.options.rows > 0 || arguments.options.row_height || arguments.row_height_function))
-        fail(L, "%s: 'rows' and 'row_height' are the paver's; use them with quads = \"auto\" or \"paved\"", call);
-    if (arguments.size_function) {
-        lua_getfield(L, index, "size");
-        arguments.size_function = lua_gettop(L);
-        guard(L, [&] {
-            arguments.options.size = LuaSize{L, arguments.size_function, std::this_thread::get_id()};
-        });
-    }
-    if (arguments.row_height_function) {
-        lua_getfield(L, index, "row_height");
-        arguments.row_height_function = lua_gettop(L);
-        guard(L, [&] {
-            arguments.options.row_height = LuaSize{L, arguments.row_height_function,
-                                                   std::this_thread::get_id(), "row_height"};
-        });
-    }
+    const bool unpaved = arguments.options.quads != Quads::automatic &&
+                         arguments.options.quads != Quads::paved;
+    if (unpaved &&
+        (arguments.options.rows > 0 || arguments.options.row_height || arguments.row_height_function))
+        fail(L, "%s: 'rows' and 'row_height' are the paver's; use them with quads = \"auto\" or \"paved\"",
+             call);
+    push_field(L, index, "size", arguments.size_function, arguments.options.size);
+    push_field(L, index, "row_height", arguments.row_height_function, arguments.options.row_height);
 #ifdef LACUNA_WITH_CAD
     guard(L, [&] { arguments.options.quad_mesher = cad::recombine; });
 #endif

@@ -131,8 +131,8 @@ Filled fill(const Disc& disc, double size)
         }
     }
     const auto paver = [](const PlanarRegion& region, const RunContext& c) { return pave(region, {}, c); };
-    filled.quads = fill_face(
-        disc.model, FaceId(0), filled.rim, loops, {[&](const Vec3&) { return size; }}, paver);
+    filled.quads = fill_face(disc.model, FaceId(0), filled.rim, loops, {[&](const Vec3&) { return size; }},
+                             paver);
     return filled;
 }
 

@@ -338,6 +338,26 @@ TEST_CASE("rows are as high as asked")
     }
 }
 
+TEST_CASE("rows of a height of their own go round corners and holes")
+{
+    for (PlanarRegion region : {plate(0.1), gear(7, 0.05)}) {
+        region.row_height = [](const Vec2&) { return 0.02; };
+        surface::PaveReport report;
+        const surface::PlanarQuads mesh = surface::pave(region, {.rows = 2, .report = &report});
+        CHECK(surface::find_fault(mesh, region) == "");
+        CHECK(report.rows >= static_cast<int>(region.loops.size()));
+    }
+}
+
+TEST_CASE("where rows of a height of their own have no room, that is told")
+{
+    PlanarRegion region = disc(0.1);
+    region.row_height = [](const Vec2&) { return 0.3; };
+    const surface::PlanarQuads mesh = surface::pave(region, {.rows = 6});
+    CHECK(surface::find_fault(mesh, region) == "");
+    CHECK(mesh.how.find("no room for row") != std::string::npos);
+}
+
 TEST_CASE("what cannot be paved is refused in words")
 {
     PlanarRegion odd = disc(0.1);
@@ -349,5 +369,19 @@ TEST_CASE("what cannot be paved is refused in words")
     PlanarRegion twice = disc(0.1);
     twice.loops.front()[3] = twice.loops.front()[20];
     CHECK(code_of(twice) == "surface.pave_loops");
+    PlanarRegion clockwise = disc(0.1);
+    std::reverse(clockwise.loops.front().begin(), clockwise.loops.front().end());
+    CHECK(code_of(clockwise) == "surface.pave_loops");
+    // A hole beside the outer loop, and one that runs the wrong way.
+    for (const Vec2& at : {Vec2(3, 0), Vec2(0.2, 0.1)}) {
+        PlanarRegion holed = disc(0.1);
+        holed.loops.emplace_back();
+        for (const Vec2& corner : {Vec2(0, 0), Vec2(0.1, 0), Vec2(0.1, 0.1), Vec2(0, 0.1)}) {
+            holed.loops.back().push_back(static_cast<Index>(holed.points.size()));
+            holed.points.push_back(at + corner);
+        }
+        if (at.x() > 1) std::reverse(holed.loops.back().begin(), holed.loops.back().end());
+        CHECK(code_of(holed) == "surface.pave_loops");
+    }
     CHECK(code_of({}) == "surface.pave_loops");
 }

@@ -23,7 +23,8 @@ bool can_be_filled(const surface::PlanarRegion& region)
 
 } // namespace
 
-TEST_CASE("a triangle with two boundary sides and a neighbour becomes convex quads that leave the boundary as it is")
+TEST_CASE("a triangle with two boundary sides and a neighbour becomes convex quads that leave the boundary "
+          "as it is")
 {
     // Two triangles: each has two boundary sides, so the side between is halved.
     const MixedMesh pair{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2, -1}, {0, 2, 3, -1}}, 4};
@@ -38,7 +39,8 @@ TEST_CASE("split triangles fill every region that can be filled, spiked and crow
         const test::RandomDomain made = test::random_domain(seed, 40);
         if (!can_be_filled(made.region)) continue;
         CAPTURE(seed);
-        const surface::PlanarQuads mesh = surface::quads_of_triangles(made.region, surface::TriangleWay::split);
+        const surface::PlanarQuads mesh = surface::quads_of_triangles(made.region,
+                                                                      surface::TriangleWay::split);
         const std::string fault = surface::find_fault(mesh, made.region);
         CHECK_MESSAGE(fault.empty(), fault);
     }
@@ -51,7 +53,8 @@ TEST_CASE("folds made in a mesh are filled anew, and quads away from them stay")
     surface::PlanarQuads mesh;
     std::vector<std::vector<Index>> node(kSide + 1, std::vector<Index>(kSide + 1, -1));
     const auto add = [&](int x, int y) {
-        node[static_cast<std::size_t>(x)][static_cast<std::size_t>(y)] = static_cast<Index>(mesh.points.size());
+        node[static_cast<std::size_t>(x)][static_cast<std::size_t>(y)] = static_cast<Index>(
+            mesh.points.size());
         mesh.points.emplace_back(x, y);
     };
     for (int k = 0; k < kSide; ++k) add(k, 0);
@@ -63,9 +66,12 @@ TEST_CASE("folds made in a mesh are filled anew, and quads away from them stay")
     for (std::size_t p = 0; p < mesh.points.size(); ++p) region.loops[0].push_back(static_cast<Index>(p));
     for (int x = 1; x < kSide; ++x)
         for (int y = 1; y < kSide; ++y) add(x, y);
-    const auto at = [&](int x, int y) { return node[static_cast<std::size_t>(x)][static_cast<std::size_t>(y)]; };
+    const auto at = [&](int x, int y) {
+        return node[static_cast<std::size_t>(x)][static_cast<std::size_t>(y)];
+    };
     for (int x = 0; x < kSide; ++x)
-        for (int y = 0; y < kSide; ++y) mesh.quads.push_back({at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)});
+        for (int y = 0; y < kSide; ++y)
+            mesh.quads.push_back({at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)});
     REQUIRE(surface::find_fault(mesh, region).empty());
     // One node far off in the middle, one beside a corner, pulled over its neighbours.
     mesh.points[static_cast<std::size_t>(at(10, 10))] += Vec2(2.4, 1.7);

@@ -85,7 +85,8 @@ TEST_CASE("a polygon of squares is filled with those squares, whichever way it i
         const double angle = 0.37 * seed;
         for (Vec2& p : outline) p = Eigen::Rotation2Dd(angle) * p;
         // Any node may be the first.
-        std::rotate(outline.begin(), outline.begin() + seed % static_cast<unsigned>(outline.size()), outline.end());
+        std::rotate(outline.begin(), outline.begin() + seed % static_cast<unsigned>(outline.size()),
+                    outline.end());
         const PlanarRegion region = region_of({outline});
         const auto mesh = surface::submap(region);
         REQUIRE(mesh.has_value());
@@ -105,7 +106,8 @@ TEST_CASE("holes of right angles find their place in the grid, bent as the regio
         std::vector<std::vector<Vec2>> loops{outer, stepped({{2, 3}, {2, 6}, {5, 6}, {5, 3}}),
                                              stepped({{8, 2}, {8, 7}, {12, 7}, {12, 4}, {10, 4}, {10, 2}})};
         for (auto& loop : loops) {
-            for (Vec2& p : loop) p = Vec2(p.x() + bend * p.y() * p.y(), p.y() + bend * p.x() * (14 - p.x()) / 4);
+            for (Vec2& p : loop)
+                p = Vec2(p.x() + bend * p.y() * p.y(), p.y() + bend * p.x() * (14 - p.x()) / 4);
         }
         const PlanarRegion region = region_of(loops);
         const auto mesh = surface::submap(region);
@@ -121,11 +123,13 @@ TEST_CASE("holes of right angles find their place in the grid, bent as the regio
 TEST_CASE("what is no polygon of squares is not submapped")
 {
     std::vector<Vec2> disc;
-    for (int i = 0; i < 32; ++i) disc.emplace_back(std::cos(i * std::numbers::pi / 16), std::sin(i * std::numbers::pi / 16));
+    for (int i = 0; i < 32; ++i)
+        disc.emplace_back(std::cos(i * std::numbers::pi / 16), std::sin(i * std::numbers::pi / 16));
     CHECK(!surface::submap(region_of({disc})));
     // A hole that is round; counts that do not close; a hole outside.
     std::vector<Vec2> hole;
-    for (int i = 0; i < 12; ++i) hole.emplace_back(5 + std::cos(-i * std::numbers::pi / 6), 4 + std::sin(-i * std::numbers::pi / 6));
+    for (int i = 0; i < 12; ++i)
+        hole.emplace_back(5 + std::cos(-i * std::numbers::pi / 6), 4 + std::sin(-i * std::numbers::pi / 6));
     CHECK(!surface::submap(region_of({stepped({{0, 0}, {10, 0}, {10, 8}, {0, 8}}), hole})));
     std::vector<Vec2> more = stepped({{0, 0}, {10, 0}, {10, 8}, {0, 8}});
     more.insert(more.begin() + 1, Vec2(0.5, 0));
@@ -158,8 +162,9 @@ TEST_CASE("counts of faces of right angles are made to agree, so that their grid
             for (const auto& sides : pairs) CHECK(total(sides[0]) == total(sides[1]));
         }
         const surface::SourceMesh mesh = surface::mesh_source(
-            volume, belts, seeds, {even},
-            [](const PlanarRegion& region, const RunContext& context) { return surface::pave(region, {}, context); });
+            volume, belts, seeds, {even}, [](const PlanarRegion& region, const RunContext& context) {
+                return surface::pave(region, {}, context);
+            });
         REQUIRE(mesh.notes.size() == 1);
         CHECK(mesh.notes.front().find("submapped") != std::string::npos);
     }

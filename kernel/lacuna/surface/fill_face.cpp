@@ -67,7 +67,8 @@ FaceQuads fill_plane(const geometry::Plane& plane, std::span<const RimNode> rim,
         if (!field) return {};
         return [&](const Vec2& p) { return field(geometry::from_plane(plane, p)); };
     };
-    PlanarQuads filling = mesher(region_of(std::move(flat), loops, there(sizes.edge), there(sizes.row)), context);
+    PlanarQuads filling = mesher(region_of(std::move(flat), loops, there(sizes.edge), there(sizes.row)),
+                                 context);
     std::vector<Vec3> inside;
     for (const Vec2& p : inside_of(filling, rim.size())) inside.push_back(geometry::from_plane(plane, p));
     return lifted(std::move(filling), rim, inside);
@@ -199,7 +200,8 @@ FaceQuads fill_face(const Model& model, FaceId face, std::span<const RimNode> ri
         if (!field) return {};
         return [&](const Vec2& p) { return flat.size_at(p, field); };
     };
-    PlanarQuads filling = mesher(region_of(flat.lay(rim), loops, there(sizes.edge), there(sizes.row)), context);
+    PlanarQuads filling = mesher(region_of(flat.lay(rim), loops, there(sizes.edge), there(sizes.row)),
+                                 context);
     const std::vector<Vec3> inside = flat.lift(inside_of(filling, rim.size()));
     return lifted(std::move(filling), rim, inside);
 }

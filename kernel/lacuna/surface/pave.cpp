@@ -2,9 +2,11 @@
 #include <lacuna/surface/pave.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/predicates.h>
 #include <lacuna/geometry/triangulate.h>
 #include <lacuna/surface/measure_plane.h>
 #include <lacuna/surface/pave_attempt.h>
+#include <lacuna/surface/pave_repair.h>
 #include <lacuna/surface/pave_rows.h>
 #include <lacuna/surface/pave_size.h>
 #include <lacuna/surface/pave_true_rows.h>
@@ -23,6 +25,31 @@ std::string place_of(const Vec2& p)
     std::ostringstream text;
     text << "(" << p.x() << ", " << p.y() << ")";
     return text.str();
+}
+
+double area_of(const std::vector<Vec2>& points, const std::vector<Index>& loop)
+{
+    double twice = 0;
+    const Vec2& origin = points[static_cast<std::size_t>(loop.front())];
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        twice += cross(points[static_cast<std::size_t>(loop[i])] - origin,
+                       points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])] - origin);
+    return twice / 2;
+}
+
+/// Is a node inside a loop? By the sides a ray from it to the right meets.
+bool lies_within(const std::vector<Vec2>& points, const std::vector<Index>& loop, Index node)
+{
+    const Vec2& p = points[static_cast<std::size_t>(node)];
+    bool within = false;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Vec2 &a = points[static_cast<std::size_t>(loop[i])],
+                   &b = points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
+        if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+        const bool above = geometry::orient2d(a, b, p) > 0;
+        if (above == (b.y() > a.y())) within = !within;
+    }
+    return within;
 }
 
 void check_region(const PlanarRegion& region)
@@ -54,6 +81,21 @@ void check_region(const PlanarRegion& region)
                                                      std::to_string(crossing->loop_b + 1) +
                                                      " of a region to be paved cross or touch near " +
                                                      place_of(region.points[node]));
+    }
+    for (std::size_t l = 0; l < region.loops.size(); ++l) {
+        const auto& loop = region.loops[l];
+        const bool outer = l == 0;
+        if ((area_of(region.points, loop) > 0) == outer &&
+            (outer || lies_within(region.points, region.loops[0], loop.front())))
+            continue;
+        throw InvalidInput(
+            "surface.pave_loops",
+            outer
+                ? "the outer loop of a region to be paved runs clockwise; the first loop goes round the "
+                  "others, with the "
+                  "region on its left"
+                : "loop " + std::to_string(l + 1) +
+                      " of a region to be paved is no hole in loop 1: holes lie inside it and run clockwise");
     }
     if (sides % 2 != 0) {
         throw InvalidInput(
@@ -105,8 +147,8 @@ double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
     const double irregular = static_cast<double>(quality.irregular) /
                              std::max(static_cast<double>(quality.interior), kFewNodes);
     return quality.mean_scaled_jacobian + 2 * std::min(least, kGood) +
-           (std::clamp(least, kGood, kBest) - kGood) / 2 + quality.size_share() / 2 + quality.row_share() / 2 -
-           2 * irregular;
+           (std::clamp(least, kGood, kBest) - kGood) / 2 + quality.size_share() / 2 +
+           quality.row_share() / 2 - 2 * irregular;
 }
 
 /// The grid of a region of right angles, as an attempt like others.
@@ -133,18 +175,21 @@ bool is_good_grid(const Attempt& attempt, const PlanarRegion& region)
 }
 
 /// Rows of their own height are laid first and stay as they are; what is inside them is a region by itself.
-PlanarQuads pave_inside_rows(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
+PlanarQuads pave_inside_rows(const PlanarRegion& region, const PaveOptions& options,
+                             const RunContext& context)
 {
     Draft draft{region.points, {}, region.points.size(), size_with_boundary(region), flat_below(region)};
     std::vector<Cycle> loops = region.loops;
     std::vector<bool> wanted(loops.size(), true);
     int laid = 0;
+    std::string missing;
     for (int r = 0; r < std::max(options.rows, 1); ++r) {
-        const int now = lay_rows(draft, loops, wanted, region.row_height, RowKind::thin);
+        const std::vector<bool> had = wanted;
+        const int now = lay_rows(draft, loops, wanted, region.row_height, RowKind::exact);
         for (std::size_t l = 0; l < loops.size(); ++l) {
-            if (!wanted[l])
-                log_line(context, "no room for row " + std::to_string(r + 1) + " along loop " +
-                                      std::to_string(l + 1) + " of a region to be paved");
+            if (had[l] && !wanted[l])
+                missing += ", no room for row " + std::to_string(r + 1) + " along loop " +
+                           std::to_string(l + 1);
         }
         if (now == 0) break;
         laid += now;
@@ -171,7 +216,9 @@ PlanarQuads pave_inside_rows(const PlanarRegion& region, const PaveOptions& opti
         for (Index& p : quad) p = own[static_cast<std::size_t>(p)];
         mesh.quads.push_back(quad);
     }
-    mesh.how += " inside " + std::to_string(laid) + (laid == 1 ? " row of its own height" : " rows of their own height");
+    mesh.how += " inside " + std::to_string(laid) +
+                (laid == 1 ? " row of its own height" : " rows of their own height") + missing;
+    drop_loose_points(mesh, region.points.size());
     if (options.report) options.report->rows += laid;
     return mesh;
 }
@@ -237,9 +284,12 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
     // Between sides that all but touch, or in spikes, there are none but flat ones.
     if (best.worst <= flat) {
         log_line(context, "the flattest quad, near " + place_of(best.where) + ", has a scaled Jacobian of " +
-                              std::to_string(best.worst) + ": the boundary's sides are long for the gap there");
+                              std::to_string(best.worst) +
+                              ": the boundary's sides are long for the gap there");
     }
     best.mesh.how = best.report.used;
+    if (best.report.refilled > 0)
+        best.mesh.how += ", " + std::to_string(best.report.refilled) + " places by split triangles";
     if (options.report) *options.report = best.report;
     return std::move(best.mesh);
 }

@@ -36,26 +36,6 @@ int rows_for(const Draft& draft, const Cycle& loop, bool outer)
     return outer ? 1 + static_cast<int>(loop.size() / kNodesARow) : 1;
 }
 
-/// Quads and the points they use; the region's own come first, used or not.
-PlanarQuads without_loose_points(const Draft& draft)
-{
-    PlanarQuads mesh{{draft.points.begin(), draft.points.begin() + static_cast<std::ptrdiff_t>(draft.fixed)},
-                     draft.quads};
-    std::vector<Index> number(draft.points.size(), -1);
-    for (std::size_t p = 0; p < draft.fixed; ++p) number[p] = static_cast<Index>(p);
-    for (Quad& quad : mesh.quads) {
-        for (Index& p : quad) {
-            Index& own = number[static_cast<std::size_t>(p)];
-            if (own < 0) {
-                own = static_cast<Index>(mesh.points.size());
-                mesh.points.push_back(draft.at(p));
-            }
-            p = own;
-        }
-    }
-    return mesh;
-}
-
 /// Is every side used once in each direction at the most?
 bool sides_match(const std::vector<Quad>& quads)
 {
@@ -133,7 +113,8 @@ void lay_and_fill(Attempt& attempt, Draft& draft, const PlanarRegion& region, co
     attempt.report.templates = count.templates;
     attempt.report.used = count.cuts == 0 && count.patches == 1 && attempt.report.rows == 0 ? "mapped"
                                                                                             : "paved";
-    attempt.mesh = without_loose_points(draft);
+    attempt.mesh = {draft.points, draft.quads};
+    drop_loose_points(attempt.mesh, draft.fixed);
 }
 
 /// The way of triangles a style means, if any.

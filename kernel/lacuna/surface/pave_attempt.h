@@ -24,8 +24,8 @@ struct Attempt {
     PlanarQuads mesh;
     PaveReport report;
     RowStyle style = RowStyle::by_shape;
-    double worst = -2;          ///< least sine; -2: no mesh, -1: one with a fault
-    Vec2 where = Vec2::Zero();  ///< the worst quad's place
+    double worst = -2;         ///< least sine; -2: no mesh, -1: one with a fault
+    Vec2 where = Vec2::Zero(); ///< the worst quad's place
 };
 
 /// Find the worst quad.

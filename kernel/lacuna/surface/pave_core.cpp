@@ -60,7 +60,8 @@ CoreCount fill_core(Draft& draft, const std::vector<Cycle>& loops, bool one_patc
         const std::vector<double> angles = angles_of(draft, cycle);
         const Fit fit = fit_patch(draft, cycle, angles);
         std::optional<Cut> cut;
-        if (!one_patch && fit.quality < good_patch(draft.taste, cycle.size())) cut = best_cut(draft, cycle, angles);
+        if (!one_patch && fit.quality < good_patch(draft.taste, cycle.size()))
+            cut = best_cut(draft, cycle, angles);
         if (!cut && fit.quality > 0 && fill_patch(draft, cycle, fit.corners)) {
             ++count.patches;
             continue;

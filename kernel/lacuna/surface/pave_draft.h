@@ -23,11 +23,11 @@ using Cycle = std::vector<Index>;
 
 /// What cuts are chosen by, as weights: none is best for all regions, so that small ones are filled in several ways.
 struct Taste {
-    double corners = 1;      ///< right angles between a cut and the outline
-    double added = 1;        ///< quads a cut adds at its ends
-    double length = 1;       ///< of a cut against the outline it takes off
-    double mismatch = 1;     ///< sides of a part that do not agree
-    double bent = 0.5;       ///< off for a cut that ends where the outline turns inward
+    double corners = 1;       ///< right angles between a cut and the outline
+    double added = 1;         ///< quads a cut adds at its ends
+    double length = 1;        ///< of a cut against the outline it takes off
+    double mismatch = 1;      ///< sides of a part that do not agree
+    double bent = 0.5;        ///< off for a cut that ends where the outline turns inward
     double least_patch = 0.6; ///< from what quality on a small part is filled as it is [-]
     double most_patch = 0.9;  ///< and a large one
 };

@@ -3,6 +3,7 @@
 
 #include <lacuna/geometry/triangulate.h>
 #include <lacuna/surface/measure_plane.h>
+#include <lacuna/surface/pave_repair.h>
 #include <lacuna/surface/quad_net.h>
 #include <lacuna/surface/triangle_quads.h>
 
@@ -134,10 +135,12 @@ private:
             }
             if (p != start || loop.size() < 3) return std::nullopt;
         }
-        const auto outer = std::find_if(loops.begin(), loops.end(), [&](const auto& l) { return area(l) > 0; });
+        const auto outer = std::find_if(loops.begin(), loops.end(),
+                                        [&](const auto& l) { return area(l) > 0; });
         if (outer == loops.end()) return std::nullopt;
         std::iter_swap(loops.begin(), outer);
-        const bool turned = std::any_of(loops.begin() + 1, loops.end(), [&](const auto& l) { return !(area(l) < 0); });
+        const bool turned = std::any_of(loops.begin() + 1, loops.end(),
+                                        [&](const auto& l) { return !(area(l) < 0); });
         if (turned || geometry::find_crossing(mesh_.points, loops)) return std::nullopt;
         return loops;
     }
@@ -158,25 +161,6 @@ private:
     QuadNet net_;
     std::vector<bool> out_; ///< quads to be taken out
 };
-
-/// Points no quad uses go, but the region's own.
-void drop_loose(PlanarQuads& mesh, std::size_t fixed)
-{
-    std::vector<Index> number(mesh.points.size(), -1);
-    std::iota(number.begin(), number.begin() + static_cast<std::ptrdiff_t>(fixed), Index{0});
-    std::vector<Vec2> points(mesh.points.begin(), mesh.points.begin() + static_cast<std::ptrdiff_t>(fixed));
-    for (Quad& quad : mesh.quads) {
-        for (Index& p : quad) {
-            Index& own = number[index(p)];
-            if (own < 0) {
-                own = static_cast<Index>(points.size());
-                points.push_back(mesh.points[index(p)]);
-            }
-            p = own;
-        }
-    }
-    mesh.points = std::move(points);
-}
 
 /// The region within some of the mesh's loops, and which point of the mesh each of its points is.
 std::pair<PlanarRegion, std::vector<Index>> region_within(const PlanarQuads& mesh, const Loops& loops,
@@ -217,7 +201,7 @@ int refill_folds(PlanarQuads& mesh, const PlanarRegion& region, double flat,
             mesh.quads.push_back(quad);
         }
     }
-    drop_loose(mesh, region.points.size());
+    drop_loose_points(mesh, region.points.size());
     return static_cast<int>(holes.size());
 }
 

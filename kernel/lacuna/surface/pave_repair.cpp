@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 namespace lacuna::surface::paving {
@@ -316,6 +317,24 @@ int loosen_folds(PlanarQuads& mesh, double least)
         ++count;
     }
     return count;
+}
+
+void drop_loose_points(PlanarQuads& mesh, std::size_t fixed)
+{
+    std::vector<Index> number(mesh.points.size(), -1);
+    std::iota(number.begin(), number.begin() + static_cast<std::ptrdiff_t>(fixed), Index{0});
+    std::vector<Vec2> points(mesh.points.begin(), mesh.points.begin() + static_cast<std::ptrdiff_t>(fixed));
+    for (Quad& quad : mesh.quads) {
+        for (Index& p : quad) {
+            Index& own = number[static_cast<std::size_t>(p)];
+            if (own < 0) {
+                own = static_cast<Index>(points.size());
+                points.push_back(mesh.points[static_cast<std::size_t>(p)]);
+            }
+            p = own;
+        }
+    }
+    mesh.points = std::move(points);
 }
 
 } // namespace lacuna::surface::paving

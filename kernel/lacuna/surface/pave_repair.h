@@ -20,4 +20,7 @@ void ease_folds(PlanarQuads& mesh, std::size_t fixed);
 /// @return how many quads were.
 int loosen_folds(PlanarQuads& mesh, double least);
 
+/// Points no quad uses go, but the first `fixed` ones.
+void drop_loose_points(PlanarQuads& mesh, std::size_t fixed);
+
 } // namespace lacuna::surface::paving

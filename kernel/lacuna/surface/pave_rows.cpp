@@ -18,9 +18,10 @@ Vec2 rotated(const Vec2& v, double angle)
             v.x() * std::sin(angle) + v.y() * std::cos(angle)};
 }
 
-/// Height of the row at every node: no more than a third of the way to the other side, and changing slowly.
+/// Height of the row at every node: no more than a third of the way to the other side, and, but for exact rows, changing slowly.
 std::vector<double> row_heights(const Draft& draft, const Cycle& cycle, const std::vector<double>& angles,
-                                const Gaps& gaps, const std::function<double(const Vec2&)>& height)
+                                const Gaps& gaps, const std::function<double(const Vec2&)>& height,
+                                RowKind kind)
 {
     const std::size_t n = cycle.size();
     std::vector<double> heights(n);
@@ -30,6 +31,7 @@ std::vector<double> row_heights(const Draft& draft, const Cycle& cycle, const st
         const Vec2 inward = rotated((draft.at(after) - draft.at(cycle[i])).normalized(), angles[i] / 2);
         heights[i] = std::min(wanted, gaps.ahead(before, cycle[i], after, inward, 3 * wanted) / 3);
     }
+    if (kind == RowKind::exact) return heights;
     constexpr double kChange = 1.3; ///< from one node to the next
     for (int pass = 0; pass < 2; ++pass) {
         for (std::size_t k = 0; k < 2 * n; ++k) {
@@ -58,8 +60,8 @@ public:
     {
         const std::size_t points = draft_.points.size(), quads = draft_.quads.size();
         for (std::size_t i = 0; i < n_; ++i) angles_.push_back(inner_angle(draft_, cycle_, i));
-        heights_ = row_heights(draft_, cycle_, angles_, gaps, height);
-        if (ends_far_apart() && (kind_ != RowKind::tall || tall_enough(height))) {
+        heights_ = row_heights(draft_, cycle_, angles_, gaps, height, kind_);
+        if (ends_far_apart() && high_enough(height)) {
             place_nodes();
             Cycle inner = add_quads();
             bool good = inner.size() >= 4;
@@ -93,10 +95,12 @@ private:
         return first == n_ || first == last || first + n_ - last >= kApart;
     }
 
-    /// A row squeezed on much of its way is worse than none.
-    [[nodiscard]] bool tall_enough(const std::function<double(const Vec2&)>& height) const
+    /// A row squeezed on much of its way is worse than none; an exact one may not be squeezed at all.
+    [[nodiscard]] bool high_enough(const std::function<double(const Vec2&)>& height) const
     {
-        constexpr double kSqueezed = 0.6, kMost = 0.25;
+        if (kind_ != RowKind::tall && kind_ != RowKind::exact) return true;
+        const double kSqueezed = kind_ == RowKind::exact ? 0.99 : 0.6,
+                     kMost = kind_ == RowKind::exact ? 0 : 0.25;
         std::size_t squeezed = 0;
         for (std::size_t i = 0; i < n_; ++i) squeezed += heights_[i] < kSqueezed * height(at(i)) ? 1U : 0U;
         return static_cast<double>(squeezed) <= kMost * static_cast<double>(n_);

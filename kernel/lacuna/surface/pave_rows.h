@@ -11,6 +11,7 @@ namespace lacuna::surface::paving {
 enum class RowKind {
     tall,  ///< as high as asked on most of the loop, or not at all
     thin,  ///< also where the next loop is near
+    exact, ///< as high as asked everywhere, or not at all
     buffer ///< no node is an end, and the row gets flatter until it fits
 };
 
@@ -20,7 +21,7 @@ bool needs_row(const Draft& draft, const Cycle& cycle);
 /// Lay a row of quads inward from each loop that is asked for and replace it by the row's inner side.
 ///
 /// Loop nodes are ends (one quad), sides (two, of neighbouring edges), corners (three) or reversals (four) by
-/// their angle. Rows are as high as `height` says, or a third of the gap where another side is near. A row
+/// their angle. Rows are as high as `height` says, or (but exact ones) a third of the gap where another side is near. A row
 /// that would fold, run into another or leave too few nodes is not laid.
 ///
 /// @param kind  how.

@@ -157,8 +157,8 @@ private:
 };
 
 /// @return false where a corner is folded
-inline bool look_around(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t p, const Vec2& x,
-                        const Areas& areas, Around& around)
+inline bool look_around(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t p,
+                        const Vec2& x, const Areas& areas, Around& around)
 {
     around = {};
     for (std::size_t i = 0; i < star.size(); i += SpokeLanes::kLanes) {

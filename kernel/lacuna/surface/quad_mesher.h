@@ -24,7 +24,7 @@ struct PlanarRegion {
     std::vector<Vec2> points; ///< boundary nodes; kept, in this order, as the first nodes of the mesh
     std::vector<std::vector<Index>>
         loops; ///< node cycles, region on the left; the outer one first; each of even length in sum
-    std::function<double(const Vec2&)> size; ///< target edge length in the plane
+    std::function<double(const Vec2&)> size;         ///< target edge length in the plane
     std::function<double(const Vec2&)> row_height{}; ///< of rows along the loops, where they are asked for
 };
 

@@ -41,9 +41,9 @@ struct SeedPiece {
 struct Seeds {
     std::map<EdgeId, std::vector<SeedPiece>> pieces; ///< in order along the edge
     std::map<FaceId, std::vector<std::size_t>>
-        corners;           ///< of mapped faces: the four uses of the loop that start a side
+        corners;                ///< of mapped faces: the four uses of the loop that start a side
     std::set<FaceId> submapped; ///< faces whose counts are those of a grid of right angles
-    std::set<FaceId> kept; ///< faces whose own quads are the mesh
+    std::set<FaceId> kept;      ///< faces whose own quads are the mesh
     [[nodiscard]] int count(EdgeId edge) const;
     /// Fractions of the edge's nodes, both ends included.
     [[nodiscard]] std::vector<double> fractions(EdgeId edge) const;

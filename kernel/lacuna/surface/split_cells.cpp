@@ -19,7 +19,10 @@ std::size_t index(Index i) { return static_cast<std::size_t>(i); }
 class WholeSides {
 public:
     explicit WholeSides(const MixedMesh& mesh)
-        : mesh_(mesh), sides_(mesh), root_(mesh.cells.size(), -1), from_(mesh.cells.size(), -1),
+        : mesh_(mesh),
+          sides_(mesh),
+          root_(mesh.cells.size(), -1),
+          from_(mesh.cells.size(), -1),
           steps_(mesh.cells.size(), 0)
     {
         grow();
@@ -27,7 +30,10 @@ public:
     }
 
     [[nodiscard]] bool is_whole(Index a, Index b) const { return whole_.contains(side_key(a, b)); }
-    [[nodiscard]] bool is_boundary(Index a, Index b, Index cell) const { return sides_.across(a, b, cell) < 0; }
+    [[nodiscard]] bool is_boundary(Index a, Index b, Index cell) const
+    {
+        return sides_.across(a, b, cell) < 0;
+    }
 
 private:
     struct Meeting {

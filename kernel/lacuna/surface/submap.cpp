@@ -19,8 +19,10 @@ std::size_t corner_count(const GridLoop& loop)
 {
     std::size_t count = 0;
     for (std::size_t i = 0, n = loop.spots.size(); i < n; ++i) {
-        const Spot &before = loop.spots[(i + n - 1) % n], &here = loop.spots[i], &after = loop.spots[(i + 1) % n];
-        count += after[0] - here[0] != here[0] - before[0] || after[1] - here[1] != here[1] - before[1] ? 1U : 0U;
+        const Spot &before = loop.spots[(i + n - 1) % n], &here = loop.spots[i],
+                   &after = loop.spots[(i + 1) % n];
+        count += after[0] - here[0] != here[0] - before[0] || after[1] - here[1] != here[1] - before[1] ? 1U
+                                                                                                        : 0U;
     }
     return count;
 }

@@ -71,7 +71,8 @@ Vec2 carried_inward(const std::vector<Vec2>& points, const GridLoop& outer, cons
     Vec2 sum = Vec2::Zero();
     double weights = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        const double weight = (half_tangent(to(i + n - 1), to(i)) + half_tangent(to(i), to(i + 1))) / to(i).norm();
+        const double weight = (half_tangent(to(i + n - 1), to(i)) + half_tangent(to(i), to(i + 1))) /
+                              to(i).norm();
         sum += weight * Vec2(outer.spots[i][0], outer.spots[i][1]);
         weights += weight;
     }

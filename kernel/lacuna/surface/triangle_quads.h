@@ -15,7 +15,7 @@ using Loops = std::vector<std::vector<Index>>;
 enum class TriangleWay {
     halved, ///< triangles over the loops with every second node, each cut in three: quads that cannot fold; even smooth loops alone
     paired, ///< triangles over the loops, paired, what is left over paired by walking; may fold
-    split,  ///< triangles over the loops, paired as far as that gives convex quads, and cells split: always goes
+    split, ///< triangles over the loops, paired as far as that gives convex quads, and cells split: always goes
 };
 
 /// Fill a region with quads made of triangles: what is left when no rows and cuts fit. Constrained Delaunay triangles by size,

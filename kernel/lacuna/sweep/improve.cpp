@@ -178,7 +178,8 @@ private:
             descend(x, -1);
             // The worst cell may be the last to open: that others do is gain too.
             const double lacking = quality_at(x).lacking;
-            const bool gain = best_quality_.least > before + kWorthIt || lacking < least_lacking * (1 - kGain);
+            const bool gain = best_quality_.least > before + kWorthIt ||
+                              lacking < least_lacking * (1 - kGain);
             least_lacking = std::min(least_lacking, lacking);
             without_gain = gain ? 0 : without_gain + 1;
             if (best_quality_.least > 0 && best_quality_.lacking <= 0) return;

@@ -41,7 +41,7 @@ struct SweepOptions {
     Quads quads = Quads::automatic;
     /// Rows of quads from every loop of the source that stay as they are laid; 0: none but what the paver lays. Paved faces alone.
     int rows = 0;
-    surface::SizeField row_height; ///< of those rows, one at least; null: the size
+    surface::SizeField row_height;         ///< of those rows, one at least; null: the size
     surface::PlanarQuadMesher quad_mesher; ///< used where a source face is not mapped
     Interior interior = Interior::automatic;
     double min_scaled_jacobian = 0; ///< below it the mesh is refused [-1, 1]
