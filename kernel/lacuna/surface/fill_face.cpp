@@ -63,9 +63,18 @@ FaceQuads fill_plane(const geometry::Plane& plane, std::span<const RimNode> rim,
 {
     std::vector<Vec2> flat;
     for (const RimNode& node : rim) flat.push_back(geometry::to_plane(plane, node.point));
+    // Nodes may stray before they are smoothed; a size is known on the face alone.
+    Vec2 low = flat.front(), high = flat.front();
+    for (const Vec2& p : flat) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
     const auto there = [&](const SizeField& field) -> std::function<double(const Vec2&)> {
         if (!field) return {};
-        return [&](const Vec2& p) { return field(geometry::from_plane(plane, p)); };
+        return [&plane, &field, low, high](const Vec2& p) {
+            const Vec2 within = p.cwiseMax(low).cwiseMin(high);
+            return field(geometry::from_plane(plane, within));
+        };
     };
     PlanarQuads filling = mesher(region_of(std::move(flat), loops, there(sizes.edge), there(sizes.row)),
                                  context);

@@ -251,7 +251,7 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
             log_line(context, "quads fold near " + place_of(made.where) + ": paving differently");
         consider(std::move(made));
     };
-    if (options.rows < 0) consider(try_submap(region, false, context));
+    if (options.grids && options.rows < 0) consider(try_submap(region, false, context));
     if (is_good_grid(best, region)) {
         if (options.report) *options.report = best.report;
         return std::move(best.mesh);
@@ -262,7 +262,7 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
     for (const RowStyle style : {RowStyle::none, RowStyle::thin}) {
         if (best.worst <= 0 || is_few()) attempt(style);
     }
-    if (is_few()) consider(try_submap(region, true, context));
+    if (options.grids && is_few()) consider(try_submap(region, true, context));
     // A worst quad poorer than this is the outline's doing more than the cuts'.
     constexpr double kPoor = 0.5, kGoodEnough = 3.3; // of 3.325
     for (const Taste& taste : kTastes) {

@@ -23,6 +23,7 @@ struct PaveOptions {
     /// Most rows to lay inward from each loop; -1: as many as its shape needs, mostly 1 to 3. Where the region has a row
     /// height of its own: rows of that height, one at least, that stay as they are laid wherever there is room.
     int rows = -1;
+    bool grids = true;            ///< a region of right angles may be filled by the grid it encloses
     bool clean = true;            ///< mend irregular nodes
     bool smooth = true;           ///< move inner nodes
     PaveReport* report = nullptr; ///< filled where given

@@ -17,6 +17,7 @@ Gaps::Gaps(const Draft& draft, const std::vector<Cycle>& loops) : draft_(draft)
             count += 1;
         }
     }
+    diagonal_ = (high - low_).norm();
     // As many cells as sides at the most, however far apart they lie.
     cell_ = std::max({sum / count, (high - low_).maxCoeff() / 4096, std::numeric_limits<double>::min()});
     for (const Cycle& loop : loops) {

@@ -19,11 +19,14 @@ public:
     [[nodiscard]] double ahead(Index before, Index node, Index after, const Vec2& direction,
                                double reach) const;
 
+    /// Across all sides: no reach need be longer.
+    [[nodiscard]] double diagonal() const { return diagonal_; }
+
 private:
     [[nodiscard]] std::int64_t key(std::int64_t x, std::int64_t y) const { return x * 0x9E3779B1LL + y; }
 
     const Draft& draft_;
-    double cell_ = 1;
+    double cell_ = 1, diagonal_ = 0;
     Vec2 low_ = Vec2::Zero();
     std::unordered_map<std::int64_t, std::vector<Segment>> sides_;
 };

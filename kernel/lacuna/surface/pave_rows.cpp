@@ -27,9 +27,9 @@ std::vector<double> row_heights(const Draft& draft, const Cycle& cycle, const st
     std::vector<double> heights(n);
     for (std::size_t i = 0; i < n; ++i) {
         const Index before = cycle[(i + n - 1) % n], after = cycle[(i + 1) % n];
-        const double wanted = height(draft.at(cycle[i]));
+        const double wanted = height(draft.at(cycle[i])), reach = std::min(3 * wanted, gaps.diagonal());
         const Vec2 inward = rotated((draft.at(after) - draft.at(cycle[i])).normalized(), angles[i] / 2);
-        heights[i] = std::min(wanted, gaps.ahead(before, cycle[i], after, inward, 3 * wanted) / 3);
+        heights[i] = std::min(wanted, gaps.ahead(before, cycle[i], after, inward, reach) / 3);
     }
     if (kind == RowKind::exact) return heights;
     constexpr double kChange = 1.3; ///< from one node to the next

@@ -195,12 +195,24 @@ private:
                     " is to be mapped and has neither four corners (vertices with an inner angle below 135°) "
                     "on one loop nor loops of right angles alone; use quads = \"auto\"");
         }
-        if (opposite.empty() || (style_ == QuadStyle::automatic && !alike(model_, opposite))) return;
+        if (opposite.empty() ||
+            (style_ == QuadStyle::automatic && !(alike(model_, opposite) && counts_alike(opposite))))
+            return;
         opposite_[face] = opposite;
         if (corners)
             seeds_.corners[face] = *corners;
         else
             seeds_.submapped.insert(face);
+    }
+
+    /// Does the size ask for about as many sides on either side? Else one would get as many as the other needs.
+    [[nodiscard]] bool counts_alike(const std::vector<OppositeSides>& pairs) const
+    {
+        constexpr int kUnlike = 3, kFew = 4;
+        return std::all_of(pairs.begin(), pairs.end(), [&](const OppositeSides& sides) {
+            const int a = total(sides[0]), b = total(sides[1]);
+            return std::max(a, b) <= std::max(kUnlike * std::min(a, b), kFew);
+        });
     }
 
     /// One more side where the sides are longest. @return false where all are fixed

@@ -123,7 +123,10 @@ std::optional<PlanarQuads> submap(const PlanarRegion& region, bool round_loops, 
     Grid grid(*grid_loops);
     if (!grid.enclose(*grid_loops)) return std::nullopt;
     const bool four_sided = !rows && loops.size() == 1 && corner_count(grid_loops->front()) == 4;
-    PlanarQuads mesh{std::move(draft.points), std::move(draft.quads), four_sided ? "mapped" : "submapped"};
+    PlanarQuads mesh{std::move(draft.points), std::move(draft.quads),
+                     four_sided ? "mapped"
+                     : rows     ? "paved, its core submapped"
+                                : "submapped"};
     const auto first = static_cast<Index>(mesh.points.size());
     mesh.points.resize(mesh.points.size() + static_cast<std::size_t>(grid.number_inner(first)), Vec2::Zero());
     grid.place_inner(mesh.points, first);

@@ -68,9 +68,10 @@ surface::PlanarQuadMesher mesher_of(const SweepOptions& options)
     }
     const bool fall_back = options.quads != Quads::paved && options.quad_mesher;
     const int rows = asks_rows(options) ? std::max(options.rows, 1) : -1;
-    return [given, fall_back, rows](const surface::PlanarRegion& region, const RunContext& context) {
+    const bool grids = options.quads != Quads::paved;
+    return [given, fall_back, rows, grids](const surface::PlanarRegion& region, const RunContext& context) {
         try {
-            return surface::pave(region, {.rows = rows}, context);
+            return surface::pave(region, {.rows = rows, .grids = grids}, context);
         } catch (const NotSweepable& error) {
             if (!fall_back) throw;
             log_line(context, error.what());
@@ -403,7 +404,8 @@ Swept better_turning(const OpenVolume& volume, const std::vector<surface::Belt>&
         }
     } catch (const Cancelled&) {
         throw;
-    } catch (const Error&) {
+    } catch (const Error& error) {
+        log_line(context, std::string("loops turned as one body: ") + error.what());
     }
     if (failure) std::rethrow_exception(failure);
     return std::move(*alone);
