@@ -8,9 +8,6 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/quality/quality.h>
-#ifdef LACUNA_WITH_CAD
-#include <lacuna/cad/load.h>
-#endif
 
 #include <algorithm>
 #include <chrono>
@@ -58,9 +55,6 @@ Result run(const test::StressMember& member, const topology::OpenVolume& sealed,
     sweep::SweepOptions options = test::stress_options(member);
     options.interior = method.interior;
     options.improve = method.improve;
-#ifdef LACUNA_WITH_CAD
-    options.quad_mesher = cad::recombine;
-#endif
     const auto start = std::chrono::steady_clock::now();
     try {
         const sweep::Swept swept = sweep::sweep(sealed, options);

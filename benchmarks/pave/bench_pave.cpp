@@ -12,10 +12,10 @@
 #include "saddle_face.h"
 #endif
 
-#include <lacuna/surface/clean_quads.h>
-#include <lacuna/surface/measure_plane.h>
-#include <lacuna/surface/pave.h>
-#include <lacuna/surface/smooth_plane.h>
+#include <lacuna/quads/clean_quads.h>
+#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/pave.h>
+#include <lacuna/quads/smooth_plane.h>
 
 #include <cstdio>
 #include <ctime>
@@ -49,14 +49,14 @@ bench::GmshQuads make(const test::PlaneDomain& domain, const test::SeededDomain&
         RunContext context;
         context.threads = 1;
         const double start = seconds();
-        made.mesh = surface::pave(seeded.region, {}, context);
+        made.mesh = quads::pave(seeded.region, {}, context);
         made.seconds = seconds() - start;
         return made;
     }
     return bench::gmsh_quads(domain, seeded, way_of(name));
 }
 
-void write_picture(const surface::PlanarQuads& mesh, const char* path)
+void write_picture(const quads::PlanarQuads& mesh, const char* path)
 {
     std::ofstream file(path);
     file << mesh.points.size() << ' ' << mesh.quads.size() << '\n';
@@ -65,7 +65,7 @@ void write_picture(const surface::PlanarQuads& mesh, const char* path)
 }
 
 /// @param more  JSON members that only this mesh has, each with a comma after it
-void report(const char* domain, const char* mesher, const surface::PlaneQuality& q, std::size_t triangles,
+void report(const char* domain, const char* mesher, const quads::PlaneQuality& q, std::size_t triangles,
             double time, const std::string& more, const std::string& fault)
 {
     std::printf(
@@ -94,7 +94,7 @@ void run_saddle(double quads, const char* mesher, const char* picture)
     std::snprintf(off, sizeof off, "\"off_surface\": %.3g, ", q.off_surface);
     report("saddle", mesher, q.quads, made.triangles, made.seconds, off, q.fault);
     if (picture == nullptr) return;
-    surface::PlanarQuads plan;
+    quads::PlanarQuads plan;
     for (const Vec3& p : made.points) plan.points.emplace_back(p.x(), p.y());
     plan.quads = made.quads;
     write_picture(plan, picture);
@@ -125,21 +125,21 @@ try {
     bench::GmshQuads made = make(domain, seeded, mesher);
     const double start = seconds();
     if (mesher.find("+clean") != std::string::npos) {
-        const surface::CleanReport clean = surface::clean_quads(made.mesh, seeded.region.points.size(),
-                                                                {.size = seeded.region.size});
+        const quads::CleanReport clean = quads::clean_quads(made.mesh, seeded.region.points.size(),
+                                                            {.size = seeded.region.size});
         std::fprintf(stderr, "%zu irregular -> %zu: %zu doublets, %zu patches of %zu tried, %.3f s\n",
                      clean.irregular_before, clean.irregular_after, clean.doublets, clean.patches,
                      clean.tried, seconds() - start);
     }
     if (mesher.find("+smooth") != std::string::npos) {
         const double before = seconds();
-        surface::smooth_plane(made.mesh.points, made.mesh.quads, seeded.region.points.size(),
-                              {.size = seeded.region.size});
+        quads::smooth_plane(made.mesh.points, made.mesh.quads, seeded.region.points.size(),
+                            {.size = seeded.region.size});
         std::fprintf(stderr, "smoothed in %.3f s\n", seconds() - before);
     }
     made.seconds += seconds() - start;
-    report(argv[1], argv[3], surface::measure_plane(made.mesh, seeded.region), made.triangles, made.seconds,
-           {}, surface::find_fault(made.mesh, seeded.region));
+    report(argv[1], argv[3], quads::measure_plane(made.mesh, seeded.region), made.triangles, made.seconds, {},
+           quads::find_fault(made.mesh, seeded.region));
     if (argc > 4) write_picture(made.mesh, argv[4]);
     return 0;
 } catch (const std::string& error) { // Gmsh 4.8 throws text

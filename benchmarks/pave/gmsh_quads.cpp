@@ -80,7 +80,7 @@ int draw(const test::PlaneDomain& domain, const test::SeededDomain& seeded, int 
 /// The nearest boundary node, in bins as wide as the size.
 class Nearest {
 public:
-    Nearest(const surface::PlanarRegion& region, double size) : region_(region), size_(size)
+    Nearest(const quads::PlanarRegion& region, double size) : region_(region), size_(size)
     {
         for (std::size_t p = 0; p < region.points.size(); ++p)
             bins_[key(region.points[p], 0, 0)].push_back(static_cast<Index>(p));
@@ -110,7 +110,7 @@ private:
     {
         return (std::lround(p.x() / size_) + i) * 1000003L + std::lround(p.y() / size_) + j;
     }
-    const surface::PlanarRegion& region_;
+    const quads::PlanarRegion& region_;
     double size_;
     std::unordered_map<long, std::vector<Index>> bins_;
 };

@@ -17,7 +17,7 @@ struct GmshWay {
 };
 
 struct GmshQuads {
-    surface::PlanarQuads mesh;
+    quads::PlanarQuads mesh;
     std::size_t triangles = 0; ///< left
     double seconds = 0;        ///< of the surface mesh alone, the outline being meshed
 };

@@ -43,9 +43,9 @@ public:
         opposite_ = mesh::opposite_sides(quads_, static_cast<Index>(points_.size()));
     }
 
-    surface::PlaneQuality measure()
+    quads::PlaneQuality measure()
     {
-        surface::PlaneQuality result;
+        quads::PlaneQuality result;
         result.quads = quads_.size();
         result.points = points_.size();
         std::vector<Index> valence(points_.size(), 0);

@@ -3,8 +3,8 @@
 
 #include <lacuna/cad/load.h>
 #include <lacuna/cad/session.h>
+#include <lacuna/quads/pave.h>
 #include <lacuna/surface/edge_nodes.h>
-#include <lacuna/surface/pave.h>
 
 #include <gmsh.h>
 
@@ -159,7 +159,7 @@ SurfaceQuads lacuna_quads(const SeededFace& seeded)
     const double start = seconds();
     surface::FaceQuads made = surface::fill_face(
         seeded.model, seeded.face, seeded.rim, seeded.loops, {[&](const Vec3&) { return seeded.size; }},
-        [](const surface::PlanarRegion& region, const RunContext& c) { return surface::pave(region, {}, c); },
+        [](const quads::PlanarRegion& region, const RunContext& c) { return quads::pave(region, {}, c); },
         context);
     return {std::move(made.points), std::move(made.quads), 0, seconds() - start};
 }

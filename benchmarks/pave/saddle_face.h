@@ -3,8 +3,8 @@
 
 #include "gmsh_quads.h"
 
+#include <lacuna/quads/measure_plane.h>
 #include <lacuna/surface/fill_face.h>
-#include <lacuna/surface/measure_plane.h>
 #include <lacuna/topology/model.h>
 
 #include <string>
@@ -45,7 +45,7 @@ SurfaceQuads gmsh_quads(const SeededFace& seeded, const GmshWay& way);
 /// Corners are measured between their sides, their sign is that of the face's own normal. The row's height is taken across
 /// the boundary side in the plane of the quad's corner normals.
 struct SurfaceQuality {
-    surface::PlaneQuality quads;
+    quads::PlaneQuality quads;
     double off_surface = 0; ///< largest distance of an inner node from the exact surface [model length]
     std::string fault;      ///< what makes them no mesh of the face; empty where nothing does
 };

@@ -111,7 +111,8 @@ int load(lua_State* L)
 
 int write_cad(lua_State* L)
 {
-    fail(L, "write_cad: this build writes no CAD files, it was made with LACUNA_WITH_CAD=OFF; write the facets with write_facets");
+    fail(L, "write_cad: this build writes no CAD files, it was made with LACUNA_WITH_CAD=OFF; write the "
+            "facets with write_facets");
 }
 
 } // namespace

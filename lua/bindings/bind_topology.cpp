@@ -81,7 +81,7 @@ std::array<Triangle, 2> halves(const Quad& q, const std::vector<Vec3>& points)
 
 void add(ModelState& state, const AddedFace& face)
 {
-    topology::FacetSoup& soup = state.added;
+    healing::FacetSoup& soup = state.added;
     const int label = state.added_faces++;
     const auto offset = static_cast<Index>(soup.points.size());
     soup.points.insert(soup.points.end(), face.points.begin(), face.points.end());

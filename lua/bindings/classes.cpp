@@ -54,7 +54,7 @@ void list_faces(std::ostream& out, const char* title, const topology::OpenVolume
 
 /// The splitter meets triangles before quads; give each face the number of its label.
 /// @pre a face a label.
-void put_in_order_of_adding(topology::Model& model, const topology::FacetSoup& soup)
+void put_in_order_of_adding(topology::Model& model, const healing::FacetSoup& soup)
 {
     std::vector<topology::Face> faces(model.faces.size());
     std::vector<bool> met(model.faces.size(), false);
@@ -75,9 +75,9 @@ void put_in_order_of_adding(topology::Model& model, const topology::FacetSoup& s
 void refresh(ModelState& state)
 {
     if (!state.stale) return;
-    topology::SplitOptions options;
+    healing::SplitOptions options;
     options.whole_labels = true;
-    topology::Model model = topology::split_facets(state.added, options);
+    topology::Model model = healing::split_facets(state.added, options);
     if (model.faces.size() != static_cast<std::size_t>(state.added_faces))
         throw InvalidInput("lua.face_in_parts", "the " + std::to_string(state.added_faces) +
                                                     " faces added became " +

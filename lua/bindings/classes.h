@@ -7,6 +7,7 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/core/run_context.h>
+#include <lacuna/healing/split_facets.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/sweep.h>
@@ -23,7 +24,7 @@ namespace lacuna::lua {
 struct ModelState {
     topology::Model model;
     bool hand_made = false;
-    topology::FacetSoup added; ///< with `hand_made`: a label a face, in the order of adding
+    healing::FacetSoup added; ///< with `hand_made`: a label a face, in the order of adding
     int added_faces = 0;
     bool stale = false; ///< `model` lacks faces of `added`
 };
@@ -39,7 +40,7 @@ struct FaceHandle {
 
 struct VolumeState {
     topology::OpenVolume volume;
-    std::vector<std::string> role_reasons;     ///< why the faces got their roles; empty where they were named
+    std::vector<std::string> role_reasons;   ///< why the faces got their roles; empty where they were named
     topology::Classification classification; ///< as the volume was given
     std::optional<matching::Match> match;
     std::optional<closure::Closure> closure;

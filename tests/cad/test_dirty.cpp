@@ -6,8 +6,8 @@
 #include "support/dirt.h"
 
 #include <lacuna/closure/close.h>
+#include <lacuna/healing/stitch.h>
 #include <lacuna/sweep/sweep.h>
-#include <lacuna/topology/stitch.h>
 
 #include <doctest/doctest.h>
 #include <gmsh.h>
@@ -39,7 +39,7 @@ void check_unfolded(const topology::Model& model)
     }
 }
 
-void check_same_skin(topology::Model model, const topology::Model& whole, const topology::StitchReport& report)
+void check_same_skin(topology::Model model, const topology::Model& whole, const healing::StitchReport& report)
 {
     for (const std::string& note : report.notes) MESSAGE(note);
     CHECK(report.notes.empty());
@@ -58,7 +58,7 @@ void check_stitched(const topology::Model& whole, unsigned dirt)
     if ((dirt & 1U) != 0) test::divide_sides(model, dirt + 7);
     if ((dirt & 2U) != 0) test::divide_edges(model, 3);
     if ((dirt & 4U) != 0) test::shake(model, 0.4 * whole.tolerance, dirt);
-    check_same_skin(model, whole, topology::stitch(model, whole.tolerance));
+    check_same_skin(model, whole, healing::stitch(model, whole.tolerance));
 }
 
 } // namespace
@@ -75,7 +75,8 @@ TEST_CASE("exact faces in pieces, divided differently and shaken, are stitched t
         }
     }
     const std::string shared = std::string(LACUNA_SOURCE_DIR) + "/../shared/data/cad/";
-    for (const char* file : {"tuyau_bent_pipe.brep", "mambo_S24.step", "7pin.step", "holycyl.stp", "Welle_stepped_shaft.step"}) {
+    for (const char* file :
+         {"tuyau_bent_pipe.brep", "mambo_S24.step", "7pin.step", "holycyl.stp", "Welle_stepped_shaft.step"}) {
         if (!std::filesystem::exists(shared + file)) {
             MESSAGE("skipped: there is no " << shared + file);
             continue;
@@ -99,8 +100,10 @@ void plate(const std::vector<Vec3>& corners, int& seed)
     const double turn = 2.4 * ++seed;
     const Vec3 shift = 0.3 * kTolerance * Vec3(std::cos(turn), std::sin(turn), std::cos(3 * turn));
     std::vector<int> points, lines;
-    for (const Vec3& c : corners) points.push_back(occ::addPoint(c.x() + shift.x(), c.y() + shift.y(), c.z() + shift.z()));
-    for (std::size_t i = 0; i < points.size(); ++i) lines.push_back(occ::addLine(points[i], points[(i + 1) % points.size()]));
+    for (const Vec3& c : corners)
+        points.push_back(occ::addPoint(c.x() + shift.x(), c.y() + shift.y(), c.z() + shift.z()));
+    for (std::size_t i = 0; i < points.size(); ++i)
+        lines.push_back(occ::addLine(points[i], points[(i + 1) % points.size()]));
     occ::addPlaneSurface({occ::addCurveLoop(lines)});
 }
 
@@ -113,7 +116,8 @@ void dirty_block()
     plate({{1.2, 0, 0}, {1.2, 1, 0}, {2, 1, 0}, {2, 0, 0}}, seed);
     plate({{0, 0, 1}, {2, 0, 1}, {2, 1, 1}, {0, 1, 1}}, seed);
     plate({{0, 1, 1}, {2, 1, 1}, {2, 0, 1}, {0, 0, 1}}, seed);
-    plate({{0, 0, 0}, {2, 0, 0}, {2, 0, 1 - 0.4 * kTolerance}, {2 - 0.4 * kTolerance, 0, 1}, {0, 0, 1}}, seed);
+    plate({{0, 0, 0}, {2, 0, 0}, {2, 0, 1 - 0.4 * kTolerance}, {2 - 0.4 * kTolerance, 0, 1}, {0, 0, 1}},
+          seed);
     plate({{0, 1, 0}, {2, 1, 0}, {2, 1, 1}, {0, 1, 1}}, seed); // inward
     plate({{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}, seed);
     plate({{2, 0, 0}, {2, 1, 0}, {2, 1, 1}, {2, 0, 1}}, seed);
@@ -123,7 +127,8 @@ FaceId face_near(const topology::Model& model, const Vec3& centre)
 {
     FaceId best(0UL);
     for (std::size_t f = 1; f < model.faces.size(); ++f) {
-        if ((topology::face_centroid(model, FaceId(f)) - centre).norm() < (topology::face_centroid(model, best) - centre).norm()) {
+        if ((topology::face_centroid(model, FaceId(f)) - centre).norm() <
+            (topology::face_centroid(model, best) - centre).norm()) {
             best = FaceId(f);
         }
     }
@@ -136,14 +141,12 @@ void check_sweeps(const topology::Model& model, const topology::Roles& roles, do
     topology::OpenVolume open = topology::open_volume(model, roles);
     const topology::VolumeClass value = topology::classify(open).value;
     const bool two_ends = value != topology::VolumeClass::IV && value != topology::VolumeClass::V;
-    const closure::Closure closed = closure::close(open, two_ends ? matching::match(open) : matching::Match{});
+    const closure::Closure closed = closure::close(open,
+                                                   two_ends ? matching::match(open) : matching::Match{});
     CHECK(closed.watertight);
     CHECK(closure::enclosed_volume(open) == doctest::Approx(volume).epsilon(error));
     sweep::SweepOptions options;
     options.layers.count = 4;
-    options.quad_mesher = [](const surface::PlanarRegion& region, const RunContext& context) {
-        return cad::recombine(region, context);
-    };
     test::check_valid(sweep::sweep(open, options).mesh);
 }
 
@@ -178,21 +181,25 @@ TEST_CASE("a block of loose, shifted, divided, repeated and turned faces is swep
     }
 }
 
-TEST_CASE("a can of loose faces, its rims begun anywhere and a face of it listed twice, is swept without its lid")
+TEST_CASE(
+    "a can of loose faces, its rims begun anywhere and a face of it listed twice, is swept without its lid")
 {
     const test::TempFolder folder;
     for (const double turn : {0.0, 0.7, 2.0}) {
         CAPTURE(turn);
-        const topology::Model model = cad::load({folder.gmsh("can.step", [&] {
-            const int disc = occ::addDisk(0, 0, 0, 1, 1);
-            const int again = occ::addDisk(0, 0, 0, 1, 1);
-            occ::rotate({{2, again}}, 0, 0, 0, 0, 0, 1, 1.1);
-            const int circle = occ::addCircle(0, 0, 0, 1);
-            occ::rotate({{1, circle}}, 0, 0, 0, 0, 0, 1, turn);
-            gmsh::vectorpair out;
-            occ::extrude({{1, circle}}, 0, 0, 2, out);
-            (void)disc;
-        })}, {.tolerance = kTolerance});
+        const topology::Model model = cad::load(
+            {folder.gmsh("can.step",
+                         [&] {
+                             const int disc = occ::addDisk(0, 0, 0, 1, 1);
+                             const int again = occ::addDisk(0, 0, 0, 1, 1);
+                             occ::rotate({{2, again}}, 0, 0, 0, 0, 0, 1, 1.1);
+                             const int circle = occ::addCircle(0, 0, 0, 1);
+                             occ::rotate({{1, circle}}, 0, 0, 0, 0, 0, 1, turn);
+                             gmsh::vectorpair out;
+                             occ::extrude({{1, circle}}, 0, 0, 2, out);
+                             (void)disc;
+                         })},
+            {.tolerance = kTolerance});
         test::check_model(model);
         CHECK(model.faces.size() == 2);
         CHECK(model.notes.size() == 1);
@@ -206,14 +213,20 @@ TEST_CASE("edges that part between their ends are not sewn in silence")
     const test::TempFolder folder;
     for (const double bulge : {0.3, 5.0}) {
         CAPTURE(bulge);
-        const topology::Model model = cad::load({folder.gmsh("parting.brep", [&] {
-            occ::addRectangle(0, 0, 0, 1, 1);
-            std::vector<int> p;
-            for (const auto& [x, y] : {std::pair(1.0, 0.0), {2.0, 0.0}, {2.0, 1.0}, {1.0, 1.0}}) p.push_back(occ::addPoint(x, y, 0));
-            const int middle = occ::addPoint(1 + bulge * kTolerance, 0.5, 0);
-            occ::addPlaneSurface({occ::addCurveLoop({occ::addLine(p[0], p[1]), occ::addLine(p[1], p[2]), occ::addLine(p[2], p[3]),
-                                                     occ::addSpline({p[3], middle, p[0]})})});
-        })}, {.tolerance = kTolerance});
+        const topology::Model model = cad::load(
+            {folder.gmsh(
+                "parting.brep",
+                [&] {
+                    occ::addRectangle(0, 0, 0, 1, 1);
+                    std::vector<int> p;
+                    for (const auto& [x, y] : {std::pair(1.0, 0.0), {2.0, 0.0}, {2.0, 1.0}, {1.0, 1.0}})
+                        p.push_back(occ::addPoint(x, y, 0));
+                    const int middle = occ::addPoint(1 + bulge * kTolerance, 0.5, 0);
+                    occ::addPlaneSurface({occ::addCurveLoop(
+                        {occ::addLine(p[0], p[1]), occ::addLine(p[1], p[2]), occ::addLine(p[2], p[3]),
+                         occ::addSpline({p[3], middle, p[0]})})});
+                })},
+            {.tolerance = kTolerance});
         test::check_model(model);
         const std::vector<int> uses = test::uses_of_edges(model);
         CHECK(std::count(uses.begin(), uses.end(), 2) == (bulge < 1 ? 1 : 0));
@@ -235,7 +248,8 @@ TEST_CASE("faces of a CAD file and of a facet file are joined")
         occ::remove({faces.back()}, false);
     });
     // The lid as facets that have a point amid a side.
-    const std::string facets = folder.write("lid.obj", "v 0 0 1\nv 1 0 1\nv 1 0.4 1\nv 1 1 1\nv 0 1 1\nf 1 2 3\nf 1 3 4\nf 1 4 5\n");
+    const std::string facets = folder.write(
+        "lid.obj", "v 0 0 1\nv 1 0 1\nv 1 0.4 1\nv 1 1 1\nv 0 1 1\nf 1 2 3\nf 1 3 4\nf 1 4 5\n");
     const topology::Model model = cad::load({cad_file, facets});
     test::check_model(model);
     CHECK(model.faces.size() == 6);

@@ -69,7 +69,7 @@ TEST_CASE("a host's session, models and options are left as they were")
     gmsh::model::list(before);
     {
         const topology::Model model = cad::load({path});
-        surface::PlanarRegion square;
+        quads::PlanarRegion square;
         square.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
         square.loops = {{0, 1, 2, 3}};
         CHECK(cad::recombine(square).quads.size() >= 1);

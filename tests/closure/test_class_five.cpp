@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "closure/sealing_checks.h"
 
-#include <lacuna/closure/class_five.h>
+#include <lacuna/closure/detail/class_five.h>
+#include <lacuna/healing/split_facets.h>
 
 #include <algorithm>
 #include <set>
@@ -16,7 +17,7 @@ namespace {
 /// A prism's walls put beside or within another's.
 OpenVolume together(const std::vector<std::pair<PrismOptions, Vec3>>& prisms)
 {
-    FacetSoup soup;
+    healing::FacetSoup soup;
     int label = 0;
     for (const auto& [options, shift] : prisms) {
         const auto more = test::prism(options).soup;
@@ -31,9 +32,9 @@ OpenVolume together(const std::vector<std::pair<PrismOptions, Vec3>>& prisms)
         }
     }
     for (int l = 0; l < label; ++l) soup.label_name.push_back("w" + std::to_string(l));
-    SplitOptions split;
+    healing::SplitOptions split;
     split.whole_labels = true;
-    const Model model = split_facets(soup, split);
+    const Model model = healing::split_facets(soup, split);
     Roles roles;
     for (std::size_t f = 0; f < model.faces.size(); ++f) roles.walls.emplace_back(f);
     return open_volume(model, roles);
@@ -59,9 +60,10 @@ TEST_CASE(
                                                .bend = bend,
                                                .drop = kWallsAlone};
                     const auto prism = test::prism(options);
-                    SplitOptions split;
+                    healing::SplitOptions split;
                     split.whole_labels = true;
-                    const Model model = split_facets(test::scrambled_facets(prism.soup, seed), split);
+                    const Model model = healing::split_facets(test::scrambled_facets(prism.soup, seed),
+                                                              split);
                     Roles roles;
                     for (std::size_t f = 0; f < model.faces.size(); ++f) roles.walls.emplace_back(f);
                     auto volume = open_volume(model, roles);

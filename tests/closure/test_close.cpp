@@ -192,9 +192,9 @@ TEST_CASE("the order and the directions the facets come in do not matter")
              {without(true, true, false), VolumeClass::V}}) {
         for (unsigned seed = 0; seed < 6; ++seed) {
             const auto prism = test::prism({.sides = 5, .holes = 2, .hole_sides = 3, .drop = drop});
-            SplitOptions split;
+            healing::SplitOptions split;
             split.whole_labels = true;
-            const Model model = split_facets(test::scrambled_facets(prism.soup, seed), split);
+            const Model model = healing::split_facets(test::scrambled_facets(prism.soup, seed), split);
             Roles roles;
             for (std::size_t f = 0; f < model.faces.size(); ++f) {
                 const Role role =
@@ -251,7 +251,7 @@ TEST_CASE("round ends whose vertices were cut at random close to the volume of t
                                             .hole_sides = 0,
                                             .cuts = 4,
                                             .drop = without(false, false, true)});
-            FacetSoup soup = prism.soup;
+            healing::FacetSoup soup = prism.soup;
             std::vector<std::size_t> order(soup.points.size());
             for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
             std::mt19937 dice(seed);
@@ -260,9 +260,9 @@ TEST_CASE("round ends whose vertices were cut at random close to the volume of t
             for (Triangle& t : soup.triangles) {
                 for (Index& p : t) p = static_cast<Index>(order[static_cast<std::size_t>(p)]);
             }
-            SplitOptions split;
+            healing::SplitOptions split;
             split.whole_labels = true;
-            auto volume = open_volume(split_facets(soup, split),
+            auto volume = open_volume(healing::split_facets(soup, split),
                                       {{FaceId(std::size_t(0))}, {FaceId(std::size_t(1))}, {}});
             CAPTURE(holes);
             CAPTURE(seed);
@@ -424,9 +424,9 @@ TEST_CASE("ends with different numbers of corners and no walls between them are 
                 soup.triangle_label.push_back(1);
             }
             soup.label_name.push_back("top");
-            SplitOptions split;
+            healing::SplitOptions split;
             split.whole_labels = true;
-            auto volume = open_volume(split_facets(soup, split),
+            auto volume = open_volume(healing::split_facets(soup, split),
                                       {{FaceId(std::size_t(0))}, {FaceId(std::size_t(1))}, {}});
             CAPTURE(below);
             CAPTURE(above);

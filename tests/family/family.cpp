@@ -9,9 +9,6 @@
 #include <lacuna/matching/match.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/sweep.h>
-#ifdef LACUNA_WITH_CAD
-#include <lacuna/cad/load.h>
-#endif
 
 #include <algorithm>
 #include <cmath>
@@ -97,9 +94,6 @@ sweep::SweepOptions sweep_options()
     sweep::SweepOptions options;
     options.layers.count = kLayers;
     options.size = [](const Vec3&) { return kSize; };
-#ifdef LACUNA_WITH_CAD
-    options.quad_mesher = cad::recombine;
-#endif
     return options;
 }
 

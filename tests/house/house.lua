@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: MIT
--- Proves the plan of the house: which folder of the kernel may include which, who may name Gmsh and Lua, and what the
--- kernel never does (print, end the process).
+-- Proves the plan of the house: which folder of the kernel may include which, that internal headers stay inside their
+-- folder, that headers include each other in no circle, who may name Gmsh and Lua, and what the kernel never does
+-- (print, end the process).
 --
 --   lua5.4 house.lua SOURCE_DIR
 --
@@ -11,14 +12,16 @@ local plan = {
   core = {},
   geometry = { "core" },
   mesh = { "core" },
+  quads = { "geometry", "mesh" },
   topology = { "geometry" },
+  healing = { "topology" },
   matching = { "topology" },
   closure = { "matching" },
-  surface = { "closure", "mesh" },
+  surface = { "matching", "quads" },
   quality = { "mesh" },
-  sweep = { "surface", "quality" },
-  io = { "mesh", "topology" },
-  cad = { "topology", "io", "surface" },
+  sweep = { "closure", "surface", "quality" },
+  io = { "mesh", "healing" },
+  cad = { "closure", "healing", "io", "surface" },
 }
 
 local function reachable(folder, set)
@@ -75,6 +78,8 @@ local function faults(folder, path, text)
   end
   if path:match("%.h$") and not text:match("\n#pragma once\n") then fault(1, "a header without #pragma once") end
 
+  if path:match("/detail/") and not path:match("%.h$") then fault(1, "detail/ holds internal headers alone") end
+
   local allowed = reachable(folder)
   local number = 0
   for line in (text .. "\n"):gmatch("(.-)\n") do
@@ -86,6 +91,10 @@ local function faults(folder, path, text)
         fault(number, ("includes <%s>, and the plan has no folder %s"):format(include, other))
       elseif other and not allowed[other] then
         fault(number, ("%s includes <%s>, which is not below it"):format(folder, include))
+      elseif other and other ~= folder and include:match("^lacuna/[^/]+/detail/") then
+        fault(number, ("includes <%s>, which is internal to %s"):format(include, other))
+      elseif other and include:match("/detail/") and path:match("%.h$") and not path:match("/detail/") then
+        fault(number, ("a public header includes <%s>, which is not installed"):format(include))
       elseif include:match("^%.%.") then
         fault(number, ("includes \"%s\": say <lacuna/folder/file.h>"):format(include))
       end
@@ -130,12 +139,16 @@ local samples = {
   { "cad", gpl .. "auto* old = std::cout.rdbuf(mine);\nvoid f() { std::cout << 1; }\n", "sample.cpp:3" },
   { "cad", gpl .. "auto* old = std::cout.rdbuf(mine);\n" },
   { "sweep", mit .. "#include <lacuna/core/types.h>\n#include <lacuna/closure/close.h>\n" },
+  { "sweep", mit .. "#include <lacuna/surface/detail/wall_map.h>\n", "internal to surface" },
+  { "surface", mit .. "#include <lacuna/surface/detail/wall_map.h>\n" },
+  { "surface", mit .. "#pragma once\n#include <lacuna/surface/detail/wall_map.h>\n", "not installed", "surface/walls.h" },
+  { "surface", mit .. "int f() { return 1; }\n", "internal headers alone", "surface/detail/wall_map.cpp" },
   { "cad", gpl .. "#include <gmsh.h>\n#include <lacuna/topology/model.h>\n" },
   { "core", mit .. '// exit, printf and abort in prose\nauto s = "printf \\" exit";\nstd::snprintf(b, 1, "abort");\n' },
 }
 local wrong = 0
 for number, sample in ipairs(samples) do
-  local found = table.concat(faults(sample[1], "sample.cpp", sample[2]), "\n")
+  local found = table.concat(faults(sample[1], sample[4] or "sample.cpp", sample[2]), "\n")
   local good = sample[3] and found:find(sample[3], 1, true) or not sample[3] and found == ""
   if not good then
     wrong = wrong + 1
@@ -143,18 +156,48 @@ for number, sample in ipairs(samples) do
   end
 end
 
+-- A circle of includes, from a table of what each header includes: the headers on it, or nil.
+local function circle(includes)
+  local state, found = {}, nil
+  local function visit(header, trail)
+    state[header] = "open"
+    trail[#trail + 1] = header
+    for _, other in ipairs(includes[header] or {}) do
+      if state[other] == "open" then found = found or table.concat(trail, " -> ") .. " -> " .. other
+      elseif not state[other] then visit(other, trail) end
+    end
+    trail[#trail] = nil
+    state[header] = "done"
+  end
+  for header in pairs(includes) do
+    if not state[header] then visit(header, {}) end
+  end
+  return found
+end
+if not circle { a = { "b" }, b = { "c" }, c = { "a" } } or circle { a = { "b", "c" }, b = { "c" } } then
+  wrong = wrong + 1
+  print("a circle of includes is not told from a tree")
+end
+
 -- The kernel.
+local includes = {}
 local root = assert(arg[1], "usage: house.lua SOURCE_DIR")
 local files = 0
 local list = assert(io.popen(("find '%s/kernel/lacuna' -name '*.h' -o -name '*.cpp' | LC_ALL=C sort"):format(root)))
 for path in list:lines() do
-  local folder = path:match("/kernel/lacuna/([^/]+)/[^/]+$")
+  local folder = path:match("/kernel/lacuna/([^/]+)/[^/]+$") or path:match("/kernel/lacuna/([^/]+)/detail/[^/]+$")
   if not folder or not plan[folder] then
     wrong = wrong + 1
     print(path .. ": the plan has no folder for it")
   else
     local file <close> = assert(io.open(path))
-    for _, fault in ipairs(faults(folder, path, file:read("a"))) do
+    local text = file:read("a")
+    if path:match("%.h$") then
+      local header = path:match("/kernel/(lacuna/.+)$")
+      includes[header] = {}
+      for include in text:gmatch("#include <(lacuna/[^>]+)>") do table.insert(includes[header], include) end
+    end
+    for _, fault in ipairs(faults(folder, path, text)) do
       wrong = wrong + 1
       print(fault)
     end
@@ -162,6 +205,8 @@ for path in list:lines() do
   end
 end
 list:close()
+local round = circle(includes)
+if round then wrong = wrong + 1; print("headers include each other in a circle: " .. round) end
 if files == 0 then wrong = wrong + 1; print("no file found under " .. root .. "/kernel/lacuna") end
 print(("%d files, %d faults"):format(files, wrong))
 os.exit(wrong == 0)

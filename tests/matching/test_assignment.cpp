@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/matching/assignment.h>
+#include <lacuna/matching/detail/assignment.h>
 
 #include <doctest/doctest.h>
 

@@ -5,6 +5,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/triangulate.h>
+#include <lacuna/healing/split_facets.h>
 #include <lacuna/matching/match.h>
 
 #include <doctest/doctest.h>
@@ -32,7 +33,7 @@ constexpr double kPi = std::numbers::pi;
 
 /// A plane face with loops of straight sides, and where its corners are.
 struct Plate {
-    FacetSoup soup;
+    healing::FacetSoup soup;
     std::vector<Vec3> corners;
 };
 
@@ -96,7 +97,7 @@ Plate plate(const std::vector<int>& counts, double unlike, std::mt19937& dice)
 OpenVolume pair_of(const Plate& low, const std::function<Vec3(const Vec3&)>& map, bool target_first,
                    unsigned seed)
 {
-    FacetSoup soup = low.soup;
+    healing::FacetSoup soup = low.soup;
     const auto base = static_cast<Index>(soup.points.size());
     for (const Vec3& p : low.soup.points) soup.points.push_back(map(p));
     soup.triangle_label.assign(soup.triangles.size(), target_first ? 1 : 0);
@@ -121,10 +122,10 @@ OpenVolume pair_of(const Plate& low, const std::function<Vec3(const Vec3&)>& map
     }
     soup.label_name = target_first ? std::vector<std::string>{"target", "source"}
                                    : std::vector<std::string>{"source", "target"};
-    SplitOptions split;
+    healing::SplitOptions split;
     split.whole_labels = true;
     split.tolerance = 1e-7;
-    const Model model = split_facets(soup, split);
+    const Model model = healing::split_facets(soup, split);
     REQUIRE(model.faces.size() == 2);
     const std::size_t source = model.faces[0].name == "source" ? 0 : 1;
     return open_volume(model, {{FaceId(source)}, {FaceId(1 - source)}, {}});
@@ -448,7 +449,7 @@ TEST_CASE("a smooth loop goes where it is turned least, wherever its vertex happ
                                                 .cuts = 3,
                                                 .twist = twist,
                                                 .drop = without(false, false, true)});
-                FacetSoup soup = prism.soup;
+                healing::FacetSoup soup = prism.soup;
                 std::vector<std::size_t> order(soup.points.size());
                 for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
                 std::mt19937 dice(seed);
@@ -457,9 +458,9 @@ TEST_CASE("a smooth loop goes where it is turned least, wherever its vertex happ
                 for (Triangle& t : soup.triangles) {
                     for (Index& p : t) p = static_cast<Index>(order[static_cast<std::size_t>(p)]);
                 }
-                SplitOptions split;
+                healing::SplitOptions split;
                 split.whole_labels = true;
-                const auto volume = open_volume(split_facets(soup, split),
+                const auto volume = open_volume(healing::split_facets(soup, split),
                                                 {{FaceId(std::size_t(0))}, {FaceId(std::size_t(1))}, {}});
                 const Match found = matching::match(volume);
                 CAPTURE(holes);
@@ -501,9 +502,9 @@ TEST_CASE("loops with different numbers of corners are paired by length, every c
                 soup.triangle_label.push_back(1);
             }
             soup.label_name.push_back("top");
-            SplitOptions split;
+            healing::SplitOptions split;
             split.whole_labels = true;
-            const auto volume = open_volume(split_facets(soup, split),
+            const auto volume = open_volume(healing::split_facets(soup, split),
                                             {{FaceId(std::size_t(0))}, {FaceId(std::size_t(1))}, {}});
             const Match found = matching::match(volume);
             CAPTURE(low);
@@ -538,9 +539,9 @@ TEST_CASE("loops that differ in number are refused, and both numbers named")
                 soup.triangle_label.push_back(1);
             }
             soup.label_name.push_back("top");
-            SplitOptions split;
+            healing::SplitOptions split;
             split.whole_labels = true;
-            const auto volume = open_volume(split_facets(soup, split),
+            const auto volume = open_volume(healing::split_facets(soup, split),
                                             {{FaceId(std::size_t(0))}, {FaceId(std::size_t(1))}, {}});
             CHECK(refusal([&] { matching::match(volume); },
                           {std::to_string(low + 1) + (low == 0 ? " loop " : " loops "),

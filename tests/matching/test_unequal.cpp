@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/check_valid.h"
-#include "support/quad_meshers.h"
 #include "support/volumes.h"
 #include "two_ends.h"
 
-#ifdef LACUNA_TESTS_WITH_CAD
-#include <lacuna/cad/load.h>
-#endif
 #include <lacuna/closure/close.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/matching/match.h>
@@ -109,17 +105,8 @@ Match check_swept(OpenVolume volume, double facet_volume, double closeness, cons
     CHECK(closure::enclosed_volume(volume) == doctest::Approx(facet_volume).epsilon(closeness));
     sweep::SweepOptions sweep;
     sweep.layers.count = 3;
-    sweep.quad_mesher = test::midpoint_quads;
-    if (found.loops.size() > 1) {
-        // The tests' own mesher has no way with small holes.
-#ifdef LACUNA_TESTS_WITH_CAD
-        sweep.quad_mesher = cad::recombine;
-        const double size = volume.model.diagonal / 16;
-        sweep.size = [size](const Vec3&) { return size; };
-#else
-        sweeps = false;
-#endif
-    }
+    const double size = volume.model.diagonal / 16;
+    if (found.loops.size() > 1) sweep.size = [size](const Vec3&) { return size; };
     if (sweeps) test::check_valid(sweep::sweep(volume, sweep).mesh);
     return applied;
 }
@@ -416,7 +403,7 @@ TEST_CASE("several loops, each with its own numbers of vertices, are matched, sp
 TEST_CASE("a mesh that the target came with is split at its nodes")
 {
     // The circle's facets as quads of a ring about a square would do; here one row of quads round a hole.
-    FacetSoup soup;
+    healing::FacetSoup soup;
     const int n = 24;
     for (const double z : {0.0, 1.0}) {
         const auto base = static_cast<Index>(soup.points.size());
@@ -433,9 +420,9 @@ TEST_CASE("a mesh that the target came with is split at its nodes")
             if (z == 0) std::swap(soup.quads.back()[1], soup.quads.back()[3]);
         }
     }
-    SplitOptions options;
+    healing::SplitOptions options;
     options.whole_labels = true;
-    auto volume = open_volume(split_facets(soup, options),
+    auto volume = open_volume(healing::split_facets(soup, options),
                               {{FaceId(std::size_t(0))}, {FaceId(std::size_t(1))}, {}});
     const auto given = volume.model.faces[1].given_quads;
     const auto points = volume.model.points;

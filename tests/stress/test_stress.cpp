@@ -4,9 +4,6 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/quality/quality.h>
-#ifdef LACUNA_WITH_CAD
-#include <lacuna/cad/load.h>
-#endif
 
 #include <doctest/doctest.h>
 
@@ -27,9 +24,6 @@ int member_count()
 sweep::Swept swept(const test::StressMember& member, const topology::OpenVolume& volume, int threads)
 {
     sweep::SweepOptions options = test::stress_options(member);
-#ifdef LACUNA_WITH_CAD
-    options.quad_mesher = cad::recombine;
-#endif
     RunContext context;
     context.threads = threads;
     return sweep::sweep(volume, options, context);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/quad_mesher.h>
+#include <lacuna/quads/region.h>
 
 #include <cstdint>
 #include <functional>
@@ -28,7 +28,7 @@ struct PlaneDomain {
 
 /// A domain with nodes on its outline: an even number of sides on every curve, evenly spread by the size.
 struct SeededDomain {
-    surface::PlanarRegion region;
+    quads::PlanarRegion region;
     std::vector<std::vector<int>> sides; ///< of every curve of every loop
     double size = 0;                     ///< where the relative size is 1 [length]
 };
@@ -44,7 +44,7 @@ SeededDomain seed_domain(const PlaneDomain& domain, double quads);
 
 /// What a random region was made with.
 struct RandomDomain {
-    surface::PlanarRegion region;
+    quads::PlanarRegion region;
     bool odd = false;     ///< made with an odd number of sides: cannot be filled
     bool crossed = false; ///< made with loops that cross: cannot be filled
     std::string words;    ///< how it was made

@@ -10,7 +10,7 @@
 
 namespace lacuna::test {
 
-surface::PlanarQuads midpoint_quads(const surface::PlanarRegion& region, const RunContext&)
+quads::PlanarQuads midpoint_quads(const quads::PlanarRegion& region, const RunContext&)
 {
     std::vector<Vec2> coarse;
     std::vector<Index> number; // of each coarse boundary point in the region
@@ -34,7 +34,7 @@ surface::PlanarQuads midpoint_quads(const surface::PlanarRegion& region, const R
     geometry::TriangulateOptions options;
     options.grading = 0.4;
     const auto cells = geometry::triangulate(coarse, loops, options);
-    surface::PlanarQuads result{region.points, {}};
+    quads::PlanarQuads result{region.points, {}};
     const auto add = [&](const Vec2& p) {
         result.points.push_back(p);
         return static_cast<Index>(result.points.size()) - 1;

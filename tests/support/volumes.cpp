@@ -2,6 +2,7 @@
 #include "support/volumes.h"
 
 #include <lacuna/geometry/triangulate.h>
+#include <lacuna/healing/split_facets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,9 +57,9 @@ SectionLoop section_loop(int sides, double radius, const Vec2& centre, bool hole
 
 std::vector<SectionLoop> section_of(const PrismOptions& o)
 {
-    std::vector<SectionLoop> section{
-        o.outline.empty() ? section_loop(o.sides, o.radius, Vec2(0, 0), false, o)
-                          : loop_through(o.outline, o.cuts * o.pieces, static_cast<int>(o.outline.size()), o)};
+    std::vector<SectionLoop> section{o.outline.empty() ? section_loop(o.sides, o.radius, Vec2(0, 0), false, o)
+                                                       : loop_through(o.outline, o.cuts * o.pieces,
+                                                                      static_cast<int>(o.outline.size()), o)};
     if (!o.hole_list.empty() || !o.outline.empty()) {
         for (const RoundHole& hole : o.hole_list)
             section.push_back(section_loop(0, hole.radius, hole.centre, true, o));
@@ -116,10 +117,10 @@ public:
         }
         result_.volume = formula();
         if (result_.soup.triangles.empty()) return std::move(result_);
-        SplitOptions split;
+        healing::SplitOptions split;
         split.whole_labels = true;
         split.feature_angle = o_.feature_angle;
-        result_.model = split_facets(result_.soup, split);
+        result_.model = healing::split_facets(result_.soup, split);
         for (std::size_t f = 0; f < result_.model.faces.size(); ++f) {
             const auto label = static_cast<std::size_t>(std::stoi(result_.model.faces[f].name.substr(1)));
             result_.part.push_back(parts_[label]);
@@ -322,10 +323,10 @@ Model moved(Model model, const std::function<Vec3(const Vec3&)>& map)
     return model;
 }
 
-FacetSoup scrambled_facets(const FacetSoup& soup, unsigned seed)
+healing::FacetSoup scrambled_facets(const healing::FacetSoup& soup, unsigned seed)
 {
     std::mt19937 dice(seed);
-    FacetSoup result = soup;
+    healing::FacetSoup result = soup;
     const int labels = *std::max_element(soup.triangle_label.begin(), soup.triangle_label.end()) + 1;
     std::vector<bool> flip(static_cast<std::size_t>(labels));
     for (std::size_t l = 0; l < flip.size(); ++l) flip[l] = dice() % 2 != 0;

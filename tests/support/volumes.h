@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/healing/split_facets.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <functional>
@@ -28,9 +29,10 @@ struct PrismOptions {
     int sides = 4;     ///< corners of the outer loop; 0: a circle
     double radius = 1; ///< of the outer loop's corners
     double height = 2;
-    int holes = 0;             ///< loops within: one in the middle, several on a circle
-    int hole_sides = 4;        ///< 0: circles
-    std::vector<Vec2> outline{}; ///< corners of the outer loop, anticlockwise; instead of `sides` and `radius`
+    int holes = 0;      ///< loops within: one in the middle, several on a circle
+    int hole_sides = 4; ///< 0: circles
+    std::vector<Vec2>
+        outline{}; ///< corners of the outer loop, anticlockwise; instead of `sides` and `radius`
     std::vector<RoundHole> hole_list{}; ///< instead of `holes`
     int cuts = 2;     ///< facets along a straight side and a piece; a circle has twelve times as many in all
     int rows = 1;     ///< walls stacked on each other
@@ -49,8 +51,8 @@ struct PrismOptions {
 
 /// The faces that are left, with their roles, and what the whole encloses.
 struct Prism {
-    topology::FacetSoup soup; ///< of the faces left; a label a face
-    topology::Model model;    ///< whole labels
+    healing::FacetSoup soup; ///< of the faces left; a label a face
+    topology::Model model;   ///< whole labels
     topology::Roles roles;
     std::vector<Part> part;  ///< of each face of `model`
     double facet_volume = 0; ///< within the facets, nothing left out
@@ -74,6 +76,6 @@ void add_seam(topology::Model& model, FaceId wall);
 topology::Model moved(topology::Model model, const std::function<Vec3(const Vec3&)>& map);
 
 /// Turn over, rotate and reorder the facets, and reverse the order of the labels, as the bits of `seed` say.
-topology::FacetSoup scrambled_facets(const topology::FacetSoup& soup, unsigned seed);
+healing::FacetSoup scrambled_facets(const healing::FacetSoup& soup, unsigned seed);
 
 } // namespace lacuna::test

@@ -4,6 +4,7 @@
 #include "support/volumes.h"
 
 #include <lacuna/closure/close.h>
+#include <lacuna/healing/split_facets.h>
 #include <lacuna/matching/match.h>
 
 namespace lacuna::test {
@@ -22,7 +23,7 @@ inline topology::OpenVolume sealed(const PrismOptions& options, const closure::C
 inline topology::OpenVolume board_box(int n, int m, double height,
                                       const std::function<bool(int, int)>& gone = nullptr)
 {
-    topology::FacetSoup soup;
+    healing::FacetSoup soup;
     std::vector<topology::Role> role;
     const auto point = [&](double x, double y, double z) {
         soup.points.emplace_back(x, y, z);
@@ -67,9 +68,9 @@ inline topology::OpenVolume board_box(int n, int m, double height,
             }
         }
     }
-    topology::SplitOptions split;
+    healing::SplitOptions split;
     split.whole_labels = true;
-    const topology::Model model = topology::split_facets(soup, split);
+    const topology::Model model = healing::split_facets(soup, split);
     topology::Roles roles;
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         const auto r = role[static_cast<std::size_t>(std::stoi(model.faces[f].name.substr(1)))];

@@ -3,7 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/surface/belt.h>
-#include <lacuna/surface/wall_map.h>
+#include <lacuna/surface/detail/wall_map.h>
 
 #include <doctest/doctest.h>
 

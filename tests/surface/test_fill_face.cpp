@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/quads/pave.h>
+#include <lacuna/surface/detail/fine_facets.h>
 #include <lacuna/surface/edge_nodes.h>
 #include <lacuna/surface/fill_face.h>
-#include <lacuna/surface/fine_facets.h>
-#include <lacuna/surface/pave.h>
 
 #include <doctest/doctest.h>
 
@@ -130,7 +130,9 @@ Filled fill(const Disc& disc, double size)
             filled.rim.push_back({points[i], use.edge, fractions[i]});
         }
     }
-    const auto paver = [](const PlanarRegion& region, const RunContext& c) { return pave(region, {}, c); };
+    const auto paver = [](const quads::PlanarRegion& region, const RunContext& c) {
+        return quads::pave(region, {}, c);
+    };
     filled.quads = fill_face(disc.model, FaceId(0), filled.rim, loops, {[&](const Vec3&) { return size; }},
                              paver);
     return filled;

@@ -2,7 +2,10 @@
 #include "surface/sealed.h"
 
 #include <lacuna/core/error.h>
+#include <lacuna/quads/pave.h>
+#include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/seeds.h>
+#include <lacuna/surface/source_mesh.h>
 
 #include <doctest/doctest.h>
 
@@ -172,5 +175,34 @@ TEST_CASE("the spacing of the rim is the mean of its facets' sides")
     for (const int cuts : {1, 4}) {
         const auto volume = test::sealed({.sides = 6, .cuts = cuts});
         CHECK(surface::rim_spacing(volume) == doctest::Approx(1.0 / cuts));
+    }
+}
+
+TEST_CASE("counts of faces of right angles are made to agree, so that their grid has no irregular node")
+{
+    const std::vector<Vec2> corners{{0, 0}, {3.1, 0}, {3.1, 1.2}, {1.4, 1.2}, {1.4, 2.7}, {0, 2.7}};
+    for (const double size : {0.31, 0.23, 0.17, 0.11}) {
+        CAPTURE(size);
+        const topology::OpenVolume volume = test::sealed({.outline = corners});
+        const auto belts = surface::belts(volume);
+        const auto even = [size](const Vec3&) { return size; };
+        const surface::Seeds seeds = surface::seed_source(volume, belts, even, surface::QuadStyle::automatic);
+        for (const FaceId face : volume.faces(topology::Role::source)) {
+            CHECK(seeds.submapped.contains(face));
+            const auto total = [&](const std::vector<EdgeId>& edges) {
+                int sum = 0;
+                for (const EdgeId edge : edges) sum += seeds.count(edge);
+                return sum;
+            };
+            const auto pairs = surface::grid_sides(volume.model, face);
+            REQUIRE(pairs.size() == 2);
+            for (const auto& sides : pairs) CHECK(total(sides[0]) == total(sides[1]));
+        }
+        const surface::SourceMesh mesh = surface::mesh_source(
+            volume, belts, seeds, {even}, [](const quads::PlanarRegion& region, const RunContext& context) {
+                return quads::pave(region, {}, context);
+            });
+        REQUIRE(mesh.notes.size() == 1);
+        CHECK(mesh.notes.front().find("submapped") != std::string::npos);
     }
 }

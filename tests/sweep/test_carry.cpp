@@ -2,8 +2,8 @@
 #include "families.h"
 
 #include <lacuna/core/error.h>
+#include <lacuna/sweep/detail/surface_smoothing.h>
 #include <lacuna/sweep/layers.h>
-#include <lacuna/sweep/surface_smoothing.h>
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/quality.h>
-#include <lacuna/sweep/cell_energy.h>
+#include <lacuna/sweep/detail/cell_energy.h>
 #include <lacuna/sweep/improve.h>
 
 #include "support/blocks.h"

@@ -6,9 +6,6 @@
 #include <lacuna/core/error.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/sweep.h>
-#ifdef LACUNA_TESTS_WITH_CAD
-#include <lacuna/cad/load.h>
-#endif
 
 #include <doctest/doctest.h>
 
@@ -35,7 +32,6 @@ SweepOptions layers_of(int count, double size)
     SweepOptions options;
     options.layers.count = count;
     options.size = [size](const Vec3&) { return size; };
-    options.quad_mesher = test::midpoint_quads;
     return options;
 }
 
@@ -490,7 +486,6 @@ TEST_CASE("bad options are refused")
               sweep::sweep(test::sealed({.sides = 4, .twist = 30}), strict);
           }).rfind("quality.", 0) == 0);
     SweepOptions no_mesher = layers_of(2, 0.3);
-    no_mesher.quad_mesher = nullptr;
     no_mesher.quads = sweep::Quads::gmsh;
     CHECK(refusal([&] { sweep::sweep(test::sealed({.sides = 5}), no_mesher); }) == "surface.no_mesher");
     SweepOptions mapped = layers_of(2, 0.3);
@@ -511,29 +506,3 @@ TEST_CASE("a sweep stops when it is told to")
     context.cancel = &cancel;
     CHECK_THROWS_AS(sweep::sweep(volume, layers_of(3, 0.2), context), Cancelled);
 }
-
-#ifdef LACUNA_TESTS_WITH_CAD
-TEST_CASE("sources meshed by Gmsh become hexahedra as well")
-{
-    int combinations = 0;
-    for (const int sides : {0, 3, 5}) {
-        for (const int holes : {0, 3}) {
-            for (const int hole_sides : {0, 3}) {
-                SweepOptions options = layers_of(3, 0.1);
-                options.quad_mesher = cad::recombine;
-                const auto volume = test::sealed({.sides = sides,
-                                                  .holes = holes,
-                                                  .hole_sides = hole_sides,
-                                                  .taper = 0.8,
-                                                  .drop = without(false, false, true)});
-                CAPTURE(sides);
-                CAPTURE(holes);
-                CAPTURE(hole_sides);
-                check_swept(volume, options, 0.05);
-                ++combinations;
-            }
-        }
-    }
-    MESSAGE(combinations << " sources");
-}
-#endif

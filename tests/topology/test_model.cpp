@@ -2,6 +2,7 @@
 #include "support/volumes.h"
 
 #include <lacuna/core/error.h>
+#include <lacuna/healing/split_facets.h>
 
 #include <doctest/doctest.h>
 
@@ -91,7 +92,7 @@ TEST_CASE("loops are closed walks with the face on the left, whatever the sectio
                                                     .hole_sides = sides,
                                                     .rows = rows,
                                                     .pieces = pieces});
-                    SplitOptions split;
+                    healing::SplitOptions split;
                     split.whole_labels = true;
                     for (unsigned seed = 0; seed < 3; ++seed) {
                         CAPTURE(sides);
@@ -99,7 +100,7 @@ TEST_CASE("loops are closed walks with the face on the left, whatever the sectio
                         CAPTURE(rows);
                         CAPTURE(pieces);
                         CAPTURE(seed);
-                        Model model = split_facets(test::scrambled_facets(prism.soup, seed), split);
+                        Model model = healing::split_facets(test::scrambled_facets(prism.soup, seed), split);
                         check_loops(model);
                         orient_consistently(model);
                         check_loops(model);
@@ -255,7 +256,7 @@ TEST_CASE("a band with a half twist is refused, and the faces at the seam of the
         for (const int half_twists : {1, 2, 3}) {
             const int each = 24 / faces;
             const int columns = each * faces;
-            FacetSoup soup;
+            healing::FacetSoup soup;
             for (int i = 0; i < columns; ++i) {
                 const double u = 2 * std::numbers::pi * i / columns;
                 for (const double v : {-0.3, 0.3}) {
@@ -273,9 +274,9 @@ TEST_CASE("a band with a half twist is refused, and the faces at the seam of the
                 soup.triangle_label.push_back(i / each);
                 soup.triangle_label.push_back(i / each);
             }
-            SplitOptions split;
+            healing::SplitOptions split;
             split.whole_labels = true;
-            Model model = split_facets(soup, split);
+            Model model = healing::split_facets(soup, split);
             REQUIRE(model.faces.size() == static_cast<std::size_t>(faces));
             CAPTURE(faces);
             CAPTURE(half_twists);
@@ -296,14 +297,14 @@ TEST_CASE("a band with a half twist is refused, and the faces at the seam of the
 
 TEST_CASE("an edge of three faces is refused, and edge and faces are named")
 {
-    FacetSoup soup;
+    healing::FacetSoup soup;
     soup.points = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, -1, 0}};
     for (Index i = 0; i < 3; ++i) {
         soup.triangles.push_back({0, 1, 2 + i});
         soup.triangle_label.push_back(i);
     }
     soup.label_name = {"left", "right", "fin"};
-    Model model = split_facets(soup);
+    Model model = healing::split_facets(soup);
     try {
         orient_consistently(model);
         FAIL("three faces at an edge were taken");

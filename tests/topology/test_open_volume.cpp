@@ -3,6 +3,7 @@
 #include "support/volumes.h"
 
 #include <lacuna/core/error.h>
+#include <lacuna/healing/split_facets.h>
 
 #include <doctest/doctest.h>
 
@@ -182,9 +183,9 @@ TEST_CASE("a wall that touches neither end is refused by name")
     soup.triangles.push_back({base, base + 1, base + 2});
     soup.triangle_label.push_back(static_cast<int>(soup.label_name.size()));
     soup.label_name.push_back("astray");
-    SplitOptions split;
+    healing::SplitOptions split;
     split.whole_labels = true;
-    const Model model = split_facets(soup, split);
+    const Model model = healing::split_facets(soup, split);
     Roles roles = first.roles;
     roles.walls.emplace_back(model.faces.size() - 1);
     CHECK(refusal([&] { open_volume(model, roles); }, {"astray", "wall", "tolerance"}) ==

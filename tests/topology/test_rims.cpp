@@ -16,7 +16,7 @@ namespace {
 /// Faces of an n × m board of unit squares in the plane, all looking up.
 Model board(int n, int m, const std::vector<std::pair<int, int>>& squares)
 {
-    FacetSoup soup;
+    healing::FacetSoup soup;
     for (int j = 0; j <= m; ++j) {
         for (int i = 0; i <= n; ++i) soup.points.emplace_back(i, j, 0);
     }
@@ -25,7 +25,7 @@ Model board(int n, int m, const std::vector<std::pair<int, int>>& squares)
         soup.quads.push_back({a, a + 1, a + n + 2, a + n + 1});
         soup.quad_label.push_back(static_cast<int>(soup.quad_label.size()));
     }
-    return split_facets(soup);
+    return healing::split_facets(soup);
 }
 
 std::vector<FaceId> all_faces(const Model& model)

@@ -2,6 +2,7 @@
 #include "support/volumes.h"
 
 #include <lacuna/core/error.h>
+#include <lacuna/healing/split_facets.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/split_edge.h>
 
@@ -89,15 +90,15 @@ std::string code_of(const std::function<void()>& work, const std::string& word)
 /// Edges that run along both sides of a facet each: a fan over a whole circle, its edge exact.
 Model disc(int sides)
 {
-    FacetSoup soup;
+    healing::FacetSoup soup;
     soup.points.emplace_back(0, 0, 0);
     for (int i = 0; i < sides; ++i)
         soup.points.emplace_back(std::cos(2 * std::numbers::pi * i / sides),
                                  std::sin(2 * std::numbers::pi * i / sides), 0);
     for (int i = 0; i < sides; ++i) soup.triangles.push_back({0, i + 1, (i + 1) % sides + 1});
-    SplitOptions options;
+    healing::SplitOptions options;
     options.feature_angle = 120;
-    Model model = split_facets(soup, options);
+    Model model = healing::split_facets(soup, options);
     REQUIRE(model.edges.size() == 1);
     Edge& edge = model.edges.front();
     edge.curve = std::make_shared<Circle>();
@@ -272,7 +273,7 @@ TEST_CASE("an inner point of the edge within the tolerance becomes the vertex, a
 
 TEST_CASE("the nodes of a mesh that a face came with get none between them")
 {
-    FacetSoup soup;
+    healing::FacetSoup soup;
     const int n = 4;
     for (int j = 0; j <= n; ++j) {
         for (int i = 0; i <= n; ++i) soup.points.emplace_back(i, j, 0);
@@ -282,7 +283,7 @@ TEST_CASE("the nodes of a mesh that a face came with get none between them")
         for (int i = 0; i < n; ++i)
             soup.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
     }
-    const Model whole = split_facets(soup);
+    const Model whole = healing::split_facets(soup);
     REQUIRE(whole.faces.front().given_quads.size() == 16);
     for (std::size_t e = 0; e < whole.edges.size(); ++e) {
         for (const double f : {0.01, 0.3, 0.49, 0.6, 0.99}) {
@@ -299,10 +300,10 @@ TEST_CASE("the nodes of a mesh that a face came with get none between them")
             check_model(model);
         }
     }
-    FacetSoup one;
+    healing::FacetSoup one;
     one.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     one.quads = {{0, 1, 2, 3}};
-    Model model = split_facets(one);
+    Model model = healing::split_facets(one);
     CHECK(code_of([&] { split_edge(model, EdgeId(std::size_t(0)), 0.5); },
                   name_of(model, EdgeId(std::size_t(0)))) == "topology.split_kept_mesh");
 }

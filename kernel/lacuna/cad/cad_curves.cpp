@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/cad_curves.h>
+#include <lacuna/cad/detail/cad_curves.h>
 
-#include <lacuna/cad/exact_geometry.h>
-#include <lacuna/cad/gmsh_api.h>
+#include <lacuna/cad/detail/exact_geometry.h>
+#include <lacuna/cad/detail/gmsh_api.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/cad_facets.h>
+#include <lacuna/cad/detail/cad_facets.h>
 
-#include <lacuna/cad/face_grid.h>
-#include <lacuna/cad/gmsh_api.h>
+#include <lacuna/cad/detail/face_grid.h>
+#include <lacuna/cad/detail/gmsh_api.h>
 #include <lacuna/geometry/delaunay.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/edge_shape.h>
+#include <lacuna/cad/detail/edge_shape.h>
 
-#include <lacuna/cad/spline_patch.h>
+#include <lacuna/cad/detail/spline_patch.h>
 #include <lacuna/geometry/polyline.h>
 
 #include <algorithm>

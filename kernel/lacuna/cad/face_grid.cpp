@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/face_grid.h>
+#include <lacuna/cad/detail/face_grid.h>
 
 #include <algorithm>
 #include <cmath>

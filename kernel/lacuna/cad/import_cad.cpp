@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/import_cad.h>
+#include <lacuna/cad/detail/import_cad.h>
 
-#include <lacuna/cad/cad_facets.h>
-#include <lacuna/cad/gmsh_api.h>
+#include <lacuna/cad/detail/cad_facets.h>
+#include <lacuna/cad/detail/gmsh_api.h>
 
 #include <algorithm>
 #include <cctype>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/import_facets.h>
+#include <lacuna/cad/detail/import_facets.h>
+#include <lacuna/healing/split_facets.h>
 
-#include <lacuna/cad/gmsh_api.h>
-#include <lacuna/cad/import_cad.h>
+#include <lacuna/cad/detail/gmsh_api.h>
+#include <lacuna/cad/detail/import_cad.h>
 #include <lacuna/cad/session.h>
 
 #include <algorithm>
@@ -166,7 +167,7 @@ void read_with_gmsh(const std::string& path, const std::string& ending, Labelled
 }
 
 /// Quads as two triangles each, for those who want them meshed anew.
-void split_quads(topology::FacetSoup& soup)
+void split_quads(healing::FacetSoup& soup)
 {
     for (std::size_t q = 0; q < soup.quads.size(); ++q) {
         const Quad& quad = soup.quads[q];
@@ -242,7 +243,7 @@ topology::Model import_facets(const std::vector<std::string>& paths, const LoadO
     const std::vector<std::string> names = std::exchange(all.soup.label_name, {});
     for (std::size_t label = 0; label < names.size(); ++label)
         all.soup.label_name.push_back(std::to_string(label));
-    topology::Model model = topology::split_facets(all.soup, {options.feature_angle, options.tolerance});
+    topology::Model model = healing::split_facets(all.soup, {options.feature_angle, options.tolerance});
     name_faces(model, names, all.label_tag);
     model.source = source;
     return model;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <lacuna/cad/load.h>
 
-#include <lacuna/cad/import_cad.h>
-#include <lacuna/cad/import_facets.h>
+#include <lacuna/cad/detail/import_cad.h>
+#include <lacuna/cad/detail/import_facets.h>
 #include <lacuna/core/error.h>
-#include <lacuna/topology/stitch.h>
+#include <lacuna/healing/stitch.h>
 
 #include <cmath>
 #include <filesystem>
@@ -108,7 +108,7 @@ void stitch(topology::Model& model, const RunContext& context)
                                                 std::to_string(model.diagonal) +
                                                 "), so faces would fall together; give a smaller one");
     }
-    const topology::StitchReport report = topology::stitch(model, model.tolerance);
+    const healing::StitchReport report = healing::stitch(model, model.tolerance);
     if (report.changed()) log_line(context, report.summary());
     model.notes.insert(model.notes.end(), report.notes.begin(), report.notes.end());
     for (const std::string& note : model.notes) log_line(context, note);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/surface/quad_mesher.h>
+#include <lacuna/quads/region.h>
 #include <lacuna/topology/model.h>
 
 #include <optional>
@@ -22,15 +22,16 @@ struct LoadOptions {
 ///
 /// CAD faces get facets (chord error and turn bounded by curvature), exact curves and surfaces, and the tags
 /// Gmsh shows for the file; loose faces are sewn; orientation is made consistent. Facets are cut into faces
-/// by topology::split_facets().
-/// What then still does not share edges is joined by topology::stitch(); what it left out or apart is in Model::notes.
+/// by healing::split_facets().
+/// What then still does not share edges is joined by healing::stitch(); what it left out or apart is in Model::notes.
 /// @throw InvalidInput  a missing, empty or unreadable file, an unknown ending; names the file.
 /// @throw BackendError  Gmsh's own words, with the file.
 topology::Model load(const std::vector<std::string>& paths, const LoadOptions& options = {},
                      const RunContext& context = {});
 
-/// Gmsh's all-quad recombination of a planar region, boundary nodes kept, always all quads.
-surface::PlanarQuads recombine(const surface::PlanarRegion& region, const RunContext& context = {});
+/// Gmsh's recombination of a planar region into quads, boundary nodes kept.
+/// @throw NotSweepable  an odd number of boundary sides ("cad.odd_rim"), or triangles left ("cad.recombine").
+quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext& context = {});
 
 /// Version of the Gmsh library linked.
 std::string gmsh_version();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/import_cad.h>
+#include <lacuna/cad/detail/import_cad.h>
 
 #include <map>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/solid_builder.h>
+#include <lacuna/cad/detail/solid_builder.h>
 
-#include <lacuna/cad/edge_shape.h>
-#include <lacuna/cad/gmsh_api.h>
-#include <lacuna/cad/void_patch.h>
+#include <lacuna/cad/detail/edge_shape.h>
+#include <lacuna/cad/detail/gmsh_api.h>
+#include <lacuna/cad/detail/void_patch.h>
 #include <lacuna/closure/void_geometry.h>
 #include <lacuna/geometry/newell.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/spline_patch.h>
+#include <lacuna/cad/detail/spline_patch.h>
 
 #include <Eigen/LU>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/cad_facets.h>
-#include <lacuna/cad/gmsh_api.h>
+#include <lacuna/cad/detail/cad_facets.h>
+#include <lacuna/cad/detail/gmsh_api.h>
 
 #include <Eigen/Eigenvalues>
 

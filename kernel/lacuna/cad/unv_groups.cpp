@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Gmsh reads the nodes and elements of universal files, but not to which named groups they belong.
-#include <lacuna/cad/import_facets.h>
+#include <lacuna/cad/detail/import_facets.h>
 
 #include <array>
 #include <cstdlib>

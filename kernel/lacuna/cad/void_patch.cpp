@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/void_patch.h>
+#include <lacuna/cad/detail/void_patch.h>
 
-#include <lacuna/cad/edge_shape.h>
+#include <lacuna/cad/detail/edge_shape.h>
 #include <lacuna/geometry/harmonic.h>
 
 #include <Eigen/Cholesky>

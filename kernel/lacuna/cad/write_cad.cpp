@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <lacuna/cad/write_cad.h>
 
-#include <lacuna/cad/gmsh_api.h>
-#include <lacuna/cad/import_cad.h>
-#include <lacuna/cad/solid_builder.h>
+#include <lacuna/cad/detail/gmsh_api.h>
+#include <lacuna/cad/detail/import_cad.h>
+#include <lacuna/cad/detail/solid_builder.h>
 #include <lacuna/closure/close.h>
 #include <lacuna/io/whole_file.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/class_five.h>
+#include <lacuna/closure/detail/class_five.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/close.h>
 
-#include <lacuna/closure/class_five.h>
+#include <lacuna/closure/detail/class_five.h>
+#include <lacuna/closure/detail/sealing.h>
+#include <lacuna/closure/detail/stubs.h>
+#include <lacuna/closure/detail/void_edges.h>
+#include <lacuna/closure/detail/void_faces.h>
 #include <lacuna/closure/follow.h>
-#include <lacuna/closure/sealing.h>
-#include <lacuna/closure/stubs.h>
-#include <lacuna/closure/void_edges.h>
-#include <lacuna/closure/void_faces.h>
 #include <lacuna/closure/void_geometry.h>
 #include <lacuna/core/error.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/sealing.h>
+#include <lacuna/closure/detail/sealing.h>
 
 #include <lacuna/closure/close.h>
 #include <lacuna/geometry/facet_tree.h>

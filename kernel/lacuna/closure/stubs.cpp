@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/stubs.h>
+#include <lacuna/closure/detail/stubs.h>
 
 #include <algorithm>
 #include <set>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/void_edges.h>
+#include <lacuna/closure/detail/void_edges.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/void_faces.h>
+#include <lacuna/closure/detail/void_faces.h>
 
 #include <lacuna/core/error.h>
 

@@ -11,8 +11,7 @@ namespace lacuna {
 /// the tag they know, what was expected, what was found, and what to try. `code()` is stable, for programs.
 class Error : public std::runtime_error {
 public:
-    Error(std::string code, const std::string& message)
-        : std::runtime_error(message), code_(std::move(code))
+    Error(std::string code, const std::string& message) : std::runtime_error(message), code_(std::move(code))
     {
     }
     [[nodiscard]] const std::string& code() const noexcept { return code_; }

@@ -9,10 +9,10 @@ namespace lacuna {
 
 /// How long work is run and watched; every member may stay at its default. Not owned by the kernel.
 struct RunContext {
-    int threads = 0;                                           ///< 0: all cores
-    const std::atomic<bool>* cancel = nullptr;                 ///< set by the host to stop the work
-    std::function<void(std::string_view)> log;                 ///< notes for a person, a line each
-    std::function<void(std::string_view, double)> progress;    ///< stage, fraction in [0, 1]
+    int threads = 0;                                        ///< 0: all cores
+    const std::atomic<bool>* cancel = nullptr;              ///< set by the host to stop the work
+    std::function<void(std::string_view)> log;              ///< notes for a person, a line each
+    std::function<void(std::string_view, double)> progress; ///< stage, fraction in [0, 1]
 };
 
 /// @throw Cancelled when the host asked for it.

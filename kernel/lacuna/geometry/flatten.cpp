@@ -6,7 +6,7 @@
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/predicates.h>
 
-#include "flatten_maps.h"
+#include <lacuna/geometry/detail/flatten_maps.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "flatten_maps.h"
+#include <lacuna/geometry/detail/flatten_maps.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/harmonic.h>

@@ -2,9 +2,9 @@
 #include <lacuna/geometry/minimal_area.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/detail/patch_mesh.h>
+#include <lacuna/geometry/detail/polygon_cover.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/patch_mesh.h>
-#include <lacuna/geometry/polygon_cover.h>
 #include <lacuna/geometry/triangulate.h>
 
 #include <algorithm>

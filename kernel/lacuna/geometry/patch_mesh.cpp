@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/patch_mesh.h>
+#include <lacuna/geometry/detail/patch_mesh.h>
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>

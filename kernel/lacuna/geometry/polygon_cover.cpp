@@ -3,7 +3,7 @@
 // The cost of a chain i … k closed by the side k → i is that of its best triangle (i, m, k) and of the two
 // chains this leaves, so that all chains are solved from the short to the long (Barequet and Sharir 1995,
 // Liepa 2003). The turn across the sides i–m and m–k is taken against those chains' own best triangles.
-#include <lacuna/geometry/polygon_cover.h>
+#include <lacuna/geometry/detail/polygon_cover.h>
 
 #include <algorithm>
 #include <cmath>

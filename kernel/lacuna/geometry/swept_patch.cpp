@@ -22,12 +22,10 @@ Vec3 SweptPatch::Side::at(double f) const
     return point_at(points, arc, std::clamp(f, 0.0, 1.0) * arc.back());
 }
 
-Vec3 SweptPatch::Side::tangent(double f) const
-{
-    return at(f + kReach) - at(f - kReach);
-}
+Vec3 SweptPatch::Side::tangent(double f) const { return at(f + kReach) - at(f - kReach); }
 
-SweptPatch::SweptPatch(std::span<const Vec3> bottom, std::span<const Vec3> right, std::span<const Vec3> top, std::span<const Vec3> left)
+SweptPatch::SweptPatch(std::span<const Vec3> bottom, std::span<const Vec3> right, std::span<const Vec3> top,
+                       std::span<const Vec3> left)
 {
     const auto side = [](std::span<const Vec3> points) {
         return Side{{points.begin(), points.end()}, arc_lengths(points)};
@@ -40,7 +38,8 @@ SweptPatch::SweptPatch(std::span<const Vec3> bottom, std::span<const Vec3> right
     for (int i = 0; i <= 10; ++i) {
         const Vec3 chord = right_.at(i / 10.0) - left_.at(i / 10.0);
         const Vec3 up = (left_.tangent(i / 10.0) + right_.tangent(i / 10.0));
-        const bool clear = chord.norm() > kShortChord * size && chord.cross(up).norm() > kShortChord * chord.norm() * up.norm();
+        const bool clear = chord.norm() > kShortChord * size &&
+                           chord.cross(up).norm() > kShortChord * chord.norm() * up.norm();
         turns_ = turns_ && clear;
     }
     if (turns_) {
@@ -68,11 +67,13 @@ Vec3 SweptPatch::operator()(double s, double t) const
     const Vec3 chord = (1 - s) * l + s * r;
     if (!turns_) return chord + (1 - t) * (b - b_chord) + t * (e - e_chord);
     const double b_size = bottom_.arc.back(), e_size = top_.arc.back();
-    const Vec3 deviation = (1 - t) / b_size * (first_.transpose() * (b - b_chord)) + t / e_size * (last_.transpose() * (e - e_chord));
+    const Vec3 deviation = (1 - t) / b_size * (first_.transpose() * (b - b_chord)) +
+                           t / e_size * (last_.transpose() * (e - e_chord));
     return chord + ((1 - t) * b_size + t * e_size) * (frame(t) * deviation);
 }
 
-std::vector<Vec3> swept_grid(std::span<const Vec3> bottom, std::span<const Vec3> right, std::span<const Vec3> top, std::span<const Vec3> left)
+std::vector<Vec3> swept_grid(std::span<const Vec3> bottom, std::span<const Vec3> right,
+                             std::span<const Vec3> top, std::span<const Vec3> left)
 {
     const SweptPatch patch(bottom, right, top, left);
     const std::size_t n = bottom.size() - 1, m = left.size() - 1;

@@ -19,7 +19,8 @@ namespace lacuna::geometry {
 class SweptPatch {
 public:
     /// Sides as polylines: bottom and top from left to right, left and right from bottom to top, corners shared.
-    SweptPatch(std::span<const Vec3> bottom, std::span<const Vec3> right, std::span<const Vec3> top, std::span<const Vec3> left);
+    SweptPatch(std::span<const Vec3> bottom, std::span<const Vec3> right, std::span<const Vec3> top,
+               std::span<const Vec3> left);
 
     /// The point at shares of the sides' lengths, both in [0, 1].
     [[nodiscard]] Vec3 operator()(double s, double t) const;
@@ -43,7 +44,7 @@ private:
 
 /// Grid of points on the patch of four sides, numbered and spaced as by `transfinite()`.
 /// @pre  opposite sides have as many points as each other, corners are equal to the bit.
-std::vector<Vec3> swept_grid(std::span<const Vec3> bottom, std::span<const Vec3> right, std::span<const Vec3> top,
-                             std::span<const Vec3> left);
+std::vector<Vec3> swept_grid(std::span<const Vec3> bottom, std::span<const Vec3> right,
+                             std::span<const Vec3> top, std::span<const Vec3> left);
 
 } // namespace lacuna::geometry

@@ -2,8 +2,8 @@
 #include <lacuna/io/msh.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/io/msh_content.h>
-#include <lacuna/io/sections.h>
+#include <lacuna/io/detail/msh_content.h>
+#include <lacuna/io/detail/sections.h>
 
 #include <cstring>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/msh_content.h>
+#include <lacuna/io/detail/msh_content.h>
 
 #include <lacuna/core/error.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/msh_cursor.h>
+#include <lacuna/io/detail/msh_cursor.h>
 
 #include <lacuna/core/error.h>
 

@@ -2,7 +2,7 @@
 #include <lacuna/io/msh_reader.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/io/msh_cursor.h>
+#include <lacuna/io/detail/msh_cursor.h>
 
 #include <algorithm>
 #include <filesystem>

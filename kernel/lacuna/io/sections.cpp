@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/sections.h>
+#include <lacuna/io/detail/sections.h>
 
 #include <lacuna/core/parallel.h>
 

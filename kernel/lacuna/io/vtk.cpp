@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/vtk.h>
 
-#include <lacuna/io/msh_content.h>
-#include <lacuna/io/sections.h>
+#include <lacuna/io/detail/msh_content.h>
+#include <lacuna/io/detail/sections.h>
 
 #include <algorithm>
 #include <bit>

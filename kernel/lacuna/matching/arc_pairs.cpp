@@ -2,7 +2,7 @@
 //
 // Everything is counted in shares of the source: a target vertex stands where the stretch between the loops
 // takes it.
-#include <lacuna/matching/arc_pairs.h>
+#include <lacuna/matching/detail/arc_pairs.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/matching/arrange.h>
+#include <lacuna/matching/detail/arrange.h>
 
-#include <lacuna/matching/assignment.h>
+#include <lacuna/matching/detail/assignment.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/matching/lays.h>
+#include <lacuna/matching/detail/lays.h>
 
 #include <Eigen/Geometry>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/matching/loop_shape.h>
+#include <lacuna/matching/detail/loop_shape.h>
 
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>

@@ -2,11 +2,11 @@
 #include <lacuna/matching/match.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/matching/arc_pairs.h>
-#include <lacuna/matching/arrange.h>
-#include <lacuna/matching/nearest.h>
-#include <lacuna/matching/problem.h>
-#include <lacuna/matching/splits.h>
+#include <lacuna/matching/detail/arc_pairs.h>
+#include <lacuna/matching/detail/arrange.h>
+#include <lacuna/matching/detail/nearest.h>
+#include <lacuna/matching/detail/problem.h>
+#include <lacuna/matching/detail/splits.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 //
 // Vertices are counted through, loop by loop in walking order: `Ends` says which loop and which place a
 // number stands for.
-#include <lacuna/matching/nearest.h>
+#include <lacuna/matching/detail/nearest.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/matching/problem.h>
+#include <lacuna/matching/detail/problem.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/matching/side_lines.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/matching/splits.h>
+#include <lacuna/matching/detail/splits.h>
 
 #include <lacuna/topology/split_edge.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quality/cell_batch.h>
-#include <lacuna/quality/lanes.h>
+#include <lacuna/quality/detail/cell_batch.h>
+#include <lacuna/quality/detail/lanes.h>
 #include <lacuna/quality/quality.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quality/cell_metrics.h>
+#include <lacuna/quality/detail/cell_metrics.h>
 
-#include <lacuna/quality/lanes.h>
+#include <lacuna/quality/detail/lanes.h>
 
 #include <array>
 #include <cmath>

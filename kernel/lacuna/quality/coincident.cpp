@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quality/coincident.h>
+#include <lacuna/quality/detail/coincident.h>
 
 #include <lacuna/core/parallel.h>
 

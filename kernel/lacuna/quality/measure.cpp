@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quality/cell_columns.h>
+#include <lacuna/quality/detail/cell_columns.h>
 #include <lacuna/quality/quality.h>
 
 #include <lacuna/core/parallel.h>

@@ -2,8 +2,8 @@
 #include <lacuna/quality/metrics.h>
 
 #include <lacuna/core/parallel.h>
-#include <lacuna/quality/cell_columns.h>
-#include <lacuna/quality/cell_metrics.h>
+#include <lacuna/quality/detail/cell_columns.h>
+#include <lacuna/quality/detail/cell_metrics.h>
 
 #include <array>
 #include <cmath>

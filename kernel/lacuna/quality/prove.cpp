@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quality/coincident.h>
-#include <lacuna/quality/findings.h>
+#include <lacuna/quality/detail/coincident.h>
+#include <lacuna/quality/detail/findings.h>
+#include <lacuna/quality/detail/text.h>
 #include <lacuna/quality/quality.h>
-#include <lacuna/quality/text.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/mesh/quad_mesh.h>

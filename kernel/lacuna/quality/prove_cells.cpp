@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quality/findings.h>
+#include <lacuna/quality/detail/findings.h>
 #include <lacuna/quality/quality.h>
 
 #include <lacuna/core/error.h>

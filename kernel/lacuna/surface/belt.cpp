@@ -3,8 +3,8 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/matching/corners.h>
-#include <lacuna/surface/common_turn.h>
-#include <lacuna/surface/wall_map.h>
+#include <lacuna/surface/detail/common_turn.h>
+#include <lacuna/surface/detail/wall_map.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/common_turn.h>
+#include <lacuna/surface/detail/common_turn.h>
 
-#include <lacuna/surface/wall_map.h>
+#include <lacuna/surface/detail/wall_map.h>
 
 #include <Eigen/Geometry>
 
@@ -89,7 +89,7 @@ std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<Pair>& pairs, const
         along += pair.weight * a.dot(b);
         across += pair.weight * normal.dot(a.cross(b));
     }
-    // Loops about one centre say nothing of a turn; a thousandth of the section is as good as one centre.
+    // quads::Loops about one centre say nothing of a turn; a thousandth of the section is as good as one centre.
     const double size2 = std::min(source_area.norm(), target_area.norm());
     if (std::hypot(along, across) < 1e-6 * weight * size2) return std::nullopt;
     return Eigen::AngleAxisd(std::atan2(across, along), normal).toRotationMatrix() * upright;

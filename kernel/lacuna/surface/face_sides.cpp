@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/face_sides.h>
+#include <lacuna/surface/detail/face_sides.h>
 
-#include <lacuna/surface/submap.h>
+#include <lacuna/quads/submap.h>
 
 #include <algorithm>
 #include <cmath>
@@ -89,7 +89,7 @@ std::vector<OppositeSides> grid_sides(const Model& model, FaceId face)
         std::array<std::vector<EdgeId>, 4> along;
         int heading = 0, turns = 0;
         for (std::size_t i = 0; i < loop.uses.size(); ++i) {
-            const int quads = grid_quads(inner_angle(model, face, loop, i) * std::numbers::pi / 180);
+            const int quads = quads::grid_quads(inner_angle(model, face, loop, i) * std::numbers::pi / 180);
             if (quads == 0) return {};
             turns += 2 - quads;
             if (i > 0) heading = (heading + 2 - quads + 8) % 4;

@@ -5,7 +5,7 @@
 #include <lacuna/geometry/flatten.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
-#include <lacuna/surface/fine_facets.h>
+#include <lacuna/surface/detail/fine_facets.h>
 #include <lacuna/surface/projector.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -34,8 +34,8 @@ double area_of(const std::vector<Vec2>& points, std::span<const Index> loop)
 }
 
 /// The outer loop first, as the planar meshers want it.
-PlanarRegion region_of(std::vector<Vec2> points, Loops loops, std::function<double(const Vec2&)> size,
-                       std::function<double(const Vec2&)> row_height)
+quads::PlanarRegion region_of(std::vector<Vec2> points, Loops loops, std::function<double(const Vec2&)> size,
+                              std::function<double(const Vec2&)> row_height)
 {
     std::stable_sort(loops.begin(), loops.end(),
                      [&](const auto& a, const auto& b) { return area_of(points, a) > area_of(points, b); });
@@ -43,12 +43,12 @@ PlanarRegion region_of(std::vector<Vec2> points, Loops loops, std::function<doub
 }
 
 /// The points a filling has added.
-std::span<const Vec2> inside_of(const PlanarQuads& filling, std::size_t rim)
+std::span<const Vec2> inside_of(const quads::PlanarQuads& filling, std::size_t rim)
 {
     return std::span(filling.points).subspan(rim);
 }
 
-FaceQuads lifted(PlanarQuads filling, std::span<const RimNode> rim, const std::vector<Vec3>& inside)
+FaceQuads lifted(quads::PlanarQuads filling, std::span<const RimNode> rim, const std::vector<Vec3>& inside)
 {
     FaceQuads result;
     for (const RimNode& node : rim) result.points.push_back(node.point);
@@ -59,7 +59,8 @@ FaceQuads lifted(PlanarQuads filling, std::span<const RimNode> rim, const std::v
 }
 
 FaceQuads fill_plane(const geometry::Plane& plane, std::span<const RimNode> rim, const Loops& loops,
-                     const SizeFields& sizes, const PlanarQuadMesher& mesher, const RunContext& context)
+                     const SizeFields& sizes, const quads::PlanarQuadMesher& mesher,
+                     const RunContext& context)
 {
     std::vector<Vec2> flat;
     for (const RimNode& node : rim) flat.push_back(geometry::to_plane(plane, node.point));
@@ -76,8 +77,8 @@ FaceQuads fill_plane(const geometry::Plane& plane, std::span<const RimNode> rim,
             return field(geometry::from_plane(plane, within));
         };
     };
-    PlanarQuads filling = mesher(region_of(std::move(flat), loops, there(sizes.edge), there(sizes.row)),
-                                 context);
+    quads::PlanarQuads filling = mesher(
+        region_of(std::move(flat), loops, there(sizes.edge), there(sizes.row)), context);
     std::vector<Vec3> inside;
     for (const Vec2& p : inside_of(filling, rim.size())) inside.push_back(geometry::from_plane(plane, p));
     return lifted(std::move(filling), rim, inside);
@@ -194,7 +195,7 @@ private:
 } // namespace
 
 FaceQuads fill_face(const Model& model, FaceId face, std::span<const RimNode> rim, const Loops& loops,
-                    const SizeFields& sizes, const PlanarQuadMesher& mesher, const RunContext& context)
+                    const SizeFields& sizes, const quads::PlanarQuadMesher& mesher, const RunContext& context)
 {
     const Vec3 normal = face_area_vector(model, face).stableNormalized();
     const Vec3 origin = face_centroid(model, face);
@@ -209,8 +210,8 @@ FaceQuads fill_face(const Model& model, FaceId face, std::span<const RimNode> ri
         if (!field) return {};
         return [&](const Vec2& p) { return flat.size_at(p, field); };
     };
-    PlanarQuads filling = mesher(region_of(flat.lay(rim), loops, there(sizes.edge), there(sizes.row)),
-                                 context);
+    quads::PlanarQuads filling = mesher(region_of(flat.lay(rim), loops, there(sizes.edge), there(sizes.row)),
+                                        context);
     const std::vector<Vec3> inside = flat.lift(inside_of(filling, rim.size()));
     return lifted(std::move(filling), rim, inside);
 }

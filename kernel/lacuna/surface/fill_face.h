@@ -2,7 +2,8 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/surface/quad_mesher.h>
+#include <lacuna/quads/region.h>
+#include <lacuna/surface/size_field.h>
 #include <lacuna/topology/model.h>
 
 #include <span>
@@ -35,6 +36,6 @@ struct FaceQuads {
 /// @throw NotSweepable "surface.not_flat"  a face that cannot be laid flat; what the mesher throws.
 FaceQuads fill_face(const topology::Model& model, FaceId face, std::span<const RimNode> rim,
                     const std::vector<std::vector<Index>>& loops, const SizeFields& sizes,
-                    const PlanarQuadMesher& mesher, const RunContext& context = {});
+                    const quads::PlanarQuadMesher& mesher, const RunContext& context = {});
 
 } // namespace lacuna::surface

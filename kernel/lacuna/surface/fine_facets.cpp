@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/fine_facets.h>
+#include <lacuna/surface/detail/fine_facets.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <lacuna/surface/seeds.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/surface/face_sides.h>
+#include <lacuna/surface/detail/face_sides.h>
 
 #include <algorithm>
 #include <cmath>

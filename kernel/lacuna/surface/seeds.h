@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/surface/belt.h>
-#include <lacuna/surface/quad_mesher.h>
+#include <lacuna/surface/size_field.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <map>

@@ -19,7 +19,7 @@ namespace {
 class SourceMesher {
 public:
     SourceMesher(const OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds,
-                 const SizeFields& sizes, const PlanarQuadMesher& mesher, const RunContext& context)
+                 const SizeFields& sizes, const quads::PlanarQuadMesher& mesher, const RunContext& context)
         : volume_(volume),
           model_(volume.model),
           seeds_(seeds),
@@ -241,7 +241,7 @@ private:
     const Model& model_;
     const Seeds& seeds_;
     const SizeFields& sizes_;
-    const PlanarQuadMesher& mesher_;
+    const quads::PlanarQuadMesher& mesher_;
     const RunContext& context_;
     SourceMesh result_;
     std::string how_; ///< the last face was meshed
@@ -252,7 +252,8 @@ private:
 } // namespace
 
 SourceMesh mesh_source(const OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds,
-                       const SizeFields& sizes, const PlanarQuadMesher& mesher, const RunContext& context)
+                       const SizeFields& sizes, const quads::PlanarQuadMesher& mesher,
+                       const RunContext& context)
 {
     return SourceMesher(volume, belts, seeds, sizes, mesher, context).run();
 }

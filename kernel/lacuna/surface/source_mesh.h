@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/quads/region.h>
 #include <lacuna/surface/seeds.h>
 #include <lacuna/surface/walls.h>
 
@@ -26,7 +27,7 @@ struct SourceMesh {
 /// its exact surface. Nodes of edges and vertices are shared between faces.
 /// @throw NotSweepable  a face that needs `mesher` and there is none, or that cannot be laid flat; names it.
 SourceMesh mesh_source(const topology::OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds,
-                       const SizeFields& sizes, const PlanarQuadMesher& mesher,
+                       const SizeFields& sizes, const quads::PlanarQuadMesher& mesher,
                        const RunContext& context = {});
 
 } // namespace lacuna::surface

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/wall_map.h>
+#include <lacuna/surface/detail/wall_map.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/harmonic.h>

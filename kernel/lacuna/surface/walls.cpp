@@ -7,7 +7,7 @@
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/swept_patch.h>
 #include <lacuna/geometry/transfinite.h>
-#include <lacuna/surface/wall_map.h>
+#include <lacuna/surface/detail/wall_map.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #include <lacuna/sweep/carry.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/sweep/detail/rim.h>
+#include <lacuna/sweep/detail/surface_smoothing.h>
 #include <lacuna/sweep/harmonic_spread.h>
-#include <lacuna/sweep/rim.h>
-#include <lacuna/sweep/surface_smoothing.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/cell_energy.h>
+#include <lacuna/sweep/detail/cell_energy.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/geometry/minimise.h>
-#include <lacuna/sweep/region.h>
+#include <lacuna/sweep/detail/region.h>
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/parallel.h>
-#include <lacuna/sweep/rim.h>
+#include <lacuna/sweep/detail/rim.h>
 
 #include <algorithm>
 #include <cmath>

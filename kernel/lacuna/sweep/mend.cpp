@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/mend.h>
+#include <lacuna/sweep/detail/mend.h>
 
 #include <lacuna/surface/projector.h>
 #include <lacuna/sweep/improve.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/normals.h>
+#include <lacuna/sweep/detail/normals.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/sweep/detail/rim.h>
+#include <lacuna/sweep/detail/surface_smoothing.h>
 #include <lacuna/sweep/harmonic_spread.h>
-#include <lacuna/sweep/rim.h>
-#include <lacuna/sweep/surface_smoothing.h>
 
 #include <algorithm>
 #include <string>

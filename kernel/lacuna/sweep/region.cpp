@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/region.h>
+#include <lacuna/sweep/detail/region.h>
 
 #include <lacuna/core/parallel.h>
 #include <lacuna/quality/quality.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/rim.h>
+#include <lacuna/sweep/detail/rim.h>
 
 #include <lacuna/core/error.h>
 

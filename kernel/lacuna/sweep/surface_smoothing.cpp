@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/surface_smoothing.h>
+#include <lacuna/sweep/detail/surface_smoothing.h>
 
 #include <Eigen/LU>
 

@@ -3,14 +3,14 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
+#include <lacuna/quads/pave.h>
+#include <lacuna/quads/submap.h>
 #include <lacuna/quality/quality.h>
-#include <lacuna/surface/pave.h>
 #include <lacuna/surface/projector.h>
 #include <lacuna/surface/source_mesh.h>
-#include <lacuna/surface/submap.h>
+#include <lacuna/sweep/detail/mend.h>
+#include <lacuna/sweep/detail/normals.h>
 #include <lacuna/sweep/layers.h>
-#include <lacuna/sweep/mend.h>
-#include <lacuna/sweep/normals.h>
 
 #include <algorithm>
 #include <array>
@@ -46,37 +46,23 @@ surface::QuadStyle style_of(const SweepOptions& options)
     return surface::QuadStyle::automatic;
 }
 
-/// What fills the source faces that are not mapped: the kernel's paver, the mesher handed in, or that one where
-/// the paver refuses.
-surface::PlanarQuadMesher mesher_of(const SweepOptions& options)
+/// What fills the source faces that are not mapped: the kernel's paver, or the mesher handed in.
+quads::PlanarQuadMesher mesher_of(const SweepOptions& options)
 {
-    const auto given = [mesher = options.quad_mesher](const surface::PlanarRegion& region,
-                                                      const RunContext& context) {
-        surface::PlanarQuads quads = mesher(region, context);
-        if (quads.how.empty()) quads.how = "gmsh";
-        return quads;
-    };
-    if (options.quads == Quads::gmsh) return options.quad_mesher ? given : surface::PlanarQuadMesher();
+    if (options.quads == Quads::gmsh) return options.quad_mesher;
     if (options.quads == Quads::mapped) {
-        return [](const surface::PlanarRegion& region, const RunContext& context) {
-            if (auto grid = surface::submap(region, false, context)) return std::move(*grid);
+        return [](const quads::PlanarRegion& region, const RunContext& context) {
+            if (auto grid = quads::submap(region, false, context)) return std::move(*grid);
             throw NotSweepable("surface.not_submapped",
                                "a source face of right angles is to be mapped, and the grid its " +
                                    std::to_string(region.points.size()) +
                                    " boundary nodes enclose folds or overlaps; use quads = \"auto\"");
         };
     }
-    const bool fall_back = options.quads != Quads::paved && options.quad_mesher;
     const int rows = asks_rows(options) ? std::max(options.rows, 1) : -1;
     const bool grids = options.quads != Quads::paved;
-    return [given, fall_back, rows, grids](const surface::PlanarRegion& region, const RunContext& context) {
-        try {
-            return surface::pave(region, {.rows = rows, .grids = grids}, context);
-        } catch (const NotSweepable& error) {
-            if (!fall_back) throw;
-            log_line(context, error.what());
-            return given(region, context);
-        }
+    return [rows, grids](const quads::PlanarRegion& region, const RunContext& context) {
+        return quads::pave(region, {.rows = rows, .grids = grids}, context);
     };
 }
 

@@ -3,7 +3,8 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
-#include <lacuna/surface/quad_mesher.h>
+#include <lacuna/quads/region.h>
+#include <lacuna/surface/size_field.h>
 #include <lacuna/sweep/improve.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -41,8 +42,8 @@ struct SweepOptions {
     Quads quads = Quads::automatic;
     /// Rows of quads from every loop of the source that stay as they are laid; 0: none but what the paver lays. Paved faces alone.
     int rows = 0;
-    surface::SizeField row_height;         ///< of those rows, one at least; null: the size
-    surface::PlanarQuadMesher quad_mesher; ///< used where a source face is not mapped
+    surface::SizeField row_height;       ///< of those rows, one at least; null: the size
+    quads::PlanarQuadMesher quad_mesher; ///< what `Quads::gmsh` calls for
     Interior interior = Interior::automatic;
     double min_scaled_jacobian = 0; ///< below it the mesh is refused [-1, 1]
     bool improve = true;            ///< move nodes where cells are folded or poor

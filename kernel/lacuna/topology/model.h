@@ -76,9 +76,9 @@ struct Model {
     std::vector<Vertex> vertices;
     std::vector<Edge> edges;
     std::vector<Face> faces;
-    double diagonal = 0;  ///< of the bounding box [model length]
-    double tolerance = 0; ///< points closer than this are one [model length]
-    std::string source;   ///< the file(s) it was read from, for messages
+    double diagonal = 0;            ///< of the bounding box [model length]
+    double tolerance = 0;           ///< points closer than this are one [model length]
+    std::string source;             ///< the file(s) it was read from, for messages
     std::vector<std::string> notes; ///< what loading left out or left apart, a sentence each
 
     [[nodiscard]] const Vertex& operator[](VertexId id) const { return vertices[id.index()]; }
@@ -116,31 +116,5 @@ void build_loops(Model& model);
 /// first face. A connected part that encloses a volume is turned outward.
 /// @throw InvalidInput  a part that cannot be oriented (a Möbius band), or an edge of three faces; names them.
 void orient_consistently(Model& model);
-
-/// Options of `split_facets()`.
-struct SplitOptions {
-    double feature_angle = 40; ///< facets that meet at a sharper turn belong to two faces [degrees]
-    double tolerance = 0;      ///< points closer than this are one [model length]; 0: 1e-6 × the diagonal
-    bool whole_labels =
-        false; ///< a label's facets stay one face however they turn; the angle is for vertices alone
-};
-
-/// Facets as a file holds them.
-struct FacetSoup {
-    std::vector<Vec3> points;
-    std::vector<Triangle> triangles;
-    std::vector<Quad> quads;         ///< given quads, kept; each also counts as two facets
-    std::vector<int> triangle_label; ///< part each belongs to (element set, STL solid); empty: all 0
-    std::vector<int> quad_label;
-    std::vector<std::string> label_name; ///< name of each label; may be shorter than the labels used
-};
-
-/// Cut facets into faces: by label first, then wherever they turn by more than the feature angle. Edges are
-/// the chains between two faces or along a border; vertices are where three faces meet, where a border turns
-/// by more than the feature angle, or, on a closed chain that has none, its first point.
-/// Tags count from 1 in the order faces are met, each kind of entity by itself. First, facets are cut at points
-/// on the inside of their free sides (T-junctions), and of facets listed twice in a label one stays, with a note.
-/// @throw InvalidInput  no facets; an edge of three or more facets inside one label.
-Model split_facets(const FacetSoup& soup, const SplitOptions& options = {});
 
 } // namespace lacuna::topology

@@ -2,6 +2,7 @@
 // A host with facets of its own: a box with two walls missing, sealed and filled with hexahedra.
 #include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
+#include <lacuna/healing/split_facets.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/sweep.h>
 
@@ -10,15 +11,16 @@
 
 int main()
 {
+    namespace healing = lacuna::healing;
     namespace topology = lacuna::topology;
     try {
-        topology::FacetSoup box;
+        healing::FacetSoup box;
         box.points = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {0, 0, 3}, {2, 0, 3}, {2, 1, 3}, {0, 1, 3}};
         box.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7},
                          {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}};
         box.triangle_label = {0, 0, 1, 1, 2, 2, 3, 3};
         box.label_name = {"floor", "lid", "front", "right"};
-        const topology::Model model = topology::split_facets(box);
+        const topology::Model model = healing::split_facets(box);
 
         topology::Roles roles;
         for (std::size_t i = 0; i < model.faces.size(); ++i) {

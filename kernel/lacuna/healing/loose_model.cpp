@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/healing/detail/loose_model.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+namespace lacuna::healing {
+
+namespace {
+
+std::size_t index(Index i) { return static_cast<std::size_t>(i); }
+
+bool repeats(std::span<const Index> corners)
+{
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        for (std::size_t k = i + 1; k < corners.size(); ++k)
+            if (corners[i] == corners[k]) return true;
+    return false;
+}
+
+/// Facets of a face that are each other's back: what a facet no wider than the tolerance leaves. Both go.
+/// @return did any?
+bool drop_folds(topology::Face& face)
+{
+    std::map<Triangle, std::vector<std::size_t>> alike;
+    for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+        Triangle key = face.triangles[t];
+        std::sort(key.begin(), key.end());
+        alike[key].push_back(t);
+    }
+    std::vector<bool> gone(face.triangles.size(), false);
+    const auto runs_up = [&](std::size_t t) {
+        Triangle f = face.triangles[t];
+        std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
+        return f[1] < f[2];
+    };
+    for (const auto& [key, facets] : alike) {
+        if (facets.size() != 2 || runs_up(facets[0]) == runs_up(facets[1])) continue;
+        gone[facets[0]] = gone[facets[1]] = true;
+    }
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < gone.size(); ++t) {
+        if (gone[t]) continue;
+        if (!face.uv.empty()) face.uv[kept] = face.uv[t];
+        face.triangles[kept++] = face.triangles[t];
+    }
+    face.triangles.resize(kept);
+    if (!face.uv.empty()) face.uv.resize(kept);
+    return kept < gone.size();
+}
+
+} // namespace
+
+LooseModel::LooseModel(topology::Model model)
+    : model_(std::move(model)),
+      edge_gone_(model_.edges.size(), false),
+      face_gone_(model_.faces.size(), false),
+      users_(model_.edges.size()),
+      vertex_joined_(model_.vertices.size()),
+      joined_(model_.points.size()),
+      kept_(model_.points.size(), false),
+      touched_(model_.points.size(), false),
+      inside_(model_.points.size(), false)
+{
+    for (std::size_t v = 0; v < vertex_joined_.size(); ++v) vertex_joined_[v] = VertexId(v);
+    std::iota(joined_.begin(), joined_.end(), Index{0});
+    for (const topology::Edge& edge : model_.edges) next_edge_tag_ = std::max(next_edge_tag_, edge.tag + 1);
+    const auto uses = edge_uses(model_);
+    for (std::size_t e = 0; e < uses.size(); ++e)
+        for (const topology::FaceUse& use : uses[e]) users_[e].push_back(use.face);
+    for (const topology::Face& face : model_.faces)
+        for (const Quad& q : face.given_quads)
+            for (const Index p : q) kept_[index(p)] = true;
+}
+
+bool LooseModel::keeps_mesh(EdgeId e) const
+{
+    return std::any_of(users(e).begin(), users(e).end(),
+                       [&](FaceId f) { return !model_[f].given_quads.empty(); });
+}
+
+std::vector<std::vector<EdgeId>> LooseModel::edges_of_faces() const
+{
+    std::vector<std::vector<EdgeId>> edges(model_.faces.size());
+    for (std::size_t e = 0; e < users_.size(); ++e) {
+        if (edge_gone_[e]) continue;
+        for (const FaceId f : users_[e]) edges[f.index()].emplace_back(e);
+    }
+    return edges;
+}
+
+Index LooseModel::stays_as(Index p)
+{
+    Index root = p;
+    while (joined_[index(root)] != root) root = joined_[index(root)];
+    while (joined_[index(p)] != root) p = std::exchange(joined_[index(p)], root);
+    return root;
+}
+
+void LooseModel::join(Index gone, Index stays)
+{
+    gone = stays_as(gone);
+    stays = stays_as(stays);
+    if (gone == stays) return;
+    if (kept_[index(gone)] && !kept_[index(stays)]) {
+        model_.points[index(stays)] = model_.points[index(gone)];
+        kept_[index(stays)] = true;
+    }
+    joined_[index(gone)] = stays;
+    touched_[index(stays)] = true;
+}
+
+void LooseModel::join(VertexId gone, VertexId stays)
+{
+    join(model_[gone].point, model_[stays].point);
+    vertex_joined_[gone.index()] = stays;
+}
+
+/// Drop the facets of a face that shrank. @return is any left?
+bool LooseModel::shrink(FaceId f)
+{
+    topology::Face& face = model_[f];
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+        if (repeats(face.triangles[t])) continue;
+        if (!face.uv.empty()) face.uv[kept] = face.uv[t];
+        face.triangles[kept++] = face.triangles[t];
+    }
+    const bool shrank = kept < face.triangles.size();
+    face.triangles.resize(kept);
+    if (!face.uv.empty()) face.uv.resize(kept);
+    if (shrank && drop_folds(face)) folded_ = true;
+    return !face.triangles.empty();
+}
+
+LooseModel::Shrunk LooseModel::settle_points()
+{
+    for (topology::Vertex& vertex : model_.vertices) vertex.point = stays_as(vertex.point);
+    for (std::size_t e = 0; e < model_.edges.size(); ++e) {
+        topology::Edge& edge = model_.edges[e];
+        if (edge_gone_[e]) continue;
+        edge.from = vertex_joined_[edge.from.index()];
+        edge.to = vertex_joined_[edge.to.index()];
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < edge.points.size(); ++i) {
+            const Index p = stays_as(edge.points[i]);
+            if (kept > 0 && edge.points[kept - 1] == p) continue;
+            if (!edge.params.empty()) edge.params[kept] = edge.params[i];
+            edge.points[kept++] = p;
+        }
+        edge.points.resize(kept);
+        if (!edge.params.empty()) edge.params.resize(kept);
+        if (kept < 2) edge_gone_[e] = true;
+    }
+    Shrunk shrunk;
+    for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+        topology::Face& face = model_.faces[f];
+        if (face_gone_[f]) continue;
+        for (Triangle& t : face.triangles)
+            for (Index& p : t) p = stays_as(p);
+        for (Quad& q : face.given_quads)
+            for (Index& p : q) p = stays_as(p);
+        if (std::any_of(face.given_quads.begin(), face.given_quads.end(),
+                        [](const Quad& q) { return repeats(q); })) {
+            face.given_quads.clear();
+            shrunk.meshes.emplace_back(f);
+        }
+        if (shrink(FaceId(f))) continue;
+        remove(FaceId(f));
+        shrunk.faces.emplace_back(f);
+    }
+    return shrunk;
+}
+
+void LooseModel::cut(const topology::SidePoints& sides, const std::vector<EdgeId>& edges)
+{
+    if (sides.empty()) return;
+    std::vector<bool> concerned(model_.faces.size(), false);
+    for (const EdgeId e : edges)
+        for (const FaceId f : users(e)) concerned[f.index()] = true;
+    for (std::size_t f = 0; f < concerned.size(); ++f) {
+        if (!concerned[f] || face_gone_[f]) continue;
+        topology::Face& face = model_.faces[f];
+        for (const Triangle& t : face.triangles)
+            for (std::size_t k = 0; k < 3; ++k)
+                for (const Index p : sides.on(t[k], t[(k + 1) % 3])) touched_[index(p)] = true;
+        topology::cut_at_sides(model_.points, face, sides);
+        shrink(FaceId(f));
+        if (drop_folds(face)) folded_ = true;
+    }
+}
+
+void LooseModel::divide(EdgeId e, const std::vector<std::pair<std::size_t, VertexId>>& at)
+{
+    const topology::Edge whole = model_[e];
+    std::size_t begin = 0;
+    VertexId from = whole.from;
+    for (std::size_t k = 0; k <= at.size(); ++k) {
+        const std::size_t end = k < at.size() ? at[k].first : whole.points.size() - 1;
+        topology::Edge part = whole;
+        part.from = from;
+        part.to = k < at.size() ? at[k].second : whole.to;
+        const auto slice = [&](auto& list) {
+            using Offset = std::ptrdiff_t;
+            list = {list.begin() + static_cast<Offset>(begin), list.begin() + static_cast<Offset>(end) + 1};
+        };
+        slice(part.points);
+        if (!part.params.empty()) slice(part.params);
+        begin = end;
+        from = part.to;
+        if (k == 0) {
+            model_[e] = std::move(part);
+            continue;
+        }
+        part.tag = next_edge_tag_++;
+        model_.edges.push_back(std::move(part));
+        edge_gone_.push_back(false);
+        users_.push_back(std::vector<FaceId>(users_[e.index()]));
+    }
+}
+
+void LooseModel::merge(EdgeId gone, EdgeId stays)
+{
+    edge_gone_[gone.index()] = true;
+    std::vector<FaceId>& to = users_[stays.index()];
+    to.insert(to.end(), users(gone).begin(), users(gone).end());
+    std::sort(to.begin(), to.end());
+}
+
+void LooseModel::remove(FaceId f)
+{
+    face_gone_[f.index()] = true;
+    for (std::vector<FaceId>& users : users_) std::erase(users, f);
+}
+
+/// A facet side inside one face between the ends of another's edge of a single side would pass for that edge:
+/// it gets a point in its middle.
+void LooseModel::part_shortcuts()
+{
+    std::map<std::pair<Index, Index>, std::vector<FaceId>> single;
+    for (std::size_t e = 0; e < model_.edges.size(); ++e) {
+        const topology::Edge& edge = model_.edges[e];
+        if (edge_gone_[e] || edge.points.size() != 2) continue;
+        auto& users = single[std::minmax(edge.points[0], edge.points[1])];
+        users.insert(users.end(), users_[e].begin(), users_[e].end());
+    }
+    if (single.empty()) return;
+    for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+        if (face_gone_[f]) continue;
+        topology::Face& face = model_.faces[f];
+        std::map<std::pair<Index, Index>, int> met;
+        for (const Triangle& t : face.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::pair<Index, Index> side = std::minmax(t[k], t[(k + 1) % 3]);
+                const auto found = single.find(side);
+                if (found != single.end() &&
+                    std::count(found->second.begin(), found->second.end(), FaceId(f)) == 0)
+                    ++met[side];
+            }
+        }
+        topology::SidePoints middles;
+        for (const auto& [side, count] : met) {
+            if (count < 2) continue;
+            middles.add(side.first, side.second, {static_cast<Index>(model_.points.size())});
+            model_.points.push_back((model_.at(side.first) + model_.at(side.second)) / 2);
+            joined_.push_back(static_cast<Index>(joined_.size()));
+            kept_.push_back(false);
+            touched_.push_back(true);
+            inside_.push_back(true);
+        }
+        if (middles.empty()) continue;
+        topology::cut_at_sides(model_.points, face, middles);
+    }
+}
+
+/// Surface parameters at corners whose points are new or were moved.
+void LooseModel::renew_parameters()
+{
+    for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+        topology::Face& face = model_.faces[f];
+        if (face_gone_[f] || !face.surface || face.uv.size() != face.triangles.size()) continue;
+        std::vector<std::pair<std::size_t, std::size_t>> corners;
+        std::vector<Vec3> at;
+        std::vector<Vec2> uv;
+        for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index p = face.triangles[t][k];
+                if (!touched_[index(p)]) continue;
+                corners.emplace_back(t, k);
+                at.push_back(model_.at(p));
+                uv.push_back(face.uv[t][k]);
+            }
+        }
+        if (corners.empty()) continue;
+        try {
+            face.surface->project(at, uv);
+        } catch (const BackendError&) {
+            continue; // what lies between the neighbours' parameters is close enough to start from
+        }
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const auto [t, k] = corners[i];
+            // At a seam the projection may answer with the parameters of the other side.
+            for (int axis = 0; axis < 2; ++axis) {
+                const auto [low, high] = std::minmax(
+                    {face.uv[t][0][axis], face.uv[t][1][axis], face.uv[t][2][axis]});
+                const double moved = std::abs(uv[i][axis] - face.uv[t][k][axis]);
+                if (moved <= (high - low) / 2) face.uv[t][k][axis] = uv[i][axis];
+            }
+            const Index p = face.triangles[t][k];
+            if (inside_[index(p)]) model_.points[index(p)] = at[i];
+        }
+    }
+}
+
+/// Edges whose facets all went with folds.
+void LooseModel::drop_bare_edges()
+{
+    std::set<std::pair<Index, Index>> sides;
+    for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+        if (face_gone_[f]) continue;
+        for (const Triangle& t : model_.faces[f].triangles)
+            for (std::size_t k = 0; k < 3; ++k) sides.insert(std::minmax(t[k], t[(k + 1) % 3]));
+    }
+    for (std::size_t e = 0; e < model_.edges.size(); ++e) {
+        const std::vector<Index>& points = model_.edges[e].points;
+        if (!edge_gone_[e] && !sides.contains(std::minmax(points[0], points[1]))) edge_gone_[e] = true;
+    }
+}
+
+topology::Model LooseModel::settled()
+{
+    if (folded_) drop_bare_edges();
+    part_shortcuts();
+    renew_parameters();
+    compact();
+    for (topology::Face& face : model_.faces) face.loops.clear();
+    topology::build_loops(model_);
+    return std::move(model_);
+}
+
+void LooseModel::compact()
+{
+    std::vector<topology::Face> faces;
+    for (std::size_t f = 0; f < model_.faces.size(); ++f)
+        if (!face_gone_[f]) faces.push_back(std::move(model_.faces[f]));
+    model_.faces = std::move(faces);
+
+    std::vector<topology::Edge> edges;
+    std::vector<bool> vertex_used(model_.vertices.size(), false);
+    for (std::size_t e = 0; e < model_.edges.size(); ++e) {
+        if (edge_gone_[e] || users_[e].empty()) continue;
+        edges.push_back(std::move(model_.edges[e]));
+        vertex_used[edges.back().from.index()] = vertex_used[edges.back().to.index()] = true;
+    }
+    model_.edges = std::move(edges);
+    std::vector<VertexId> vertex(model_.vertices.size());
+    std::vector<topology::Vertex> vertices;
+    for (std::size_t v = 0; v < vertex_used.size(); ++v) {
+        if (!vertex_used[v]) continue;
+        vertex[v] = VertexId(vertices.size());
+        vertices.push_back(model_.vertices[v]);
+    }
+    model_.vertices = std::move(vertices);
+
+    std::vector<Index> place(model_.points.size(), -1);
+    const auto use = [&](Index p) { place[index(p)] = 0; };
+    for (const topology::Vertex& v : model_.vertices) use(v.point);
+    for (const topology::Edge& edge : model_.edges)
+        std::for_each(edge.points.begin(), edge.points.end(), use);
+    for (const topology::Face& face : model_.faces) {
+        for (const Triangle& t : face.triangles) std::for_each(t.begin(), t.end(), use);
+        for (const Quad& q : face.given_quads) std::for_each(q.begin(), q.end(), use);
+    }
+    Index count = 0;
+    for (std::size_t p = 0; p < place.size(); ++p) {
+        if (place[p] < 0) continue;
+        place[p] = count;
+        model_.points[index(count++)] = model_.points[p];
+    }
+    model_.points.resize(index(count));
+    const auto renumber = [&](Index& p) { p = place[index(p)]; };
+    for (topology::Vertex& v : model_.vertices) renumber(v.point);
+    for (topology::Edge& edge : model_.edges) {
+        edge.from = vertex[edge.from.index()];
+        edge.to = vertex[edge.to.index()];
+        std::for_each(edge.points.begin(), edge.points.end(), renumber);
+    }
+    for (topology::Face& face : model_.faces) {
+        for (Triangle& t : face.triangles) std::for_each(t.begin(), t.end(), renumber);
+        for (Quad& q : face.given_quads) std::for_each(q.begin(), q.end(), renumber);
+    }
+}
+
+} // namespace lacuna::healing

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/healing/detail/mend_facets.h>
+
+#include <lacuna/topology/side_points.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace lacuna::healing {
+
+namespace {
+
+std::size_t index(Index i) { return static_cast<std::size_t>(i); }
+
+/// Sides used once, 3·facet + k from corner k to the next, in order.
+std::vector<Index> free_sides(std::span<const Triangle> facets, std::size_t points)
+{
+    const auto from = [&](Index s) { return facets[index(s) / 3][index(s) % 3]; };
+    const auto to = [&](Index s) { return facets[index(s) / 3][(index(s) + 1) % 3]; };
+    // Sides by their lesser point, then, in each small heap, by the other.
+    std::vector<Index> start(points + 1, 0);
+    const auto count = static_cast<Index>(3 * facets.size());
+    for (Index s = 0; s < count; ++s) ++start[index(std::min(from(s), to(s))) + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<Index> sides(index(count));
+    std::vector<Index> fill(start.begin(), start.end() - 1);
+    for (Index s = 0; s < count; ++s) sides[index(fill[index(std::min(from(s), to(s)))]++)] = s;
+    std::vector<Index> free;
+    for (std::size_t p = 0; p < points; ++p) {
+        const auto heap = std::span(sides).subspan(index(start[p]), index(start[p + 1] - start[p]));
+        const auto other = [&](Index s) { return std::max(from(s), to(s)); };
+        std::sort(heap.begin(), heap.end(), [&](Index a, Index b) { return other(a) < other(b); });
+        for (std::size_t i = 0; i < heap.size();) {
+            std::size_t k = i + 1;
+            while (k < heap.size() && other(heap[k]) == other(heap[i])) ++k;
+            if (k == i + 1) free.push_back(heap[i]);
+            i = k;
+        }
+    }
+    std::sort(free.begin(), free.end());
+    return free;
+}
+
+template <std::size_t N>
+std::vector<bool> repeated(std::span<const std::array<Index, N>> cells, std::span<const int> labels)
+{
+    if (cells.empty()) return {};
+    // Cells by their least corner, then, in each small heap, by the others.
+    std::vector<std::array<Index, N>> sorted(cells.begin(), cells.end());
+    Index most = -1;
+    for (std::array<Index, N>& cell : sorted) {
+        std::sort(cell.begin(), cell.end());
+        most = std::max(most, cell.front());
+    }
+    std::vector<Index> start(index(most) + 2, 0);
+    for (const auto& cell : sorted) ++start[index(cell.front()) + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<Index> order(cells.size());
+    std::vector<Index> fill(start.begin(), start.end() - 1);
+    for (std::size_t c = 0; c < sorted.size(); ++c)
+        order[index(fill[index(sorted[c].front())]++)] = static_cast<Index>(c);
+    const auto alike = [&](Index a, Index b) {
+        return sorted[index(a)] == sorted[index(b)] &&
+               (labels.empty() || labels[index(a)] == labels[index(b)]);
+    };
+    const auto before = [&](Index a, Index b) {
+        if (sorted[index(a)] != sorted[index(b)]) return sorted[index(a)] < sorted[index(b)];
+        if (!labels.empty() && labels[index(a)] != labels[index(b)])
+            return labels[index(a)] < labels[index(b)];
+        return a < b;
+    };
+    std::vector<bool> result(cells.size(), false);
+    for (std::size_t p = 0; p + 1 < start.size(); ++p) {
+        const auto heap = std::span(order).subspan(index(start[p]), index(start[p + 1] - start[p]));
+        std::sort(heap.begin(), heap.end(), before);
+        for (std::size_t i = 1; i < heap.size(); ++i) result[index(heap[i])] = alike(heap[i], heap[i - 1]);
+    }
+    return result;
+}
+
+} // namespace
+
+std::vector<FacetPiece> cut_at_tees(std::span<const Vec3> points, std::span<const Triangle> facets,
+                                    const std::vector<bool>& whole, double tolerance)
+{
+    const std::vector<Index> free = free_sides(facets, points.size());
+    std::vector<Index> candidates;
+    std::vector<Vec3> at;
+    std::vector<std::array<Vec3, 2>> segments;
+    std::vector<std::array<Index, 3>> ends; // and the corner opposite
+    for (const Index s : free) {
+        const Triangle& f = facets[index(s) / 3];
+        const std::size_t k = index(s) % 3;
+        candidates.push_back(f[k]);
+        candidates.push_back(f[(k + 1) % 3]);
+        if (whole[index(s) / 3]) continue;
+        ends.push_back({f[k], f[(k + 1) % 3], f[(k + 2) % 3]});
+        segments.push_back({points[index(f[k])], points[index(f[(k + 1) % 3])]});
+    }
+    std::sort(candidates.begin(), candidates.end());
+    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    for (const Index p : candidates) at.push_back(points[index(p)]);
+
+    std::vector<std::vector<std::pair<double, Index>>> on_side(segments.size());
+    for (const topology::NearSegment& pair : topology::near_segments(at, segments, tolerance)) {
+        const Index p = candidates[index(pair.point)];
+        const auto& side = ends[index(pair.segment)];
+        if (std::find(side.begin(), side.end(), p) != side.end()) continue;
+        const auto& [a, b] = segments[index(pair.segment)];
+        const double f = topology::fraction_along(points[index(p)], a, b);
+        if (f <= 0 || f >= 1 || (a + f * (b - a) - points[index(p)]).norm() > tolerance) continue;
+        on_side[index(pair.segment)].emplace_back(f, p);
+    }
+    topology::SidePoints sides;
+    for (std::size_t s = 0; s < on_side.size(); ++s) {
+        std::sort(on_side[s].begin(), on_side[s].end());
+        std::vector<Index> between;
+        for (const auto& [f, p] : on_side[s]) between.push_back(p);
+        sides.add(ends[s][0], ends[s][1], std::move(between));
+    }
+    if (sides.empty()) return {};
+    std::vector<FacetPiece> pieces;
+    for (std::size_t f = 0; f < facets.size(); ++f)
+        for (const topology::ParamFacet& part : topology::cut_at_sides(points, {facets[f]}, sides))
+            pieces.push_back({part.corner, static_cast<Index>(f)});
+    return pieces;
+}
+
+std::vector<bool> repeated_cells(std::span<const Triangle> cells, std::span<const int> labels)
+{
+    return repeated(cells, labels);
+}
+
+std::vector<bool> repeated_cells(std::span<const Quad> cells, std::span<const int> labels)
+{
+    return repeated(cells, labels);
+}
+
+} // namespace lacuna::healing

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/healing/detail/soup_facets.h>
+#include <lacuna/healing/split_facets.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/healing/detail/mend_facets.h>
+#include <lacuna/healing/detail/weld.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace lacuna::healing {
+namespace {
+
+std::size_t index(Index i) { return static_cast<std::size_t>(i); }
+
+template <std::size_t N>
+void check_cells(const FacetSoup& soup, const std::vector<std::array<Index, N>>& cells,
+                 const std::vector<int>& labels, const char* kind)
+{
+    if (!labels.empty() && labels.size() != cells.size()) {
+        throw InvalidInput("topology.bad_labels", "there are " + std::to_string(labels.size()) +
+                                                      " labels for " + std::to_string(cells.size()) + " " +
+                                                      kind + "s; give one each, or none");
+    }
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        for (const Index p : cells[c]) {
+            if (p >= 0 && index(p) < soup.points.size() && soup.points[index(p)].allFinite()) continue;
+            throw InvalidInput("topology.bad_point", std::string(kind) + " " + std::to_string(c + 1) +
+                                                         " uses point " + std::to_string(p + 1) + " of " +
+                                                         std::to_string(soup.points.size()) +
+                                                         ", which does not exist or is not finite");
+        }
+    }
+}
+
+/// The two halves of a quad, cut along the diagonal whose worse half is the better shaped.
+std::array<Triangle, 2> halves_of(const std::vector<Vec3>& points, const Quad& q)
+{
+    const std::array<std::array<Triangle, 2>, 2> choices{
+        {{{{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}}, {{{q[1], q[2], q[3]}, {q[1], q[3], q[0]}}}}};
+    const Vec3 normal = area_vector(points, choices[0][0]) + area_vector(points, choices[0][1]);
+    std::array<double, 2> worst;
+    for (std::size_t c = 0; c < 2; ++c) {
+        worst[c] = std::numeric_limits<double>::max();
+        for (const Triangle& t : choices[c]) {
+            double sides = 0;
+            for (std::size_t k = 0; k < 3; ++k)
+                sides += (points[index(t[k])] - points[index(t[(k + 1) % 3])]).squaredNorm();
+            worst[c] = std::min(worst[c], area_vector(points, t).dot(normal) / sides);
+        }
+    }
+    return choices[worst[1] > worst[0] ? 1 : 0];
+}
+
+/// Keep the points in use, weld them, and number those that remain as they are first met.
+std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& facets)
+{
+    std::vector<bool> used(soup.points.size(), false);
+    for (const Triangle& t : soup.triangles)
+        for (const Index p : t) used[index(p)] = true;
+    for (const Quad& q : soup.quads)
+        for (const Index p : q) used[index(p)] = true;
+    std::vector<Index> number(soup.points.size(), -1);
+    std::vector<Vec3> points;
+    for (std::size_t p = 0; p < used.size(); ++p) {
+        if (!used[p]) continue;
+        number[p] = static_cast<Index>(points.size());
+        points.push_back(soup.points[p]);
+    }
+    Vec3 low = points.front();
+    Vec3 high = low;
+    for (const Vec3& p : points) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    facets.diagonal = (high - low).norm();
+    facets.tolerance = tolerance > 0 ? tolerance : 1e-6 * facets.diagonal;
+
+    const std::vector<Index> joined = weld(points, facets.tolerance);
+    std::vector<Index> kept(points.size(), -1);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        if (joined[p] == static_cast<Index>(p)) {
+            kept[p] = static_cast<Index>(facets.points.size());
+            facets.points.push_back(points[p]);
+        } else {
+            kept[p] = kept[index(joined[p])];
+        }
+    }
+    for (Index& p : number)
+        if (p >= 0) p = kept[index(p)];
+    return number;
+}
+
+/// Leave out points that only facets dropped used.
+void drop_unused_points(Facets& facets)
+{
+    std::vector<Index> number(facets.points.size(), -1);
+    for (const Triangle& t : facets.corner)
+        for (const Index p : t) number[index(p)] = 0;
+    Index kept = 0;
+    for (std::size_t p = 0; p < number.size(); ++p) {
+        if (number[p] < 0) continue;
+        number[p] = kept;
+        facets.points[index(kept++)] = facets.points[p];
+    }
+    facets.points.resize(index(kept));
+    for (Triangle& t : facets.corner)
+        for (Index& p : t) p = number[index(p)];
+    for (Quad& q : facets.quads)
+        for (Index& p : q) p = number[index(p)];
+}
+
+/// Leave out what is listed twice: halves of quads go with their quads.
+void drop_repeated(Facets& facets)
+{
+    std::vector<int> quad_label(facets.quads.size(), 0);
+    for (std::size_t f = 0; f < facets.count(); ++f)
+        if (facets.quad[f] >= 0) quad_label[index(facets.quad[f])] = facets.label[f];
+    const std::vector<bool> quad_gone = repeated_cells(std::span<const Quad>(facets.quads), quad_label);
+    const auto gone_with_quad = [&](std::size_t f) {
+        return facets.quad[f] >= 0 && quad_gone[index(facets.quad[f])];
+    };
+    std::vector<Triangle> left;
+    std::vector<int> label;
+    for (std::size_t f = 0; f < facets.count(); ++f) {
+        if (gone_with_quad(f)) continue;
+        left.push_back(facets.corner[f]);
+        label.push_back(facets.label[f]);
+    }
+    const std::vector<bool> repeated = repeated_cells(std::span<const Triangle>(left), label);
+    std::vector<Index> number(facets.quads.size(), -1);
+    std::vector<Quad> quads;
+    for (std::size_t q = 0; q < quad_gone.size(); ++q) {
+        if (quad_gone[q]) continue;
+        number[q] = static_cast<Index>(quads.size());
+        quads.push_back(facets.quads[q]);
+    }
+    std::size_t kept = 0;
+    std::size_t next = 0;
+    for (std::size_t f = 0; f < facets.corner.size(); ++f) {
+        if (gone_with_quad(f)) continue;
+        // Half a quad stays with its quad, whatever triangle lies on it.
+        if (repeated[next++] && facets.quad[f] < 0) continue;
+        facets.corner[kept] = facets.corner[f];
+        facets.label[kept] = facets.label[f];
+        facets.quad[kept++] = facets.quad[f] < 0 ? -1 : number[index(facets.quad[f])];
+    }
+    facets.repeated = facets.count() - kept;
+    facets.corner.resize(kept);
+    facets.label.resize(kept);
+    facets.quad.resize(kept);
+    facets.quads = std::move(quads);
+}
+
+void close_tees(Facets& facets)
+{
+    std::vector<bool> whole(facets.count());
+    for (std::size_t f = 0; f < whole.size(); ++f) whole[f] = facets.quad[f] >= 0;
+    const std::vector<FacetPiece> pieces = cut_at_tees(facets.points, facets.corner, whole, facets.tolerance);
+    if (pieces.empty()) return;
+    const std::vector<int> label = std::move(facets.label);
+    const std::vector<Index> quad = std::move(facets.quad);
+    facets.corner.clear();
+    facets.label.clear();
+    facets.quad.clear();
+    for (const FacetPiece& piece : pieces) {
+        facets.corner.push_back(piece.corner);
+        facets.label.push_back(label[index(piece.of)]);
+        facets.quad.push_back(quad[index(piece.of)]);
+    }
+}
+
+Facets welded(const FacetSoup& soup, double tolerance)
+{
+    if (soup.triangles.empty() && soup.quads.empty()) {
+        throw InvalidInput("topology.no_facets", "there are no facets to make faces of");
+    }
+    check_cells(soup, soup.triangles, soup.triangle_label, "triangle");
+    check_cells(soup, soup.quads, soup.quad_label, "quad");
+    Facets facets;
+    const std::vector<Index> number = weld_used(soup, tolerance, facets);
+    const auto add = [&](const Triangle& t, int label, Index quad) {
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return;
+        facets.corner.push_back(t);
+        facets.label.push_back(label);
+        facets.quad.push_back(quad);
+    };
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+        const Triangle& given = soup.triangles[t];
+        add({number[index(given[0])], number[index(given[1])], number[index(given[2])]},
+            soup.triangle_label.empty() ? 0 : soup.triangle_label[t], -1);
+    }
+    for (std::size_t c = 0; c < soup.quads.size(); ++c) {
+        Quad q;
+        for (std::size_t k = 0; k < 4; ++k) q[k] = number[index(soup.quads[c][k])];
+        const int label = soup.quad_label.empty() ? 0 : soup.quad_label[c];
+        const bool whole = q[0] != q[1] && q[1] != q[2] && q[2] != q[3] && q[3] != q[0] && q[0] != q[2] &&
+                           q[1] != q[3];
+        const auto halves = halves_of(facets.points, q);
+        for (const Triangle& half : halves)
+            add(half, label, whole ? static_cast<Index>(facets.quads.size()) : -1);
+        if (whole) facets.quads.push_back(q);
+    }
+    if (facets.count() == 0) {
+        throw InvalidInput("topology.no_facets", "every facet is smaller than the tolerance of " +
+                                                     std::to_string(facets.tolerance) +
+                                                     "; give a smaller tolerance");
+    }
+    drop_unused_points(facets);
+    return facets;
+}
+
+} // namespace
+
+Vec3 area_vector(const std::vector<Vec3>& points, const Triangle& t)
+{
+    const Vec3& a = points[index(t[0])];
+    return (points[index(t[1])] - a).cross(points[index(t[2])] - a) / 2;
+}
+
+Facets facets_of(const FacetSoup& soup, double tolerance)
+{
+    Facets facets = welded(soup, tolerance);
+    drop_repeated(facets);
+    close_tees(facets);
+    return facets;
+}
+
+} // namespace lacuna::healing

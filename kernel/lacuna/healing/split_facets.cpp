@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: MIT
+//
+// split_facets(): points are welded, sides of facets matched, facets flooded into faces, and the segments
+// where faces end strung into edges. Segments are the undirected sides of facets, numbered by their points.
+#include <lacuna/healing/split_facets.h>
+#include <lacuna/topology/model.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/healing/detail/soup_facets.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <span>
+#include <string>
+
+namespace lacuna::healing {
+namespace {
+
+// A turn of exactly the feature angle must fall on one side everywhere; files of 32-bit floats give angles
+// no finer than this [radians].
+constexpr double kAngleSlack = 1e-6;
+
+std::size_t index(Index i) { return static_cast<std::size_t>(i); }
+
+std::string place(const Vec3& p)
+{
+    return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ")";
+}
+
+/// Side k of facet f runs from corner k to the next and is called 3·f + k.
+class Sides {
+public:
+    explicit Sides(const Facets& facets) : facets_(facets), segment_(3 * facets.count())
+    {
+        // Sides by their lesser point, then, in each small heap, by the other: linear in the facets.
+        std::vector<Index> start(facets.points.size() + 1, 0);
+        const auto count = static_cast<Index>(segment_.size());
+        for (Index s = 0; s < count; ++s) ++start[index(std::min(from(s), to(s))) + 1];
+        for (std::size_t p = 1; p < start.size(); ++p) start[p] += start[p - 1];
+        sides_.resize(segment_.size());
+        std::vector<Index> fill(start.begin(), start.end() - 1);
+        for (Index s = 0; s < count; ++s) sides_[index(fill[index(std::min(from(s), to(s)))]++)] = s;
+        for (std::size_t p = 0; p + 1 < start.size(); ++p) {
+            const auto begin = sides_.begin() + start[p];
+            const auto end = sides_.begin() + start[p + 1];
+            const auto key = [&](Index s) { return std::pair(std::max(from(s), to(s)), s); };
+            std::sort(begin, end, [&](Index a, Index b) { return key(a) < key(b); });
+            Index last = -1;
+            for (auto it = begin; it != end; ++it) {
+                const Index other = std::max(from(*it), to(*it));
+                if (other != last) first_.push_back(static_cast<Index>(it - sides_.begin()));
+                last = other;
+                segment_[index(*it)] = static_cast<Index>(first_.size()) - 1;
+            }
+        }
+        first_.push_back(count);
+    }
+
+    [[nodiscard]] Index from(Index side) const { return facets_.corner[index(side) / 3][index(side) % 3]; }
+    [[nodiscard]] Index to(Index side) const
+    {
+        return facets_.corner[index(side) / 3][(index(side) + 1) % 3];
+    }
+    [[nodiscard]] Index segment(Index side) const { return segment_[index(side)]; }
+    [[nodiscard]] std::size_t segment_count() const { return first_.size() - 1; }
+    /// The sides that lie on a segment, in order of facet.
+    [[nodiscard]] std::span<const Index> on(Index segment) const
+    {
+        const auto begin = index(first_[index(segment)]);
+        return std::span(sides_).subspan(begin, index(first_[index(segment) + 1]) - begin);
+    }
+    /// The one other side with the same label on the side's segment; -1 where there is none or several.
+    [[nodiscard]] Index partner(Index side) const
+    {
+        Index found = -1;
+        for (const Index other : on(segment(side))) {
+            if (other == side || facets_.label[index(other) / 3] != facets_.label[index(side) / 3]) continue;
+            if (found >= 0) return -1;
+            found = other;
+        }
+        return found;
+    }
+
+private:
+    const Facets& facets_;
+    std::vector<Index> segment_; ///< of each side
+    std::vector<Index> sides_;   ///< by segment
+    std::vector<Index> first_;   ///< of each segment, in sides_
+};
+
+/// Unit normals as given. A facet so thin that moving its points by the tolerance could turn it by the
+/// feature angle has no normal of its own: it takes that of its neighbour across its longest side.
+std::vector<Vec3> normals_of(const Facets& facets, const Sides& sides, double feature)
+{
+    const double least_height = facets.tolerance / std::sin(std::min(feature, std::numbers::pi / 2));
+    std::vector<Vec3> normal(facets.count(), Vec3::Zero());
+    std::vector<Index> longest(facets.count(), -1);
+    std::vector<Index> thin;
+    for (std::size_t f = 0; f < facets.count(); ++f) {
+        double length = 0;
+        for (Index k = 0; k < 3; ++k) {
+            const Index side = 3 * static_cast<Index>(f) + k;
+            const double own =
+                (facets.points[index(sides.to(side))] - facets.points[index(sides.from(side))]).norm();
+            if (own <= length) continue;
+            length = own;
+            longest[f] = side;
+        }
+        const Vec3 area = area_vector(facets.points, facets.corner[f]);
+        if (2 * area.norm() > least_height * length)
+            normal[f] = area.normalized();
+        else
+            thin.push_back(static_cast<Index>(f));
+    }
+    // Thin facets may lie side by side: go on while some learn.
+    for (bool learnt = true; learnt && !thin.empty();) {
+        learnt = false;
+        std::vector<std::pair<Index, Vec3>> found;
+        for (const Index f : thin) {
+            const Index other = sides.partner(longest[index(f)]);
+            if (other < 0 || normal[index(other) / 3].isZero(0)) continue;
+            const bool agree = sides.from(other) != sides.from(longest[index(f)]);
+            found.emplace_back(f, agree ? normal[index(other) / 3] : Vec3(-normal[index(other) / 3]));
+        }
+        for (const auto& [f, n] : found) normal[index(f)] = n;
+        learnt = !found.empty();
+        std::erase_if(thin, [&](Index f) { return !normal[index(f)].isZero(0); });
+    }
+    return normal;
+}
+
+struct Flood {
+    std::vector<Index> face;   ///< of each facet
+    std::vector<bool> flipped; ///< facets that run against their face
+    Index faces = 0;
+};
+
+Flood flood_faces(const Facets& facets, const Sides& sides, double feature)
+{
+    const std::vector<Vec3> normal = normals_of(facets, sides, feature);
+    const double least_cosine = std::cos(std::min(feature + kAngleSlack, std::numbers::pi));
+    Flood flood{std::vector<Index>(facets.count(), -1), std::vector<bool>(facets.count(), false), 0};
+    std::vector<Index> front;
+    for (std::size_t seed = 0; seed < facets.count(); ++seed) {
+        if (flood.face[seed] >= 0) continue;
+        const Index face = flood.faces++;
+        flood.face[seed] = face;
+        front.assign(1, static_cast<Index>(seed));
+        double as_given = 0; // area that keeps the direction it was given, less what is turned
+        for (std::size_t i = 0; i < front.size(); ++i) {
+            const Index f = front[i];
+            as_given += (flood.flipped[index(f)] ? -1 : 1) *
+                        area_vector(facets.points, facets.corner[index(f)]).norm();
+            for (Index side = 3 * f; side < 3 * f + 3; ++side) {
+                const Index other = sides.partner(side);
+                if (other < 0) continue;
+                const Index g = other / 3;
+                const bool agree = sides.from(other) != sides.from(side);
+                const double cosine = (agree ? 1 : -1) * normal[index(f)].dot(normal[index(g)]);
+                const bool one_quad = facets.quad[index(f)] >= 0 &&
+                                      facets.quad[index(f)] == facets.quad[index(g)];
+                if (cosine < least_cosine && !one_quad) continue;
+                const bool flipped = agree ? flood.flipped[index(f)] : !flood.flipped[index(f)];
+                if (flood.face[index(g)] < 0) {
+                    flood.face[index(g)] = face;
+                    flood.flipped[index(g)] = flipped;
+                    front.push_back(g);
+                } else if (flood.flipped[index(g)] != flipped) {
+                    throw InvalidInput("topology.not_orientable",
+                                       "face " + std::to_string(face + 1) +
+                                           " is one-sided, as a Möbius band is: facets at " +
+                                           place(facets.points[index(sides.from(side))]) +
+                                           " cannot run alike; give its parts labels of their own");
+                }
+            }
+        }
+        if (as_given < 0)
+            for (const Index f : front) flood.flipped[index(f)] = !flood.flipped[index(f)];
+    }
+    return flood;
+}
+
+bool is_plane(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, double tolerance)
+{
+    Vec3 normal = Vec3::Zero();
+    for (const Triangle& t : triangles) normal += area_vector(points, t);
+    if (!(normal.norm() > 0)) return false;
+    normal.normalize();
+    double low = std::numeric_limits<double>::max();
+    double high = std::numeric_limits<double>::lowest();
+    const Vec3& origin = points[index(triangles.front()[0])];
+    for (const Triangle& t : triangles) {
+        for (const Index p : t) {
+            const double height = (points[index(p)] - origin).dot(normal);
+            low = std::min(low, height);
+            high = std::max(high, height);
+        }
+    }
+    return high - low <= 2 * tolerance;
+}
+
+void add_faces(topology::Model& model, const Facets& facets, const Flood& flood, const FacetSoup& soup)
+{
+    model.faces.resize(index(flood.faces));
+    for (std::size_t f = 0; f < facets.count(); ++f) {
+        topology::Face& face = model.faces[index(flood.face[f])];
+        Triangle corner = facets.corner[f];
+        if (flood.flipped[f]) std::swap(corner[1], corner[2]);
+        if (face.triangles.empty() && facets.label[f] >= 0 &&
+            static_cast<std::size_t>(facets.label[f]) < soup.label_name.size()) {
+            face.name = soup.label_name[static_cast<std::size_t>(facets.label[f])];
+        }
+        face.triangles.push_back(corner);
+        const bool first_half = facets.quad[f] >= 0 && (f == 0 || facets.quad[f - 1] != facets.quad[f]);
+        if (!first_half) continue;
+        Quad quad = facets.quads[index(facets.quad[f])];
+        if (flood.flipped[f]) std::swap(quad[1], quad[3]);
+        face.given_quads.push_back(quad);
+    }
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        model.faces[f].tag = static_cast<int>(f) + 1;
+        if (is_plane(model.points, model.faces[f].triangles, model.tolerance)) model.faces[f].kind = "plane";
+    }
+}
+
+/// Strings the segments where faces end into edges.
+class Chains {
+public:
+    Chains(topology::Model& model, const Sides& sides, const Flood& flood, double feature)
+        : model_(model),
+          sides_(sides),
+          least_cosine_(std::cos(std::min(feature + kAngleSlack, std::numbers::pi))),
+          kind_(sides.segment_count(), -1),
+          done_(sides.segment_count(), false)
+    {
+        find_borders(flood);
+        vertex_at_.assign(model.points.size(), VertexId());
+        is_vertex_.resize(model.points.size());
+        for (std::size_t p = 0; p < model.points.size(); ++p)
+            is_vertex_[p] = ends_chains(static_cast<Index>(p));
+    }
+
+    /// Add the edges to the model in the order faces are met, each with the face that met it on its left.
+    void add_edges(const Flood& flood)
+    {
+        std::vector<Index> order(flood.face.size());
+        for (std::size_t f = 0; f < order.size(); ++f) order[f] = static_cast<Index>(f);
+        std::stable_sort(order.begin(), order.end(),
+                         [&](Index a, Index b) { return flood.face[index(a)] < flood.face[index(b)]; });
+        for (const Index f : order) {
+            for (Index side = 3 * f; side < 3 * f + 3; ++side) {
+                const Index segment = sides_.segment(side);
+                if (kind_[index(segment)] < 0 || done_[index(segment)]) continue;
+                const bool flipped = flood.flipped[index(f)];
+                add_edge(segment, flipped ? sides_.to(side) : sides_.from(side));
+            }
+        }
+    }
+
+private:
+    /// A segment is of an edge unless every face at it has two facets there. Its kind stands for the faces.
+    void find_borders(const Flood& flood)
+    {
+        std::map<std::vector<Index>, Index> kinds;
+        std::vector<Index> faces;
+        std::vector<Index> degree(model_.points.size() + 1, 0);
+        const auto count = static_cast<Index>(sides_.segment_count());
+        for (Index s = 0; s < count; ++s) {
+            const auto on = sides_.on(s);
+            if (on.size() == 2 && flood.face[index(on[0]) / 3] == flood.face[index(on[1]) / 3]) continue;
+            faces.clear();
+            for (const Index side : on) faces.push_back(flood.face[index(side) / 3]);
+            std::sort(faces.begin(), faces.end());
+            bool border = false;
+            for (const Index face : faces)
+                border = border || std::count(faces.begin(), faces.end(), face) != 2;
+            if (!border) continue;
+            kind_[index(s)] = kinds.try_emplace(faces, static_cast<Index>(kinds.size())).first->second;
+            ++degree[index(ends(s).first) + 1];
+            ++degree[index(ends(s).second) + 1];
+        }
+        for (std::size_t p = 1; p < degree.size(); ++p) degree[p] += degree[p - 1];
+        first_ = degree;
+        at_.resize(index(degree.back()));
+        for (Index s = 0; s < count; ++s) {
+            if (kind_[index(s)] < 0) continue;
+            at_[index(degree[index(ends(s).first)]++)] = s;
+            at_[index(degree[index(ends(s).second)]++)] = s;
+        }
+    }
+
+    [[nodiscard]] std::pair<Index, Index> ends(Index segment) const
+    {
+        const Index side = sides_.on(segment).front();
+        return {sides_.from(side), sides_.to(side)};
+    }
+    [[nodiscard]] Index other_end(Index segment, Index point) const
+    {
+        const auto [a, b] = ends(segment);
+        return a == point ? b : a;
+    }
+    [[nodiscard]] std::span<const Index> segments_at(Index point) const
+    {
+        return std::span(at_).subspan(index(first_[index(point)]),
+                                      index(first_[index(point) + 1] - first_[index(point)]));
+    }
+
+    [[nodiscard]] bool ends_chains(Index point) const
+    {
+        const auto here = segments_at(point);
+        if (here.empty()) return false;
+        if (here.size() != 2 || kind_[index(here[0])] != kind_[index(here[1])]) return true;
+        const Vec3 into = model_.at(point) - model_.at(other_end(here[0], point));
+        const Vec3 onward = model_.at(other_end(here[1], point)) - model_.at(point);
+        return into.dot(onward) < least_cosine_ * into.norm() * onward.norm();
+    }
+
+    VertexId vertex(Index point)
+    {
+        VertexId& id = vertex_at_[index(point)];
+        if (!id.valid()) {
+            id = VertexId(model_.vertices.size());
+            model_.vertices.push_back({.point = point, .tag = static_cast<int>(model_.vertices.size()) + 1});
+        }
+        return id;
+    }
+
+    /// Points from `point` along `segment` and on, up to a vertex or round to the start.
+    std::vector<Index> walk(Index segment, Index point)
+    {
+        std::vector<Index> points{point};
+        while (true) {
+            done_[index(segment)] = true;
+            point = other_end(segment, point);
+            points.push_back(point);
+            if (is_vertex_[index(point)] || point == points.front()) return points;
+            const auto here = segments_at(point);
+            segment = here[0] == segment ? here[1] : here[0];
+        }
+    }
+
+    void add_edge(Index segment, Index start)
+    {
+        std::vector<Index> points = walk(segment, start);
+        const bool closed = points.front() == points.back();
+        if (!is_vertex_[index(start)] && !closed) {
+            // Met in the middle: what lies before, turned round, comes first.
+            const auto here = segments_at(start);
+            std::vector<Index> before = walk(here[0] == segment ? here[1] : here[0], start);
+            std::reverse(before.begin(), before.end());
+            before.pop_back();
+            points.insert(points.begin(), before.begin(), before.end());
+        } else if (!is_vertex_[index(start)]) {
+            points.pop_back();
+            std::rotate(points.begin(), std::min_element(points.begin(), points.end()), points.end());
+            points.push_back(points.front());
+        }
+        topology::Edge edge;
+        edge.tag = static_cast<int>(model_.edges.size()) + 1;
+        edge.from = vertex(points.front());
+        edge.to = vertex(points.back());
+        edge.points = std::move(points);
+        model_.edges.push_back(std::move(edge));
+    }
+
+    topology::Model& model_;
+    const Sides& sides_;
+    double least_cosine_;
+    std::vector<Index> kind_;       ///< of each segment; -1 within a face
+    std::vector<bool> done_;        ///< segments strung
+    std::vector<Index> first_, at_; ///< edge segments at each point
+    std::vector<bool> is_vertex_;
+    std::vector<VertexId> vertex_at_;
+};
+
+} // namespace
+
+topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options)
+{
+    if (!(options.feature_angle > 0 && options.feature_angle <= 180)) {
+        throw InvalidInput("topology.bad_angle", "feature_angle is " + std::to_string(options.feature_angle) +
+                                                     " degrees; it must be above 0 and at most 180");
+    }
+    if (!(options.tolerance >= 0)) {
+        throw InvalidInput("topology.bad_tolerance",
+                           "tolerance is " + std::to_string(options.tolerance) + "; it must be 0 or above");
+    }
+    const double feature = options.feature_angle * std::numbers::pi / 180;
+    const Facets facets = facets_of(soup, options.tolerance);
+    const Sides sides(facets);
+    const Flood flood = flood_faces(facets, sides, options.whole_labels ? std::numbers::pi : feature);
+    topology::Model model;
+    model.points = facets.points;
+    model.tolerance = facets.tolerance;
+    model.diagonal = facets.diagonal;
+    if (facets.repeated > 0) {
+        model.notes.push_back(std::to_string(facets.repeated) +
+                              (facets.repeated == 1 ? " facet was" : " facets were") +
+                              " listed twice; one of each stays");
+    }
+    add_faces(model, facets, flood, soup);
+    Chains(model, sides, flood, feature).add_edges(flood);
+    topology::build_loops(model);
+    return model;
+}
+
+} // namespace lacuna::healing

@@ -1,0 +1,580 @@
+// SPDX-License-Identifier: MIT
+//
+// stitch(): vertices join, short edges collapse, T-junctions are split, edges that lie on each other merge with
+// all their points, and what is left over twice goes. Each step collects first and changes the model then, so
+// that the order of entities decides nothing but who keeps its tag.
+#include <lacuna/healing/stitch.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/healing/detail/edge_track.h>
+#include <lacuna/healing/detail/loose_model.h>
+#include <lacuna/healing/detail/surplus_faces.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+
+namespace lacuna::healing {
+
+namespace {
+
+/// Points on an exact curve closer than this part of a side become one: facets between them would be slivers.
+constexpr double kJoinOnCurve = 0.25;
+std::size_t index(Index i) { return static_cast<std::size_t>(i); }
+
+class Stitcher {
+public:
+    Stitcher(topology::Model model, double tolerance) : loose_(std::move(model)), tolerance_(tolerance) {}
+
+    StitchReport run()
+    {
+        join_vertices();
+        split_at_vertices();
+        merge_edges();
+        leave_out_thin_faces(loose_, tolerance_, report_);
+        leave_out_repeated_faces(loose_, tolerance_, report_);
+        note_gaps(loose_, tolerance_, report_);
+        return std::move(report_);
+    }
+    topology::Model result() { return loose_.settled(); }
+
+private:
+    /// A vertex on the inside of an edge.
+    struct Stop {
+        VertexId vertex;
+        EdgeTrack::Place place;
+        std::size_t node =
+            0; ///< the point of the edge it becomes one with; 0: none, it gets a place of its own
+    };
+    /// A point of a merged edge.
+    struct Node {
+        double s = 0, param = 0; ///< on the edge that lends its shape
+        Index point = -1;
+    };
+    /// An edge that becomes another, and the nodes its points become.
+    struct Follower {
+        EdgeId edge;
+        std::vector<std::size_t> nodes;
+    };
+    /// Edges that lie on each other.
+    struct Bundle {
+        EdgeId first; ///< lends shape and tag
+        std::vector<Node> nodes;
+        std::vector<std::size_t> order; ///< of the nodes along the edge
+        std::vector<Follower> followers;
+        bool keeps_mesh = false;
+    };
+
+    void join_vertices();
+    void collapse_short_edges();
+    void settle_points();
+    void split_at_vertices();
+    std::map<EdgeId, std::vector<Stop>> find_stops();
+    void place_stops(EdgeId e, std::vector<Stop>& stops);
+    std::map<EdgeId, VertexId> begin_elsewhere(std::map<EdgeId, std::vector<Stop>>& stops);
+    void insert_stops(EdgeId e, const std::vector<Stop>& stops, std::optional<VertexId> begin);
+    void merge_edges();
+    std::vector<Bundle> bundles_of(std::vector<EdgeId> group);
+    bool try_add(Bundle& bundle, EdgeId e);
+    bool add_nodes(Bundle& bundle, EdgeId e, bool reversed, const std::vector<EdgeTrack::Place>& places);
+
+    const topology::Model& model() const { return loose_.model(); }
+    std::string edge_name(EdgeId e) const { return "edge " + std::to_string(model()[e].tag); }
+    const EdgeTrack& track(EdgeId e)
+    {
+        auto& track = tracks_[e];
+        if (!track) track.emplace(model(), e);
+        return *track;
+    }
+
+    LooseModel loose_;
+    double tolerance_;
+    StitchReport report_;
+    std::map<EdgeId, std::optional<EdgeTrack>> tracks_; ///< of edges as they are now
+};
+
+// --- vertices and short edges ---------------------------------------------------------------------------------
+
+void Stitcher::join_vertices()
+{
+    std::vector<Vec3> at;
+    std::vector<std::array<Vec3, 2>> dots;
+    for (const topology::Vertex& vertex : model().vertices) {
+        at.push_back(model().at(vertex.point));
+        dots.push_back({at.back(), at.back()});
+    }
+    std::vector<std::size_t> root(at.size());
+    std::iota(root.begin(), root.end(), std::size_t{0});
+    const auto find = [&](std::size_t v) {
+        while (root[v] != v) v = root[v] = root[root[v]];
+        return v;
+    };
+    for (const topology::NearSegment& pair : topology::near_segments(at, dots, tolerance_)) {
+        if ((at[index(pair.point)] - at[index(pair.segment)]).norm() > tolerance_) continue;
+        const std::size_t a = find(index(pair.point));
+        const std::size_t b = find(index(pair.segment));
+        root[std::max(a, b)] = std::min(a, b);
+    }
+    double furthest = 0;
+    std::size_t far = 0;
+    for (std::size_t v = 0; v < root.size(); ++v) {
+        if (find(v) == v) continue;
+        loose_.join(VertexId(v), VertexId(find(v)));
+        ++report_.vertices_merged;
+        const double moved = (at[v] - at[find(v)]).norm();
+        if (moved <= furthest) continue;
+        furthest = moved;
+        far = v;
+    }
+    if (furthest > 2 * tolerance_) {
+        report_.notes.push_back("vertices stand closer than the tolerance of " + in_words(tolerance_) +
+                                " in a chain; all became one, and vertex " +
+                                std::to_string(model().vertices[far].tag) + " moved by " +
+                                in_words(furthest) + "; give a smaller tolerance if they are to stay apart");
+    }
+    settle_points();
+    collapse_short_edges();
+}
+
+void Stitcher::collapse_short_edges()
+{
+    for (std::size_t e = 0; e < model().edges.size(); ++e) {
+        const topology::Edge& edge = model().edges[e];
+        if (edge.from != edge.to || loose_.is_gone(EdgeId(e))) continue;
+        const Vec3& at = model().at(edge.points.front());
+        const bool is_short = std::all_of(edge.points.begin(), edge.points.end(),
+                                          [&](Index p) { return (model().at(p) - at).norm() <= tolerance_; });
+        if (!is_short) continue;
+        for (const Index p : edge.points) loose_.join(p, edge.points.front());
+        loose_.remove(EdgeId(e));
+        ++report_.edges_collapsed;
+    }
+    if (report_.edges_collapsed > 0) settle_points();
+}
+
+void Stitcher::settle_points()
+{
+    const std::size_t edges = model().edges.size();
+    std::vector<bool> gone(edges);
+    for (std::size_t e = 0; e < edges; ++e) gone[e] = loose_.is_gone(EdgeId(e));
+    const LooseModel::Shrunk shrunk = loose_.settle_points();
+    for (std::size_t e = 0; e < edges; ++e)
+        if (!gone[e] && loose_.is_gone(EdgeId(e))) ++report_.edges_collapsed;
+    for (const FaceId f : shrunk.faces) {
+        ++report_.faces_left_out;
+        report_.notes.push_back(name_of(model(), f) + " is no wider than the tolerance of " +
+                                in_words(tolerance_) +
+                                " and is left out; give a smaller tolerance if it is to stay");
+    }
+    for (const FaceId f : shrunk.meshes) {
+        report_.notes.push_back("the mesh of " + name_of(model(), f) +
+                                " cannot be kept: it has quads with sides no longer than the tolerance of " +
+                                in_words(tolerance_) + "; give a smaller tolerance");
+    }
+    tracks_.clear();
+}
+
+// --- T-junctions ----------------------------------------------------------------------------------------------
+
+void Stitcher::split_at_vertices()
+{
+    std::map<EdgeId, std::vector<Stop>> stops = find_stops();
+    for (auto& [e, on_edge] : stops) place_stops(e, on_edge);
+    const std::map<EdgeId, VertexId> begins = begin_elsewhere(stops);
+    std::erase_if(stops, [](const auto& entry) { return entry.second.empty(); });
+    if (stops.empty()) return;
+
+    topology::SidePoints sides;
+    std::vector<EdgeId> edges;
+    for (const auto& [e, on_edge] : stops) {
+        edges.push_back(e);
+        for (const Stop& stop : on_edge) {
+            if (stop.node == 0) continue;
+            loose_.join(model()[e].points[stop.node], model()[stop.vertex].point);
+            if (!model()[e].params.empty()) loose_.edge(e).params[stop.node] = stop.place.param;
+        }
+    }
+    settle_points();
+    for (const EdgeId e : edges) {
+        const std::vector<Index>& points = model()[e].points;
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            std::vector<Index> between;
+            for (const Stop& stop : stops[e]) {
+                if (stop.node == 0 && static_cast<std::size_t>(stop.place.s) == i)
+                    between.push_back(model()[stop.vertex].point);
+            }
+            sides.add(points[i], points[i + 1], std::move(between));
+        }
+    }
+    loose_.cut(sides, edges);
+    for (const auto& [e, on_edge] : stops) {
+        const auto begin = begins.find(e);
+        insert_stops(e, on_edge, begin == begins.end() ? std::nullopt : std::optional(begin->second));
+    }
+    tracks_.clear();
+}
+
+/// Vertices on the inside of edges, where the edge or one at the vertex is free.
+std::map<EdgeId, std::vector<Stitcher::Stop>> Stitcher::find_stops()
+{
+    std::vector<bool> at_free(model().vertices.size(), false);
+    std::vector<bool> in_use(model().vertices.size(), false);
+    bool any_free = false;
+    for (std::size_t e = 0; e < model().edges.size(); ++e) {
+        if (loose_.is_gone(EdgeId(e))) continue;
+        for (const VertexId v : {model().edges[e].from, model().edges[e].to}) {
+            in_use[v.index()] = true;
+            if (loose_.is_free(EdgeId(e))) any_free = at_free[v.index()] = true;
+        }
+    }
+    if (!any_free) return {};
+    std::vector<VertexId> vertices;
+    std::vector<Vec3> at;
+    for (std::size_t v = 0; v < in_use.size(); ++v) {
+        if (!in_use[v]) continue;
+        vertices.emplace_back(v);
+        at.push_back(model().at(model().vertices[v].point));
+    }
+    std::vector<std::array<Vec3, 2>> segments;
+    std::vector<EdgeId> edge_of;
+    double sagitta = 0;
+    for (std::size_t e = 0; e < model().edges.size(); ++e) {
+        if (loose_.is_gone(EdgeId(e))) continue;
+        // What lies along a seam has its own border there; the face needs no cut.
+        if (loose_.is_seam(EdgeId(e))) continue;
+        const EdgeTrack& on = track(EdgeId(e));
+        sagitta = std::max(sagitta, on.sagitta());
+        for (std::size_t i = 0; i + 1 < on.samples().size(); ++i) {
+            segments.push_back({on.samples()[i], on.samples()[i + 1]});
+            edge_of.emplace_back(e);
+        }
+    }
+    std::map<EdgeId, std::set<VertexId>> close;
+    for (const topology::NearSegment& pair : topology::near_segments(at, segments, tolerance_ + sagitta)) {
+        const EdgeId e = edge_of[index(pair.segment)];
+        const VertexId v = vertices[index(pair.point)];
+        if (v == model()[e].from || v == model()[e].to || !(loose_.is_free(e) || at_free[v.index()]))
+            continue;
+        const auto& [a, b] = segments[index(pair.segment)];
+        const Vec3& p = at[index(pair.point)];
+        if ((a + topology::fraction_along(p, a, b) * (b - a) - p).norm() > tolerance_ + track(e).sagitta())
+            continue;
+        close[e].insert(v);
+    }
+    std::map<EdgeId, std::vector<Stop>> stops;
+    for (const auto& [e, on_edge] : close) {
+        std::vector<Vec3> points;
+        for (const VertexId v : on_edge) points.push_back(model().at(model()[v].point));
+        const std::vector<EdgeTrack::Place> places = track(e).locate(points, tolerance_);
+        std::size_t i = 0;
+        for (const VertexId v : on_edge) {
+            if (places[i].distance <= tolerance_) stops[e].push_back({v, places[i]});
+            ++i;
+        }
+    }
+    return stops;
+}
+
+/// Say which stops take the place of a point of the edge; drop those that a kept mesh has no place for.
+void Stitcher::place_stops(EdgeId e, std::vector<Stop>& stops)
+{
+    const topology::Edge& edge = model()[e];
+    std::stable_sort(stops.begin(), stops.end(),
+                     [](const Stop& a, const Stop& b) { return a.place.s < b.place.s; });
+    const bool keeps_mesh = loose_.keeps_mesh(e);
+    const auto at = [&](std::size_t i) -> const Vec3& { return model().at(edge.points[i]); };
+    std::size_t taken = 0;
+    std::vector<Stop> placed;
+    for (Stop& stop : stops) {
+        const auto near = static_cast<std::size_t>(stop.place.s + 0.5);
+        if (near > taken && near + 1 < edge.points.size()) {
+            double radius = tolerance_;
+            if (track(e).exact() && !keeps_mesh) {
+                radius = std::max(radius, kJoinOnCurve * std::min((at(near) - at(near - 1)).norm(),
+                                                                  (at(near + 1) - at(near)).norm()));
+            }
+            if ((at(near) - model().at(model()[stop.vertex].point)).norm() <= radius)
+                stop.node = taken = near;
+        }
+        if (stop.node == 0 && keeps_mesh) {
+            report_.notes.push_back(
+                "vertex " + std::to_string(model()[stop.vertex].tag) + " lies on " + edge_name(e) +
+                " between two nodes of a mesh that is kept; the faces there stay apart; load "
+                "with keep_mesh = false, or mesh them alike");
+            continue;
+        }
+        // A stop before the point another took would fold the edge back.
+        if (stop.node == 0) stop.place.s = std::max(stop.place.s, static_cast<double>(taken));
+        placed.push_back(stop);
+    }
+    stops = std::move(placed);
+}
+
+/// Closed polylines whose vertex means nothing begin at a vertex that was found on them. @return which.
+std::map<EdgeId, VertexId> Stitcher::begin_elsewhere(std::map<EdgeId, std::vector<Stop>>& stops)
+{
+    std::vector<int> edges_at(model().vertices.size(), 0);
+    for (std::size_t e = 0; e < model().edges.size(); ++e) {
+        if (loose_.is_gone(EdgeId(e))) continue;
+        const topology::Edge& edge = model().edges[e];
+        ++edges_at[edge.from.index()];
+        if (edge.to != edge.from) ++edges_at[edge.to.index()];
+    }
+    std::map<EdgeId, VertexId> begins;
+    std::set<VertexId> unused;
+    for (auto& [e, on_edge] : stops) {
+        std::erase_if(on_edge, [&](const Stop& stop) { return unused.contains(stop.vertex); });
+        const topology::Edge& edge = model()[e];
+        if (edge.from != edge.to || edges_at[edge.from.index()] != 1 || edge.curve || on_edge.empty())
+            continue;
+        const auto better = std::max_element(
+            on_edge.begin(), on_edge.end(), [&](const Stop& a, const Stop& b) {
+                return edges_at[a.vertex.index()] < edges_at[b.vertex.index()];
+            });
+        begins[e] = better->vertex;
+        unused.insert(edge.from);
+        ++edges_at[better->vertex.index()];
+    }
+    for (auto& [e, on_edge] : stops)
+        std::erase_if(on_edge, [&](const Stop& stop) { return unused.contains(stop.vertex); });
+    return begins;
+}
+
+/// Put the stops among the edge's points, turn it to where it is to begin, and divide it there.
+void Stitcher::insert_stops(EdgeId e, const std::vector<Stop>& stops, std::optional<VertexId> begin)
+{
+    topology::Edge edge = model()[e];
+    std::map<Index, VertexId> vertex_at;
+    for (const Stop& stop : stops) vertex_at[model()[stop.vertex].point] = stop.vertex;
+    for (auto stop = stops.rbegin(); stop != stops.rend(); ++stop) {
+        if (stop->node != 0) continue;
+        const auto after = static_cast<std::ptrdiff_t>(stop->place.s) + 1;
+        edge.points.insert(edge.points.begin() + after, model()[stop->vertex].point);
+        if (!edge.params.empty()) edge.params.insert(edge.params.begin() + after, stop->place.param);
+    }
+    if (begin) {
+        edge.points.pop_back();
+        std::rotate(edge.points.begin(),
+                    std::find(edge.points.begin(), edge.points.end(), model()[*begin].point),
+                    edge.points.end());
+        edge.points.push_back(edge.points.front());
+        edge.from = edge.to = *begin;
+    }
+    std::vector<std::pair<std::size_t, VertexId>> cuts;
+    for (std::size_t i = 1; i + 1 < edge.points.size(); ++i) {
+        const auto found = vertex_at.find(edge.points[i]);
+        if (found != vertex_at.end()) cuts.emplace_back(i, found->second);
+    }
+    loose_.edge(e) = std::move(edge);
+    if (cuts.empty()) return;
+    loose_.divide(e, cuts);
+    ++report_.edges_split;
+}
+
+// --- edges that lie on each other -----------------------------------------------------------------------------
+
+void Stitcher::merge_edges()
+{
+    std::map<std::pair<VertexId, VertexId>, std::vector<EdgeId>> groups;
+    for (std::size_t e = 0; e < model().edges.size(); ++e) {
+        const topology::Edge& edge = model().edges[e];
+        if (!loose_.is_gone(EdgeId(e))) groups[std::minmax(edge.from, edge.to)].emplace_back(e);
+    }
+    std::vector<Bundle> bundles;
+    for (auto& [ends, group] : groups) {
+        if (group.size() < 2) continue;
+        for (Bundle& bundle : bundles_of(std::move(group)))
+            if (!bundle.followers.empty()) bundles.push_back(std::move(bundle));
+    }
+    if (bundles.empty()) return;
+
+    // First the sides that get points, by the points as they were; joined ones go by what they become.
+    struct Side {
+        Index from, to;
+        std::vector<Index> between;
+    };
+    std::vector<Side> filled;
+    std::vector<EdgeId> edges;
+    for (const Bundle& bundle : bundles) {
+        std::vector<std::size_t> position(bundle.nodes.size());
+        for (std::size_t i = 0; i < bundle.order.size(); ++i) position[bundle.order[i]] = i;
+        const auto fill = [&](EdgeId e, const std::vector<std::size_t>& nodes) {
+            edges.push_back(e);
+            for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+                Side side{bundle.nodes[nodes[i]].point, bundle.nodes[nodes[i + 1]].point, {}};
+                for (std::size_t k = position[nodes[i]] + 1; k < position[nodes[i + 1]]; ++k)
+                    side.between.push_back(bundle.nodes[bundle.order[k]].point);
+                if (!side.between.empty()) filled.push_back(std::move(side));
+            }
+        };
+        std::vector<std::size_t> own(model()[bundle.first].points.size());
+        std::iota(own.begin(), own.end(), std::size_t{0});
+        fill(bundle.first, own);
+        for (const Follower& follower : bundle.followers) fill(follower.edge, follower.nodes);
+        topology::Edge& edge = loose_.edge(bundle.first);
+        edge.points.clear();
+        const bool exact = !edge.params.empty();
+        edge.params.clear();
+        for (const std::size_t n : bundle.order) {
+            edge.points.push_back(bundle.nodes[n].point);
+            if (exact) edge.params.push_back(bundle.nodes[n].param);
+        }
+    }
+    settle_points();
+    topology::SidePoints sides;
+    for (Side& side : filled) sides.add(side.from, side.to, std::move(side.between));
+    loose_.cut(sides, edges);
+    for (const Bundle& bundle : bundles) {
+        for (const Follower& follower : bundle.followers) {
+            if (loose_.is_gone(follower.edge)) continue;
+            loose_.merge(follower.edge, bundle.first);
+            ++report_.edges_merged;
+        }
+    }
+}
+
+std::vector<Stitcher::Bundle> Stitcher::bundles_of(std::vector<EdgeId> group)
+{
+    // Exact curves first, so that polylines follow them.
+    std::stable_sort(group.begin(), group.end(),
+                     [&](EdgeId a, EdgeId b) { return track(a).exact() && !track(b).exact(); });
+    std::vector<Bundle> bundles;
+    for (const EdgeId e : group) {
+        if (std::any_of(bundles.begin(), bundles.end(), [&](Bundle& bundle) { return try_add(bundle, e); }))
+            continue;
+        Bundle& own = bundles.emplace_back();
+        own.first = e;
+        own.keeps_mesh = loose_.keeps_mesh(e);
+        const topology::Edge& edge = model()[e];
+        for (std::size_t i = 0; i < edge.points.size(); ++i) {
+            own.nodes.push_back(
+                {static_cast<double>(i), edge.params.empty() ? 0 : edge.params[i], edge.points[i]});
+            own.order.push_back(i);
+        }
+    }
+    return bundles;
+}
+
+bool Stitcher::try_add(Bundle& bundle, EdgeId e)
+{
+    const topology::Edge& first = model()[bundle.first];
+    const topology::Edge& edge = model()[e];
+    const EdgeTrack& along = track(bundle.first);
+    const EdgeTrack& own = track(e);
+    const bool closed = edge.from == edge.to;
+    for (const bool reversed : {false, true}) {
+        if (!closed && reversed != (edge.from != first.from)) continue;
+        std::vector<Vec3> samples = own.samples();
+        std::vector<Vec3> samples_along = along.samples();
+        if (reversed) {
+            std::reverse(samples.begin(), samples.end());
+            std::reverse(samples_along.begin(), samples_along.end());
+        }
+        const auto places = along.follow(samples, tolerance_);
+        if (!places || !own.follow(samples_along, tolerance_)) continue;
+        std::vector<EdgeTrack::Place> at_nodes;
+        const std::size_t stride = own.exact() ? 2 : 1;
+        for (std::size_t i = 0; i < places->size(); i += stride) at_nodes.push_back((*places)[i]);
+        return add_nodes(bundle, e, reversed, at_nodes);
+    }
+    return false;
+}
+
+/// Let each point of the edge become a node of the bundle, or a new one where none is near.
+bool Stitcher::add_nodes(Bundle& bundle, EdgeId e, bool reversed, const std::vector<EdgeTrack::Place>& places)
+{
+    std::vector<Index> points = model()[e].points;
+    if (reversed) std::reverse(points.begin(), points.end());
+    const auto at = [&](Index p) -> const Vec3& { return model().at(p); };
+    const bool keeps_mesh = loose_.keeps_mesh(e);
+    const bool may_slide = !bundle.keeps_mesh && !keeps_mesh &&
+                           (track(e).exact() || track(bundle.first).exact());
+    std::vector<Node> nodes = bundle.nodes;
+    std::vector<std::size_t> order = bundle.order;
+    std::vector<std::size_t> become{order.front()};
+    std::size_t last = 0; // in the order
+    bool fits = true;
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+        const double s = places[i].s;
+        std::size_t after = last + 1;
+        while (after + 1 < order.size() && nodes[order[after]].s <= s) ++after;
+        double radius = tolerance_;
+        if (may_slide) {
+            const double side = std::min(
+                {(at(points[i]) - at(points[i - 1])).norm(), (at(points[i + 1]) - at(points[i])).norm(),
+                 (at(nodes[order[after]].point) - at(nodes[order[after - 1]].point)).norm()});
+            radius = std::max(radius, kJoinOnCurve * side);
+        }
+        const auto apart = [&](std::size_t k) { return (at(nodes[order[k]].point) - at(points[i])).norm(); };
+        const std::size_t near = apart(after) < apart(after - 1) ? after : after - 1;
+        if (apart(near) <= radius) {
+            become.push_back(order[near]);
+            last = near;
+            continue;
+        }
+        fits = fits && !bundle.keeps_mesh;
+        order.insert(order.begin() + static_cast<std::ptrdiff_t>(after), nodes.size());
+        become.push_back(nodes.size());
+        nodes.push_back({std::max(s, nodes[order[after - 1]].s), places[i].param, points[i]});
+        last = after;
+    }
+    become.push_back(order.back());
+    if (keeps_mesh) fits = fits && std::set<std::size_t>(become.begin(), become.end()).size() == order.size();
+    if (!fits) {
+        report_.notes.push_back(
+            edge_name(bundle.first) + " and " + edge_name(e) +
+            " lie on each other, but a mesh that is kept has other nodes there; the faces stay "
+            "apart; load with keep_mesh = false, or mesh them alike");
+        return false;
+    }
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) loose_.join(points[i], nodes[become[i]].point);
+    bundle.nodes = std::move(nodes);
+    bundle.order = std::move(order);
+    bundle.keeps_mesh = bundle.keeps_mesh || keeps_mesh;
+    bundle.followers.push_back({e, std::move(become)});
+    return true;
+}
+
+} // namespace
+
+std::string StitchReport::summary() const
+{
+    std::string text;
+    const auto add = [&](int count, const char* one, const char* many) {
+        if (count == 0) return;
+        text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + (count == 1 ? one : many);
+    };
+    add(vertices_merged, "vertex joined", "vertices joined");
+    add(edges_merged, "edge merged", "edges merged");
+    add(edges_split, "edge split", "edges split");
+    add(edges_collapsed, "short edge collapsed", "short edges collapsed");
+    add(faces_left_out, "face left out", "faces left out");
+    return text.empty() ? text : "stitched: " + text;
+}
+
+StitchReport stitch(topology::Model& model, double tolerance)
+{
+    if (!(tolerance > 0)) {
+        throw InvalidInput("topology.bad_tolerance",
+                           "the tolerance to stitch by is " + in_words(tolerance) + "; it must be above 0");
+    }
+    const bool has_loops = std::any_of(model.faces.begin(), model.faces.end(),
+                                       [](const topology::Face& face) { return !face.loops.empty(); });
+    if (!has_loops && !model.edges.empty()) topology::build_loops(model);
+    Stitcher stitcher(model, tolerance);
+    StitchReport report = stitcher.run();
+    if (!report.changed()) return report;
+    try {
+        model = stitcher.result();
+    } catch (const InvalidInput& error) {
+        StitchReport failed;
+        failed.notes.push_back(std::string("faces that meet could not be joined: ") + error.what());
+        return failed;
+    }
+    return report;
+}
+
+} // namespace lacuna::healing

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/healing/detail/weld.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace lacuna::healing {
+namespace {
+
+using Cell = std::array<std::int64_t, 3>;
+
+std::uint64_t mix(std::uint64_t h)
+{
+    h ^= h >> 33;
+    h *= 0xff51afd7ed558ccdULL;
+    h ^= h >> 33;
+    h *= 0xc4ceb9fe1a85ec53ULL;
+    return h ^ (h >> 33);
+}
+
+std::uint64_t hash_of(const Cell& cell)
+{
+    std::uint64_t h = 0;
+    for (const std::int64_t c : cell) h = mix(h + 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(c));
+    return h;
+}
+
+/// Points by the cell they lie in, chained where hashes fall together.
+class CellTable {
+public:
+    explicit CellTable(std::size_t points)
+        : first_(std::bit_ceil(points + points / 2 + 1), -1), next_(points, -1)
+    {
+    }
+
+    void add(const Cell& cell, Index point)
+    {
+        Index& head = first_[slot(cell)];
+        next_[static_cast<std::size_t>(point)] = head;
+        head = point;
+    }
+    template <class Visit>
+    void each_near(const Cell& cell, const Visit& visit) const
+    {
+        for (Index p = first_[slot(cell)]; p >= 0; p = next_[static_cast<std::size_t>(p)]) visit(p);
+    }
+
+private:
+    [[nodiscard]] std::size_t slot(const Cell& cell) const { return hash_of(cell) & (first_.size() - 1); }
+
+    std::vector<Index> first_, next_;
+};
+
+/// Join equal points: facets as STL holds them repeat each about six times, and this is the cheap way.
+std::vector<Index> weld_equal(std::span<const Vec3> points)
+{
+    std::vector<Index> result(points.size());
+    CellTable table(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        Cell bits;
+        for (std::size_t k = 0; k < 3; ++k) {
+            bits[k] = std::bit_cast<std::int64_t>(points[i][static_cast<Eigen::Index>(k)] + 0.0); // −0 as 0
+        }
+        Index same = -1;
+        table.each_near(bits, [&](Index p) {
+            if (points[static_cast<std::size_t>(p)] == points[i]) same = p;
+        });
+        if (same < 0) table.add(bits, static_cast<Index>(i));
+        result[i] = same < 0 ? static_cast<Index>(i) : same;
+    }
+    return result;
+}
+
+// Cells this many tolerances wide: most points then need to look into few neighbours, and few points share one.
+constexpr double kCellWidth = 8;
+
+} // namespace
+
+std::vector<Index> weld(std::span<const Vec3> points, double tolerance)
+{
+    std::vector<Index> result = weld_equal(points);
+    if (!(tolerance > 0) || points.empty()) return result;
+    Vec3 low = points.front();
+    Vec3 high = low;
+    for (const Vec3& p : points) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    // A tolerance below what the coordinates resolve would overflow the cells' numbers; such cells may be wider.
+    const double width = std::max(kCellWidth * tolerance, (high - low).maxCoeff() * std::ldexp(1.0, -52));
+    CellTable table(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (result[i] != static_cast<Index>(i)) continue;
+        Cell least, most;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto axis = static_cast<Eigen::Index>(k);
+            least[k] = static_cast<std::int64_t>(
+                std::floor((points[i][axis] - tolerance - low[axis]) / width));
+            most[k] = static_cast<std::int64_t>(
+                std::floor((points[i][axis] + tolerance - low[axis]) / width));
+        }
+        Index best = -1;
+        double best_distance = tolerance * tolerance;
+        const auto consider = [&](Index p) {
+            const double distance = (points[static_cast<std::size_t>(p)] - points[i]).squaredNorm();
+            if (distance > best_distance || (distance == best_distance && best >= 0 && p > best)) return;
+            best = p;
+            best_distance = distance;
+        };
+        for (std::int64_t x = least[0]; x <= most[0]; ++x) {
+            for (std::int64_t y = least[1]; y <= most[1]; ++y) {
+                for (std::int64_t z = least[2]; z <= most[2]; ++z) table.each_near({x, y, z}, consider);
+            }
+        }
+        if (best >= 0) {
+            result[i] = best;
+            continue;
+        }
+        Cell own;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto axis = static_cast<Eigen::Index>(k);
+            own[k] = static_cast<std::int64_t>(std::floor((points[i][axis] - low[axis]) / width));
+        }
+        table.add(own, static_cast<Index>(i));
+    }
+    for (Index& p : result) p = result[static_cast<std::size_t>(p)];
+    return result;
+}
+
+} // namespace lacuna::healing

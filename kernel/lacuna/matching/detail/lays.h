@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/geometry/affine.h>
+#include <lacuna/matching/detail/problem.h>
+
+#include <limits>
+#include <vector>
+
+namespace lacuna::matching {
+
+/// The most that void edges may turn in the mean against straight up, as a share of the loop: the waist of a
+/// round wall that is ruled so is 1 − cos(π/32), half a hundredth, narrower.
+inline constexpr double kMostTwist = 1.0 / 32;
+
+/// One way to lay a source loop on a target loop.
+struct Lay {
+    std::size_t shift =
+        0; ///< target vertex that the source's first vertex meets; of loops paired by length the sample
+    double offset =
+        0; ///< of loops paired by length: share of the target's length where the source's start lies
+    bool backward = true; ///< the target loop is walked against its own direction
+    double score = std::numeric_limits<double>::infinity();
+    geometry::RigidFit fit;
+};
+
+/// Points that correspond.
+struct PointPairs {
+    std::vector<Vec3> from, to;
+};
+
+/// Every lay of source loop s on target loop t that hard pairs and direction allow, best first. Pairs matched
+/// already take part in the fit.
+std::vector<Lay> lays(const Problem& problem, std::size_t s, std::size_t t, bool with_scale,
+                      const PointPairs& known = {});
+
+/// Slide a lay of loops paired by length to where it fits best between its neighbours.
+Lay refined(const Problem& problem, std::size_t s, std::size_t t, const Lay& lay, const PointPairs& known);
+
+/// Corresponding points of two loops, as a lay has it.
+PointPairs samples(const Problem& problem, std::size_t s, std::size_t t, const Lay& lay);
+
+/// True where two lays are not the same but for a little sliding along a smooth loop.
+bool differ(const Problem& problem, std::size_t s, std::size_t t, const Lay& a, const Lay& b);
+
+/// Say of each two loops whether their vertices tell how they lie on each other, or lengths have to.
+///
+/// Loops with unlike numbers of vertices go by length, and those with one each. Others go vertex to vertex,
+/// unless no way to do so keeps what walls join; or the best gives a corner a smooth partner though there are
+/// corners for it; or, where no corner meets a corner, it twists by more than `kMostTwist` in the mean.
+void choose_how(Problem& problem);
+
+} // namespace lacuna::matching

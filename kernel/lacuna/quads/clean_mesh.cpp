@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/clean_mesh.h>
+
+#include <lacuna/quads/measure_plane.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace lacuna::quads::cleaning {
+
+namespace {
+
+constexpr double kRight = std::numbers::pi / 2;
+/// Right angles that a boundary point may have more or less than quads.
+constexpr double kFits = 0.65;
+/// Loss of a quad for its area being off by a factor e from the one asked; and the power of e taken for a folded one.
+constexpr double kSizeLoss = 0.1, kFarOff = 10;
+
+} // namespace
+
+QuadLoss loss_of(std::span<const Vec2> points, const Quad& quad, const CleanOptions& options)
+{
+    QuadLoss result;
+    result.jacobian = scaled_jacobian(points, quad);
+    result.loss = 1 - result.jacobian;
+    if (!options.size) return result;
+    const auto at = [&](std::size_t k) -> const Vec2& { return points[static_cast<std::size_t>(quad[k])]; };
+    const Vec2 u = at(2) - at(0), v = at(3) - at(1);
+    const double size = options.size((at(0) + at(1) + at(2) + at(3)) / 4);
+    const double ratio = (u.x() * v.y() - u.y() * v.x()) / (2 * size * size);
+    const double off = ratio > 0 ? std::log(ratio) : kFarOff;
+    result.loss += kSizeLoss * off * off;
+    return result;
+}
+
+CleanMesh::CleanMesh(const PlanarQuads& mesh, std::size_t fixed, const CleanOptions& options)
+    : options_(options),
+      points_(mesh.points),
+      net_(mesh.points.size(), mesh.quads),
+      fixed_(fixed),
+      wanted_(mesh.points.size(), 4),
+      loss_(mesh.quads.size()),
+      loss_known_(mesh.quads.size(), 0),
+      version_(mesh.quads.size(), 0)
+{
+    for (Index p = 0; p < static_cast<Index>(points_.size()); ++p) {
+        if (net_.is_used(p) && net_.on_boundary(p)) wanted_[static_cast<std::size_t>(p)] = right_angles(p);
+    }
+}
+
+bool CleanMesh::is_sound() const
+{
+    for (Index p = 0; p < static_cast<Index>(points_.size()); ++p) {
+        if (!net_.is_used(p)) continue;
+        int in_fan = 0;
+        net_.for_sides(p, [&](Index) { ++in_fan; });
+        if (in_fan != net_.valence(p)) return false;
+        if (static_cast<std::size_t>(p) >= fixed_ && net_.on_boundary(p)) return false;
+    }
+    return true;
+}
+
+std::size_t CleanMesh::irregular() const
+{
+    std::size_t count = 0;
+    for (Index p = 0; p < static_cast<Index>(points_.size()); ++p) {
+        if (net_.is_used(p) && net_.valence(p) != 4 && !net_.on_boundary(p)) ++count;
+    }
+    return count;
+}
+
+int CleanMesh::right_angles(Index p) const
+{
+    Vec2 first(0, 0), last(0, 0);
+    bool any = false;
+    net_.for_sides(p, [&](Index side) {
+        if (!any) first = at(net_.to(side)) - at(p);
+        any = true;
+        last = at(net_.from(QuadNet::before(side))) - at(p);
+    });
+    double angle = std::atan2(first.x() * last.y() - first.y() * last.x(), first.dot(last));
+    if (angle <= 0) angle += 2 * std::numbers::pi;
+    // Half way between two numbers either will do: the one that is there.
+    const double fit = angle / kRight;
+    const int valence = net_.valence(p);
+    return std::abs(fit - valence) < kFits ? valence : std::max(1, static_cast<int>(std::lround(fit)));
+}
+
+const QuadLoss& CleanMesh::loss(Index q)
+{
+    const auto i = static_cast<std::size_t>(q);
+    if (loss_known_[i] == 0) loss_[i] = loss_of(points_, net_.quad(q), options_);
+    loss_known_[i] = 1;
+    return loss_[i];
+}
+
+std::size_t CleanMesh::remove_doublets()
+{
+    std::size_t removed = 0;
+    std::vector<Index> left;
+    for (std::size_t p = fixed_; p < points_.size(); ++p) left.push_back(static_cast<Index>(p));
+    while (!left.empty()) {
+        const Index p = left.back();
+        left.pop_back();
+        if (!net_.is_used(p) || net_.valence(p) != 2 || net_.on_boundary(p)) continue;
+        std::vector<Index> sides;
+        net_.for_sides(p, [&](Index side) { sides.push_back(side); });
+        const Index a = net_.to(sides[0]), b = net_.to(QuadNet::after(sides[0]));
+        const Index c = net_.to(sides[1]), d = net_.to(QuadNet::after(sides[1]));
+        if (b == d) continue;
+        const std::array<Index, 2> old{sides[0] / 4, sides[1] / 4};
+        const std::array<Quad, 1> merged{{{a, b, c, d}}};
+        replace(old, merged);
+        ++removed;
+        for (const Index q : {a, c}) {
+            if (static_cast<std::size_t>(q) >= fixed_) left.push_back(q);
+        }
+    }
+    return removed;
+}
+
+Index CleanMesh::add_point(const Vec2& place)
+{
+    points_.push_back(place);
+    wanted_.push_back(4);
+    return net_.add_point();
+}
+
+void CleanMesh::move(Index p, const Vec2& place)
+{
+    points_[static_cast<std::size_t>(p)] = place;
+    net_.for_sides(p, [&](Index side) { loss_known_[static_cast<std::size_t>(side / 4)] = 0; });
+}
+
+void CleanMesh::replace(std::span<const Index> removed, std::span<const Quad> added)
+{
+    const std::vector<Index> numbers = net_.replace(removed, added);
+    version_.resize(net_.quad_slots(), 0);
+    loss_.resize(net_.quad_slots());
+    loss_known_.resize(net_.quad_slots(), 0);
+    for (const Index q : numbers) {
+        ++version_[static_cast<std::size_t>(q)];
+        loss_known_[static_cast<std::size_t>(q)] = 0;
+    }
+}
+
+PlanarQuads CleanMesh::taken_out() const
+{
+    PlanarQuads mesh;
+    std::vector<Index> number(points_.size(), -1);
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+        if (p >= fixed_ && !net_.is_used(static_cast<Index>(p))) continue;
+        number[p] = static_cast<Index>(mesh.points.size());
+        mesh.points.push_back(points_[p]);
+    }
+    for (Index q = 0; q < static_cast<Index>(net_.quad_slots()); ++q) {
+        if (!net_.is_live(q)) continue;
+        Quad quad = net_.quad(q);
+        for (Index& p : quad) p = number[static_cast<std::size_t>(p)];
+        mesh.quads.push_back(quad);
+    }
+    return mesh;
+}
+
+} // namespace lacuna::quads::cleaning

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/clean_quads.h>
+
+#include <lacuna/quads/detail/clean_mesh.h>
+#include <lacuna/quads/detail/clean_patch.h>
+#include <lacuna/quads/detail/clean_trial.h>
+#include <lacuna/quads/detail/marks.h>
+
+#include <algorithm>
+#include <array>
+#include <unordered_set>
+
+namespace lacuna::quads {
+
+namespace cleaning {
+
+namespace {
+
+/// How much is tried before a patch is given up.
+struct Care {
+    std::size_t growths;  ///< irregular points a patch is grown to
+    std::size_t largest;  ///< patch, in quads
+    std::size_t fillings; ///< of each patch
+    int sweeps;           ///< over a filling, before it is judged the second time
+    double hopeless;      ///< given up then where the loss is so many times what is allowed
+};
+/// Small patches, where most is won for little; then larger ones, and while the budget lasts more thorough.
+constexpr std::array<Care, 3> kCares{{{3, 60, 2, 1, 1.8}, {12, 100'000, 2, 1, 1.8}, {12, 100'000, 4, 2, 3}}};
+/// Quads that may be tried however small the mesh.
+constexpr long kLeastBudget = 50'000;
+/// Layers of quads around a patch that are smoothed with it.
+constexpr int kRings = 2;
+
+class Cleaner {
+public:
+    Cleaner(CleanMesh& mesh, const CleanOptions& options, std::size_t quads)
+        : mesh_(mesh), options_(options), grower_(mesh), trial_(mesh, options)
+    {
+        budget_ = kLeastBudget + static_cast<long>(options.effort * static_cast<double>(quads));
+    }
+
+    /// Look at everything again, with so much care.
+    void begin(const Care& care)
+    {
+        if (care.hopeless > care_.hopeless) tried_.clear();
+        care_ = care;
+        due_.assign(mesh_.points().size(), 1);
+    }
+    /// @return patches filled anew
+    std::size_t pass(CleanReport& report, const RunContext& context);
+
+private:
+    bool mend(Index seed, CleanReport& report);
+    bool fill_anew(const Patch& patch, CleanReport& report);
+
+    CleanMesh& mesh_;
+    const CleanOptions& options_;
+    PatchGrower grower_;
+    Trial trial_;
+    Care care_ = kCares[0];
+    long budget_ = 0;
+    std::vector<char> due_;                   ///< points to be looked at, if irregular
+    std::unordered_set<std::uint64_t> tried_; ///< patches that were filled for trial with no less patience
+    std::unordered_set<std::uint64_t> poor_;  ///< fillings of patches that were smoothed to the end in vain
+    std::vector<Vec2> loop_;
+};
+
+bool Cleaner::fill_anew(const Patch& patch, CleanReport& report)
+{
+    if (fewest_irregular(patch.loop.size(), patch.corners) >= patch.irregular) return false;
+    std::uint64_t key = 0;
+    for (const Index q : patch.quads) key += mixed(mesh_.name(q));
+    if (!tried_.insert(key).second) return false;
+    loop_.clear();
+    for (const Index p : patch.loop) loop_.push_back(mesh_.at(p));
+    const std::vector<Cut> cuts = find_cuts(loop_, patch.corners, care_.fillings);
+    if (cuts.empty()) return false;
+    const std::vector<Index>& around = grower_.rings(kRings);
+    trial_.set_patch(patch, around);
+    for (const Cut& cut : cuts) {
+        const std::uint64_t filled = key + mixed(cut.from) +
+                                     mixed((cut.to << 32) + static_cast<std::size_t>(cut.pieces));
+        if (poor_.contains(filled)) continue;
+        const Filling filling = fill(loop_, patch.corners, cut);
+        budget_ -= static_cast<long>(filling.quads.size() + around.size());
+        ++report.tried;
+        const Verdict verdict = trial_.run(filling, care_.sweeps, care_.hopeless);
+        if (verdict == Verdict::poor) poor_.insert(filled);
+        if (verdict != Verdict::good) continue;
+        due_.resize(mesh_.points().size(), 1);
+        ++report.patches;
+        return true;
+    }
+    return false;
+}
+
+/// Grow a patch from an irregular point to the next, and the next, until a filling is better.
+bool Cleaner::mend(Index seed, CleanReport& report)
+{
+    grower_.start(seed, care_.growths);
+    const std::size_t largest = std::min(care_.largest, static_cast<std::size_t>(options_.largest_patch));
+    for (std::size_t growth = 0; growth <= grower_.others().size(); ++growth) {
+        if (growth > 0 && !grower_.grow_to(grower_.others()[growth - 1])) continue;
+        const Outline outline = grower_.close(largest);
+        if (outline == Outline::too_large) return false;
+        if (outline == Outline::fine && fill_anew(grower_.patch(), report)) return true;
+        if (budget_ < 0) return false;
+    }
+    return false;
+}
+
+std::size_t Cleaner::pass(CleanReport& report, const RunContext& context)
+{
+    std::size_t mended = 0;
+    for (Index p = 0; p < static_cast<Index>(mesh_.points().size()) && budget_ >= 0; ++p) {
+        if (due_[static_cast<std::size_t>(p)] == 0 || !mesh_.is_irregular(p)) continue;
+        check_cancelled(context);
+        due_[static_cast<std::size_t>(p)] = 0;
+        if (!mend(p, report)) continue;
+        ++mended;
+        // What was looked at has changed for those who looked at it in vain.
+        for (const Index q : grower_.seen_points()) due_[static_cast<std::size_t>(q)] = 1;
+    }
+    return mended;
+}
+
+} // namespace
+
+} // namespace cleaning
+
+CleanReport clean_quads(PlanarQuads& mesh, std::size_t fixed, const CleanOptions& options,
+                        const RunContext& context)
+{
+    CleanReport report;
+    cleaning::CleanMesh work(mesh, fixed, options);
+    if (!work.is_sound()) return report;
+    report.irregular_before = work.irregular();
+    report.doublets = work.remove_doublets();
+    cleaning::Cleaner cleaner(work, options, mesh.quads.size());
+    for (const cleaning::Care& care : cleaning::kCares) {
+        cleaner.begin(care);
+        for (int pass = 0; pass < options.passes; ++pass) {
+            if (cleaner.pass(report, context) == 0) break;
+        }
+    }
+    report.irregular_after = work.irregular();
+    PlanarQuads cleaned = work.taken_out();
+    mesh.points = std::move(cleaned.points);
+    mesh.quads = std::move(cleaned.quads);
+    return report;
+}
+
+} // namespace lacuna::quads

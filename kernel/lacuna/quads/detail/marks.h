@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Sets of point and quad numbers for searches over parts of a mesh; only sources of this folder include it.
+
+#include <lacuna/core/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lacuna::quads {
+
+/// A set of numbers that is emptied at no cost.
+class Marks {
+public:
+    void clear(std::size_t count)
+    {
+        of_.resize(count, 0);
+        ++now_;
+    }
+    [[nodiscard]] bool has(Index i) const
+    {
+        return static_cast<std::size_t>(i) < of_.size() && of_[static_cast<std::size_t>(i)] == now_;
+    }
+    /// @return true where it was not there
+    bool add(Index i)
+    {
+        if (has(i)) return false;
+        of_[static_cast<std::size_t>(i)] = now_;
+        return true;
+    }
+
+private:
+    std::vector<unsigned> of_;
+    unsigned now_ = 0;
+};
+
+/// A number for each of a set of numbers, forgotten at no cost.
+class Numbers {
+public:
+    void clear(std::size_t count)
+    {
+        of_.resize(count);
+        ++now_;
+    }
+    Index& operator[](Index i)
+    {
+        Entry& entry = of_[static_cast<std::size_t>(i)];
+        if (entry.known != now_) entry = {now_, 0};
+        return entry.value;
+    }
+    [[nodiscard]] bool has(Index i) const
+    {
+        return static_cast<std::size_t>(i) < of_.size() && of_[static_cast<std::size_t>(i)].known == now_;
+    }
+
+private:
+    struct Entry {
+        unsigned known = 0;
+        Index value = 0;
+    };
+    std::vector<Entry> of_;
+    unsigned now_ = 0;
+};
+
+/// For sets of numbers, the order of which does not count.
+inline std::uint64_t mixed(std::uint64_t x)
+{
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+    return x ^ (x >> 31);
+}
+
+} // namespace lacuna::quads

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Quads whose connections are changed; only sources of this folder include it.
+
+#include <lacuna/core/types.h>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace lacuna::quads {
+
+/// Quads with their neighbours. Side i of quad q has the number 4q + i and runs from corner i to corner i + 1.
+class QuadNet {
+public:
+    /// @pre  sides are used once, or twice in opposite directions
+    QuadNet(std::size_t points, std::vector<Quad> quads);
+
+    [[nodiscard]] const Quad& quad(Index q) const { return quads_[static_cast<std::size_t>(q)]; }
+    [[nodiscard]] std::size_t quad_slots() const { return quads_.size(); }
+    [[nodiscard]] std::size_t points() const { return out_.size(); }
+    [[nodiscard]] bool is_used(Index point) const { return out_[static_cast<std::size_t>(point)] >= 0; }
+    [[nodiscard]] bool is_live(Index q) const { return quad(q)[0] >= 0; }
+    [[nodiscard]] Index from(Index side) const
+    {
+        const auto i = static_cast<std::size_t>(side);
+        return quads_[i / 4][i % 4];
+    }
+    [[nodiscard]] Index to(Index side) const
+    {
+        const auto i = static_cast<std::size_t>(side);
+        return quads_[i / 4][(i + 1) % 4];
+    }
+    /// The same side in the neighbour, or -1.
+    [[nodiscard]] Index opposite(Index side) const { return opposite_[static_cast<std::size_t>(side)]; }
+    [[nodiscard]] static Index before(Index side) { return (side & ~3) + ((side + 3) & 3); }
+    [[nodiscard]] static Index after(Index side) { return (side & ~3) + ((side + 1) & 3); }
+
+    [[nodiscard]] bool on_boundary(Index point) const
+    {
+        return opposite(out_[static_cast<std::size_t>(point)]) < 0;
+    }
+    /// Quads at a point.
+    [[nodiscard]] int valence(Index point) const { return valence_[static_cast<std::size_t>(point)]; }
+    /// Call `visit(side)` with the side that leaves the point in each of its quads, counter-clockwise.
+    template <class Visit>
+    void for_sides(Index point, const Visit& visit) const
+    {
+        const Index first = out_[static_cast<std::size_t>(point)];
+        Index side = first;
+        while (side >= 0) {
+            visit(side);
+            side = opposite(before(side));
+            if (side == first) break;
+        }
+    }
+
+    Index add_point()
+    {
+        out_.push_back(-1);
+        valence_.push_back(0);
+        return static_cast<Index>(out_.size()) - 1;
+    }
+    /// Put quads in the place of others with the same outline. @return the new quads' numbers.
+    std::vector<Index> replace(std::span<const Index> removed, std::span<const Quad> added);
+
+private:
+    void turn_to_boundary(Index point);
+
+    std::vector<Quad> quads_; ///< first corner -1: none
+    std::vector<Index> opposite_;
+    std::vector<Index>
+        out_; ///< a side that leaves each point; on the boundary the first counter-clockwise; -1: no quad
+    std::vector<int> valence_;
+    std::vector<Index> free_;
+};
+
+} // namespace lacuna::quads

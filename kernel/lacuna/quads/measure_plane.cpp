@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/measure_plane.h>
+
+#include <lacuna/mesh/quad_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <vector>
+
+namespace lacuna::quads {
+
+namespace {
+
+/// A quarter turn, and how far from right the corners of a good row may be.
+constexpr double kRight = std::numbers::pi / 2;
+constexpr double kOffRight = 20 * std::numbers::pi / 180;
+constexpr double kOffHeight = 0.3;
+constexpr double kShortest = 0.6, kLongest = 1.6;
+
+const Vec2& at(std::span<const Vec2> points, Index p) { return points[static_cast<std::size_t>(p)]; }
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Angle from `a` counter-clockwise to `b` [0, 2π).
+double angle(const Vec2& a, const Vec2& b)
+{
+    const double turn = std::atan2(cross(a, b), a.dot(b));
+    return turn < 0 ? turn + 2 * std::numbers::pi : turn;
+}
+
+bool stands_well(std::span<const Vec2> points, const Quad& quad, std::size_t side, double height)
+{
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Vec2& here = at(points, quad[k]);
+        const double corner = angle(at(points, quad[(k + 1) % 4]) - here,
+                                    at(points, quad[(k + 3) % 4]) - here);
+        if (std::abs(corner - kRight) > kOffRight) return false;
+    }
+    const Vec2& from = at(points, quad[side]);
+    const Vec2 along = (at(points, quad[(side + 1) % 4]) - from).normalized();
+    for (const std::size_t far : {side + 2, side + 3}) {
+        const double above = cross(along, at(points, quad[far % 4]) - from);
+        if (std::abs(above - height) > kOffHeight * height) return false;
+    }
+    return true;
+}
+
+/// Boundary nodes whose number of quads is not that of the right angles in their corner.
+std::size_t boundary_irregular(const PlanarRegion& region, const std::vector<Index>& valence)
+{
+    std::size_t count = 0;
+    for (const std::vector<Index>& loop : region.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec2& here = at(region.points, loop[i]);
+            const Vec2 after = at(region.points, loop[(i + 1) % loop.size()]) - here;
+            const Vec2 before = at(region.points, loop[(i + loop.size() - 1) % loop.size()]) - here;
+            const auto wanted = std::max(1.0, std::round(angle(after, before) / kRight));
+            if (valence[static_cast<std::size_t>(loop[i])] != static_cast<Index>(wanted)) ++count;
+        }
+    }
+    return count;
+}
+
+std::string side_text(Index a, Index b) { return std::to_string(a) + "-" + std::to_string(b); }
+
+/// Corners that are points, four different ones in each quad.
+std::string find_bad_corner(const PlanarQuads& mesh)
+{
+    for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+        const Quad& quad = mesh.quads[q];
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (quad[k] < 0 || static_cast<std::size_t>(quad[k]) >= mesh.points.size())
+                return "quad " + std::to_string(q) + " has corner " + std::to_string(quad[k]) +
+                       ", which is no point";
+            for (std::size_t j = 0; j < k; ++j) {
+                if (quad[j] == quad[k])
+                    return "quad " + std::to_string(q) + " has corner " + std::to_string(quad[k]) + " twice";
+            }
+        }
+    }
+    return {};
+}
+
+/// Sides used right, those used once being the loops'. Counts the sides in `edges`.
+std::string find_bad_side(const PlanarQuads& mesh, const PlanarRegion& region, std::size_t& edges)
+{
+    const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads,
+                                                             static_cast<Index>(mesh.points.size()));
+    std::vector<std::pair<Index, Index>> rim, wanted;
+    for (std::size_t side = 0; side < opposite.size(); ++side) {
+        const Quad& quad = mesh.quads[side / 4];
+        const Index a = quad[side % 4], b = quad[(side + 1) % 4];
+        if (opposite[side] == mesh::kBadSide)
+            return "side " + side_text(a, b) + " is used by more than two quads or twice in one direction";
+        if (opposite[side] == mesh::kRimSide) rim.emplace_back(a, b);
+    }
+    edges = (opposite.size() + rim.size()) / 2;
+    for (const std::vector<Index>& loop : region.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            wanted.emplace_back(loop[i], loop[(i + 1) % loop.size()]);
+    }
+    std::sort(rim.begin(), rim.end());
+    std::sort(wanted.begin(), wanted.end());
+    if (rim == wanted) return {};
+    std::vector<std::pair<Index, Index>> odd;
+    std::set_difference(wanted.begin(), wanted.end(), rim.begin(), rim.end(), std::back_inserter(odd));
+    if (!odd.empty()) return "boundary side " + side_text(odd[0].first, odd[0].second) + " has no quad";
+    std::set_difference(rim.begin(), rim.end(), wanted.begin(), wanted.end(), std::back_inserter(odd));
+    return "side " + side_text(odd[0].first, odd[0].second) + " has one quad but is not on the boundary";
+}
+
+} // namespace
+
+double scaled_jacobian(std::span<const Vec2> points, const Quad& quad)
+{
+    std::array<Vec2, 4> side;
+    std::array<double, 4> length;
+    for (std::size_t k = 0; k < 4; ++k) {
+        side[k] = at(points, quad[(k + 1) % 4]) - at(points, quad[k]);
+        length[k] = side[k].norm();
+    }
+    double least = 1;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const double both = length[k] * length[(k + 3) % 4];
+        least = std::min(least, both > 0 ? cross(side[(k + 3) % 4], side[k]) / both : 0.0);
+    }
+    return least;
+}
+
+PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
+{
+    PlaneQuality result;
+    result.quads = mesh.quads.size();
+    result.points = mesh.points.size();
+    std::vector<Index> valence(mesh.points.size(), 0);
+    std::vector<char> on_boundary(mesh.points.size(), 0);
+    for (const std::vector<Index>& loop : region.loops) {
+        for (const Index p : loop) on_boundary[static_cast<std::size_t>(p)] = 1;
+    }
+    const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads,
+                                                             static_cast<Index>(mesh.points.size()));
+    double jacobians = 0, ratios = 0;
+    for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+        const Quad& quad = mesh.quads[q];
+        const double jacobian = scaled_jacobian(mesh.points, quad);
+        result.min_scaled_jacobian = std::min(result.min_scaled_jacobian, jacobian);
+        jacobians += jacobian;
+        for (std::size_t k = 0; k < 4; ++k) {
+            ++valence[static_cast<std::size_t>(quad[k])];
+            const Index other = opposite[4 * q + k];
+            if (other >= 0 && static_cast<std::size_t>(other) < 4 * q + k) continue;
+            const Vec2& a = at(mesh.points, quad[k]);
+            const Vec2& b = at(mesh.points, quad[(k + 1) % 4]);
+            const double length = (b - a).norm();
+            const double asked = region.size ? region.size((a + b) / 2) : length;
+            ++result.edges;
+            ratios += length / asked;
+            if (length >= kShortest * asked && length <= kLongest * asked) ++result.edges_of_size;
+            if (other != mesh::kRimSide) continue;
+            ++result.rows;
+            if (stands_well(mesh.points, quad, k, asked)) ++result.good_rows;
+        }
+    }
+    for (std::size_t p = 0; p < valence.size(); ++p) {
+        if (on_boundary[p] != 0) continue;
+        ++result.interior;
+        if (valence[p] != 4) ++result.irregular;
+    }
+    result.boundary_irregular = boundary_irregular(region, valence);
+    if (result.quads > 0) result.mean_scaled_jacobian = jacobians / static_cast<double>(result.quads);
+    if (result.edges > 0) result.mean_edge_ratio = ratios / static_cast<double>(result.edges);
+    return result;
+}
+
+std::string find_fault(const PlanarQuads& mesh, const PlanarRegion& region)
+{
+    if (mesh.points.size() < region.points.size() ||
+        !std::equal(region.points.begin(), region.points.end(), mesh.points.begin()))
+        return "the boundary points are not the first of the mesh, in place";
+    if (std::string fault = find_bad_corner(mesh); !fault.empty()) return fault;
+    std::size_t edges = 0;
+    if (std::string fault = find_bad_side(mesh, region, edges); !fault.empty()) return fault;
+
+    std::vector<char> used(mesh.points.size(), 0);
+    for (const Quad& quad : mesh.quads) {
+        for (const Index p : quad) used[static_cast<std::size_t>(p)] = 1;
+    }
+    const auto unused = std::find(used.begin(), used.end(), 0);
+    if (unused != used.end()) return "point " + std::to_string(unused - used.begin()) + " has no quad";
+    // Euler: a disc with holes, in one piece and nowhere pinched.
+    const auto euler = static_cast<long>(mesh.points.size() + mesh.quads.size()) - static_cast<long>(edges);
+    if (euler != 2 - static_cast<long>(region.loops.size()))
+        return "points - sides + quads are " + std::to_string(euler) +
+               ", not 2 less the number of loops: the mesh comes apart or is pinched";
+    for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+        const double jacobian = scaled_jacobian(mesh.points, mesh.quads[q]);
+        if (!(jacobian > 0))
+            return "quad " + std::to_string(q) + " has a corner that is not positive (scaled Jacobian " +
+                   std::to_string(jacobian) + ")";
+    }
+    return {};
+}
+
+} // namespace lacuna::quads

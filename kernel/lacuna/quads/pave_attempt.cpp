@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/pave_attempt.h>
+
+#include <lacuna/quads/clean_quads.h>
+#include <lacuna/quads/detail/pave_core.h>
+#include <lacuna/quads/detail/pave_fit.h>
+#include <lacuna/quads/detail/pave_refill.h>
+#include <lacuna/quads/detail/pave_repair.h>
+#include <lacuna/quads/detail/pave_rows.h>
+#include <lacuna/quads/detail/pave_size.h>
+#include <lacuna/quads/detail/pave_true_rows.h>
+#include <lacuna/quads/detail/triangle_quads.h>
+#include <lacuna/quads/smooth_plane.h>
+
+#include <optional>
+
+namespace lacuna::quads::paving {
+namespace {
+
+/// Is the region one good patch as it is?
+bool is_patch(const Draft& draft, const std::vector<Cycle>& loops)
+{
+    constexpr double kGood = 0.8;
+    if (loops.size() > 1 || loops.front().size() < 8) return false;
+    const Fit fit = fit_patch(draft, loops.front(), angles_of(draft, loops.front()));
+    return fit.quality > kGood;
+}
+
+/// Rows a loop is worth. A round outer loop gets four nodes of three quads where its rows end; with rows for
+/// about a fiftieth of its length they lie where a square of the same number of nodes has its corners. Round
+/// a hole every row is one more of stretched quads.
+int rows_for(const Draft& draft, const Cycle& loop, bool outer)
+{
+    if (!needs_row(draft, loop)) return 0;
+    constexpr std::size_t kNodesARow = 60;
+    return outer ? 1 + static_cast<int>(loop.size() / kNodesARow) : 1;
+}
+
+/// Is every side used once in each direction at the most?
+bool sides_match(const std::vector<Quad>& quads)
+{
+    std::vector<std::uint64_t> sides;
+    sides.reserve(4 * quads.size());
+    for (const Quad& q : quads) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            sides.push_back((static_cast<std::uint64_t>(static_cast<std::uint32_t>(q[k])) << 32) |
+                            static_cast<std::uint32_t>(q[(k + 1) % 4]));
+        }
+    }
+    std::sort(sides.begin(), sides.end());
+    return std::adjacent_find(sides.begin(), sides.end()) == sides.end();
+}
+
+/// Open what is folded: by moving nodes, with more of them, and what does not open is filled anew.
+void open_folds(Attempt& attempt, const PlanarRegion& region, const Draft& draft, const PaveOptions& options,
+                const RunContext& context)
+{
+    constexpr int kLoosenings = 1;
+    for (int round = 0; round <= kLoosenings; ++round) {
+        Attempt tried = attempt;
+        if (round > 0) loosen_folds(tried.mesh, draft.flat);
+        ease_folds(tried.mesh, draft.fixed);
+        judge(tried);
+        if (tried.worst <= draft.flat && round == 0 && options.clean) {
+            clean_quads(tried.mesh, draft.fixed, {.size = draft.size}, context);
+            ease_folds(tried.mesh, draft.fixed);
+            judge(tried);
+        }
+        if (tried.worst <= draft.flat) {
+            // What opens here is smoothed with the rest later.
+            smooth_plane(tried.mesh.points, tried.mesh.quads, draft.fixed,
+                         {.size = draft.size, .sweeps = 0, .repairs = 0}, context);
+            judge(tried);
+        }
+        const bool better = round == 0 || tried.worst > attempt.worst;
+        if (better) attempt = std::move(tried);
+        if (!better || attempt.worst > draft.flat) break;
+    }
+    if (attempt.worst > 0) return;
+    attempt.report.refilled = refill_folds(attempt.mesh, region, 0, draft.size);
+    judge(attempt);
+}
+
+/// Rows from the loops, the rest cut and filled.
+void lay_and_fill(Attempt& attempt, Draft& draft, const PlanarRegion& region, const PaveOptions& options,
+                  RowStyle style, const RunContext& context)
+{
+    std::vector<Cycle> loops = region.loops;
+    if (style == RowStyle::by_shape && options.rows < 0 && is_patch(draft, loops))
+        style = RowStyle::one_patch;
+    std::vector<int> rows;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        const int own = options.rows < 0 ? rows_for(draft, loops[l], l == 0) : options.rows;
+        rows.push_back(style == RowStyle::none || style == RowStyle::one_patch ? 0
+                       : style == RowStyle::buffer                             ? 1
+                                                                               : own);
+    }
+    const RowKind kind = style == RowStyle::buffer ? RowKind::buffer
+                         : style == RowStyle::thin ? RowKind::thin
+                                                   : RowKind::tall;
+    for (int r = 0;; ++r) {
+        std::vector<bool> wanted;
+        for (const int own : rows) wanted.push_back(own > r);
+        if (std::none_of(wanted.begin(), wanted.end(), [](bool w) { return w; })) break;
+        attempt.report.rows += lay_rows(draft, loops, wanted, draft.size, kind);
+        for (std::size_t l = 0; l < loops.size(); ++l) {
+            if (!wanted[l]) rows[l] = 0;
+        }
+    }
+    const CoreCount count = fill_core(draft, loops, style == RowStyle::one_patch, context);
+    attempt.report.mapped = count.patches;
+    attempt.report.cuts = count.cuts;
+    attempt.report.templates = count.templates;
+    attempt.report.used = count.cuts == 0 && count.patches == 1 && attempt.report.rows == 0 ? "mapped"
+                                                                                            : "paved";
+    attempt.mesh = {draft.points, draft.quads};
+    drop_loose_points(attempt.mesh, draft.fixed);
+}
+
+/// The way of triangles a style means, if any.
+std::optional<TriangleWay> triangle_way(RowStyle style)
+{
+    switch (style) {
+    case RowStyle::halved_triangles:
+        return TriangleWay::halved;
+    case RowStyle::paired_triangles:
+        return TriangleWay::paired;
+    case RowStyle::split_triangles:
+        return TriangleWay::split;
+    default:
+        return std::nullopt;
+    }
+}
+
+} // namespace
+
+void judge(Attempt& attempt)
+{
+    attempt.worst = 1;
+    for (const Quad& q : attempt.mesh.quads) {
+        const auto at = [&](std::size_t k) { return attempt.mesh.points[static_cast<std::size_t>(q[k])]; };
+        const double sine = least_sine(at(0), at(1), at(2), at(3));
+        if (sine >= attempt.worst) continue;
+        attempt.worst = sine;
+        attempt.where = (at(0) + at(1) + at(2) + at(3)) / 4;
+    }
+}
+
+Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style, const Taste& taste,
+                 double flat, const RunContext& context)
+{
+    Attempt attempt;
+    attempt.style = style;
+    Draft draft{region.points, {}, region.points.size(), size_with_boundary(region), flat, {}, taste};
+    if (const std::optional<TriangleWay> way = triangle_way(style)) {
+        attempt.mesh = quads_of_triangles(region, *way);
+        attempt.report.used = "paired";
+        if (attempt.mesh.quads.empty()) return attempt;
+    } else {
+        lay_and_fill(attempt, draft, region, options, style, context);
+    }
+    if (!sides_match(attempt.mesh.quads)) return attempt;
+    if (style != RowStyle::split_triangles) open_corners(attempt.mesh, region);
+    judge(attempt);
+    if (options.smooth) open_folds(attempt, region, draft, options, context);
+    if (attempt.worst <= 0) return attempt;
+    if (options.clean) clean_quads(attempt.mesh, draft.fixed, {.size = draft.size}, context);
+    if (options.smooth) {
+        smooth_plane(attempt.mesh.points, attempt.mesh.quads, draft.fixed, {.size = draft.size}, context);
+        true_rows(attempt.mesh, region, draft.size);
+    }
+    judge(attempt);
+    return attempt;
+}
+
+} // namespace lacuna::quads::paving

@@ -1,0 +1,457 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/pave_cut.h>
+
+#include <lacuna/geometry/predicates.h>
+#include <lacuna/quads/detail/pave_patch.h>
+
+#include <limits>
+#include <span>
+
+namespace lacuna::quads::paving {
+namespace {
+
+using geometry::orient2d;
+
+constexpr double kCornerBelow = 0.75 * std::numbers::pi;
+constexpr double kBentAbove = 1.25 * std::numbers::pi;
+constexpr double kLeastAngle = kRightAngle / 6; ///< a line closer to the outline makes a sliver
+
+/// How far an angle is from the nearest multiple of a right angle, in half right angles; squared.
+double angle_cost(double angle)
+{
+    const double off = (angle - quads_in(angle) * kRightAngle) / (kRightAngle / 2);
+    return off * off;
+}
+
+/// What a line costs that divides an angle: 0 where both parts suit whole quads and no quad is added.
+double end_cost(double whole, double part, const Taste& taste)
+{
+    const double rest = whole - part;
+    const int added = quads_in(part) + quads_in(rest) - quads_in(whole);
+    return taste.corners * ((angle_cost(part) + angle_cost(rest)) / 2 + taste.added * std::abs(added));
+}
+
+/// Is the open segment from a to b free of the loop's sides?
+bool is_clear(const Draft& draft, const Cycle& cycle, Index a, Index b)
+{
+    const Vec2 &pa = draft.at(a), &pb = draft.at(b);
+    const Vec2 low = pa.cwiseMin(pb), high = pa.cwiseMax(pb);
+    const std::size_t n = cycle.size();
+    for (std::size_t k = 0; k < n; ++k) {
+        const Index c = cycle[k], d = cycle[k + 1 == n ? 0 : k + 1];
+        const Vec2 &pc = draft.at(c), &pd = draft.at(d);
+        if (std::max(pc.x(), pd.x()) < low.x() || std::min(pc.x(), pd.x()) > high.x() ||
+            std::max(pc.y(), pd.y()) < low.y() || std::min(pc.y(), pd.y()) > high.y())
+            continue;
+        const bool c_shared = c == a || c == b, d_shared = d == a || d == b;
+        if (c_shared && d_shared) return false;
+        const double oc = orient2d(pa, pb, pc), od = orient2d(pa, pb, pd);
+        if (c_shared || d_shared) {
+            const Vec2& other = c_shared ? pd : pc;
+            if ((c_shared ? od : oc) != 0) continue;
+            const double along = (other - pa).dot(pb - pa);
+            if (along > 0 && along < (pb - pa).squaredNorm()) return false;
+            continue;
+        }
+        if ((oc > 0 && od > 0) || (oc < 0 && od < 0)) continue;
+        const double oa = orient2d(pc, pd, pa), ob = orient2d(pc, pd, pb);
+        if ((oa > 0 && ob > 0) || (oa < 0 && ob < 0)) continue;
+        return false;
+    }
+    return true;
+}
+
+/// Does the line keep a share of its edge length from all nodes it passes by?
+bool keeps_away(const Draft& draft, const Cycle& cycle, Index a, Index b, double least)
+{
+    const Vec2 pa = draft.at(a), along = draft.at(b) - pa;
+    const double length = along.norm();
+    const Vec2 low = pa.cwiseMin(draft.at(b)) - Vec2::Constant(least);
+    const Vec2 high = pa.cwiseMax(draft.at(b)) + Vec2::Constant(least);
+    for (const Index p : cycle) {
+        const Vec2& x = draft.at(p);
+        if (x.x() < low.x() || x.y() < low.y() || x.x() > high.x() || x.y() > high.y()) continue;
+        const double at = (x - pa).dot(along) / length;
+        if (at > least && at < length - least && std::abs(cross(along, x - pa)) < least * length)
+            return false;
+    }
+    return true;
+}
+
+double local_size(const Draft& draft, const Vec2& a, const Vec2& b)
+{
+    // Edges go as the mean of one over the size.
+    return 3 / (1 / draft.size(a) + 1 / draft.size((a + b) / 2) + 1 / draft.size(b));
+}
+
+/// Everything about a loop that judging a line needs.
+class CutFinder {
+public:
+    CutFinder(const Draft& draft, const Cycle& cycle, const std::vector<double>& angles)
+        : draft_(draft), cycle_(cycle), angles_(angles), n_(cycle.size())
+    {
+        arc_.assign(n_ + 1, 0);
+        heading_.resize(n_);
+        pace_.resize(n_);
+        for (std::size_t i = 0; i < n_; ++i) {
+            const Vec2 side = at(i + 1) - at(i);
+            arc_[i + 1] = arc_[i] + side.norm();
+            heading_[i] = std::atan2(side.y(), side.x());
+            pace_[i] = 1 / draft.size(at(i));
+            if (angles[i] < kCornerBelow) corners_.push_back(i);
+        }
+    }
+
+    std::optional<Cut> find()
+    {
+        const std::vector<std::size_t> places = candidates();
+        // A line nearly as long as what it cuts off is seldom good: looked at only where there is no other.
+        constexpr double kShort = 0.85;
+        auto cut = find_among(places, kShort);
+        return cut ? cut : find_among(places, std::numeric_limits<double>::infinity());
+    }
+
+private:
+    std::optional<Cut> find_among(const std::vector<std::size_t>& places, double longest)
+    {
+        std::vector<Choice> choices;
+        for (std::size_t s = 0; s < places.size(); ++s) {
+            for (std::size_t t = s + 1; t < places.size(); ++t) {
+                const std::size_t i = places[s], j = places[t];
+                const double arc = arc_[j] - arc_[i];
+                if ((at(j) - at(i)).norm() > longest * std::min(arc, arc_[n_] - arc)) continue;
+                if (const auto choice = judge(i, j)) choices.push_back(*choice);
+            }
+        }
+        // A heap, best on top: mostly the first or second is free.
+        const auto later = [](const Choice& a, const Choice& b) {
+            return std::tie(a.cost, a.cut.from, a.cut.to) > std::tie(b.cost, b.cut.from, b.cut.to);
+        };
+        std::make_heap(choices.begin(), choices.end(), later);
+        constexpr double kAway = 0.5; // of the line's edges
+        std::optional<Choice> near_miss;
+        for (auto end = choices.end(); end != choices.begin(); --end) {
+            std::pop_heap(choices.begin(), end, later);
+            const Choice& choice = *(end - 1);
+            if (is_free(choice, kAway)) return refine(choice, kAway).cut;
+            if (!near_miss && is_free(choice, 0)) near_miss = choice;
+        }
+        if (near_miss) return refine(*near_miss, 0).cut;
+        return std::nullopt;
+    }
+
+    struct Choice {
+        Cut cut;
+        double cost = 0;
+    };
+
+    [[nodiscard]] const Vec2& at(std::size_t i) const { return draft_.at(cycle_[i % n_]); }
+
+    [[nodiscard]] bool is_free(const Choice& c, double away) const
+    {
+        const Index a = cycle_[c.cut.from], b = cycle_[c.cut.to];
+        const double edge = (draft_.at(b) - draft_.at(a)).norm() / static_cast<double>(c.cut.edges);
+        return is_clear(draft_, cycle_, a, b) && (away == 0 || keeps_away(draft_, cycle_, a, b, away * edge));
+    }
+
+    [[nodiscard]] std::vector<std::size_t> candidates()
+    {
+        constexpr std::size_t kSpread = 32;   ///< places tried evenly along the outline
+        constexpr std::size_t kFeatures = 64; ///< and where it bends
+        std::vector<std::size_t> bent;
+        for (std::size_t i = 0; i < n_; ++i) {
+            if (angles_[i] > kBentAbove) bent.push_back(i);
+        }
+        stride_ = std::max<std::size_t>(1, n_ / kSpread);
+        std::vector<std::size_t> places;
+        for (std::size_t i = 0; i < n_; i += stride_) places.push_back(i);
+        const std::size_t skip = bent.size() / kFeatures + 1;
+        for (std::size_t i = 0; i < bent.size(); i += skip) places.push_back(bent[i]);
+        std::sort(places.begin(), places.end());
+        places.erase(std::unique(places.begin(), places.end()), places.end());
+        return places;
+    }
+
+    [[nodiscard]] std::optional<Choice> judge(std::size_t i, std::size_t j) const
+    {
+        if (cycle_[i] == cycle_[j]) return std::nullopt;
+        const Vec2 along = at(j) - at(i);
+        const double heading = std::atan2(along.y(), along.x());
+        const double part_i = whole_turn(heading - heading_[i]);
+        if (part_i < kLeastAngle || part_i > angles_[i] - kLeastAngle) return std::nullopt;
+        const double part_j = whole_turn(heading + std::numbers::pi - heading_[j]);
+        if (part_j < kLeastAngle || part_j > angles_[j] - kLeastAngle) return std::nullopt;
+        const double length = along.norm();
+        // Edges go as the mean of one over the size.
+        const double wanted = length * (pace_[i] + 1 / draft_.size((at(i) + at(j)) / 2) + pace_[j]) / 3;
+        const std::size_t between = j - i, rest = n_ - between;
+        auto edges = static_cast<std::size_t>(std::max(1L, std::lround(wanted)));
+        edges = std::min(edges, n_);
+        if ((edges + between) % 2 != 0) {
+            // The nearer of the two numbers of the right parity.
+            edges += static_cast<double>(edges) > wanted && edges > 1 ? std::size_t(-1) : 1;
+        }
+        while (edges > 1 && edges >= std::min(between, rest)) edges -= 2;
+        if (edges == 0 || edges >= n_ || edges >= std::min(between, rest) || edges + between < 4 ||
+            edges + rest < 4)
+            return std::nullopt;
+        if (edges == 1 && draft_.linked(cycle_[i], cycle_[j])) return std::nullopt;
+        const double arc = arc_[j] - arc_[i];
+        Choice choice{{i, j, edges}, 0};
+        const Taste& taste = draft_.taste;
+        choice.cost = end_cost(angles_[i], part_i, taste) * ease(i) +
+                      end_cost(angles_[j], part_j, taste) * ease(j) +
+                      taste.length * length / std::min(arc, arc_[n_] - arc);
+        const double ratio = std::abs(std::log2(static_cast<double>(edges) / wanted));
+        choice.cost += ratio * ratio / 2 + taste.mismatch * mismatch(choice.cut, part_i, part_j);
+        for (const std::size_t end : {i, j}) choice.cost -= angles_[end] > kBentAbove ? taste.bent : 0.0;
+        return choice;
+    }
+
+    /// A turn of -2π to 4π as one of 0 to 2π.
+    static double whole_turn(double angle)
+    {
+        constexpr double kTurn = 2 * std::numbers::pi;
+        if (angle < 0) return angle + kTurn;
+        return angle < kTurn ? angle : angle - kTurn;
+    }
+
+    /// Inner nodes move, so that angles at them matter less.
+    [[nodiscard]] double ease(std::size_t i) const { return draft_.is_fixed(cycle_[i]) ? 1 : 0.6; }
+
+    /// How badly the sides of both parts would agree.
+    [[nodiscard]] double mismatch(const Cut& cut, double part_i, double part_j) const
+    {
+        return part_mismatch(cut.from, cut.to, cut.edges, part_i, angles_[cut.to] - part_j) +
+               part_mismatch(cut.to, cut.from, cut.edges, part_j, angles_[cut.from] - part_i);
+    }
+
+    /// The part along the outline from one end of the line to the other.
+    [[nodiscard]] double part_mismatch(std::size_t from, std::size_t to, std::size_t edges, double angle_from,
+                                       double angle_to) const
+    {
+        const std::size_t span = (to + n_ - from) % n_, whole = span + edges;
+        std::array<std::size_t, 5> corner{};
+        std::size_t count = 0;
+        const auto add = [&](std::size_t place) {
+            if (count < corner.size()) corner[count] = place;
+            ++count;
+        };
+        if (angle_from < kCornerBelow) add(0);
+        auto next = std::upper_bound(corners_.begin(), corners_.end(), from);
+        for (std::size_t k = 0; k < corners_.size() && count <= corner.size(); ++k, ++next) {
+            if (next == corners_.end()) next = corners_.begin();
+            const std::size_t place = (*next + n_ - from) % n_;
+            if (place == 0 || place >= span) break;
+            add(place);
+        }
+        if (angle_to < kCornerBelow) add(span);
+        if (count < 3 || count > 5) return 0.3;
+        std::array<std::size_t, 5> side{};
+        for (std::size_t k = 0; k < count; ++k)
+            side[k] = (k + 1 < count ? corner[k + 1] : corner[0] + whole) - corner[k];
+        if (count == 4) {
+            const auto gap = [&](std::size_t a, std::size_t b) {
+                return static_cast<double>(std::max(side[a], side[b]) - std::min(side[a], side[b]));
+            };
+            const double off = gap(0, 2) + gap(1, 3);
+            return off == 0 ? 0 : 0.1 + std::min(0.4, off / 20);
+        }
+        return can_fill(std::span(side).first(count)) ? 0.1 : 0.4;
+    }
+
+    /// Try the places next to the ends.
+    [[nodiscard]] Choice refine(Choice best, double away) const
+    {
+        for (std::size_t step = stride_; step > 0; step /= 2) {
+            const Choice start = best;
+            for (const long di : {-1L, 0L, 1L}) {
+                for (const long dj : {-1L, 0L, 1L}) {
+                    const auto shifted = [&](std::size_t place, long by) {
+                        return (place + n_ + static_cast<std::size_t>(by) * step) % n_;
+                    };
+                    std::size_t i = shifted(start.cut.from, di), j = shifted(start.cut.to, dj);
+                    if (i > j) std::swap(i, j);
+                    if (i == j) continue;
+                    const auto choice = judge(i, j);
+                    if (choice && choice->cost < best.cost && is_free(*choice, away)) best = *choice;
+                }
+            }
+        }
+        // Counts agree at single places: every one near either end is looked at.
+        const Choice start = best;
+        for (std::size_t k = 0; k <= 2 * stride_; ++k) {
+            for (const bool first : {true, false}) {
+                const std::size_t place = ((first ? start.cut.from : start.cut.to) + n_ + k - stride_) % n_;
+                std::size_t i = place, j = first ? start.cut.to : start.cut.from;
+                if (i == j) continue;
+                if (i > j) std::swap(i, j);
+                const auto choice = judge(i, j);
+                if (choice && choice->cost < best.cost && is_free(*choice, away)) best = *choice;
+            }
+        }
+        return best;
+    }
+
+    const Draft& draft_;
+    const Cycle& cycle_;
+    const std::vector<double>& angles_;
+    std::size_t n_;
+    std::vector<double> arc_;     ///< along the loop, up to each node
+    std::vector<double> heading_; ///< of the side that leaves each node [radians]
+    std::vector<double> pace_;    ///< one over the size at each node
+    std::vector<std::size_t> corners_;
+    std::size_t stride_ = 1;
+};
+
+/// Every how many places of a loop a bridge is tried from.
+std::size_t stride_of(std::size_t n)
+{
+    constexpr std::size_t kMost = 48;
+    return std::max<std::size_t>(1, n / kMost);
+}
+
+std::vector<std::size_t> spread(std::size_t n)
+{
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < n; i += stride_of(n)) places.push_back(i);
+    return places;
+}
+
+} // namespace
+
+std::optional<Cut> best_cut(const Draft& draft, const Cycle& cycle, const std::vector<double>& angles)
+{
+    return CutFinder(draft, cycle, angles).find();
+}
+
+std::optional<Bridge> best_bridge(const Draft& draft, const std::vector<Cycle>& loops, std::size_t a,
+                                  std::size_t b)
+{
+    const Cycle &one = loops[a], &two = loops[b];
+    const auto judge = [&](std::size_t i, std::size_t j) -> std::optional<Bridge> {
+        const Vec2 &p = draft.at(one[i]), &q = draft.at(two[j]);
+        const double angle_i = inner_angle(draft, one, i);
+        const double part_i = turn_between(draft.at(one[(i + 1) % one.size()]) - p, q - p);
+        if (part_i >= angle_i) return std::nullopt;
+        const double angle_j = inner_angle(draft, two, j);
+        const double part_j = turn_between(draft.at(two[(j + 1) % two.size()]) - q, p - q);
+        if (part_j >= angle_j) return std::nullopt;
+        const double length = (q - p).norm();
+        Bridge bridge{a, b, {i, j, 1}, 0};
+        bridge.cost = length * (1 + 0.3 * (end_cost(angle_i, part_i, draft.taste) +
+                                           end_cost(angle_j, part_j, draft.taste)));
+        const double wanted = length / local_size(draft, p, q);
+        bridge.cut.edges = static_cast<std::size_t>(std::max(1L, std::lround(wanted)));
+        return bridge;
+    };
+    const auto is_free = [&](const Bridge& bridge) {
+        const Index p = one[bridge.cut.from], q = two[bridge.cut.to];
+        return p != q && std::all_of(loops.begin(), loops.end(),
+                                     [&](const Cycle& loop) { return is_clear(draft, loop, p, q); });
+    };
+    std::vector<Bridge> choices;
+    for (const std::size_t i : spread(one.size())) {
+        for (const std::size_t j : spread(two.size())) {
+            if (const auto bridge = judge(i, j)) choices.push_back(*bridge);
+        }
+    }
+    std::sort(choices.begin(), choices.end(), [](const Bridge& x, const Bridge& y) {
+        return std::tie(x.cost, x.cut.from, x.cut.to) < std::tie(y.cost, y.cut.from, y.cut.to);
+    });
+    const auto found = std::find_if(choices.begin(), choices.end(), is_free);
+    if (found == choices.end()) return std::nullopt;
+    // The places between those tried.
+    const std::size_t n = one.size(), m = two.size(), reach_n = stride_of(n), reach_m = stride_of(m);
+    Bridge best = *found;
+    for (std::size_t di = 0; di <= 2 * reach_n; ++di) {
+        for (std::size_t dj = 0; dj <= 2 * reach_m; ++dj) {
+            const auto bridge = judge((found->cut.from + n + di - reach_n) % n,
+                                      (found->cut.to + m + dj - reach_m) % m);
+            if (bridge && bridge->cost < best.cost && is_free(*bridge)) best = *bridge;
+        }
+    }
+    return best;
+}
+
+Bridge blind_bridge(const Draft& draft, const std::vector<Cycle>& loops)
+{
+    Bridge best;
+    best.cost = std::numeric_limits<double>::infinity();
+    for (std::size_t b = 1; b < loops.size(); ++b) {
+        for (const std::size_t i : spread(loops[0].size())) {
+            for (const std::size_t j : spread(loops[b].size())) {
+                const Vec2 &p = draft.at(loops[0][i]), &q = draft.at(loops[b][j]);
+                const double length = (q - p).norm();
+                if (length >= best.cost) continue;
+                const double edges = length / local_size(draft, p, q);
+                best = {0, b, {i, j, static_cast<std::size_t>(std::max(2L, std::lround(edges)))}, length};
+            }
+        }
+    }
+    return best;
+}
+
+Cut blind_cut(const Draft& draft, const Cycle& cycle)
+{
+    // A quad's worth is cut off where it is best shaped.
+    const std::size_t n = cycle.size();
+    Cut best;
+    double best_quality = -3;
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t j = (i + 3) % n;
+        const double quality = least_sine(draft,
+                                          {cycle[i], cycle[(i + 1) % n], cycle[(i + 2) % n], cycle[j]});
+        if (quality <= best_quality || cycle[i] == cycle[j] || draft.linked(cycle[i], cycle[j])) continue;
+        best_quality = quality;
+        best = {std::min(i, j), std::max(i, j), 1};
+    }
+    return best;
+}
+
+Cycle nodes_along(Draft& draft, Index from, Index to, std::size_t edges)
+{
+    // By even steps of ∫ ds / size, sampled.
+    const Vec2 a = draft.at(from), b = draft.at(to);
+    const std::size_t samples = std::max<std::size_t>(2 * edges, 16);
+    std::vector<double> sum(samples + 1, 0);
+    for (std::size_t k = 0; k < samples; ++k) {
+        const double f = (static_cast<double>(k) + 0.5) / static_cast<double>(samples);
+        sum[k + 1] = sum[k] + 1 / draft.size((1 - f) * a + f * b);
+    }
+    Cycle line{from};
+    std::size_t k = 0;
+    for (std::size_t i = 1; i < edges; ++i) {
+        const double goal = sum.back() * static_cast<double>(i) / static_cast<double>(edges);
+        while (sum[k + 1] < goal) ++k;
+        const double f = (static_cast<double>(k) + (goal - sum[k]) / (sum[k + 1] - sum[k])) /
+                         static_cast<double>(samples);
+        line.push_back(draft.add((1 - f) * a + f * b));
+    }
+    line.push_back(to);
+    return line;
+}
+
+std::pair<Cycle, Cycle> divide(const Cycle& cycle, const Cut& cut, const Cycle& line)
+{
+    const auto at = [&](std::size_t i) { return cycle.begin() + static_cast<std::ptrdiff_t>(i); };
+    Cycle one(at(cut.from), at(cut.to) + 1);
+    one.insert(one.end(), line.rbegin() + 1, line.rend() - 1);
+    Cycle two(at(cut.to), cycle.end());
+    two.insert(two.end(), cycle.begin(), at(cut.from) + 1);
+    two.insert(two.end(), line.begin() + 1, line.end() - 1);
+    return {std::move(one), std::move(two)};
+}
+
+Cycle join(const Cycle& a, const Cycle& b, const Cut& cut, const Cycle& line)
+{
+    Cycle whole;
+    whole.reserve(a.size() + b.size() + 2 * line.size());
+    for (std::size_t k = 0; k <= a.size(); ++k) whole.push_back(a[(cut.from + k) % a.size()]);
+    whole.insert(whole.end(), line.begin() + 1, line.end() - 1);
+    for (std::size_t k = 0; k <= b.size(); ++k) whole.push_back(b[(cut.to + k) % b.size()]);
+    whole.insert(whole.end(), line.rbegin() + 1, line.rend() - 1);
+    return whole;
+}
+
+} // namespace lacuna::quads::paving

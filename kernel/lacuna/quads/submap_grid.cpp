@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/submap_grid.h>
+
+#include <lacuna/quads/detail/pave_draft.h>
+#include <lacuna/quads/submap.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lacuna::quads {
+namespace {
+
+using paving::cross;
+using paving::turn_between;
+
+constexpr std::array<Spot, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+
+Spot rotated(Spot spot, int quarters)
+{
+    for (; quarters > 0; --quarters) spot = {-spot[1], spot[0]};
+    return spot;
+}
+
+double angle_at(const std::vector<Vec2>& points, const std::vector<Index>& loop, std::size_t i)
+{
+    const std::size_t n = loop.size();
+    const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(loop[k % n])]; };
+    return turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i));
+}
+
+} // namespace
+
+bool is_round(const std::vector<Vec2>& points, const std::vector<Index>& loop)
+{
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        if (grid_quads(angle_at(points, loop, i)) != 2) return false;
+    }
+    return true;
+}
+
+std::optional<GridLoop> walk(const std::vector<Vec2>& points, const std::vector<Index>& loop, int turns)
+{
+    GridLoop grid{loop, {}};
+    const std::size_t n = loop.size();
+    Spot spot{0, 0};
+    int heading = 0, sum = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const int quads = grid_quads(angle_at(points, loop, i));
+        if (quads == 0) return std::nullopt;
+        sum += 2 - quads;
+        // The first side's heading is what the axes are named after.
+        if (i > 0) heading = (heading + 2 - quads + 8) % 4;
+        grid.spots.push_back(spot);
+        const Spot& step = kSteps[static_cast<std::size_t>(heading)];
+        spot = {spot[0] + step[0], spot[1] + step[1]};
+    }
+    if (sum != turns || spot != Spot{0, 0}) return std::nullopt;
+    return grid;
+}
+
+Vec2 carried_inward(const std::vector<Vec2>& points, const GridLoop& outer, const Vec2& p)
+{
+    const std::size_t n = outer.nodes.size();
+    const auto to = [&](std::size_t i) -> Vec2 {
+        return points[static_cast<std::size_t>(outer.nodes[i % n])] - p;
+    };
+    const auto half_tangent = [](const Vec2& a, const Vec2& b) {
+        return std::tan(std::atan2(cross(a, b), a.dot(b)) / 2);
+    };
+    Vec2 sum = Vec2::Zero();
+    double weights = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double weight = (half_tangent(to(i + n - 1), to(i)) + half_tangent(to(i), to(i + 1))) /
+                              to(i).norm();
+        sum += weight * Vec2(outer.spots[i][0], outer.spots[i][1]);
+        weights += weight;
+    }
+    return sum / weights;
+}
+
+double settle(const std::vector<Vec2>& goal, GridLoop& hole)
+{
+    Vec2 middle = Vec2::Zero();
+    for (const Vec2& p : goal) middle += p / static_cast<double>(goal.size());
+    double best_error = std::numeric_limits<double>::infinity();
+    std::vector<Spot> best;
+    for (int quarter = 0; quarter < 4; ++quarter) {
+        std::vector<Spot> spots;
+        Vec2 mean = Vec2::Zero();
+        for (const Spot& spot : hole.spots) {
+            spots.push_back(rotated(spot, quarter));
+            mean += Vec2(spots.back()[0], spots.back()[1]) / static_cast<double>(hole.spots.size());
+        }
+        const Vec2 move = middle - mean;
+        const Spot by{static_cast<int>(std::lround(move.x())), static_cast<int>(std::lround(move.y()))};
+        double error = 0;
+        for (std::size_t i = 0; i < spots.size(); ++i) {
+            spots[i] = {spots[i][0] + by[0], spots[i][1] + by[1]};
+            error += (Vec2(spots[i][0], spots[i][1]) - goal[i]).squaredNorm();
+        }
+        if (error >= best_error) continue;
+        best_error = error;
+        best = std::move(spots);
+    }
+    hole.spots = std::move(best);
+    return best_error;
+}
+
+GridLoop with_corners(const std::vector<Index>& loop, std::size_t start, bool outer)
+{
+    const std::size_t n = loop.size(), half = n / 2, quarter = half / 2;
+    GridLoop grid{loop, std::vector<Spot>(n)};
+    Spot spot{0, 0};
+    std::size_t heading = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+        if (k > 0 && (k % half == 0 || k % half == quarter)) heading = (heading + (outer ? 1 : 3)) % 4;
+        grid.spots[(start + k) % n] = spot;
+        spot = {spot[0] + kSteps[heading][0], spot[1] + kSteps[heading][1]};
+    }
+    return grid;
+}
+
+Grid::Grid(const std::vector<GridLoop>& loops)
+{
+    low_ = loops.front().spots.front();
+    Spot high = low_;
+    for (const GridLoop& loop : loops) {
+        for (const Spot& s : loop.spots) {
+            for (std::size_t k = 0; k < 2; ++k) {
+                low_[k] = std::min(low_[k], s[k]);
+                high[k] = std::max(high[k], s[k]);
+            }
+        }
+    }
+    width_ = high[0] - low_[0] + 1;
+    height_ = high[1] - low_[1] + 1;
+}
+
+bool Grid::enclose(const std::vector<GridLoop>& loops)
+{
+    node_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), -1);
+    // How often each cell is gone round: summed along its row over the sides that run up or down.
+    std::vector<int> change(node_.size(), 0);
+    for (const GridLoop& loop : loops) {
+        for (std::size_t i = 0, n = loop.spots.size(); i < n; ++i) {
+            const Spot &a = loop.spots[i], &b = loop.spots[(i + 1) % n];
+            Index& here = node_[place(a)];
+            if (here >= 0) return false;
+            here = loop.nodes[i];
+            // The region lies left of a side: leaving it to the right of one that runs up.
+            if (b[1] > a[1]) --change[place(a)];
+            if (b[1] < a[1]) ++change[place(b)];
+        }
+    }
+    in_.assign(node_.size(), 0);
+    for (int y = 0; y < height_; ++y) {
+        int around = 0;
+        for (int x = 0; x < width_; ++x) {
+            const std::size_t c = index(x, y);
+            around += change[c];
+            if (around != 0 && around != 1) return false;
+            in_[c] = static_cast<char>(around);
+        }
+    }
+    return true;
+}
+
+Index Grid::number_inner(Index first)
+{
+    const Index start = first;
+    for (int y = 0; y + 1 < height_; ++y) {
+        for (int x = 0; x + 1 < width_; ++x) {
+            if (!in_[index(x, y)]) continue;
+            for (const std::size_t c : {index(x, y), index(x + 1, y), index(x + 1, y + 1), index(x, y + 1)})
+                if (node_[c] < 0) node_[c] = first++;
+        }
+    }
+    return first - start;
+}
+
+std::vector<Quad> Grid::quads() const
+{
+    std::vector<Quad> result;
+    for (int y = 0; y + 1 < height_; ++y) {
+        for (int x = 0; x + 1 < width_; ++x) {
+            if (in_[index(x, y)])
+                result.push_back({node_[index(x, y)], node_[index(x + 1, y)], node_[index(x + 1, y + 1)],
+                                  node_[index(x, y + 1)]});
+        }
+    }
+    return result;
+}
+
+void Grid::place_inner(std::vector<Vec2>& points, Index fixed) const
+{
+    std::vector<double> weight(points.size(), 0);
+    std::vector<Vec2> sum(points.size(), Vec2::Zero());
+    const auto along = [&](int lines, int length, const auto& at) {
+        for (int l = 0; l < lines; ++l) {
+            for (int a = 0; a < length; ++a) {
+                if (at(l, a) < 0 || at(l, a) >= fixed) continue;
+                int b = a + 1;
+                while (b < length && at(l, b) >= fixed) ++b;
+                if (b == length || at(l, b) < 0) continue;
+                const Vec2 &from = points[static_cast<std::size_t>(at(l, a))],
+                           &to = points[static_cast<std::size_t>(at(l, b))];
+                for (int k = a + 1; k < b; ++k) {
+                    const double t = static_cast<double>(k - a) / (b - a), w = 1.0 / ((b - a) * (b - a));
+                    const auto p = static_cast<std::size_t>(at(l, k));
+                    sum[p] += w * ((1 - t) * from + t * to);
+                    weight[p] += w;
+                }
+            }
+        }
+    };
+    along(height_, width_, [&](int y, int x) { return node_[index(x, y)]; });
+    along(width_, height_, [&](int x, int y) { return node_[index(x, y)]; });
+    for (auto p = static_cast<std::size_t>(fixed); p < points.size(); ++p) {
+        if (weight[p] > 0) points[p] = sum[p] / weight[p];
+    }
+}
+
+} // namespace lacuna::quads

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/quality/detail/cell_batch.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <span>
+
+/// Cells of either kind of mesh as columns, so that a level of nodes is fetched once for the cells below and above
+/// it. Internal to this folder. Cell (column, layer) has the number layer · columns + column.
+namespace lacuna::quality {
+
+using LevelCorners = std::array<const Vec3*, 4>;
+
+/// Cells of a swept mesh: columns of cells on the source quads.
+struct SweptCells {
+    const mesh::HexMesh& mesh;
+
+    [[nodiscard]] std::size_t columns() const { return mesh.quads.size(); }
+    [[nodiscard]] std::size_t layers() const { return static_cast<std::size_t>(mesh.layers); }
+    /// Corners 0..3 of the cell on `layer`, which are 4..7 of the one below.
+    [[nodiscard]] LevelCorners corners(std::size_t column, std::size_t layer) const
+    {
+        const Quad& q = mesh.quads[column];
+        const Vec3* level = mesh.nodes.data() + layer * static_cast<std::size_t>(mesh.nodes_per_layer);
+        return {level + q[0], level + q[1], level + q[2], level + q[3]};
+    }
+};
+
+/// Cells of a list: columns of one.
+struct ListedCells {
+    std::span<const Vec3> nodes;
+    std::span<const Hex> hexes;
+
+    [[nodiscard]] std::size_t columns() const { return hexes.size(); }
+    [[nodiscard]] std::size_t layers() const { return 1; }
+    [[nodiscard]] LevelCorners corners(std::size_t column, std::size_t layer) const
+    {
+        const Index* corner = hexes[column].data() + 4 * layer;
+        const Vec3* first = nodes.data();
+        return {first + corner[0], first + corner[1], first + corner[2], first + corner[3]};
+    }
+};
+
+/// Cells of one partial result, about. Partial results are added up in order, so that sums do not depend on
+/// which thread did what.
+inline constexpr std::size_t kChunk = 4096;
+
+/// Columns of a partial result, a whole number of batches of `lanes`.
+template <class Cells>
+std::size_t chunk_width(const Cells& cells, std::size_t lanes)
+{
+    return lanes * std::max<std::size_t>(1, kChunk / lanes / std::max<std::size_t>(1, cells.layers()));
+}
+
+/// Corners of a level of up to a batch of columns, into `corner[0..3]`; idle lanes repeat the last column.
+template <int N, class Cells>
+void load_level(const Cells& cells, std::size_t first, int filled, std::size_t layer, double (*corner)[3][N])
+{
+    for (int lane = 0; lane < N; ++lane) {
+        const LevelCorners corners = cells.corners(
+            first + static_cast<std::size_t>(std::min(lane, filled - 1)), layer);
+        for (std::size_t c = 0; c < 4; ++c)
+            for (int d = 0; d < 3; ++d) corner[c][d][lane] = (*corners[c])[d];
+    }
+}
+
+/// Call `body(batch, first cell, filled lanes)` for the columns [begin, end) from the source up: the upper corners
+/// of a cell are the lower ones of the next.
+template <int N, class Cells, class Body>
+void for_each_batch(const Cells& cells, std::size_t begin, std::size_t end, const Body& body)
+{
+    CellBatch<N> batch;
+    for (std::size_t first = begin; first < end; first += N) {
+        const int filled = static_cast<int>(std::min<std::size_t>(N, end - first));
+        load_level<N>(cells, first, filled, 0, batch.corner);
+        for (std::size_t layer = 0; layer < cells.layers(); ++layer) {
+            if (layer > 0) std::memcpy(batch.corner, batch.corner + 4, sizeof batch.corner / 2);
+            load_level<N>(cells, first, filled, layer + 1, batch.corner + 4);
+            body(batch, layer * cells.columns() + first, filled);
+        }
+    }
+}
+
+/// Mean of the corners of cell `cell`.
+template <class Cells>
+Vec3 centre_of(const Cells& cells, std::size_t cell)
+{
+    Vec3 centre(0, 0, 0);
+    const std::size_t layer = cell / cells.columns();
+    for (const std::size_t level : {layer, layer + 1})
+        for (const Vec3* corner : cells.corners(cell % cells.columns(), level)) centre += 0.125 * *corner;
+    return centre;
+}
+
+} // namespace lacuna::quality

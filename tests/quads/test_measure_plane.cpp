@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "plane_grids.h"
+
+#include <lacuna/quads/measure_plane.h>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+using namespace lacuna;
+using test::PlaneGrid;
+
+TEST_CASE("a grid of squares is perfect, whatever its size, place and direction")
+{
+    for (const int m : {1, 2, 5, 8}) {
+        for (const int n : {1, 3, 6}) {
+            for (const double angle : {0.0, 0.3, 2.0}) {
+                CAPTURE(m);
+                CAPTURE(n);
+                PlaneGrid grid = test::plane_grid(m, n);
+                const auto move = [&](const Vec2& p) {
+                    return Vec2(Eigen::Rotation2Dd(angle) * (7.0 * p) + Vec2(-3, 11));
+                };
+                test::map(grid, move);
+                grid.region.size = [](const Vec2&) { return 7.0; };
+                CHECK(quads::find_fault(grid.mesh, grid.region) == "");
+                const quads::PlaneQuality q = quads::measure_plane(grid.mesh, grid.region);
+                CHECK(q.quads == static_cast<std::size_t>(m * n));
+                CHECK(q.min_scaled_jacobian == doctest::Approx(1));
+                CHECK(q.mean_scaled_jacobian == doctest::Approx(1));
+                CHECK(q.interior == static_cast<std::size_t>((m - 1) * (n - 1)));
+                CHECK(q.irregular == 0);
+                CHECK(q.boundary_irregular == 0);
+                CHECK(q.rows == static_cast<std::size_t>(2 * (m + n)));
+                CHECK(q.row_share() == 1);
+                CHECK(q.edges == static_cast<std::size_t>(m * (n + 1) + n * (m + 1)));
+                CHECK(q.size_share() == 1);
+                CHECK(q.mean_edge_ratio == doctest::Approx(1));
+            }
+        }
+    }
+}
+
+TEST_CASE(
+    "the scaled Jacobian of a rhombus is the sine of its corner, and a row is good up to twenty degrees")
+{
+    for (const int degrees : {90, 80, 72, 68, 60, 45, 30}) {
+        CAPTURE(degrees);
+        const double angle = degrees * std::numbers::pi / 180;
+        PlaneGrid grid = test::plane_grid(4, 3);
+        test::map(grid, [&](const Vec2& p) {
+            return Vec2(p.x() + p.y() * std::cos(angle), p.y() * std::sin(angle));
+        });
+        const quads::PlaneQuality q = quads::measure_plane(grid.mesh, grid.region);
+        CHECK(q.min_scaled_jacobian == doctest::Approx(std::sin(angle)));
+        CHECK(q.mean_scaled_jacobian == doctest::Approx(std::sin(angle)));
+        CHECK((q.row_share() == 1) == (degrees >= 70));
+    }
+}
+
+TEST_CASE("rows and edges are judged by the size asked")
+{
+    for (const double height : {0.5, 0.65, 0.75, 1.0, 1.25, 1.35, 1.7}) {
+        CAPTURE(height);
+        PlaneGrid grid = test::plane_grid(6, 2);
+        test::map(grid, [&](const Vec2& p) { return Vec2(p.x(), height * p.y()); });
+        grid.region.size = [](const Vec2&) { return 1.0; };
+        const quads::PlaneQuality q = quads::measure_plane(grid.mesh, grid.region);
+        // The twelve long sides are judged by the height, the four short ones by the width, which is right.
+        CHECK(q.good_rows == (height > 0.7 && height < 1.3 ? 16U : 4U));
+        CHECK(q.edges_of_size == (height > 0.6 && height < 1.6 ? q.edges : 18U));
+    }
+}
+
+TEST_CASE("points with other than four quads are counted inside, and by their angle on the boundary")
+{
+    for (const int sides : {3, 5, 6, 7}) {
+        CAPTURE(sides);
+        // A grid for every corner of a polygon, round its middle.
+        PlaneGrid grid = test::plane_polygon(sides, 3);
+        CHECK(quads::find_fault(grid.mesh, grid.region) == "");
+        CHECK(quads::measure_plane(grid.mesh, grid.region).irregular == 1);
+    }
+    // A square cut out of a grid leaves corners of 270 degrees, which want three quads and have them.
+    PlaneGrid corner = test::plane_corner(4);
+    CHECK(quads::find_fault(corner.mesh, corner.region) == "");
+    CHECK(quads::measure_plane(corner.mesh, corner.region).boundary_irregular == 0);
+    // A corner of a square made as flat as a side wants two quads and has one.
+    PlaneGrid flat = test::plane_grid(3, 3);
+    test::map(flat, [](const Vec2& p) { return p.x() + p.y() > 0 ? p : Vec2(0.49, 0.49); });
+    CHECK(quads::measure_plane(flat.mesh, flat.region).boundary_irregular == 1);
+}
+
+TEST_CASE("every kind of damage is found and named")
+{
+    const PlaneGrid good = test::plane_grid(5, 4);
+    const auto fault = [&](const auto& damage) {
+        PlaneGrid grid = good;
+        damage(grid.mesh);
+        const std::string found = quads::find_fault(grid.mesh, good.region);
+        CHECK_FALSE(found.empty());
+        return found;
+    };
+    const auto inner = static_cast<Index>(good.region.points.size());
+    CHECK(fault([](auto& mesh) { mesh.points[2].x() += 1e-9; }).find("boundary points") != std::string::npos);
+    CHECK(fault([](auto& mesh) { mesh.quads.pop_back(); }).find("side") != std::string::npos);
+    CHECK(fault([](auto& mesh) { mesh.quads.push_back(mesh.quads[3]); }).find("side") != std::string::npos);
+    CHECK(fault([](auto& mesh) { std::swap(mesh.quads[6][1], mesh.quads[6][3]); }).find("side") !=
+          std::string::npos);
+    CHECK(fault([](auto& mesh) { mesh.quads[6][1] = mesh.quads[6][3]; }).find("twice") != std::string::npos);
+    CHECK(fault([](auto& mesh) { mesh.quads[6][1] = 1000; }).find("no point") != std::string::npos);
+    CHECK(fault([](auto& mesh) { mesh.quads[6][1] = -1; }).find("no point") != std::string::npos);
+    CHECK(fault([](auto& mesh) { mesh.points.emplace_back(0, 0); }).find("has no quad") != std::string::npos);
+    CHECK(fault([&](auto& mesh) {
+              mesh.points[static_cast<std::size_t>(inner)] += Vec2(1.2, 0);
+          }).find("not positive") != std::string::npos);
+    // A second sheet somewhere else, closed in itself, is no part of the mesh.
+    CHECK(fault([](auto& mesh) {
+              const auto first = static_cast<Index>(mesh.points.size());
+              for (const Vec2& p : {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)}) mesh.points.push_back(p);
+              mesh.quads.push_back({first, first + 1, first + 2, first + 3});
+              mesh.quads.push_back({first + 3, first + 2, first + 1, first});
+          }).find("comes apart") != std::string::npos);
+}
