@@ -31,8 +31,6 @@ namespace {
 constexpr double kTolerance = 1e-4;
 constexpr double pi = std::numbers::pi;
 
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
 std::vector<FaceId> all_faces(const Model& model)
 {
     std::vector<FaceId> faces;

@@ -11,8 +11,6 @@ using namespace topology;
 
 namespace {
 
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
 std::vector<FaceId> all_faces(const Model& model)
 {
     std::vector<FaceId> faces;

@@ -5,12 +5,16 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace lacuna {
 
 /// Index of a point, node or cell in an array; -1 means none.
 using Index = std::int32_t;
+
+/// An index as the standard containers count.
+constexpr std::size_t index(Index i) { return static_cast<std::size_t>(i); }
 
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;

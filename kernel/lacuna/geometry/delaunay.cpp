@@ -12,8 +12,6 @@
 namespace lacuna::geometry {
 namespace {
 
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
 /// Position along Hilbert's curve through a 2^16 × 2^16 grid.
 std::uint32_t hilbert_key(std::uint32_t x, std::uint32_t y)
 {

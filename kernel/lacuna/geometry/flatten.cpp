@@ -23,8 +23,6 @@ using flat::Positions;
 
 const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 [[noreturn]] void fail(const std::string& what)
 {
     throw InvalidInput("geometry.not_flattenable", "facets cannot be flattened: " + what);
@@ -36,9 +34,9 @@ Facets densely(std::span<const Vec3> points, std::span<const Triangle> triangles
     std::vector<Index> local(points.size(), -1);
     for (const Triangle& triangle : triangles)
         for (const Index corner : triangle) {
-            if (corner < 0 || at(corner) >= points.size())
+            if (corner < 0 || index(corner) >= points.size())
                 fail("one names point " + std::to_string(corner) + " of " + std::to_string(points.size()));
-            local[at(corner)] = 0;
+            local[index(corner)] = 0;
         }
     Facets facets;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -48,7 +46,7 @@ Facets densely(std::span<const Vec3> points, std::span<const Triangle> triangles
         facets.points.push_back(points[i]);
     }
     for (const Triangle& t : triangles)
-        facets.triangles.push_back({local[at(t[0])], local[at(t[1])], local[at(t[2])]});
+        facets.triangles.push_back({local[index(t[0])], local[index(t[1])], local[index(t[2])]});
     return facets;
 }
 
@@ -82,7 +80,8 @@ std::vector<std::vector<Index>> cycles(const std::vector<Segment>& sides)
             taken[next] = true;
             loops.back().push_back(sides[next][0]);
             const Segment from{sides[next][1], -1};
-            next = at(static_cast<Index>(std::lower_bound(sides.begin(), sides.end(), from) - sides.begin()));
+            next = index(
+                static_cast<Index>(std::lower_bound(sides.begin(), sides.end(), from) - sides.begin()));
             while (next < sides.size() && sides[next][0] == from[0] && taken[next]) ++next;
             if (next < sides.size() && sides[next][0] != from[0]) break;
         }
@@ -94,7 +93,7 @@ double loop_length(const Facets& facets, const std::vector<Index>& loop)
 {
     double sum = 0;
     for (std::size_t i = 0; i < loop.size(); ++i)
-        sum += (facets.points[at(loop[(i + 1) % loop.size()])] - facets.points[at(loop[i])]).norm();
+        sum += (facets.points[index(loop[(i + 1) % loop.size()])] - facets.points[index(loop[i])]).norm();
     return sum;
 }
 
@@ -112,7 +111,7 @@ Index count_parts(const Facets& facets)
     std::vector<Index> parent(facets.points.size());
     std::iota(parent.begin(), parent.end(), Index{0});
     const auto root = [&](Index i) {
-        while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
+        while (parent[index(i)] != i) i = parent[index(i)] = parent[index(parent[index(i)])];
         return i;
     };
     auto parts = static_cast<Index>(facets.points.size());
@@ -120,7 +119,7 @@ Index count_parts(const Facets& facets)
         for (std::size_t i = 1; i < 3; ++i) {
             const Index a = root(t[0]), b = root(t[i]);
             if (a == b) continue;
-            parent[at(b)] = a;
+            parent[index(b)] = a;
             --parts;
         }
     return parts;
@@ -130,8 +129,8 @@ void check_disc(const Facets& facets, const std::vector<Segment>& boundary, cons
                 const std::vector<Index>& used)
 {
     if (!twice.empty())
-        fail("two run along the side from point " + std::to_string(used[at(twice.front()[0])]) +
-             " to point " + std::to_string(used[at(twice.front()[1])]) +
+        fail("two run along the side from point " + std::to_string(used[index(twice.front()[0])]) +
+             " to point " + std::to_string(used[index(twice.front()[1])]) +
              " the same way; expected an oriented manifold");
     if (boundary.empty()) fail("they are closed; expected at least one boundary, so cut them open");
     const Index parts = count_parts(facets);
@@ -157,11 +156,11 @@ bool boundary_crosses(const std::vector<Segment>& boundary, const Positions& pos
     for (const Segment& side : boundary) needles.push_back({side[0], side[1], side[1]});
     const FacetTree tree(points, needles);
     return !tree.overlaps(tree, [&](Index i, Index j) {
-        const Segment& s = boundary[at(i)];
-        const Segment& t = boundary[at(j)];
+        const Segment& s = boundary[index(i)];
+        const Segment& t = boundary[index(j)];
         if (s[0] == t[0] || s[0] == t[1] || s[1] == t[0] || s[1] == t[1]) return true;
-        const Vec2 &a = positions[at(s[0])], &b = positions[at(s[1])];
-        const Vec2 &c = positions[at(t[0])], &d = positions[at(t[1])];
+        const Vec2 &a = positions[index(s[0])], &b = positions[index(s[1])];
+        const Vec2 &c = positions[index(t[0])], &d = positions[index(t[1])];
         const bool cross = orient2d(a, b, c) * orient2d(a, b, d) < 0 &&
                            orient2d(c, d, a) * orient2d(c, d, b) < 0;
         return !cross;
@@ -195,7 +194,7 @@ Plane plane_of(const Facets& facets)
     std::vector<std::vector<Vec3>> loops;
     for (const std::vector<Index>& loop : facets.loops) {
         loops.emplace_back();
-        for (const Index i : loop) loops.back().push_back(facets.points[at(i)]);
+        for (const Index i : loop) loops.back().push_back(facets.points[index(i)]);
     }
     if (loops.empty()) loops.push_back(facets.points);
     return newell_plane(loops);
@@ -301,10 +300,10 @@ PlanarLocator::PlanarLocator(std::span<const Vec2> points, std::span<const Trian
     std::vector<Eigen::AlignedBox2d> boxes(triangles.size());
     Eigen::AlignedBox2d all;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-        for (const Index p : triangles[t]) boxes[t].extend(points[at(p)]);
+        for (const Index p : triangles[t]) boxes[t].extend(points[index(p)]);
         all.extend(boxes[t]);
-        const Vec2 &o = points[at(triangles[t][0])], a = points[at(triangles[t][1])] - o,
-                   b = points[at(triangles[t][2])] - o;
+        const Vec2 &o = points[index(triangles[t][0])], a = points[index(triangles[t][1])] - o,
+                   b = points[index(triangles[t][2])] - o;
         // One of no area has infinite weights or none, and so no inside.
         const double area = a.x() * b.y() - a.y() * b.x();
         weights_.push_back({o, Vec2(b.y(), -b.x()) / area, Vec2(-a.y(), a.x()) / area});
@@ -323,27 +322,28 @@ PlanarLocator::PlanarLocator(std::span<const Vec2> points, std::span<const Trian
         };
         const Vec2 from = boxes[t].min() - low_, to = boxes[t].max() - low_;
         for (Index j = bin(from.y(), up_); j <= bin(to.y(), up_); ++j)
-            for (Index i = bin(from.x(), across_); i <= bin(to.x(), across_); ++i) visit(at(j * across_ + i));
+            for (Index i = bin(from.x(), across_); i <= bin(to.x(), across_); ++i)
+                visit(index(j * across_ + i));
     };
-    start_.assign(at(across_ * up_) + 1, 0);
+    start_.assign(index(across_ * up_) + 1, 0);
     for (std::size_t t = 0; t < boxes.size(); ++t) bins_of(t, [&](std::size_t b) { ++start_[b + 1]; });
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    listed_.resize(at(start_.back()));
+    listed_.resize(index(start_.back()));
     std::vector<Index> next(start_.begin(), start_.end() - 1);
     for (std::size_t t = 0; t < boxes.size(); ++t)
-        bins_of(t, [&](std::size_t b) { listed_[at(next[b]++)] = static_cast<Index>(t); });
+        bins_of(t, [&](std::size_t b) { listed_[index(next[b]++)] = static_cast<Index>(t); });
 }
 
 PlanarLocator::Place PlanarLocator::in_bins(const Vec2& place) const
 {
     const double x = (place.x() - low_.x()) / bin_, y = (place.y() - low_.y()) / bin_;
     if (!(x >= 0 && x < across_ && y >= 0 && y < up_)) return {};
-    const std::size_t bin = at(static_cast<Index>(y) * across_ + static_cast<Index>(x));
+    const std::size_t bin = index(static_cast<Index>(y) * across_ + static_cast<Index>(x));
     for (Index k = start_[bin]; k < start_[bin + 1]; ++k) {
-        const Weights& w = weights_[at(listed_[at(k)])];
+        const Weights& w = weights_[index(listed_[index(k)])];
         const Vec2 from = place - w.corner;
         const double first = w.first.dot(from), second = w.second.dot(from), rest = 1 - first - second;
-        if (first >= 0 && second >= 0 && rest >= 0) return {listed_[at(k)], {rest, first, second}, 0};
+        if (first >= 0 && second >= 0 && rest >= 0) return {listed_[index(k)], {rest, first, second}, 0};
     }
     return {};
 }
@@ -359,9 +359,11 @@ PlanarLocator::Place PlanarLocator::locate(const Vec2& place) const
 
 Vec3 lift(const Flattened& flat, std::span<const Vec3> points, const PlanarLocator::Place& place)
 {
-    const Triangle& triangle = flat.triangles[at(place.triangle)];
+    const Triangle& triangle = flat.triangles[index(place.triangle)];
     // From one corner out, points far from the origin lose no digits.
-    const auto corner = [&](std::size_t i) -> const Vec3& { return points[at(flat.used[at(triangle[i])])]; };
+    const auto corner = [&](std::size_t i) -> const Vec3& {
+        return points[index(flat.used[index(triangle[i])])];
+    };
     return corner(0) + place.barycentric[1] * (corner(1) - corner(0)) +
            place.barycentric[2] * (corner(2) - corner(0));
 }

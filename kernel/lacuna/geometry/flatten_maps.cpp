@@ -25,8 +25,6 @@ using Eigen::Matrix2d;
 /// Half the digits of a double: triangles thinner than this have no shape to speak of.
 const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 template <class Solver>
 void check_solved(const Solver& solver)
 {
@@ -79,8 +77,8 @@ void measure_shapes(Facets& facets)
     facets.area = 0;
     for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
         const Triangle& c = facets.triangles[t];
-        const std::array<Vec3, 3> p{facets.points[at(c[0])], facets.points[at(c[1])],
-                                    facets.points[at(c[2])]};
+        const std::array<Vec3, 3> p{facets.points[index(c[0])], facets.points[index(c[1])],
+                                    facets.points[index(c[2])]};
         Shape& shape = facets.shapes[t];
         const std::array<Vec2, 3> q = own_plane(p, extent, shape.thin);
         shape.area = signed_area(q[0], q[1], q[2]);
@@ -97,9 +95,9 @@ Matrix2d jacobian(const Facets& facets, std::size_t triangle, const Positions& p
 {
     const Triangle& c = facets.triangles[triangle];
     const Shape& shape = facets.shapes[triangle];
-    const Vec2& first = positions[at(c[0])];
-    return (positions[at(c[1])] - first) * shape.gradient[1].transpose() +
-           (positions[at(c[2])] - first) * shape.gradient[2].transpose();
+    const Vec2& first = positions[index(c[0])];
+    return (positions[index(c[1])] - first) * shape.gradient[1].transpose() +
+           (positions[index(c[2])] - first) * shape.gradient[2].transpose();
 }
 
 std::array<double, 2> stretches(const Matrix2d& j)
@@ -113,7 +111,7 @@ void scale_to_area(const Facets& facets, Positions& positions)
 {
     double area = 0;
     for (const Triangle& c : facets.triangles)
-        area += signed_area(positions[at(c[0])], positions[at(c[1])], positions[at(c[2])]);
+        area += signed_area(positions[index(c[0])], positions[index(c[1])], positions[index(c[2])]);
     if (!(area > 0)) return;
     const double scale = std::sqrt(facets.area / area);
     Vec2 mean = Vec2::Zero();
@@ -129,19 +127,20 @@ Positions conformal(const Facets& facets)
     const std::vector<Index>& rim = facets.loops.front();
     const auto farthest = [&](const Vec3& from) {
         return *std::max_element(rim.begin(), rim.end(), [&](Index a, Index b) {
-            return (facets.points[at(a)] - from).squaredNorm() < (facets.points[at(b)] - from).squaredNorm();
+            return (facets.points[index(a)] - from).squaredNorm() <
+                   (facets.points[index(b)] - from).squaredNorm();
         });
     };
-    const Index first = farthest(facets.points[at(rim.front())]);
-    const Index second = farthest(facets.points[at(first)]);
+    const Index first = farthest(facets.points[index(rim.front())]);
+    const Index second = farthest(facets.points[index(first)]);
     const auto count = static_cast<Index>(facets.points.size());
     std::vector<Complex> value(facets.points.size());
-    value[at(second)] = (facets.points[at(second)] - facets.points[at(first)]).norm();
+    value[index(second)] = (facets.points[index(second)] - facets.points[index(first)]).norm();
 
     std::vector<Index> unknown(facets.points.size(), -1);
     Index size = 0;
     for (Index i = 0; i < count; ++i)
-        if (i != first && i != second) unknown[at(i)] = size++;
+        if (i != first && i != second) unknown[index(i)] = size++;
     if (size == 0) return Positions(facets.points.size(), Vec2::Zero());
 
     // With places u and gradients g as complex numbers, the map's derivative by the conjugate variable is
@@ -155,13 +154,13 @@ Positions conformal(const Facets& facets)
         for (std::size_t i = 0; i < 3; ++i) g[i] = {shape.gradient[i].x(), shape.gradient[i].y()};
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j) {
-                const Index row = unknown[at(c[i])], column = unknown[at(c[j])];
+                const Index row = unknown[index(c[i])], column = unknown[index(c[j])];
                 if (row < 0) continue;
                 const Complex entry = shape.area * std::conj(g[i]) * g[j];
                 if (column >= 0)
                     entries.emplace_back(row, column, entry);
                 else
-                    right[row] -= entry * value[at(c[j])];
+                    right[row] -= entry * value[index(c[j])];
             }
     }
     Eigen::SparseMatrix<Complex> matrix(size, size);
@@ -229,7 +228,7 @@ Positions as_rigid_as_possible(const Facets& facets, Positions positions, int ma
         before = energy;
         const Eigen::MatrixX2d solution = solver.solve(right);
         positions[0].setZero();
-        for (Index i = 0; i < size; ++i) positions[at(i + 1)] = solution.row(i).transpose();
+        for (Index i = 0; i < size; ++i) positions[index(i + 1)] = solution.row(i).transpose();
     }
     scale_to_area(facets, positions);
     return positions;
@@ -256,8 +255,8 @@ double symmetric_dirichlet(const Facets& facets, const Positions& positions)
 double step_to_flip(const Facets& facets, const Positions& from, const Positions& step, double limit)
 {
     for (const Triangle& c : facets.triangles) {
-        const Vec2 a = from[at(c[1])] - from[at(c[0])], b = from[at(c[2])] - from[at(c[0])];
-        const Vec2 da = step[at(c[1])] - step[at(c[0])], db = step[at(c[2])] - step[at(c[0])];
+        const Vec2 a = from[index(c[1])] - from[index(c[0])], b = from[index(c[2])] - from[index(c[0])];
+        const Vec2 da = step[index(c[1])] - step[index(c[0])], db = step[index(c[2])] - step[index(c[0])];
         const auto cross = [](const Vec2& x, const Vec2& y) { return x.x() * y.y() - x.y() * y.x(); };
         // Area along the step: k0 + k1 s + k2 s², k0 > 0. Its least positive root, free of cancellation.
         const double k0 = cross(a, b), k1 = cross(a, db) + cross(da, b), k2 = cross(da, db);
@@ -290,7 +289,7 @@ public:
         const Eigen::VectorXd solution = solver_.solve(right);
         Positions result = positions;
         for (Index i = 0; i < size_ / 2; ++i)
-            result[at(i + 1)] = positions[0] + Vec2(solution[2 * i], solution[2 * i + 1]);
+            result[index(i + 1)] = positions[0] + Vec2(solution[2 * i], solution[2 * i + 1]);
         return result;
     }
 
@@ -369,7 +368,7 @@ Positions convex(const Facets& facets)
     for (std::size_t hole = 1; hole < facets.loops.size(); ++hole) {
         const std::vector<Index>& loop = facets.loops[hole];
         Vec3 mean = Vec3::Zero();
-        for (const Index i : loop) mean += points[at(i)] / static_cast<double>(loop.size());
+        for (const Index i : loop) mean += points[index(i)] / static_cast<double>(loop.size());
         const auto hub = static_cast<Index>(points.size());
         points.push_back(mean);
         for (std::size_t i = 0; i < loop.size(); ++i)
@@ -380,7 +379,7 @@ Positions convex(const Facets& facets)
     problem.triangles = triangles;
     problem.fixed = facets.loops.front();
     std::vector<Vec3> rim;
-    for (const Index i : problem.fixed) rim.push_back(points[at(i)]);
+    for (const Index i : problem.fixed) rim.push_back(points[index(i)]);
     rim.push_back(rim.front());
     const std::vector<double> lengths = arc_lengths(rim);
     const double radius = std::sqrt(facets.area / std::numbers::pi);

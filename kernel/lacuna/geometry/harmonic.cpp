@@ -22,8 +22,6 @@ const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
 
 constexpr Index kFree = -1, kUnused = -2;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// tan(angle / 2) between two sides, kept away from 0 and from infinity.
 double half_tangent(const Vec3& a, const Vec3& b)
 {
@@ -54,7 +52,7 @@ std::vector<Weight> corner_weights(const HarmonicProblem& problem)
                                                                       : problem.corner_turns[t];
         std::array<double, 3> side{}; // side i faces corner i
         std::array<Vec3, 3> p;
-        for (std::size_t i = 0; i < 3; ++i) p[i] = problem.points[at(triangle[i])];
+        for (std::size_t i = 0; i < 3; ++i) p[i] = problem.points[index(triangle[i])];
         for (std::size_t i = 0; i < 3; ++i) side[i] = (p[(i + 1) % 3] - p[(i + 2) % 3]).norm();
         const double longest = std::max({side[0], side[1], side[2]});
         for (std::size_t i = 0; i < 3; ++i) {
@@ -102,8 +100,9 @@ std::vector<Index> roles(const HarmonicProblem& problem)
 {
     std::vector<Index> role(problem.points.size(), kUnused);
     for (const Triangle& triangle : problem.triangles)
-        for (const Index corner : triangle) role[at(corner)] = kFree;
-    for (std::size_t i = 0; i < problem.fixed.size(); ++i) role[at(problem.fixed[i])] = static_cast<Index>(i);
+        for (const Index corner : triangle) role[index(corner)] = kFree;
+    for (std::size_t i = 0; i < problem.fixed.size(); ++i)
+        role[index(problem.fixed[i])] = static_cast<Index>(i);
     return role;
 }
 
@@ -113,17 +112,17 @@ void check_anchored(const HarmonicProblem& problem, std::span<const Index> role)
     std::vector<Index> parent(problem.points.size());
     std::iota(parent.begin(), parent.end(), Index{0});
     const auto root = [&](Index i) {
-        while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
+        while (parent[index(i)] != i) i = parent[index(i)] = parent[index(parent[index(i)])];
         return i;
     };
     for (const Triangle& triangle : problem.triangles) {
-        parent[at(root(triangle[1]))] = root(triangle[0]);
-        parent[at(root(triangle[2]))] = root(triangle[0]);
+        parent[index(root(triangle[1]))] = root(triangle[0]);
+        parent[index(root(triangle[2]))] = root(triangle[0]);
     }
     std::vector<bool> anchored(problem.points.size(), false);
-    for (const Index point : problem.fixed) anchored[at(root(point))] = true;
+    for (const Index point : problem.fixed) anchored[index(root(point))] = true;
     for (std::size_t i = 0; i < role.size(); ++i)
-        if (role[i] == kFree && !anchored[at(root(static_cast<Index>(i)))])
+        if (role[i] == kFree && !anchored[index(root(static_cast<Index>(i)))])
             throw BackendError("geometry.singular",
                                "harmonic values are not determined: the facets about point " +
                                    std::to_string(i) +
@@ -174,7 +173,7 @@ Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem)
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(size, columns);
     for (Index row = 0; row < size; ++row) entries.emplace_back(row, row, 1.0);
     for (const Weight& w : weights) {
-        const Index row = unknown[at(w.from)], column = unknown[at(w.to)];
+        const Index row = unknown[index(w.from)], column = unknown[index(w.to)];
         if (row < 0) continue;
         if (w.turns != 0) right.row(row) += w.value * w.turns * problem.period;
         if (column >= 0)
@@ -192,7 +191,7 @@ Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem)
                            "harmonic values cannot be solved for: " + solver.lastErrorMessage() +
                                "; look for coordinates that are not numbers");
     const Eigen::MatrixXd solution = solver.solve(right);
-    for (Index row = 0; row < size; ++row) values.row(point_of[at(row)]) = solution.row(row);
+    for (Index row = 0; row < size; ++row) values.row(point_of[index(row)]) = solution.row(row);
     return values;
 }
 

@@ -16,8 +16,6 @@
 namespace lacuna::geometry {
 namespace {
 
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
 void check_loops(std::span<const Vec3> points, std::span<const std::vector<Index>> loops)
 {
     if (loops.empty()) throw InvalidInput("geometry.no_loop", "there is no loop to span; give at least one");

@@ -12,8 +12,6 @@
 namespace lacuna::geometry {
 namespace {
 
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
 std::uint64_t pair_key(Index a, Index b)
 {
     return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(std::min(a, b))) << 32) |

@@ -15,8 +15,6 @@
 namespace lacuna::geometry {
 namespace {
 
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
 std::string loop_name(std::size_t loop, std::size_t count)
 {
     return "loop " + std::to_string(loop + 1) + " of " + std::to_string(count);

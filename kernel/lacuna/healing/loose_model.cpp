@@ -15,8 +15,6 @@ namespace lacuna::healing {
 
 namespace {
 
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
 bool repeats(std::span<const Index> corners)
 {
     for (std::size_t i = 0; i < corners.size(); ++i)

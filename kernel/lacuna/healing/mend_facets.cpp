@@ -10,8 +10,6 @@ namespace lacuna::healing {
 
 namespace {
 
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
 /// Sides used once, 3·facet + k from corner k to the next, in order.
 std::vector<Index> free_sides(std::span<const Triangle> facets, std::size_t points)
 {

@@ -13,8 +13,6 @@
 namespace lacuna::healing {
 namespace {
 
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
 template <std::size_t N>
 void check_cells(const FacetSoup& soup, const std::vector<std::array<Index, N>>& cells,
                  const std::vector<int>& labels, const char* kind)

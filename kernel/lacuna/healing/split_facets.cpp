@@ -23,8 +23,6 @@ namespace {
 // no finer than this [radians].
 constexpr double kAngleSlack = 1e-6;
 
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
 std::string place(const Vec3& p)
 {
     return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ")";

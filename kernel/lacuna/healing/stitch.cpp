@@ -23,7 +23,6 @@ namespace {
 
 /// Points on an exact curve closer than this part of a side become one: facets between them would be slivers.
 constexpr double kJoinOnCurve = 0.25;
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
 
 class Stitcher {
 public:

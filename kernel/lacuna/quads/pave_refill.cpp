@@ -15,8 +15,6 @@
 namespace lacuna::quads::paving {
 namespace {
 
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
 /// Rings of quads taken out with the folded ones: nodes next to them were put where they fold.
 constexpr int kRings = 2;
 

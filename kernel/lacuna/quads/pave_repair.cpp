@@ -104,7 +104,6 @@ public:
     }
 
 private:
-    static std::size_t index(Index p) { return static_cast<std::size_t>(p); }
     [[nodiscard]] const Vec2& at(Index p) const { return mesh_.points[index(p)]; }
     [[nodiscard]] int needed(Index p) const { return index(p) < fixed_ ? needed_[index(p)] : 3; }
     [[nodiscard]] int count(Index p) const { return static_cast<int>(quads_of_[index(p)].size()); }

@@ -50,7 +50,6 @@ public:
     }
 
 private:
-    static std::size_t index(Index p) { return static_cast<std::size_t>(p); }
     [[nodiscard]] bool is_fixed(Index p) const { return index(p) < fixed_; }
     [[nodiscard]] const Vec2& at(Index p) const { return mesh_.points[index(p)]; }
 

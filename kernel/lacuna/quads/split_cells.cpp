@@ -10,8 +10,6 @@
 namespace lacuna::quads {
 namespace {
 
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
 /// Which inner sides stay whole, so that every cell has an even number of whole sides: a join of the cells
 /// that are odd in the mesh's dual graph, near the shortest. Ways grow from all of them at once; where two
 /// meet, their groups are joined, the nearest first, and in the tree of groups every odd branch sends its

@@ -13,8 +13,6 @@ using namespace topology;
 
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 std::uint64_t key_of(Index a, Index b)
 {
     if (a > b) std::swap(a, b);
@@ -86,7 +84,7 @@ public:
         bool any = false;
         for (Side& side : sides_) {
             if (is_settled(side)) continue;
-            const Vec3 chord = (fine_.points[at(side.a)] + fine_.points[at(side.b)]) / 2;
+            const Vec3 chord = (fine_.points[index(side.a)] + fine_.points[index(side.b)]) / 2;
             side.halved = (side.middle - chord).norm() > off_ * size_(side.middle);
             any = any || side.halved;
             if (!side.halved) settled_.insert(key_of(side.a, side.b));
@@ -115,7 +113,7 @@ private:
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index a = t[k], b = t[(k + 1) % 3];
                 if (!number_.try_emplace(key_of(a, b), sides_.size()).second) continue;
-                sides_.push_back({a, b, (fine_.points[at(a)] + fine_.points[at(b)]) / 2});
+                sides_.push_back({a, b, (fine_.points[index(a)] + fine_.points[index(b)]) / 2});
                 if (!fine_.uv.empty()) sides_.back().uv = (fine_.uv[i][k] + fine_.uv[i][(k + 1) % 3]) / 2;
             }
         }
@@ -231,8 +229,8 @@ private:
                 place[3 + k] = (fine_.uv[i][k] + fine_.uv[i][(k + 1) % 3]) / 2;
             }
             const auto area = [&](const Triangle& c) -> Vec3 {
-                const Vec3& from = fine_.points[at(c[0])];
-                return (fine_.points[at(c[1])] - from).cross(fine_.points[at(c[2])] - from);
+                const Vec3& from = fine_.points[index(c[0])];
+                return (fine_.points[index(c[1])] - from).cross(fine_.points[index(c[2])] - from);
             };
             const Vec3 whole = area(t);
             for (const auto& [a, b, c] : parts({point[3] >= 0, point[4] >= 0, point[5] >= 0})) {
