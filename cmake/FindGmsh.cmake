@@ -1,5 +1,5 @@
-# Find the Gmsh SDK: Debian's libgmsh-dev, an SDK unpacked anywhere (GMSH_ROOT, as a CMake or environment variable), or
-# one that brings its own gmshConfig.cmake.
+# Find the Gmsh SDK: Debian's libgmsh-dev, an SDK unpacked anywhere (GMSH_ROOT, as a CMake or environment
+# variable), or one that brings its own gmshConfig.cmake.
 #
 #   Gmsh_FOUND, Gmsh_VERSION, Gmsh_INCLUDE_DIR, Gmsh_LIBRARY; the target Gmsh::Gmsh
 set(_gmsh_hints ${GMSH_ROOT} ${Gmsh_ROOT} $ENV{GMSH_ROOT} $ENV{Gmsh_ROOT})

@@ -7,7 +7,8 @@ find_path(LUA54_INCLUDE_DIR lua.hpp PATH_SUFFIXES lua5.4 lua54 lua-5.4)
 find_library(LUA54_LIBRARY NAMES lua5.4 lua54 lua-5.4)
 
 if(LUA54_INCLUDE_DIR)
-  file(STRINGS "${LUA54_INCLUDE_DIR}/lua.h" lua54_lines REGEX "^#define LUA_VERSION_(MAJOR|MINOR|RELEASE)[ \t]+\"")
+  file(STRINGS "${LUA54_INCLUDE_DIR}/lua.h" lua54_lines
+    REGEX "^#define LUA_VERSION_(MAJOR|MINOR|RELEASE)[ \t]+\"")
   set(LUA54_VERSION "")
   foreach(part IN ITEMS MAJOR MINOR RELEASE)
     if("${lua54_lines}" MATCHES "LUA_VERSION_${part}[ \t]+\"([0-9]+)\"")

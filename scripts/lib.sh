@@ -2,8 +2,8 @@
 # shellcheck shell=bash
 # What scripts/run and scripts/test share: packages, configuring, building. Sourced, not run.
 #
-# All of it talks on standard error, so that standard output is the recipe's (or the tests') alone, and none of it
-# asks anything: where it cannot go on it says what is missing and stops with 1.
+# All of it talks on standard error, so that standard output is the recipe's (or the tests') alone, and none
+# of it asks anything: where it cannot go on it says what is missing and stops with 1.
 
 set -euo pipefail
 
@@ -51,7 +51,8 @@ need_packages()
     mapfile -t missing < <(missing_packages "$@")
     ((${#missing[@]})) || return 0
 
-    command -v apt-get >/dev/null || die "missing: ${missing[*]}; there is no apt-get here to install them with"
+    command -v apt-get >/dev/null \
+        || die "missing: ${missing[*]}; there is no apt-get here to install them with"
     if [[ $(id -u) != 0 ]] && ! sudo -n true 2>/dev/null; then
         die "missing: ${missing[*]}; installing them takes root, or a sudo that asks for no password"
     fi
@@ -112,7 +113,8 @@ build()
     local state
     state=$(ninja -C "$lacuna_build" -n "$@" 2>&1 || true)
     if [[ $state != *"no work to do"* ]]; then
-        ninja -C "$lacuna_build" -j "$(nproc)" "$@" >&2 || die "could not be built; the compiler's words are above"
+        ninja -C "$lacuna_build" -j "$(nproc)" "$@" >&2 \
+            || die "could not be built; the compiler's words are above"
     fi
     exec {build_lock}>&-
 }

@@ -1,7 +1,9 @@
 -- SPDX-License-Identifier: MIT
--- Class II: source, target and some of the walls; a corner of the source, and one of the target, is on none of them.
+-- Class II: source, target and some of the walls; a corner of the source, and one of the target, is on none
+-- of them.
 --
--- A prism with a hole, two of its outer walls gone that were neighbours: the edge between them has to be made too.
+-- A prism with a hole, two of its outer walls gone that were neighbours: the edge between them has to be made
+-- too.
 local lacuna = require "lacuna"
 
 local params = lacuna.params {

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: MIT
 -- Class III: source, target and some of the walls, and every corner is on one of them.
 --
--- A rectangular duct round a bend. The two cylinders it runs between are given, exact, and keep their shape; the flat
--- sides are missing. Their rims are closed already, so that faces alone have to be made.
+-- A rectangular duct round a bend. The two cylinders it runs between are given, exact, and keep their shape;
+-- the flat sides are missing. Their rims are closed already, so that faces alone have to be made.
 local lacuna = require "lacuna"
 
 local params = lacuna.params {

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: MIT
 -- Class IV: a source and all its walls, and no target.
 --
--- A cup with a post in the middle, to be filled to the brim: the floor is a ring, the walls are a cone and a cylinder,
--- and the surface of the filling is made from the two circles they end in.
+-- A cup with a post in the middle, to be filled to the brim: the floor is a ring, the walls are a cone and a
+-- cylinder, and the surface of the filling is made from the two circles they end in.
 local lacuna = require "lacuna"
 
 local params = lacuna.params {

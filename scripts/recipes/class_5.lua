@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: MIT
 -- Class V: walls alone.
 --
--- The outer skin of a plate with rounded corners and two holes through it: neither of its flat sides is given. The six
--- free loops are told apart into those below and those above, and both ends are made.
+-- The outer skin of a plate with rounded corners and two holes through it: neither of its flat sides is
+-- given. The six free loops are told apart into those below and those above, and both ends are made.
 local lacuna = require "lacuna"
 
 local params = lacuna.params {

@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: MIT
--- The open volume of the paper's Figure 6: a source, a target and one wall, which one void edge and two void faces
--- close.
+-- The open volume of the paper's Figure 6: a source, a target and one wall, which one void edge and two void
+-- faces close.
 --
--- Here it is a wedge of a cylinder: its curved side is given, and the two flat ones that meet on the axis are not. The
--- corner on the axis is the wall-free vertex, the axis the void edge.
+-- Here it is a wedge of a cylinder: its curved side is given, and the two flat ones that meet on the axis are
+-- not. The corner on the axis is the wall-free vertex, the axis the void edge.
 local lacuna = require "lacuna"
 
 local params = lacuna.params {

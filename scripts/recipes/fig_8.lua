@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: MIT
 -- The void face of the paper's Figure 8: bent in space, yet it lies out in its Newell plane without folding.
 --
--- An oval cup with a post in it. Its rim is a saddle, high at the two ends and low at the two sides; the post ends flat,
--- half way up. The floor and the two walls are given; the face that closes them is triangulated in the Newell plane of
--- its two loops and lifted back (Algorithm 4).
+-- An oval cup with a post in it. Its rim is a saddle, high at the two ends and low at the two sides; the post
+-- ends flat, half way up. The floor and the two walls are given; the face that closes them is triangulated in
+-- the Newell plane of its two loops and lifted back (Algorithm 4).
 local lacuna = require "lacuna"
 
 local params = lacuna.params {

@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: MIT
 -- The open volume of the paper's Figure 9: two cylinders, one inside the other, and nothing else.
 --
--- The inner one is the source, the outer one the target, and the sweep goes outward. The walls are the rings above and
--- below; with a closed edge on each side they have no four corners to map, so they are made as strips between two loops
--- (Algorithm 5).
+-- The inner one is the source, the outer one the target, and the sweep goes outward. The walls are the rings
+-- above and below; with a closed edge on each side they have no four corners to map, so they are made as
+-- strips between two loops (Algorithm 5).
 local lacuna = require "lacuna"
 
 local params = lacuna.params {

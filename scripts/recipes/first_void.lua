@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: MIT
 -- The void between a box and what is packed in it.
 --
--- Two products, a tapered bottle and a can, stand in a box. Known are the floor and the lid of the space between (both
--- with the holes the products leave), the skins of the products and two of the box's four sides. The other two sides
--- were never modelled: no CAD program would call this a body. Lacuna adds what is missing, one edge and two
--- faces, and fills the space with hexahedra.
+-- Two products, a tapered bottle and a can, stand in a box. Known are the floor and the lid of the space
+-- between (both with the holes the products leave), the skins of the products and two of the box's four
+-- sides. The other two sides were never modelled: no CAD program would call this a body. Lacuna adds what is
+-- missing, one edge and two faces, and fills the space with hexahedra.
 --
 --   scripts/run scripts/recipes/first_void.lua layers=16 size=4 output=foam.msh
 local lacuna = require "lacuna"
@@ -44,7 +44,8 @@ print("class", void.class)
 assert(void.class == "II", "two neighbouring sides are missing, so one corner of the floor is on no wall")
 
 local closure = void:close()
-print("added", closure.void_edges .. " edge, " .. closure.void_faces .. " faces", table.concat(closure.algorithms, ", "))
+print("added", closure.void_edges .. " edge, " .. closure.void_faces .. " faces",
+      table.concat(closure.algorithms, ", "))
 assert(closure.void_edges == 1 and closure.void_faces == 2 and closure.watertight)
 
 local mesh = void:sweep { layers = params.layers, size = params.size }
