@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# run_documents.sh PROGRAM FOLDER DOCUMENT ...: runs every block marked `lua` of the documents, each in a folder
-# of its own below FOLDER. It must end well and write one mesh, and every cell of that must be valid.
+# run_documents.sh PROGRAM FOLDER DOCUMENT ...: runs every block marked `lua` of the documents, each in a
+# folder of its own below FOLDER. It must end well and write one mesh, and every cell of that must be valid.
 set -euo pipefail
 program=$1 folder=$2
 shift 2
