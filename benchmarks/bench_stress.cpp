@@ -2,8 +2,9 @@
 //
 // bench_stress [--members N] [--seed S] [--only NUMBER] [--list] [--json FILE]
 //
-// The stress family, method by method: the affine fit alone, with the rim's residual spread, with cells untangled and improved (what a
-// sweep does), and the paper's advance along normals. Prints a table; --list adds a line a member and method, --only one member's report.
+// The stress family, method by method: the affine fit alone, with the rim's residual spread, with cells
+// untangled and improved (what a sweep does), and the paper's advance along normals. Prints a table; --list
+// adds a line a member and method, --only one member's report.
 #include "support/stress.h"
 
 #include <lacuna/core/error.h>

@@ -1,5 +1,5 @@
--- A unit cube from its bottom and top alone: quads × quads × layers hexahedra, its four walls found by Lacuna.
--- usage: lacuna block.lua [quads=200] [layers=25] [output=block.msh]
+-- A unit cube from its bottom and top alone: quads × quads × layers hexahedra, its four walls found by
+-- Lacuna. usage: lacuna block.lua [quads=200] [layers=25] [output=block.msh]
 local lacuna = require "lacuna"
 
 local params = lacuna.params { quads = 200, layers = 25, output = "block.msh" }

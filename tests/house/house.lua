@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: MIT
--- Proves the plan of the house: which folder of the kernel may include which, that internal headers stay inside their
--- folder, that headers include each other in no circle, who may name Gmsh and Lua, and what the kernel never does
--- (print, end the process).
+-- Proves the plan of the house: which folder of the kernel may include which, that internal headers stay
+-- inside their folder, that headers include each other in no circle, who may name Gmsh and Lua, and what the
+-- kernel never does (print, end the process).
 --
 --   lua5.4 house.lua SOURCE_DIR
 --
@@ -64,7 +64,8 @@ local function code_of(text)
   return table.concat(out)
 end
 
-local forbidden = { "cout", "cerr", "clog", "printf", "fprintf", "vprintf", "puts", "fputs", "putchar", "perror",
+local forbidden = { "cout", "cerr", "clog", "printf", "fprintf", "vprintf", "puts", "fputs", "putchar",
+                    "perror",
                     "abort", "exit", "_Exit", "quick_exit", "terminate" }
 
 -- What is wrong with one file of the kernel, as sentences.
@@ -76,9 +77,13 @@ local function faults(folder, path, text)
   if not text:match("^// SPDX%-License%-Identifier: " .. licence:gsub("[%.%-]", "%%%0") .. "\n") then
     fault(1, "the first line does not name the licence " .. licence)
   end
-  if path:match("%.h$") and not text:match("\n#pragma once\n") then fault(1, "a header without #pragma once") end
+  if path:match("%.h$") and not text:match("\n#pragma once\n") then
+    fault(1, "a header without #pragma once")
+  end
 
-  if path:match("/detail/") and not path:match("%.h$") then fault(1, "detail/ holds internal headers alone") end
+  if path:match("/detail/") and not path:match("%.h$") then
+    fault(1, "detail/ holds internal headers alone")
+  end
 
   local allowed = reachable(folder)
   local number = 0
@@ -99,11 +104,15 @@ local function faults(folder, path, text)
         fault(number, ("includes \"%s\": say <lacuna/folder/file.h>"):format(include))
       end
       local base = include:match("[^/]+$")
-      if base:match("^gmsh[%w_]*%.h") and folder ~= "cad" then fault(number, "only cad/ may include " .. include) end
+      if base:match("^gmsh[%w_]*%.h") and folder ~= "cad" then
+        fault(number, "only cad/ may include " .. include)
+      end
       if base:match("^lua.*%.hp*$") or base:match("^lauxlib%.h") or base == "lualib.h" then
         fault(number, "only lua/ may include " .. include)
       end
-      if base == "iostream" and folder ~= "cad" then fault(number, "the kernel does not print: no <iostream>") end
+      if base == "iostream" and folder ~= "cad" then
+        fault(number, "the kernel does not print: no <iostream>")
+      end
     end
   end
 
@@ -114,7 +123,9 @@ local function faults(folder, path, text)
     if folder == "cad" then line = line:gsub("cout%.rdbuf%f[^%w_]", "") end
     for before, word in line:gmatch("(.?)%f[%w_]([%a_][%w_]*)") do
       for _, bad in ipairs(forbidden) do
-        if word == bad and before ~= "." then fault(number, "the kernel does not print or end the process: " .. word) end
+        if word == bad and before ~= "." then
+          fault(number, "the kernel does not print or end the process: " .. word)
+        end
       end
     end
   end
@@ -141,10 +152,12 @@ local samples = {
   { "sweep", mit .. "#include <lacuna/core/types.h>\n#include <lacuna/closure/close.h>\n" },
   { "sweep", mit .. "#include <lacuna/surface/detail/wall_map.h>\n", "internal to surface" },
   { "surface", mit .. "#include <lacuna/surface/detail/wall_map.h>\n" },
-  { "surface", mit .. "#pragma once\n#include <lacuna/surface/detail/wall_map.h>\n", "not installed", "surface/walls.h" },
+  { "surface", mit .. "#pragma once\n#include <lacuna/surface/detail/wall_map.h>\n", "not installed",
+      "surface/walls.h" },
   { "surface", mit .. "int f() { return 1; }\n", "internal headers alone", "surface/detail/wall_map.cpp" },
   { "cad", gpl .. "#include <gmsh.h>\n#include <lacuna/topology/model.h>\n" },
-  { "core", mit .. '// exit, printf and abort in prose\nauto s = "printf \\" exit";\nstd::snprintf(b, 1, "abort");\n' },
+  { "core", mit .. '// exit, printf and abort in prose\nauto s = "printf \\" exit";\n'
+      .. 'std::snprintf(b, 1, "abort");\n' },
 }
 local wrong = 0
 for number, sample in ipairs(samples) do
@@ -183,9 +196,11 @@ end
 local includes = {}
 local root = assert(arg[1], "usage: house.lua SOURCE_DIR")
 local files = 0
-local list = assert(io.popen(("find '%s/kernel/lacuna' -name '*.h' -o -name '*.cpp' | LC_ALL=C sort"):format(root)))
+local list = assert(io.popen(
+    ("find '%s/kernel/lacuna' -name '*.h' -o -name '*.cpp' | LC_ALL=C sort"):format(root)))
 for path in list:lines() do
-  local folder = path:match("/kernel/lacuna/([^/]+)/[^/]+$") or path:match("/kernel/lacuna/([^/]+)/detail/[^/]+$")
+  local folder = path:match("/kernel/lacuna/([^/]+)/[^/]+$")
+      or path:match("/kernel/lacuna/([^/]+)/detail/[^/]+$")
   if not folder or not plan[folder] then
     wrong = wrong + 1
     print(path .. ": the plan has no folder for it")

@@ -20,7 +20,8 @@ Vec3 wobble(std::mt19937& random);
 /// Move every point of every edge by up to `amount`.
 void shake(topology::Model& model, double amount, unsigned seed);
 
-/// Put a point in the middle of some sides of some edges, on their curves where they have them, on all facets there.
+/// Put a point in the middle of some sides of some edges, on their curves where they have them, on all facets
+/// there.
 void divide_sides(topology::Model& model, unsigned seed);
 
 /// Make a vertex of an inner point of every `every`-th edge: where its twin has none, a T-junction.

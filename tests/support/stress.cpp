@@ -124,8 +124,8 @@ StressMember draw(int number, bool mild, Dice& dice)
     if (dice.chance(0.4)) m.bend = dice.between(0, mild ? 90 : 180);
     if (dice.chance(0.3)) m.belly = dice.factor(mild ? 1.3 : 1.8);
     const double widest = std::max({1.0, m.taper, m.belly * (1 + m.taper) / 2});
-    // A cube's cells are stacked until they reach round the bend, and no corner's line leans too far; flat and tall cells stay
-    // as few as they are, and their volume is bent less.
+    // A cube's cells are stacked until they reach round the bend, and no corner's line leans too far; flat
+    // and tall cells stay as few as they are, and their volume is bent less.
     const double most = std::tan((mild ? 35 : 50) * kPi / 180);
     const double turned = m.twist * kPi / 180 * widest + std::abs(m.taper - 1) +
                           4 * std::abs(m.belly - 1) * widest;
@@ -154,7 +154,8 @@ StressMember draw(int number, bool mild, Dice& dice)
               : pick < 0.88 ? VolumeClass::II
               : pick < 0.95 ? VolumeClass::III
                             : VolumeClass::I;
-    // Missing walls are made straight: they say what is meant only where the volume is straight, and is not round.
+    // Missing walls are made straight: they say what is meant only where the volume is straight, and is not
+    // round.
     const bool straight = m.twist < 20 && m.bend < 20 && m.belly == 1;
     const bool walls_missing = m.value == VolumeClass::I || m.value == VolumeClass::II ||
                                m.value == VolumeClass::III;

@@ -34,8 +34,9 @@ struct StressMember {
     [[nodiscard]] std::string name() const;
 };
 
-/// The stress family: `count` members drawn with one seed, the first half mild. Amounts are drawn so that the volume does not
-/// run into itself: a bend's inner side keeps a third of the axis' length, a corner's line leans by 35 degrees at most in the mild half and 50 in the other.
+/// The stress family: `count` members drawn with one seed, the first half mild. Amounts are drawn so that the
+/// volume does not run into itself: a bend's inner side keeps a third of the axis' length, a corner's line
+/// leans by 35 degrees at most in the mild half and 50 in the other.
 std::vector<StressMember> stress_family(int count, unsigned seed = 1);
 
 /// The open volume of a member.
@@ -46,8 +47,8 @@ topology::OpenVolume sealed_stress_volume(const StressMember& member);
 /// What is asked of the sweep.
 sweep::SweepOptions stress_options(const StressMember& member);
 
-/// What the volume's edges allow: where two sides of a cell lie on them, it is at that corner no better than their angle, and where
-/// three do, it is what they make of it.
+/// What the volume's edges allow: where two sides of a cell lie on them, it is at that corner no better than
+/// their angle, and where three do, it is what they make of it.
 /// @return  the least over all such corners [0, 1].
 double edge_bound(const mesh::HexMesh& mesh);
 

@@ -202,7 +202,8 @@ private:
                  triangles);
     }
 
-    /// A straight or tapered prism over the polygons, its target planar or tilted; else the facets' own volume.
+    /// A straight or tapered prism over the polygons, its target planar or tilted; else the facets' own
+    /// volume.
     [[nodiscard]] double formula() const
     {
         double area = 0;
@@ -223,7 +224,8 @@ private:
         const double k = o_.taper;
         double sum = area * o_.height * (1 + k + k * k) / 3;
         if (o_.target == End::tilted) sum += o_.lift * moment.x() / o_.radius;
-        // Pappus: what lies on the bend's inner side is shorter. A taper or a twist moves the centroid: not told here.
+        // Pappus: what lies on the bend's inner side is shorter. A taper or a twist moves the centroid: not
+        // told here.
         if (o_.bend != 0 && (k != 1 || o_.twist != 0)) return result_.facet_volume;
         return sum - o_.bend * kPi / 180 * moment.x();
     }

@@ -24,7 +24,8 @@ struct RoundHole {
     double radius;
 };
 
-/// A prism along z as faces of facets: a section of straight-sided or round loops carried up, and parts of it left out.
+/// A prism along z as faces of facets: a section of straight-sided or round loops carried up, and parts of it
+/// left out.
 struct PrismOptions {
     int sides = 4;     ///< corners of the outer loop; 0: a circle
     double radius = 1; ///< of the outer loop's corners
@@ -69,7 +70,8 @@ Prism prism(const PrismOptions& options = {});
 /// Leave out source, target, all walls, or walls by their side (of the outer loop, all rows and pieces).
 std::function<bool(const Part&)> without(bool source, bool target, bool walls, std::vector<int> sides = {});
 
-/// Cut a closed wall open along facet sides: a seam between its two rims, used twice by its one loop. @pre two loops
+/// Cut a closed wall open along facet sides: a seam between its two rims, used twice by its one loop. @pre
+/// two loops
 void add_seam(topology::Model& model, FaceId wall);
 
 /// The same facets moved by a map; tolerance and diagonal are set anew.
