@@ -13,13 +13,16 @@ namespace {
 constexpr Index kGivenSkin = -1; // owner of a side that comes from the list of skin quads
 
 /// A side of a cell, told by its nodes: the lowest, the one across and the others in order.
-struct Side {
+struct CellSide {
     std::array<Index, 4> key;
     Quad nodes;
     Index owner;
 };
 
-bool operator<(const Side& a, const Side& b) { return std::tie(a.key, a.owner) < std::tie(b.key, b.owner); }
+bool operator<(const CellSide& a, const CellSide& b)
+{
+    return std::tie(a.key, a.owner) < std::tie(b.key, b.owner);
+}
 
 /// A quad turned so that it begins with its lowest node; same side, same direction.
 Quad turned(const Quad& quad)
@@ -28,14 +31,14 @@ Quad turned(const Quad& quad)
     return {quad[lowest], quad[(lowest + 1) % 4], quad[(lowest + 2) % 4], quad[(lowest + 3) % 4]};
 }
 
-Side make_side(const Quad& quad, Index owner)
+CellSide make_side(const Quad& quad, Index owner)
 {
-    Side side{{quad[0], quad[1], quad[2], quad[3]}, turned(quad), owner};
+    CellSide side{{quad[0], quad[1], quad[2], quad[3]}, turned(quad), owner};
     std::sort(side.key.begin(), side.key.end());
     return side;
 }
 
-std::string side_name(std::span<const Vec3> nodes, const Side& side)
+std::string side_name(std::span<const Vec3> nodes, const CellSide& side)
 {
     return "the side of cell " + std::to_string(side.owner + 1) + " between " +
            node_name(nodes, side.nodes[0], 0) + " and " + node_name(nodes, side.nodes[2], 0);
@@ -66,8 +69,8 @@ void check_corners(std::span<const Vec3> nodes, std::span<const Hex> hexes, std:
 }
 
 /// Sides of all cells and of the given skin, brought together by their lowest node.
-std::vector<Side> sorted_sides(std::span<const Vec3> nodes, std::span<const Hex> hexes,
-                               std::span<const Quad> skin)
+std::vector<CellSide> sorted_sides(std::span<const Vec3> nodes, std::span<const Hex> hexes,
+                                   std::span<const Quad> skin)
 {
     std::vector<std::size_t> start(nodes.size() + 1, 0);
     const auto for_each_quad = [&](const auto& body) {
@@ -83,10 +86,10 @@ std::vector<Side> sorted_sides(std::span<const Vec3> nodes, std::span<const Hex>
         ++start[static_cast<std::size_t>(*std::min_element(quad.begin(), quad.end())) + 1];
     });
     for (std::size_t n = 1; n < start.size(); ++n) start[n] += start[n - 1];
-    std::vector<Side> sides(start.back());
+    std::vector<CellSide> sides(start.back());
     std::vector<std::size_t> next(start.begin(), start.end() - 1);
     for_each_quad([&](const Quad& quad, Index owner) {
-        const Side side = make_side(quad, owner);
+        const CellSide side = make_side(quad, owner);
         sides[next[static_cast<std::size_t>(side.key[0])]++] = side;
     });
     for (std::size_t n = 0; n + 1 < start.size(); ++n)
@@ -96,13 +99,13 @@ std::vector<Side> sorted_sides(std::span<const Vec3> nodes, std::span<const Hex>
 }
 
 /// One side with all who use it: the given skin first, then the cells.
-void check_side(std::span<const Vec3> nodes, std::span<const Side> users, bool skin_given,
+void check_side(std::span<const Vec3> nodes, std::span<const CellSide> users, bool skin_given,
                 std::vector<Quad>& skin)
 {
     const auto given = static_cast<std::size_t>(
-        std::count_if(users.begin(), users.end(), [](const Side& s) { return s.owner == kGivenSkin; }));
-    const std::span<const Side> cells = users.subspan(given);
-    const Side& any = users.back();
+        std::count_if(users.begin(), users.end(), [](const CellSide& s) { return s.owner == kGivenSkin; }));
+    const std::span<const CellSide> cells = users.subspan(given);
+    const CellSide& any = users.back();
     const auto& key = any.key;
     if (std::adjacent_find(key.begin(), key.end()) != key.end())
         throw NotSweepable("quality.collapsed_side", side_name(nodes, any) + " uses a node twice");
@@ -166,7 +169,7 @@ Quality prove_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, std
     Quality quality = measure_cells(nodes, hexes, context);
     check_quality(quality, min_scaled_jacobian, 0);
 
-    const std::vector<Side> sides = sorted_sides(nodes, hexes, skin);
+    const std::vector<CellSide> sides = sorted_sides(nodes, hexes, skin);
     std::vector<Quad> found_skin;
     for (std::size_t i = 0; i < sides.size();) {
         std::size_t j = i;

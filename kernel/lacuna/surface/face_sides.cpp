@@ -73,17 +73,16 @@ std::optional<std::vector<std::size_t>> four_corners(const Model& model, FaceId 
     return corners.size() == 4 ? std::optional(corners) : std::nullopt;
 }
 
-std::vector<OppositeSides> opposite_sides(const Model& model, FaceId face,
-                                          const std::vector<std::size_t>& corners)
+std::vector<SidePair> side_pairs(const Model& model, FaceId face, const std::vector<std::size_t>& corners)
 {
     const Loop& loop = model[face].loops[0];
     return {{side_edges(loop, corners, 0), side_edges(loop, corners, 2)},
             {side_edges(loop, corners, 1), side_edges(loop, corners, 3)}};
 }
 
-std::vector<OppositeSides> grid_sides(const Model& model, FaceId face)
+std::vector<SidePair> grid_sides(const Model& model, FaceId face)
 {
-    std::vector<OppositeSides> pairs;
+    std::vector<SidePair> pairs;
     int outer = 0;
     for (const Loop& loop : model[face].loops) {
         std::array<std::vector<EdgeId>, 4> along;
@@ -100,12 +99,12 @@ std::vector<OppositeSides> grid_sides(const Model& model, FaceId face)
         pairs.push_back({along[0], along[2]});
         pairs.push_back({along[1], along[3]});
     }
-    return outer == 1 ? pairs : std::vector<OppositeSides>();
+    return outer == 1 ? pairs : std::vector<SidePair>();
 }
 
-bool alike(const Model& model, const std::vector<OppositeSides>& pairs)
+bool alike(const Model& model, const std::vector<SidePair>& pairs)
 {
-    return std::all_of(pairs.begin(), pairs.end(), [&](const OppositeSides& sides) {
+    return std::all_of(pairs.begin(), pairs.end(), [&](const SidePair& sides) {
         const double a = length_of(model, sides[0]), b = length_of(model, sides[1]);
         return std::max(a, b) <= kUnlike * std::min(a, b);
     });

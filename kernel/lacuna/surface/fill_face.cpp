@@ -140,7 +140,7 @@ public:
 
     [[nodiscard]] std::vector<Vec3> lift(std::span<const Vec2> points) const
     {
-        std::vector<FacetPlace> places;
+        std::vector<FacetPosition> places;
         for (const Vec2& p : points) {
             const auto found = locator_.locate(p);
             places.push_back({found.triangle, found.barycentric});

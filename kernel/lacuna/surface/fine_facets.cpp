@@ -49,7 +49,7 @@ FineFacets copy_of(const Model& model, FaceId face)
 }
 
 /// A side of facets and its middle on the exact face.
-struct Side {
+struct FacetSide {
     Index a, b;
     Vec3 middle;
     Vec2 uv = Vec2::Zero(); ///< to start the projection from
@@ -82,7 +82,7 @@ public:
         collect();
         find_middles();
         bool any = false;
-        for (Side& side : sides_) {
+        for (FacetSide& side : sides_) {
             if (is_settled(side)) continue;
             const Vec3 chord = (fine_.points[index(side.a)] + fine_.points[index(side.b)]) / 2;
             side.halved = (side.middle - chord).norm() > off_ * size_(side.middle);
@@ -99,7 +99,7 @@ public:
     }
 
 private:
-    [[nodiscard]] Side& side(const Triangle& t, std::size_t k)
+    [[nodiscard]] FacetSide& side(const Triangle& t, std::size_t k)
     {
         return sides_[number_.at(key_of(t[k], t[(k + 1) % 3]))];
     }
@@ -145,7 +145,7 @@ private:
         project(inside);
     }
 
-    [[nodiscard]] bool is_settled(const Side& side) const
+    [[nodiscard]] bool is_settled(const FacetSide& side) const
     {
         return settled_.contains(key_of(side.a, side.b));
     }
@@ -193,7 +193,7 @@ private:
             if (sides_[s].halved && !sides_[s].on_edge && is_settled(sides_[s])) late.push_back(s);
         }
         project(late);
-        for (Side& side : sides_) {
+        for (FacetSide& side : sides_) {
             if (!side.halved) continue;
             side.point = static_cast<Index>(fine_.points.size());
             fine_.points.push_back(side.middle);
@@ -248,7 +248,7 @@ private:
     FineFacets& fine_;
     const SizeField& size_;
     double off_;
-    std::vector<Side> sides_;
+    std::vector<FacetSide> sides_;
     std::unordered_map<std::uint64_t, std::size_t> number_; ///< of each side
     std::unordered_set<std::uint64_t> settled_;             ///< sides found straight enough
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/belt.h>
+#include <lacuna/surface/linking_surface.h>
 #include <lacuna/surface/size_field.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -56,8 +56,8 @@ struct Seeds {
 /// odd total gets one more side on a rim edge of its own, or on an edge towards one.
 /// @throw NotSweepable  a face to be kept that has not quads all over, or whose rim has no node where the other end has a corner;
 ///                      a face to be mapped that has neither four sides nor right angles alone; a face whose total cannot be made even; names them.
-Seeds seed_source(const topology::OpenVolume& volume, std::span<const Belt> belts, const SizeField& size,
-                  QuadStyle style);
+Seeds seed_source(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
+                  const SizeField& size, QuadStyle style);
 
 /// Mean length of the facets' sides on the source's rim: the size where none is asked for [model length].
 double rim_spacing(const topology::OpenVolume& volume);

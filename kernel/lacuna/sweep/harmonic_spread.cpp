@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/harmonic_spread.h>
+#include <lacuna/sweep/detail/harmonic_spread.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/parallel.h>

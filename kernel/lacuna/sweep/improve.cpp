@@ -3,7 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/geometry/minimise.h>
-#include <lacuna/sweep/detail/region.h>
+#include <lacuna/sweep/detail/cell_region.h>
 
 #include <algorithm>
 #include <array>
@@ -33,8 +33,8 @@ constexpr double kMeanGivenUp = 0.01;
 
 class Improver {
 public:
-    Improver(mesh::HexMesh& mesh, const Region& region, const ImproveOptions& options, const Sliding& sliding,
-             const RunContext& context)
+    Improver(mesh::HexMesh& mesh, const CellRegion& region, const ImproveOptions& options,
+             const Sliding& sliding, const RunContext& context)
         : mesh_(mesh),
           region_(region),
           options_(options),
@@ -67,7 +67,7 @@ public:
     }
 
 private:
-    static std::vector<Vec3> places_of(const mesh::HexMesh& mesh, const Region& region)
+    static std::vector<Vec3> places_of(const mesh::HexMesh& mesh, const CellRegion& region)
     {
         std::vector<Vec3> places;
         for (const Index n : region.node) places.push_back(mesh.nodes[static_cast<std::size_t>(n)]);
@@ -200,7 +200,7 @@ private:
     }
 
     mesh::HexMesh& mesh_;
-    const Region& region_;
+    const CellRegion& region_;
     const ImproveOptions& options_;
     const Sliding& sliding_;
     const RunContext& context_;
@@ -216,7 +216,7 @@ private:
 Improved improve(mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
                  const RunContext& context)
 {
-    const Region region = poor_region(mesh, options, sliding, context);
+    const CellRegion region = poor_region(mesh, options, sliding, context);
     if (region.free == 0) return {};
     return Improver(mesh, region, options, sliding, context).run();
 }

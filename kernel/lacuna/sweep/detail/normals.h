@@ -14,6 +14,6 @@ namespace lacuna::sweep {
 /// sections fold where `place_layers()` does not. O(layers · nodes), one layer after the other.
 /// @throw InvalidInput  columns that do not fit the source or the target.
 LayerNodes place_along_normals(const mesh::QuadMesh& source, std::span<const Vec3> target,
-                               const Columns& columns, const RunContext& context = {});
+                               const RimColumns& columns, const RunContext& context = {});
 
 } // namespace lacuna::sweep

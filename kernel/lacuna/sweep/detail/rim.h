@@ -3,7 +3,7 @@
 
 #include <lacuna/geometry/affine.h>
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/sweep/columns.h>
+#include <lacuna/sweep/rim_columns.h>
 
 #include <span>
 #include <vector>
@@ -12,10 +12,11 @@ namespace lacuna::sweep {
 
 /// @throw InvalidInput  columns that do not fit the source: sizes, node numbers, boundary nodes without a column, a number
 ///                      that is not finite, a first row away from the source's nodes, a last one away from the target's.
-void check_columns(const mesh::QuadMesh& source, const Columns& columns, std::span<const Vec3> target = {});
+void check_columns(const mesh::QuadMesh& source, const RimColumns& columns,
+                   std::span<const Vec3> target = {});
 
 /// Boundary sides of the source as pairs of column numbers.
-std::vector<Segment> rim_sides(const mesh::QuadMesh& source, const Columns& columns);
+std::vector<Segment> rim_sides(const mesh::QuadMesh& source, const RimColumns& columns);
 
 /// Newell area vector enclosed by the rim's sides, all loops summed.
 Vec3 rim_area(std::span<const Vec3> rim, std::span<const Segment> sides);

@@ -3,8 +3,8 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/sweep/carry.h>
-#include <lacuna/sweep/harmonic_spread.h>
+#include <lacuna/sweep/detail/harmonic_spread.h>
+#include <lacuna/sweep/morph.h>
 
 #include <span>
 #include <vector>

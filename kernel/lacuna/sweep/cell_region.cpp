@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/detail/region.h>
+#include <lacuna/sweep/detail/cell_region.h>
 
 #include <lacuna/core/parallel.h>
 #include <lacuna/quality/quality.h>
@@ -101,7 +101,7 @@ void grow(const mesh::HexMesh& mesh, std::vector<char>& taken)
 }
 
 /// The uses of each free node.
-void index_uses(Region& region)
+void index_uses(CellRegion& region)
 {
     region.use_begin.assign(region.free + 1, 0);
     const auto each = [&](const auto& visit) {
@@ -121,10 +121,10 @@ void index_uses(Region& region)
 
 } // namespace
 
-Region poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
-                   const RunContext& context)
+CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
+                       const RunContext& context)
 {
-    Region region;
+    CellRegion region;
     const std::vector<char> locked = locked_nodes(mesh, sliding);
     std::vector<char> taken = poor_cells(mesh, locked, options.good_enough, context);
     if (std::none_of(taken.begin(), taken.end(), [](char c) { return c != 0; })) return region;
@@ -164,7 +164,7 @@ Region poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, con
     return region;
 }
 
-RegionQuality measure(const Region& region, const std::vector<Vec3>& places, const RunContext& context)
+RegionQuality measure(const CellRegion& region, const std::vector<Vec3>& places, const RunContext& context)
 {
     const std::size_t chunks = (region.cells.size() + kChunk - 1) / kChunk;
     std::vector<RegionQuality> part(chunks);
@@ -190,7 +190,7 @@ RegionQuality measure(const Region& region, const std::vector<Vec3>& places, con
     return whole;
 }
 
-RegionEnergy::RegionEnergy(const Region& region, std::vector<Vec3> places, const RunContext& context)
+RegionEnergy::RegionEnergy(const CellRegion& region, std::vector<Vec3> places, const RunContext& context)
     : region_(region),
       context_(context),
       places_(std::move(places)),

@@ -18,8 +18,8 @@ bool is_poor(const NotSweepable& error);
 /// @param faces  of each patch of the skin.
 /// @param kept   faces whose own quads are the mesh: their nodes stay.
 /// @throw NotSweepable  what `quality::prove()` says, with what was tried.
-quality::Quality prove_or_mend(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
-                               const std::set<FaceId>& kept, const SweepOptions& options,
-                               const RunContext& context);
+quality::Quality prove_or_improve(Swept& swept, const topology::Model& model,
+                                  const std::vector<FaceId>& faces, const std::set<FaceId>& kept,
+                                  const SweepOptions& options, const RunContext& context);
 
 } // namespace lacuna::sweep

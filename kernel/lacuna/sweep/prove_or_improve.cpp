@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/detail/mend.h>
+#include <lacuna/sweep/detail/prove_or_improve.h>
 
 #include <lacuna/surface/projector.h>
 #include <lacuna/sweep/improve.h>
@@ -82,9 +82,9 @@ bool is_poor(const NotSweepable& error)
            error.code() == "quality.below_limit";
 }
 
-quality::Quality prove_or_mend(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
-                               const std::set<FaceId>& kept, const SweepOptions& options,
-                               const RunContext& context)
+quality::Quality prove_or_improve(Swept& swept, const topology::Model& model,
+                                  const std::vector<FaceId>& faces, const std::set<FaceId>& kept,
+                                  const SweepOptions& options, const RunContext& context)
 {
     ImproveOptions improving = options.improving;
     improving.good_enough = std::max(improving.good_enough, options.min_scaled_jacobian);

@@ -11,16 +11,16 @@
 
 namespace lacuna::surface {
 
-/// A stretch of the source rim and the stretch of the target rim it is swept to, in running lengths of the belt's
+/// A segment of the source rim and the segment of the target rim it is swept to, in running lengths of the linking surface's
 /// chains. It lies within one source edge.
-struct Stretch {
+struct RimSegment {
     double source_from = 0, source_to = 0;
     double target_from = 0, target_to = 0; ///< may run past the target chain's length: modulo it
     std::size_t use = 0;                   ///< of the source chain
 };
 
-/// A side line as the belt sees it.
-struct BeltLine {
+/// A side line as the linking surface sees it.
+struct LinkingLine {
     matching::SideLine line;
     double source_at = 0, target_at = 0; ///< running lengths of its ends
 };
@@ -29,22 +29,23 @@ struct BeltLine {
 ///
 /// `source` walks the source's rim with the source on its left; `target` walks the target's rim the same way round,
 /// so with the target on its right. Both start at the first side line, where there is one.
-struct Belt {
+struct LinkingSurface {
     std::vector<FaceId> walls;
     Chain source, target;
-    std::vector<BeltLine> lines;    ///< in walking order
-    std::vector<Stretch> stretches; ///< in walking order, the first from source length 0
-    /// Without side lines: how many turns round the belt the target end of the shortest way up lies from the source's start,
+    std::vector<LinkingLine> lines;   ///< in walking order
+    std::vector<RimSegment> segments; ///< in walking order, the first from source length 0
+    /// Without side lines: how many turns round the linking surface the target end of the shortest way up lies from the source's start,
     /// where more than the walls themselves tells it. The walls' own lead counts else.
     std::optional<double> branch{};
 };
 
-/// How belts without side lines turn: each so that its own walls are sheared least, or all loops as one body, which holes
+/// How linking surfaces without side lines turn: each so that its own walls are sheared least, or all loops as one body, which holes
 /// that go round each other need.
 enum class Turning { each, together };
 
-/// The belts of a sealed volume, one a loop of the source; in order of the source's loops.
+/// The linking surfaces of a sealed volume, one a loop of the source; in order of the source's loops.
 /// @throw NotSweepable  walls that join a source loop to none or several of the target's; names them.
-std::vector<Belt> belts(const topology::OpenVolume& volume, Turning turning = Turning::each);
+std::vector<LinkingSurface> linking_surfaces(const topology::OpenVolume& volume,
+                                             Turning turning = Turning::each);
 
 } // namespace lacuna::surface
