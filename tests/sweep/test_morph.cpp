@@ -109,7 +109,8 @@ TEST_CASE("on caps from shallow to deep, nodes lie on the sphere and quads stay 
             for (const Vec3& p : result.nodes) CHECK(std::abs((p - cap.centre).norm() - cap.radius) < 1e-12);
             CHECK(result.worst == doctest::Approx(worst_quad(family.mesh.quads, result.nodes)));
             CHECK(result.worst > 0.3);
-            // The cells under the dome, straight columns at its rim: beyond 90 degrees it leans out over them.
+            // The cells under the dome, straight columns at its rim: beyond 90 degrees it leans out over
+            // them.
             if (degrees > 90) continue;
             const auto walls = columns_along(family.mesh, 6, lifted(2));
             const auto layers = sweep::place_layers(family.mesh, result.nodes, walls);

@@ -216,6 +216,7 @@ private:
 Improved improve(mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
                  const RunContext& context)
 {
+    check(options);
     const CellRegion region = poor_region(mesh, options, sliding, context);
     if (region.free == 0) return {};
     return Improver(mesh, region, options, sliding, context).run();

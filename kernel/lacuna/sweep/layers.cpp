@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Every inner layer l is, before its rim residual is spread,
-//   (1 - h) · A(source node) + h · B(target node),
-// h the layer's height, A and B the affine maps of the source's and the target's rim onto the layer's. Where an affine
-// motion takes rim to rim the two agree, and the sum is the motion itself.
+// Every inner layer l is, before its rim residual is spread, (1 - h) · A(source node) + h · B(target node), h
+// the layer's height, A and B the affine maps of the source's and the target's rim onto the layer's. Where an
+// affine motion takes rim to rim the two agree, and the sum is the motion itself.
 #include <lacuna/sweep/detail/layer_placer.h>
 
 #include <lacuna/core/error.h>

@@ -29,14 +29,14 @@ struct LayerNodes {
 
 /// Place the nodes of every layer between the source and the target mesh.
 ///
-/// Tier 1: rims related by an affine motion exactly. Tier 2: two-sided least-squares affine fit with pseudo-normals
-/// (Roca and Sarrate 2010). Tier 3: the rim residual spread harmonically over the source mesh (factored once), both
-/// ends blended by height. Layers are placed in parallel. The Laplacian has finite-volume weights: equal ones folded
-/// every graded mesh tried, and were no better on even ones.
+/// Tier 1: rims related by an affine motion exactly. Tier 2: two-sided least-squares affine fit with
+/// pseudo-normals (Roca and Sarrate 2010). Tier 3: the rim residual spread harmonically over the source mesh
+/// (factored once), both ends blended by height. Layers are placed in parallel. The Laplacian has
+/// finite-volume weights: equal ones folded every graded mesh tried, and were no better on even ones.
 ///
 /// @param target  position of each source node on the target.
-/// @post  rim nodes are those of the columns and end layers those given, bit for bit; same result for any thread
-///        count.
+/// @post  rim nodes are those of the columns and end layers those given, bit for bit; same result for any
+///        thread count.
 /// @throw InvalidInput  columns that do not fit the source or the target; names the node.
 LayerNodes place_layers(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns,
                         const PlacementOptions& options = {}, const RunContext& context = {});

@@ -81,8 +81,8 @@ Guess guess_from_rims(const mesh::QuadMesh& source, const RimColumns& columns, S
     return guess;
 }
 
-/// The source itself, moved as its rim is: what a skin far from its rims (a bent tube swept through its thickness) asks for, where
-/// an affine map fitted to the rims alone says nothing.
+/// The source itself, moved as its rim is: what a skin far from its rims (a bent tube swept through its
+/// thickness) asks for, where an affine map fitted to the rims alone says nothing.
 std::vector<Vec3> displaced(const mesh::QuadMesh& source, const RimColumns& columns, Spreader& spreader,
                             const RunContext& context)
 {
@@ -120,8 +120,9 @@ double largest_move(std::span<const Vec3> from, std::span<const Vec3> to)
     return largest;
 }
 
-/// A deep bowl above a flat rim: the closest places to the flat guess are crowded on the rim. Guesses bulged to either
-/// side, as a membrane under pressure is, meet it evenly; the one whose image has the best worst quad is taken.
+/// A deep bowl above a flat rim: the closest places to the flat guess are crowded on the rim. Guesses bulged
+/// to either side, as a membrane under pressure is, meet it evenly; the one whose image has the best worst
+/// quad is taken.
 Candidate bulged_start(const mesh::QuadMesh& source, const RimColumns& columns,
                        const std::vector<Vec3>& guess, const HarmonicSpread& spread,
                        const SurfaceSmoother& smoother, Candidate best)

@@ -18,15 +18,15 @@ using SurfaceProjector = std::function<void(std::span<Vec3>)>;
 /// The source mesh on the target.
 struct Morphed {
     std::vector<Vec3> nodes; ///< target position of each source node [model length]
-    double worst_source =
-        1; ///< smallest scaled Jacobian of a quad of the source, seen along the surface's normal [-1, 1]
+    /// Smallest scaled Jacobian of a quad of the source, seen along the surface's normal [-1, 1]
+    double worst_source = 1;
     double worst = 1;   ///< and of a quad on the target
     std::string report; ///< one line for a person
 };
 
-/// Morph the source mesh onto the target: rim nodes go to the last row of the columns; the rest follow the affine fit
-/// of the rims and the residual, spread harmonically, then go onto the surface, then are smoothed there where that
-/// makes the worst quad better.
+/// Morph the source mesh onto the target: rim nodes go to the last row of the columns; the rest follow the
+/// affine fit of the rims and the residual, spread harmonically, then go onto the surface, then are smoothed
+/// there where that makes the worst quad better.
 ///
 /// @param project  empty: nodes stay where the fit puts them.
 /// @post  rim nodes are those of the columns, bit for bit.

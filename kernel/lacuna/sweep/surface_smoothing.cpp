@@ -27,7 +27,8 @@ Vec3 along(const Vec3& move, const Vec3& normal)
     return squared > 0 ? Vec3(move - normal * (normal.dot(move) / squared)) : move;
 }
 
-/// Turns the weights of the neighbours so that their mean is the node itself as seen along its normal; their sum stays.
+/// Turns the weights of the neighbours so that their mean is the node itself as seen along its normal; their
+/// sum stays.
 void hold_in_place(std::span<const Vec3> nodes, std::span<const Index> neighbours, const Vec3& node,
                    const Vec3& normal, std::span<double> weights)
 {

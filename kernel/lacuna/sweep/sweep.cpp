@@ -10,17 +10,17 @@
 #include <lacuna/surface/source_mesh.h>
 #include <lacuna/sweep/detail/normals.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
+#include <lacuna/sweep/detail/words.h>
 #include <lacuna/sweep/layers.h>
+#include <lacuna/sweep/morph.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <limits>
 #include <map>
-#include <optional>
 
 namespace lacuna::sweep {
 
@@ -28,13 +28,11 @@ using namespace topology;
 
 namespace {
 
-bool asks_rows(const SweepOptions& options) { return options.rows > 0 || options.row_height; }
-
 surface::QuadStyle style_of(const SweepOptions& options)
 {
     switch (options.quads) {
     case Quads::automatic:
-        return asks_rows(options) ? surface::QuadStyle::free : surface::QuadStyle::automatic;
+        return options.rows > 0 ? surface::QuadStyle::free : surface::QuadStyle::automatic;
     case Quads::mapped:
         return surface::QuadStyle::mapped;
     case Quads::gmsh:
@@ -59,7 +57,7 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options)
                                    " boundary nodes enclose folds or overlaps; use quads = \"auto\"");
         };
     }
-    const int rows = asks_rows(options) ? std::max(options.rows, 1) : -1;
+    const int rows = options.rows > 0 ? options.rows : -1; // -1: the paver decides
     const bool grids = options.quads != Quads::paved;
     return [rows, grids](const quads::PlanarRegion& region, const RunContext& context) {
         return quads::pave(region, {.rows = rows, .grids = grids}, context);
@@ -67,15 +65,15 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options)
 }
 
 /// A field that refuses what is no length before anything is divided by it.
-surface::SizeField checked(const surface::SizeField& field, const std::string& name)
+surface::SizeField checked(const surface::SizeField& field, const std::string& option)
 {
-    return [field, name](const Vec3& p) {
+    return [field, option](const Vec3& p) {
         const double h = field(p);
         if (!(h > 0) || !std::isfinite(h)) {
-            throw InvalidInput("sweep.size", "the " + name + " at (" + std::to_string(p.x()) + ", " +
-                                                 std::to_string(p.y()) + ", " + std::to_string(p.z()) +
-                                                 ") is " + std::to_string(h) +
-                                                 "; it must be a positive length");
+            throw InvalidInput("sweep.size", "sweep: option '" + option +
+                                                 "' must be a positive number everywhere; at (" +
+                                                 in_short(p.x()) + ", " + in_short(p.y()) + ", " +
+                                                 in_short(p.z()) + ") it is " + in_full(h));
         }
         return h;
     };
@@ -91,8 +89,8 @@ surface::SizeField checked_size(const OpenVolume& volume, const SweepOptions& op
 /// The size, and the height of rows where they are asked for.
 surface::SizeFields size_fields(const surface::SizeField& size, const SweepOptions& options)
 {
-    if (!asks_rows(options)) return {size};
-    return {size, options.row_height ? checked(options.row_height, "row height") : size};
+    if (options.rows == 0) return {size};
+    return {size, options.row_height ? checked(options.row_height, "row_height") : size};
 }
 
 /// Refuse at once what could never be numbered, instead of filling the memory first.
@@ -236,7 +234,8 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
             mesh.target_patch.push_back(patches.of(face));
     }
 
-    // A linking surface's sides run with the linking surface or against it; each side of the rim finds its place by the nodes it joins.
+    // A linking surface's sides run with the linking surface or against it; each side of the rim finds its
+    // place by the nodes it joins.
     struct RimPosition {
         std::size_t link, side;
     };
@@ -260,8 +259,8 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
     return patches.faces();
 }
 
-/// The layers, by the way whose worst cell is best: with the rim's residual spread over each layer, and, where that leaves poor
-/// cells, without.
+/// The layers, by the way whose worst cell is best: with the rim's residual spread over each layer, and,
+/// where that leaves poor cells, without.
 LayerNodes best_layers(const surface::SourceMesh& source, const Morphed& morphed, const RimColumns& columns,
                        PlacementOptions placement, const SweepOptions& options, const RunContext& context)
 {
@@ -287,10 +286,17 @@ LayerNodes best_layers(const surface::SourceMesh& source, const Morphed& morphed
     return least(plain) > with ? plain : spread;
 }
 
-/// Seeds, quads, walls, target, layers and proof between the rims of linking surfaces that say what goes with what.
-Swept sweep_between(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
-                    const std::vector<double>& heights, const surface::SizeField& size,
-                    const SweepOptions& options, const RunContext& context)
+/// A mesh with what its proof says.
+struct ProvedSweep {
+    Swept swept;
+    quality::Proof proof;
+};
+
+/// Seeds, quads, walls, target, layers and proof between the rims of linking surfaces that say what goes with
+/// what.
+ProvedSweep sweep_between(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
+                          const std::vector<double>& heights, const surface::SizeField& size,
+                          const SweepOptions& options, const RunContext& context)
 {
     Swept result;
     const surface::Seeds seeds = surface::seed_source(volume, links, size, style_of(options));
@@ -339,13 +345,13 @@ Swept sweep_between(const OpenVolume& volume, const std::vector<surface::Linking
             "walls: " + name_of(volume.model, wall) +
             " is smaller than the quads there and has none, nor a group; use a smaller size or more layers");
     }
-    const quality::Quality quality = prove_or_improve(result, volume.model, faces, seeds.kept, options,
-                                                      context);
+    quality::Proof proof = prove_or_improve(result, volume.model, faces, seeds.kept, options, context);
+    const quality::Quality& quality = proof.quality;
     result.min_scaled_jacobian = quality.min_scaled_jacobian;
     result.report.push_back("cells: " + std::to_string(quality.hexes) + ", all certified, scaled Jacobian " +
                             std::to_string(quality.min_scaled_jacobian) + " at least, " +
                             std::to_string(quality.mean_scaled_jacobian) + " on average");
-    return result;
+    return {std::move(result), std::move(proof)};
 }
 
 /// Round walls do not say how far they turn; several loops together may.
@@ -356,49 +362,46 @@ bool can_turn_together(const std::vector<surface::LinkingSurface>& links)
                        [](const surface::LinkingSurface& link) { return link.lines.empty(); });
 }
 
-/// Each loop turned by its own walls; where that makes poor cells, all turned as one body if that makes better ones.
-Swept better_turning(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
-                     const std::vector<double>& heights, const surface::SizeField& size,
-                     const SweepOptions& options, const RunContext& context)
+/// Each loop turned by its own walls; where that makes poor cells, all turned as one body if that makes
+/// better ones.
+ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
+                           const std::vector<double>& heights, const surface::SizeField& size,
+                           const SweepOptions& options, const RunContext& context)
 {
     const auto start = std::chrono::steady_clock::now();
-    std::optional<Swept> alone;
-    std::exception_ptr failure; // What went wrong first says more than what goes wrong second.
-    try {
-        alone = sweep_between(volume, links, heights, size, options, context);
-        if (alone->min_scaled_jacobian >= options.improving.good_enough) return std::move(*alone);
-    } catch (const NotSweepable& error) {
-        if (!is_poor(error)) throw;
-        failure = std::current_exception();
-    }
+    ProvedSweep alone = sweep_between(volume, links, heights, size, options, context);
+    const bool poor = alone.proof.finding ? quality::can_be_improved(alone.proof.finding->fault)
+                                          : alone.swept.min_scaled_jacobian < options.improving.good_enough;
+    if (!poor) return alone;
     const std::vector<surface::LinkingSurface> as_one = surface::linking_surfaces(volume,
                                                                                   surface::Turning::together);
     const bool same = std::none_of(as_one.begin(), as_one.end(), [](const surface::LinkingSurface& link) {
         return link.branch.has_value();
     });
+    if (same) return alone;
     SweepOptions rest = options;
     if (rest.improving.seconds > 0) { // One budget for both.
         const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
         rest.improving.seconds -= used.count();
         rest.improve = rest.improve && rest.improving.seconds > 0;
     }
-    try {
-        if (!same) {
-            Swept together = sweep_between(volume, as_one, heights, size, rest, context);
-            if (!alone || together.min_scaled_jacobian > alone->min_scaled_jacobian) {
-                together.report.insert(
-                    together.report.begin(),
-                    "loops: turned as one body; each by its own walls the cells are worse");
-                return together;
-            }
+    try { // What went wrong first says more than what goes wrong second.
+        ProvedSweep together = sweep_between(volume, as_one, heights, size, rest, context);
+        if (together.proof.finding) {
+            log_line(context, "loops turned as one body: " + together.proof.finding->message);
+        } else if (alone.proof.finding ||
+                   together.swept.min_scaled_jacobian > alone.swept.min_scaled_jacobian) {
+            together.swept.report.insert(
+                together.swept.report.begin(),
+                "loops: turned as one body; each by its own walls the cells are worse");
+            return together;
         }
     } catch (const Cancelled&) {
         throw;
     } catch (const Error& error) {
         log_line(context, std::string("loops turned as one body: ") + error.what());
     }
-    if (failure) std::rethrow_exception(failure);
-    return std::move(*alone);
+    return alone;
 }
 
 } // namespace
@@ -406,11 +409,7 @@ Swept better_turning(const OpenVolume& volume, const std::vector<surface::Linkin
 Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
 {
     check_cancelled(context);
-    if (!(options.min_scaled_jacobian >= -1 && options.min_scaled_jacobian <= 1)) {
-        throw InvalidInput("sweep.min_scaled_jacobian", "min_scaled_jacobian is " +
-                                                            std::to_string(options.min_scaled_jacobian) +
-                                                            "; a scaled Jacobian lies between -1 and 1");
-    }
+    check(options, context);
     const surface::SizeField size = checked_size(volume, options);
     check_amount(volume, size, options.layers);
     std::vector<double> heights = layer_heights(options.layers);
@@ -423,8 +422,11 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
                            "the volume is not sealed; close it first with volume:close()");
     }
     const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(volume);
-    if (!can_turn_together(links)) return sweep_between(volume, links, heights, size, options, context);
-    return better_turning(volume, links, heights, size, options, context);
+    ProvedSweep result = can_turn_together(links)
+                             ? better_turning(volume, links, heights, size, options, context)
+                             : sweep_between(volume, links, heights, size, options, context);
+    quality::require(result.proof);
+    return std::move(result.swept);
 }
 
 } // namespace lacuna::sweep

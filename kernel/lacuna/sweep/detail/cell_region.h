@@ -12,12 +12,13 @@
 
 namespace lacuna::sweep {
 
-/// The part of a mesh that is worked on, with numbers of its own: nodes that may move first, then those that hold it.
+/// The part of a mesh that is worked on, with numbers of its own: nodes that may move first, then those that
+/// hold it.
 struct CellRegion {
     std::vector<Hex> cells; ///< by the region's node numbers
     std::vector<Vec3> box;  ///< of each cell: its mean edges when the work began
-    std::vector<double>
-        aim; ///< of each cell: the scaled Jacobian that is good enough, or the best its held nodes allow
+    /// Of each cell: the scaled Jacobian that is good enough, or the best its held nodes allow.
+    std::vector<double> aim;
     std::vector<Index> node;      ///< mesh node of each node
     std::size_t free = 0;         ///< nodes that may move
     std::vector<Index> surface;   ///< of each free node; -1: inside
@@ -39,8 +40,8 @@ struct RegionQuality {
 
 RegionQuality measure(const CellRegion& region, const std::vector<Vec3>& places, const RunContext& context);
 
-/// Sum of the cells' energies and its gradient by the free nodes, which for nodes that slide lies along their surface.
-/// Parallel; sums are made in an order that does not depend on the threads.
+/// Sum of the cells' energies and its gradient by the free nodes, which for nodes that slide lies along their
+/// surface. Parallel; sums are made in an order that does not depend on the threads.
 class RegionEnergy {
 public:
     /// @param places  of the region's nodes; the held ones are used, the free ones come with each call.

@@ -20,8 +20,8 @@ public:
     LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns,
                 const PlacementOptions& options = {});
 
-    /// Nodes of layers [first, last), 0 the source and `columns.layers` the target: those of `place_layers()`, bit
-    /// for bit.
+    /// Nodes of layers [first, last), 0 the source and `columns.layers` the target: those of
+    /// `place_layers()`, bit for bit.
     /// @param out  (last - first) × source.nodes, layer-major.
     void place(int first, int last, std::span<Vec3> out, const RunContext& context = {}) const;
 

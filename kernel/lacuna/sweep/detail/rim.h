@@ -10,8 +10,9 @@
 
 namespace lacuna::sweep {
 
-/// @throw InvalidInput  columns that do not fit the source: sizes, node numbers, boundary nodes without a column, a number
-///                      that is not finite, a first row away from the source's nodes, a last one away from the target's.
+/// @throw InvalidInput  columns that do not fit the source: sizes, node numbers, boundary nodes without a
+///                      column, a number that is not finite, a first row away from the source's nodes, a last
+///                      one away from the target's.
 void check_columns(const mesh::QuadMesh& source, const RimColumns& columns,
                    std::span<const Vec3> target = {});
 
@@ -29,9 +30,10 @@ double shortest_side(std::span<const Quad> quads, std::span<const Vec3> nodes);
 
 /// One end of the sweep, ready to be moved onto other rims.
 ///
-/// The rim's points alone decide the map where they span what lies between them, the map is exact and right-handed: a
-/// skin between two circles, say. Elsewhere (planar and nearly planar rims) the pseudo-normals join in, since the map
-/// would otherwise be thrown far off the rim's plane by the smallest waves of the rim.
+/// The rim's points alone decide the map where they span what lies between them, the map is exact and
+/// right-handed: a skin between two circles, say. Elsewhere (planar and nearly planar rims) the
+/// pseudo-normals join in, since the map would otherwise be thrown far off the rim's plane by the smallest
+/// waves of the rim.
 class RimFitter {
 public:
     /// @param rim    the end's rim, in the order of the columns; must outlive the fitter.
