@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/mesh/incidence.h>
 #include <lacuna/mesh/quad_mesh.h>
 
 #include <algorithm>
@@ -69,6 +70,14 @@ std::vector<Index> opposite_sides(const std::vector<Quad>& quads, Index node_cou
         }
     }
     return opposite;
+}
+
+Incidence quads_at_nodes(std::span<const Quad> quads, std::size_t node_count)
+{
+    return incidence(node_count, [&](const auto& visit) {
+        for (std::size_t q = 0; q < quads.size(); ++q)
+            for (const Index node : quads[q]) visit(index(node), static_cast<Index>(q));
+    });
 }
 
 SkinQuad skin_quad(const HexMesh& mesh, std::size_t i)

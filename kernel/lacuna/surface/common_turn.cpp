@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/common_turn.h>
 
+#include <lacuna/geometry/affine.h>
+#include <lacuna/geometry/newell.h>
 #include <lacuna/surface/detail/linking_map.h>
 
 #include <Eigen/Geometry>
@@ -12,7 +14,8 @@ namespace lacuna::surface {
 
 namespace {
 
-constexpr std::size_t kSamples = 96; ///< round a rim; a parabola finds the place between them
+/// Points round a rim: one every 4 degrees, and a parabola finds the shift between them.
+constexpr std::size_t kSamples = 96;
 
 std::vector<Vec3> round_points(const Chain& chain)
 {
@@ -22,23 +25,7 @@ std::vector<Vec3> round_points(const Chain& chain)
     return chain.points(at);
 }
 
-Vec3 centre_of(const std::vector<Vec3>& points)
-{
-    Vec3 sum = Vec3::Zero();
-    for (const Vec3& p : points) sum += p;
-    return sum / static_cast<double>(points.size());
-}
-
-Vec3 area_of(const std::vector<Vec3>& points)
-{
-    Vec3 sum = Vec3::Zero();
-    const Vec3 centre = centre_of(points);
-    for (std::size_t i = 0; i < points.size(); ++i)
-        sum += (points[i] - centre).cross(points[(i + 1) % points.size()] - centre) / 2;
-    return sum;
-}
-
-/// Places of source and target that belong together, with the length of rim they stand for.
+/// Points of source and target that belong together, with the length of rim they stand for.
 struct RimPair {
     Vec3 source, target;
     double weight;
@@ -49,8 +36,8 @@ std::vector<RimPair> pairs_of(std::span<const LinkingSurface> links)
     std::vector<RimPair> pairs;
     for (const LinkingSurface& link : links) {
         if (link.lines.empty()) {
-            pairs.push_back({centre_of(round_points(link.source)), centre_of(round_points(link.target)),
-                             link.source.length()});
+            pairs.push_back({geometry::mean_point(round_points(link.source)),
+                             geometry::mean_point(round_points(link.target)), link.source.length()});
             continue;
         }
         for (const RimSegment& segment : link.segments) {
@@ -63,7 +50,8 @@ std::vector<RimPair> pairs_of(std::span<const LinkingSurface> links)
     return pairs;
 }
 
-/// The rotation that takes the pairs' sources to their targets: area vectors onto each other, then the best turn about them.
+/// The rotation that takes the pairs' sources to their targets: area vectors onto each other, then the best
+/// turn about them.
 std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPair>& pairs, const Vec3& source_area,
                                            const Vec3& target_area)
 {
@@ -89,7 +77,8 @@ std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPair>& pairs, co
         along += pair.weight * a.dot(b);
         across += pair.weight * normal.dot(a.cross(b));
     }
-    // quads::Loops about one centre say nothing of a turn; a thousandth of the section is as good as one centre.
+    // Loops about one centre say nothing of a turn; a thousandth of the section is as good as one
+    // centre.
     const double size2 = std::min(source_area.norm(), target_area.norm());
     if (std::hypot(along, across) < 1e-6 * weight * size2) return std::nullopt;
     return Eigen::AngleAxisd(std::atan2(across, along), normal).toRotationMatrix() * upright;
@@ -99,16 +88,17 @@ std::optional<Eigen::Matrix3d> common_turn(std::span<const LinkingSurface> links
 {
     Vec3 source_area = Vec3::Zero(), target_area = Vec3::Zero();
     for (const LinkingSurface& link : links) {
-        source_area += area_of(round_points(link.source));
-        target_area += area_of(round_points(link.target));
+        source_area += geometry::newell_vector(round_points(link.source));
+        target_area += geometry::newell_vector(round_points(link.target));
     }
     return fitted_turn(pairs_of(links), source_area, target_area);
 }
 
-/// The shift of the target's points against the source's, in turns [0, 1), that leaves the turned rings closest.
+/// The shift of the target's points against the source's, in turns [0, 1), that leaves the turned rings
+/// closest.
 double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eigen::Matrix3d& turn)
 {
-    const Vec3 from = centre_of(source), to = centre_of(target);
+    const Vec3 from = geometry::mean_point(source), to = geometry::mean_point(target);
     for (Vec3& p : source) p = turn * (p - from);
     for (Vec3& p : target) p -= to;
     std::vector<double> apart(kSamples, 0);
@@ -175,18 +165,19 @@ private:
         return points;
     }
 
-    /// The rotation from a row to the next: of the rings' centres, and of the rings themselves where side lines tell their points.
+    /// The rotation from a row to the next: of the rings' centres, and of the rings themselves where side
+    /// lines tell their points.
     [[nodiscard]] Eigen::Matrix3d step(std::size_t row) const
     {
         std::vector<RimPair> pairs;
         Vec3 low = Vec3::Zero(), high = Vec3::Zero();
         for (std::size_t b = 0; b < links_.size(); ++b) {
             const std::vector<Vec3>&from = rings_[b][row - 1], &to = rings_[b][row];
-            low += area_of(from);
-            high += area_of(to);
+            low += geometry::newell_vector(from);
+            high += geometry::newell_vector(to);
             const double weight = links_[b].source.length();
             if (links_[b].lines.empty()) {
-                pairs.push_back({centre_of(from), centre_of(to), weight});
+                pairs.push_back({geometry::mean_point(from), geometry::mean_point(to), weight});
                 continue;
             }
             for (std::size_t i = 0; i < kSamples; ++i) pairs.push_back({from[i], to[i], weight / kSamples});

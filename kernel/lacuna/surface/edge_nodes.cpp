@@ -11,17 +11,24 @@ using namespace topology;
 
 namespace {
 
-/// So close to a point of the polyline, in its sides, a place is that point, bit for bit: given nodes stay.
+/// A position this close to a point of the polyline, as a share of its side, is that point, bit for bit:
+/// given nodes stay. Rounding is a million times less.
 constexpr double kOnPoint = 1e-9;
 
 } // namespace
 
+std::vector<Vec3> edge_line(const Model& model, EdgeId edge)
+{
+    std::vector<Vec3> line;
+    line.reserve(model[edge].points.size());
+    for (const Index p : model[edge].points) line.push_back(model.at(p));
+    return line;
+}
+
 std::vector<Vec3> edge_points(const Model& model, EdgeId id, std::span<const double> fractions)
 {
     const Edge& edge = model[id];
-    std::vector<Vec3> line;
-    line.reserve(edge.points.size());
-    for (const Index p : edge.points) line.push_back(model.at(p));
+    const std::vector<Vec3> line = edge_line(model, id);
     const std::vector<double> arc = geometry::arc_lengths(line);
 
     std::vector<Vec3> result(fractions.size());

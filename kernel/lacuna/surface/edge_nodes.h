@@ -8,8 +8,11 @@
 
 namespace lacuna::surface {
 
-/// Points of an edge at fractions of its length (0 at `from`, 1 at `to`), on the exact curve where there is one.
-/// The ends are the vertices' own points, bit for bit.
+/// The polyline of an edge.
+std::vector<Vec3> edge_line(const topology::Model& model, EdgeId edge);
+
+/// Points of an edge at fractions of its length (0 at `from`, 1 at `to`), on the exact curve where there is
+/// one. The ends are the vertices' own points, bit for bit.
 std::vector<Vec3> edge_points(const topology::Model& model, EdgeId edge, std::span<const double> fractions);
 
 /// A point of a chain.

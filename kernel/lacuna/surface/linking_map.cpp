@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/linking_map.h>
 
+#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/harmonic.h>
 #include <lacuna/geometry/polyline.h>
@@ -20,11 +21,6 @@ using namespace topology;
 
 namespace {
 
-std::uint64_t directed(Index a, Index b)
-{
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32) | static_cast<std::uint32_t>(b);
-}
-
 /// The linking surface's facets, all faces together.
 struct LinkingFacets {
     std::vector<Triangle> triangles;
@@ -40,7 +36,8 @@ LinkingFacets facets_of(const Model& model, const std::vector<FaceId>& walls)
         const std::vector<Triangle>& triangles = model[wall].triangles;
         for (std::size_t t = 0; t < triangles.size(); ++t) {
             for (std::size_t i = 0; i < 3; ++i)
-                facets.half[directed(triangles[t][i], triangles[t][(i + 1) % 3])] = facets.triangles.size();
+                facets.half[directed_key(triangles[t][i], triangles[t][(i + 1) % 3])] =
+                    facets.triangles.size();
             facets.triangles.push_back(triangles[t]);
             facets.face.push_back(wall);
             facets.number.push_back(static_cast<Index>(t));
@@ -79,7 +76,8 @@ std::vector<Index> line_points(const Model& model, const matching::SideLine& lin
     return result;
 }
 
-/// Shortest way along facet sides from the source chain's start to the target rim, off the rims between its ends.
+/// Shortest way along facet sides from the source chain's start to the target rim, off the rims between its
+/// ends.
 std::vector<Index> shortest_way_up(const Model& model, const LinkingFacets& facets,
                                    const LinkingSurface& link)
 {
@@ -124,8 +122,9 @@ std::vector<Index> shortest_way_up(const Model& model, const LinkingFacets& face
                                                   " do not lead from the source's rim to the target's");
 }
 
-/// Turns of the corners along a cut, which leads upwards. Walking round as the linking surface does, s grows away from the cut's left (seen from
-/// outside): there corners on the cut keep their value, on its right they are seen one turn on.
+/// Turns of the corners along a cut, which leads upwards. Walking round as the linking surface does, s grows
+/// away from the cut's left (seen from outside): there corners on the cut keep their value, on its right they
+/// are seen one turn on.
 std::vector<std::array<int, 3>> turns_along(const LinkingFacets& facets, const std::vector<Index>& cut)
 {
     std::vector<std::array<int, 3>> turns(facets.triangles.size(), {0, 0, 0});
@@ -138,11 +137,12 @@ std::vector<std::array<int, 3>> turns_along(const LinkingFacets& facets, const s
         const Triangle& triangle = facets.triangles[t];
         return static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), p) - triangle.begin());
     };
-    // Round each point of the cut, flood the facets on its right, which hold the cut's sides against its direction.
+    // Round each point of the cut, flood the facets on its right, which hold the cut's sides against its
+    // direction.
     for (std::size_t i = 0; i < cut.size(); ++i) {
         std::vector<std::size_t> front;
         const auto start_at = [&](Index a, Index b) {
-            const auto found = facets.half.find(directed(b, a));
+            const auto found = facets.half.find(directed_key(b, a));
             if (found != facets.half.end()) front.push_back(found->second);
         };
         if (i + 1 < cut.size()) start_at(cut[i], cut[i + 1]);
@@ -156,7 +156,7 @@ std::vector<std::array<int, 3>> turns_along(const LinkingFacets& facets, const s
             const Triangle& triangle = facets.triangles[t];
             for (const Index q : {triangle[(c + 1) % 3], triangle[(c + 2) % 3]}) {
                 if (sides.contains({cut[i], q})) continue;
-                for (const std::uint64_t side : {directed(cut[i], q), directed(q, cut[i])}) {
+                for (const std::uint64_t side : {directed_key(cut[i], q), directed_key(q, cut[i])}) {
                     const auto found = facets.half.find(side);
                     if (found != facets.half.end() && found->second != t) front.push_back(found->second);
                 }
@@ -166,7 +166,8 @@ std::vector<std::array<int, 3>> turns_along(const LinkingFacets& facets, const s
     return turns;
 }
 
-/// s of the linking surface with the target rim left free: how the walls themselves lead up. A row a model point.
+/// s of the linking surface with the target rim left free: how the walls themselves lead up. A row a model
+/// point.
 Eigen::MatrixXd natural_coordinate(const Model& model, const LinkingFacets& facets,
                                    const LinkingSurface& link, const std::vector<Index>& cut)
 {
@@ -191,7 +192,8 @@ double unguided_target_start(const OpenVolume& volume, const LinkingSurface& lin
     const Model& model = volume.model;
     const LinkingFacets facets = facets_of(model, link.walls);
     const Eigen::MatrixXd s = natural_coordinate(model, facets, link, shortest_way_up(model, facets, link));
-    // The mean difference, on the circle, between the lead-up coordinate and the share of the target's length.
+    // The mean difference, on the circle, between the lead-up coordinate and the share of the target's
+    // length.
     const double length = link.target.length();
     Vec2 sum = Vec2::Zero();
     for (const RimPoint& p : rim_points(model, link.target)) {
@@ -246,9 +248,9 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link)
     }
     for (const LinkingLine& line : link.lines) {
         const std::vector<Index> points = line_points(model, line.line);
-        std::vector<double> at{0};
-        for (std::size_t i = 1; i < points.size(); ++i)
-            at.push_back(at.back() + (model.at(points[i]) - model.at(points[i - 1])).norm());
+        std::vector<Vec3> way;
+        for (const Index p : points) way.push_back(model.at(p));
+        const std::vector<double> at = geometry::arc_lengths(way);
         for (std::size_t i = 0; i < points.size(); ++i)
             fixed[points[i]] = Vec2(line.source_at / link.source.length(), at[i] / at.back());
     }
@@ -265,7 +267,8 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link)
     problem.period = Eigen::RowVector2d(1, 0);
     const Eigen::MatrixXd strip = geometry::solve_harmonic(problem);
 
-    // The strip's own proportions, so that the closest facet to a place off the strip by rounding is the right one.
+    // The strip's own proportions, so that the closest facet to a place off the strip by rounding is the
+    // right one.
     width_ = (link.source.length() + link.target.length()) / 2;
     double area = 0;
     for (const FaceId wall : link.walls) area += face_area(model, wall);
@@ -299,6 +302,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link)
 
 void LinkingMap::measure_heights(const Model& model)
 {
+    // Columns up the walls and steps along each: a choice, not a measurement.
     constexpr std::size_t kColumns = 16, kSteps = 64;
     even_.assign(kSteps + 1, 0.0);
     for (std::size_t c = 0; c < kColumns; ++c) {
@@ -306,9 +310,8 @@ void LinkingMap::measure_heights(const Model& model)
         for (std::size_t k = 0; k <= kSteps; ++k) {
             const WallPosition place = locate(static_cast<double>(c) / kColumns,
                                               static_cast<double>(k) / kSteps);
-            const Triangle& t = model[place.face].triangles[static_cast<std::size_t>(place.at.triangle)];
-            const Vec3& b = place.at.barycentric;
-            column.push_back(b[0] * model.at(t[0]) + b[1] * model.at(t[1]) + b[2] * model.at(t[2]));
+            const FacetPosition at[] = {place.at};
+            column.push_back(points_at({model.points, model[place.face].triangles, {}, nullptr}, at).front());
         }
         const std::vector<double> arc = geometry::arc_lengths(column);
         for (std::size_t k = 0; k <= kSteps; ++k) even_[k] += arc[k] / arc.back() / kColumns;
@@ -358,7 +361,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
                 double along = 0, up = 0;
                 const std::vector<Index> points = use_points(model, use);
                 for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-                    const auto found = facets.half.find(directed(points[i], points[i + 1]));
+                    const auto found = facets.half.find(directed_key(points[i], points[i + 1]));
                     if (found == facets.half.end()) continue;
                     const Triangle& t = facets.triangles[found->second];
                     const auto c = static_cast<std::size_t>(std::find(t.begin(), t.end(), points[i]) -
@@ -414,7 +417,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
 std::vector<double> LinkingMap::crossings(const Ring& ring, double s)
 {
     // A column on the end of a piece still crosses it.
-    constexpr double kSlack = 1e-9;
+    constexpr double kSlack = 1e-9; ///< of a turn: rounding
     std::vector<double> result;
     for (const auto& [a, b] : ring.segments) {
         const double low = std::min(a.x(), b.x()), high = std::max(a.x(), b.x());

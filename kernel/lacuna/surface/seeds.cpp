@@ -2,6 +2,7 @@
 #include <lacuna/surface/seeds.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/polyline.h>
 #include <lacuna/surface/detail/face_sides.h>
 
 #include <algorithm>
@@ -19,11 +20,13 @@ using namespace topology;
 
 namespace {
 
-/// However large the size asked for, a side of a quad stands for no more than this much of a bend [degrees]: a circle keeps eight.
+/// However large the size asked for, a side of a quad stands for no more than this much of a bend [degrees]:
+/// a circle keeps eight.
 constexpr double kTurnPerSide = 45;
-/// Points per piece at which the size is asked.
+/// Points per piece at which the size is asked: a choice, not a measurement.
 constexpr int kSizeSamples = 32;
-/// Sizes that differ by less along an edge are one, and its nodes stand evenly.
+/// Sizes that differ by a smaller share along an edge are one, and its nodes stand evenly: less than can be
+/// seen.
 constexpr double kSameSize = 1e-3;
 
 /// How much an edge turns from end to end, all bends added [degrees]; a closed one also where it closes.
@@ -126,10 +129,7 @@ private:
     /// The pieces of an edge get the nodes it came with.
     void keep_nodes(FaceId face, EdgeId edge)
     {
-        std::vector<double> arc{0};
-        const std::vector<Index>& points = model_[edge].points;
-        for (std::size_t i = 1; i < points.size(); ++i)
-            arc.push_back(arc.back() + (model_.at(points[i]) - model_.at(points[i - 1])).norm());
+        const std::vector<double> arc = geometry::arc_lengths(edge_line(model_, edge));
         for (SeedPiece& piece : seeds_.pieces[edge]) {
             if (piece.fixed) continue;
             const double slack = model_.tolerance / arc.back();
@@ -206,9 +206,12 @@ private:
             seeds_.submapped.insert(face);
     }
 
-    /// Does the size ask for about as many sides on either side? Else one would get as many as the other needs.
+    /// Whether the size asks for about as many sides of quads on either side of the face. Where it does not,
+    /// one side would get as many as the other needs.
     [[nodiscard]] bool counts_alike(const std::vector<SidePair>& pairs) const
     {
+        // As `alike()` for lengths, in counts; up to four sides any ratio will do. A choice, not a
+        // measurement.
         constexpr int kUnlike = 3, kFew = 4;
         return std::all_of(pairs.begin(), pairs.end(), [&](const SidePair& sides) {
             const int a = total(sides[0]), b = total(sides[1]);
@@ -240,7 +243,8 @@ private:
                                [&](int sum, EdgeId e) { return sum + seeds_.count(e); });
     }
 
-    /// Equal counts on opposite sides of every mapped face. Counts only grow; where they would chase each other, the face is meshed freely.
+    /// Equal counts on opposite sides of every mapped face. Counts only grow; where they would chase each
+    /// other, the face is meshed freely.
     void balance()
     {
         const std::size_t most = 4 * seeds_.pieces.size() + 16;
@@ -294,7 +298,8 @@ private:
         return std::all_of(pieces.begin(), pieces.end(), [](const SeedPiece& piece) { return piece.fixed; });
     }
 
-    /// Free faces by how many edges lie between them and a rim edge of their own, farthest first: each hands its odd side on.
+    /// Free faces by how many edges lie between them and a rim edge of their own, farthest first: each hands
+    /// its odd side on.
     void make_even()
     {
         std::map<FaceId, EdgeId> way_out;

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/mesh/incidence.h>
 #include <lacuna/sweep/detail/cell_energy.h>
 #include <lacuna/sweep/improve.h>
 
@@ -19,11 +20,10 @@ struct CellRegion {
     std::vector<Vec3> box;  ///< of each cell: its mean edges when the work began
     /// Of each cell: the scaled Jacobian that is good enough, or the best its held nodes allow.
     std::vector<double> aim;
-    std::vector<Index> node;      ///< mesh node of each node
-    std::size_t free = 0;         ///< nodes that may move
-    std::vector<Index> surface;   ///< of each free node; -1: inside
-    std::vector<Index> use_begin; ///< uses of free node i: use_begin[i] … use_begin[i + 1]
-    std::vector<Index> uses;      ///< 8 · cell + corner
+    std::vector<Index> node;    ///< mesh node of each node
+    std::size_t free = 0;       ///< nodes that may move
+    std::vector<Index> surface; ///< of each free node; -1: inside
+    mesh::Incidence uses;       ///< of each free node: 8 · cell + corner
 };
 
 /// Cells that are poor for no fault of the nodes that stay, and `rings` of neighbours.

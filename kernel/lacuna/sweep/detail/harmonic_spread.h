@@ -3,6 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
+#include <lacuna/mesh/incidence.h>
 
 #include <Eigen/SparseCore>
 
@@ -12,18 +13,8 @@
 
 namespace lacuna::sweep {
 
-/// The nodes each node shares a quad side with, rising: those of node i are neighbours[begin[i]] … [begin[i +
-/// 1]).
-struct NodeGraph {
-    std::vector<Index> begin;
-    std::vector<Index> neighbours;
-
-    [[nodiscard]] std::span<const Index> of(std::size_t node) const
-    {
-        const auto first = static_cast<std::size_t>(begin[node]);
-        return {neighbours.data() + first, static_cast<std::size_t>(begin[node + 1]) - first};
-    }
-};
+/// The nodes each node shares a quad side with, rising.
+using NodeGraph = mesh::Incidence;
 
 /// O(quads).
 NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes);

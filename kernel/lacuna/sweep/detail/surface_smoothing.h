@@ -46,8 +46,6 @@ public:
     std::vector<Vec3> polish(std::vector<Vec3> nodes, double good_enough, const RunContext& context) const;
 
 private:
-    /// Quads around each node, compressed as in NodeGraph.
-    [[nodiscard]] std::span<const Index> quads_of(std::size_t node) const;
     [[nodiscard]] double worst_around(std::size_t node, std::span<const Vec3> nodes,
                                       std::span<const Vec3> normals) const;
     [[nodiscard]] std::vector<std::size_t> poor_nodes(std::span<const Vec3> nodes,
@@ -64,7 +62,7 @@ private:
     const SurfaceProjector& project_;
     /// Of the neighbours, in the graph's order; their sum is that of the sides' own.
     std::vector<double> weights_;
-    std::vector<Index> quad_begin_, quad_list_;
+    mesh::Incidence quads_at_; ///< of each node
     std::vector<char> is_free_;
 };
 
