@@ -131,7 +131,8 @@ TEST_CASE("without side lines the target is started where the walls lead straigh
                 const double turn = std::remainder(std::atan2(b.y(), b.x()) - std::atan2(a.y(), a.x()),
                                                    2 * std::numbers::pi) *
                                     180 / std::numbers::pi;
-                // Walls that turn their facets lead half of the way round with them; a smooth round wall does not turn anything.
+                // Walls that turn their facets lead half of the way round with them; a smooth round wall does
+                // not turn anything.
                 CAPTURE(twist);
                 CHECK(std::abs(turn) <= std::abs(twist) + 2);
             }

@@ -35,7 +35,8 @@ int total(const Model& model, FaceId face, const Seeds& seeds)
     return sum;
 }
 
-/// Mapped faces: as many sides opposite each other. Free ones: an even number in all. Pieces run over each edge without a gap.
+/// Mapped faces: as many sides opposite each other. Free ones: an even number in all. Pieces run over each
+/// edge without a gap.
 void check_seeds(const OpenVolume& volume, const Seeds& seeds)
 {
     const Model& model = volume.model;

@@ -14,10 +14,12 @@ using namespace topology;
 
 namespace {
 
-/// Below this inner angle a vertex is a corner of a mapped face, above its opposite it is a reversal [degrees].
+/// Below this inner angle a vertex is a corner of a mapped face, above its opposite it is a reversal
+/// [degrees]. Half way from a right angle to a straight one, and as far beyond.
 constexpr double kCorner = 135;
 constexpr double kReversal = 225;
-/// A face with opposite sides more unlike than this is not mapped unless asked to: its quads would be as unlike.
+/// A face with opposite sides more unlike than this is not mapped unless asked to: its quads would be as
+/// unlike. A choice, not a measurement.
 constexpr double kUnlike = 3;
 
 /// Inner angle of a face where use i of its loop starts [degrees].
@@ -29,7 +31,8 @@ double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_
     const Index at = after.front();
     Vec3 normal = Vec3::Zero();
     for (const Triangle& t : model[face].triangles) {
-        // Facets on the two sides that meet here: the corner's own, also where the face comes by twice (a seam).
+        // Facets on the two sides that meet here: the corner's own, also where the face comes by twice (a
+        // seam).
         const bool touches = std::find(t.begin(), t.end(), at) != t.end();
         const bool on_side = std::find(t.begin(), t.end(), after[1]) != t.end() ||
                              std::find(t.begin(), t.end(), before[before.size() - 2]) != t.end();

@@ -114,12 +114,13 @@ std::vector<double> corners_between(const Model& model, const Chain& chain, doub
     return result;
 }
 
-/// Pair the breaks of two segments in order: the pairs that lie nearest to each other in relative length, none crossing;
-/// the rest stay alone. Dynamic programming; a break alone costs as much as a pair this far apart.
+/// Pair the breaks of two segments in order: the pairs that lie nearest to each other in relative length,
+/// none crossing; the rest stay alone. Dynamic programming; a break alone costs as much as a pair this far
+/// apart.
 std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a,
                                                      const std::vector<double>& b)
 {
-    constexpr double kAlone = 0.1;
+    constexpr double kAlone = 0.1; ///< of the whole length; a choice, not a measurement
     const std::size_t n = a.size(), m = b.size();
     std::vector<std::vector<double>> cost(n + 1, std::vector<double>(m + 1, 0));
     for (std::size_t i = 0; i <= n; ++i) {
@@ -149,7 +150,8 @@ std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& 
     return result;
 }
 
-/// Fill in the other side of breaks that stand alone, at the same share of the way between the pairs around them.
+/// Fill in the other side of breaks that stand alone, at the same share of the way between the pairs around
+/// them.
 void complete(std::vector<std::pair<double, double>>& breaks)
 {
     std::vector<std::pair<double, double>> anchors{{0, 0}};
@@ -231,7 +233,8 @@ LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, co
     return link;
 }
 
-/// The walls of a loop are a ring. With a tunnel through them (a bore from one wall to another) no strip covers them.
+/// The walls of a loop are a ring. With a tunnel through them (a bore from one wall to another) no strip
+/// covers them.
 void check_ring(const Model& model, const std::vector<FaceId>& part)
 {
     if (euler_number(model, part) == 0) return;

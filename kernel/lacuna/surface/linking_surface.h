@@ -11,8 +11,8 @@
 
 namespace lacuna::surface {
 
-/// A segment of the source rim and the segment of the target rim it is swept to, in running lengths of the linking surface's
-/// chains. It lies within one source edge.
+/// A segment of the source rim and the segment of the target rim it is swept to, in running lengths of the
+/// linking surface's chains. It lies within one source edge.
 struct RimSegment {
     double source_from = 0, source_to = 0;
     double target_from = 0, target_to = 0; ///< may run past the target chain's length: modulo it
@@ -25,25 +25,29 @@ struct LinkingLine {
     double source_at = 0, target_at = 0; ///< running lengths of its ends
 };
 
-/// The walls between one source loop and one target loop: a ring of given and void faces.
+/// The ring of walls, given and void, between one source loop and one target loop: what the literature on
+/// sweeping calls a linking surface. Here and in the code near it, `link` for short.
 ///
-/// `source` walks the source's rim with the source on its left; `target` walks the target's rim the same way round,
-/// so with the target on its right. Both start at the first side line, where there is one.
+/// `source` walks the source's rim with the source on its left; `target` walks the target's rim the same way
+/// round, so with the target on its right. Both start at the first side line, where there is one.
 struct LinkingSurface {
     std::vector<FaceId> walls;
     Chain source, target;
     std::vector<LinkingLine> lines;   ///< in walking order
     std::vector<RimSegment> segments; ///< in walking order, the first from source length 0
-    /// Without side lines: how many turns round the linking surface the target end of the shortest way up lies from the source's start,
-    /// where more than the walls themselves tells it. The walls' own lead counts else.
+    /// For a ring without side lines: where the shortest way up from the source's start meets the target rim,
+    /// as a number of turns round the ring. Set where the other loops tell it; else the walls themselves
+    /// decide.
     std::optional<double> branch{};
 };
 
-/// How linking surfaces without side lines turn: each so that its own walls are sheared least, or all loops as one body, which holes
-/// that go round each other need.
-enum class Turning { each, together };
+/// How linking surfaces without side lines turn between source and target.
+enum class Turning {
+    each,     ///< each so that its own walls are sheared least
+    together, ///< all loops as one body, which holes that go round each other need
+};
 
-/// The linking surfaces of a sealed volume, one a loop of the source; in order of the source's loops.
+/// The linking surfaces of a sealed volume: one for each loop of the source, in their order.
 /// @throw NotSweepable  walls that join a source loop to none or several of the target's; names them.
 std::vector<LinkingSurface> linking_surfaces(const topology::OpenVolume& volume,
                                              Turning turning = Turning::each);

@@ -22,7 +22,8 @@ using namespace topology;
 
 namespace {
 
-/// A patch this far from its face, as a share of the shorter rim, is no guide to where nodes belong on it.
+/// A patch this far from its face, as a share of the shorter rim, is no guide to where nodes belong on it. A
+/// choice, not a measurement.
 constexpr double kFarFromPatch = 0.05;
 
 /// The faces of the segment of walls after each side line.
@@ -146,8 +147,8 @@ private:
         return faces.size() == 1 && model_[faces.front()].loops.size() == 1;
     }
 
-    /// Give each ring the layer nearest to it; rings that want the same layer share it where they are one step of the walls, and
-    /// else the later ones are passed over.
+    /// Give each ring the layer nearest to it; rings that want the same layer share it where they are one
+    /// step of the walls, and else the later ones are passed over.
     void plan_rings()
     {
         int last = 0;
@@ -267,7 +268,8 @@ private:
             double moved = 0;
             for (std::size_t i = 0; i < inside.size(); ++i)
                 moved = std::max(moved, (inside[i] - patch[i]).norm());
-            // Round a seam the patch has no chord to turn with; far from the face it would spread the nodes by chance.
+            // Round a seam the patch has no chord to turn with; far from the face it would spread the nodes
+            // by chance.
             const bool round_a_seam = n == count_;
             if (round_a_seam &&
                 moved > kFarFromPatch * std::min(geometry::length(bottom), geometry::length(top)))
@@ -367,8 +369,8 @@ Rows known_rows(const std::vector<WallMesh>& meshes, std::span<const LinkingNode
     return rows;
 }
 
-/// Put the nodes of followed panels where each row's known columns lead the source rim and the target rim, blended by height and
-/// moved to meet the panel's sides.
+/// Put the nodes of followed panels where each row's known columns lead the source rim and the target rim,
+/// blended by height and moved to meet the panel's sides.
 void follow_rows(std::vector<WallMesh>& meshes, std::span<const LinkingNodes> nodes,
                  const std::vector<FollowedPanel>& followed, std::size_t layers)
 {

@@ -10,7 +10,7 @@
 
 namespace lacuna::surface {
 
-/// Nodes round a linking surface, in walking order from the linking surface's start; the first is not repeated.
+/// Nodes round a linking surface, in walking order from its start; the first is not repeated.
 struct LinkingNodes {
     std::vector<double> source_at; ///< running length on the source chain
     std::vector<double> target_at; ///< running length on the target chain
@@ -31,10 +31,12 @@ struct WallMesh {
 
 /// Mesh the walls of all linking surfaces: one row of quads a layer.
 ///
-/// Between two side lines that one face spans: transfinite in arc length, then onto the face (paper sect. 7; for void faces
-/// Algorithms 5 and 6). Anything else, several faces stacked or in a row or no side line at all: by the linking surface's harmonic
-/// strip, where a ring edge between stacked faces draws the nearest layer to it. Void faces that follow the given walls come last: their
-/// nodes go where the rows of the other walls lead them (two-sided affine fit a row), so that rows stay level round the volume.
+/// A part between two side lines that is one face is meshed transfinitely in arc length and projected onto
+/// the face (paper sect. 7; for void faces Algorithms 5 and 6). Other parts (several faces stacked or in a
+/// row, or no side line at all) are meshed by the harmonic map of the linking surface; there, an edge that
+/// runs round between stacked faces draws the nearest layer to it. Void faces that follow the given walls
+/// come last: two affine fits a row say where the rows of the other walls lead their nodes, so that rows stay
+/// level round the volume.
 /// @param nodes    of each linking surface.
 /// @param heights  layers + 1 numbers from 0 to 1.
 /// @post  nodes on given faces and edges lie on the exact geometry; rows 0 and last are points of the rims.

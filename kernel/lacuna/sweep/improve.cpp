@@ -15,12 +15,13 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Smallest regularisation, of a cell's volume.
+/// Smallest regularisation, of a cell's volume: a choice, not a measurement.
 constexpr double kLeastEpsilon = 1e-3;
-/// Rounds of untangling, each with a smaller regularisation, and how many may pass without gain.
+/// Rounds of untangling, each with a smaller regularisation, and how many may pass without gain: bounds on
+/// the work, chosen and not measured.
 constexpr int kUntanglings = 40;
 constexpr int kPatience = 4;
-/// A share of what cells lack that is gain while untangling.
+/// A share of what cells lack that counts as gain while untangling.
 constexpr double kGain = 0.01;
 /// Sharpness of the second stage, round by round: at first all poor corners count, at last the worst alone.
 constexpr std::array<double, 6> kSharpness{6, 12, 20, 30, 45, 60};
@@ -28,7 +29,7 @@ constexpr std::array<double, 6> kSharpness{6, 12, 20, 30, 45, 60};
 constexpr double kShapeShare = 1e-3;
 /// A gain in the least scaled Jacobian, or a share of what is lacking, that is worth moving nodes for.
 constexpr double kWorthIt = 1e-4;
-/// How much the mean may fall for the least to rise.
+/// How much the mean may fall for the least to rise: a choice, told in the header.
 constexpr double kMeanGivenUp = 0.01;
 
 class Improver {

@@ -16,9 +16,9 @@ namespace lacuna::sweep {
 
 namespace {
 
-// A worst quad this much below the source's is as good as the source's.
+/// A worst quad this much below the source's is as good as the source's. A choice, not a measurement.
 constexpr double kSameQuality = 0.01;
-// Moves below this part of the rim are what a projection leaves of a point that lies on the surface already.
+/// Moves below this part of the rim are what a projection leaves of a point that lies on the surface already.
 constexpr double kOnSurface = 1e-9;
 
 /// The mesh's graph and its factor, made when first asked for: affine images on planes need neither.
@@ -176,7 +176,7 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
     result.worst_source = worst_quad(source.quads, source.nodes);
     result.report = guess.affine ? "affine image of the source" : "fitted image of the source";
     Candidate found{guess.nodes, worst_quad(source.quads, guess.nodes)};
-    // What an affine map takes from the source's quads is the rims' doing; the rest is there to be mended.
+    // What an affine map takes from the source's quads is the rims' doing; the rest can be improved.
     const double model = guess.affine ? std::min(result.worst_source, found.worst) : result.worst_source;
     if (project && !free_nodes.empty()) {
         Candidate projected{guess.nodes, -1};

@@ -13,7 +13,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Passes of the smoother over each layer.
+/// Passes of the smoother over each layer: a choice, not a measurement.
 constexpr int kPasses = 5;
 
 /// Every node that is not on the rim to the mean of its neighbours.

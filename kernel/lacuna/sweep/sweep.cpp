@@ -96,7 +96,7 @@ surface::SizeFields size_fields(const surface::SizeField& size, const SweepOptio
 /// Refuse at once what could never be numbered, instead of filling the memory first.
 void check_amount(const OpenVolume& volume, const surface::SizeField& size, const LayerSpec& layers)
 {
-    constexpr std::size_t kSamples = 64;
+    constexpr std::size_t kSamples = 64; ///< facets a face; a rough count will do
     double quads = 0;
     for (const FaceId face : volume.faces(Role::source)) {
         const std::vector<Triangle>& triangles = volume.model[face].triangles;

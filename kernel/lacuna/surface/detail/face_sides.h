@@ -21,11 +21,12 @@ std::optional<std::vector<std::size_t>> four_corners(const topology::Model& mode
 std::vector<SidePair> side_pairs(const topology::Model& model, FaceId face,
                                  const std::vector<std::size_t>& corners);
 
-/// The pairs of sides of a face whose loops turn by right angles at vertices, as a polygon of squares does: of each loop what
-/// runs one way and what runs back. None where a vertex's angle fits no grid, or a loop does not turn once about.
+/// The pairs of sides of a face whose loops turn by right angles at vertices, as a polygon of squares does:
+/// of each loop what runs one way and what runs back. None where a vertex's angle fits no grid, or a loop
+/// does not turn once about.
 std::vector<SidePair> grid_sides(const topology::Model& model, FaceId face);
 
-/// Is no side much longer than the one opposite?
+/// Whether no side is much longer than the one opposite.
 bool alike(const topology::Model& model, const std::vector<SidePair>& pairs);
 
 } // namespace lacuna::surface

@@ -15,24 +15,27 @@ struct WallPosition {
     FacetPosition at;
 };
 
-/// The walls of a linking surface laid out as a strip: s runs round the linking surface from 0 to 1 and closes on itself, t rises from 0 on the
-/// source rim to 1 on the target rim.
+/// A linking surface mapped onto a strip: s runs round it from 0 to 1 and closes on itself, t rises from 0 on
+/// the source rim to 1 on the target rim.
 ///
-/// Harmonic in both (mean value weights), with the rims by their segments and the side lines upright by their length; so one to
-/// one (Tutte) whatever faces the walls are made of: stacked, in rows, with seams that do not line up.
+/// Both coordinates are harmonic (mean value weights). They are given on the rims, by their segments, and on
+/// the side lines, which are upright. So the map is one to one (Tutte) whatever faces the walls are made of:
+/// stacked, in rows, with seams that do not line up.
 class LinkingMap {
 public:
     LinkingMap(const topology::OpenVolume& volume, const LinkingSurface& link);
 
     [[nodiscard]] WallPosition locate(double s, double t) const;
 
-    /// t at a share of the way up as the walls are long, in the mean over the columns. Where there are side lines t is that share
-    /// already; without them a harmonic t rises faster where the walls are narrow.
+    /// t at a share of the walls' length from source to target, in the mean over the columns. Where there are
+    /// side lines t is that share already; without them a harmonic t rises faster where the walls are narrow.
     [[nodiscard]] double from_even(double height) const;
-    /// s of the target end of the shortest way up a linking surface without side lines, with whole turns counted.
+    /// s of the target end of the shortest way up a linking surface without side lines, with whole turns
+    /// counted.
     [[nodiscard]] double target_branch() const { return branch_; }
 
-    /// Edges that run round the linking surface, between faces stacked on each other: where a layer should lie.
+    /// Edges that run round the linking surface, between faces stacked on each other: where a layer should
+    /// lie.
     struct Ring {
         double height = 0;                         ///< mean t
         std::vector<std::array<Vec2, 2>> segments; ///< (s, t) pieces
@@ -57,8 +60,8 @@ private:
     std::vector<Ring> rings_;
 };
 
-/// Where on the target chain of a linking surface without side lines the source chain's start belongs, so that the strip is
-/// sheared least [running length].
+/// Where on the target chain of a linking surface without side lines the source chain's start belongs, so
+/// that the strip is sheared least [running length].
 double unguided_target_start(const topology::OpenVolume& volume, const LinkingSurface& link);
 
 /// s in [0, 1] of a running length of the target chain, by the linking surface's segments.
