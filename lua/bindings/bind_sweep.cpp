@@ -49,17 +49,9 @@ void read_heights(lua_State* L, int index, const Where& where, sweep::LayerSpec&
 {
     const std::size_t size = lua_rawlen(L, index);
     guard(L, [&] { spec.heights.resize(size); });
-    double below = 0;
     std::size_t next = 0;
-    read_array(L, index, where, "", [&](int element, const Where& at) {
-        const double height = read_number(L, element, at);
-        if (!(height > below && height <= 1))
-            fail_value(L, at, "a height that rises from the last one, in (0, 1]", element);
-        spec.heights[next++] = below = height;
-    });
-    if (below != 1)
-        fail_option(L, where, "must end with the height 1, found %f as the last of %d", below,
-                    static_cast<int>(size));
+    read_array(L, index, where, "",
+               [&](int element, const Where& at) { spec.heights[next++] = read_number(L, element, at); });
 }
 
 void read_layers(lua_State* L, int index, const Where& where, SweepArguments& arguments)
@@ -133,13 +125,7 @@ struct LuaSize {
         }
         const double size = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : std::nan("");
         lua_pop(L, 1);
-        if (!(std::isfinite(size) && size > 0))
-            throw InvalidInput("lua.size_function",
-                               std::string("sweep: option '") + option +
-                                   "': the function must return a positive number everywhere; at (" +
-                                   std::to_string(place.x()) + ", " + std::to_string(place.y()) + ", " +
-                                   std::to_string(place.z()) + ") it did not");
-        return size;
+        return size; // the kernel refuses what is no length
     }
 };
 
@@ -163,9 +149,7 @@ void read_order(lua_State* L, int index, const Where& where, SweepArguments& arg
 
 void read_min_scaled_jacobian(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
-    const double least = read_number(L, index, where);
-    if (least < 0 || least > 1) fail_value(L, where, "a number in [0, 1]", index);
-    arguments.options.min_scaled_jacobian = least;
+    arguments.options.min_scaled_jacobian = read_number(L, index, where);
 }
 
 const Word<sweep::Interior> kInteriors[] = {
@@ -226,17 +210,18 @@ SweepArguments& push_arguments(lua_State* L, int index, const char* call)
     read_options(L, index, call, kSweepOptions, arguments);
     if (arguments.order == 2 || arguments.serendipity)
         fail(L, "%s: cells of order 2 are not available yet; leave 'order' and 'serendipity' out", call);
-    const bool unpaved = arguments.options.quads != Quads::automatic &&
-                         arguments.options.quads != Quads::paved;
-    if (unpaved &&
-        (arguments.options.rows > 0 || arguments.options.row_height || arguments.row_height_function))
-        fail(L, "%s: 'rows' and 'row_height' are the paver's; use them with quads = \"auto\" or \"paved\"",
-             call);
     push_field(L, index, "size", arguments.size_function, arguments.options.size);
     push_field(L, index, "row_height", arguments.row_height_function, arguments.options.row_height);
 #ifdef LACUNA_WITH_CAD
     guard(L, [&] { arguments.options.quad_mesher = cad::recombine; });
 #endif
+    // A height alone stands for one row of it.
+    if (arguments.options.row_height && arguments.options.rows == 0) arguments.options.rows = 1;
+    guard(L, [&] {
+        RunContext context;
+        context.threads = arguments.threads;
+        sweep::check(arguments.options, context);
+    });
     return arguments;
 }
 

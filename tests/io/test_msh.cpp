@@ -75,7 +75,7 @@ TEST_CASE("a mesh read back is proved, its skin included")
     const auto mesh = test::ring(12, 5);
     for (const auto& options : kFormats) {
         const io::HexCells cells = written_and_read(mesh, options);
-        CHECK(quality::prove_cells(cells.nodes, cells.hexes, cells.quads).hexes == mesh.hex_count());
+        CHECK(quality::prove_cells(cells.nodes, cells.hexes, cells.quads).quality.hexes == mesh.hex_count());
     }
 }
 

@@ -97,6 +97,16 @@ wrong("sweep", "quads", { "pave" }, 'did you mean "paved"?')
 wrong("sweep", "order", { 0, 3, 1.5 }, "must be")
 wrong("sweep", "min_scaled_jacobian", { -0.1, 1.1 }, "[0, 1]")
 wrong("sweep", "threads", { 0, -1, 1.5 }, "a positive whole number")
+wrong("sweep", "threads", { 1025 }, "to 1024")
+for _, quads in ipairs { "mapped", "gmsh", "keep" } do
+  check.fails(function() volume():sweep { layers = 1, rows = 2, quads = quads } end, "sweep:", "'rows'", "paved")
+  check.fails(function() volume():sweep { layers = 1, row_height = 0.1, quads = quads } end, "sweep:", "'rows'", "paved")
+end
+-- Ten times 0.1 is 1 but for rounding.
+local steps, sum = {}, 0
+for i = 1, 10 do sum = sum + 0.1; steps[i] = sum end
+check.that(sum ~= 1)
+check.that(#volume():sweep({ layers = steps, size = 1 }):quality().worst == 10)
 wrong("synthetic.prism", "sides", { 2, 3.5, "6" }, "at least 3")
 wrong("synthetic.prism", "radius", { 0, -1, huge }, "a positive number")
 wrong("synthetic.prism", "holes", { -1, 0.5 }, "at least 0")

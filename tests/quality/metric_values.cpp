@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // usage: metric_values IN OUT, for against_vtk.py: every metric of every cell of a list, as raw numbers.
-// IN: two 64-bit counts of nodes and cells, coordinates, node numbers (32-bit) from 0. OUT: metric after metric.
+// IN: two 64-bit counts of nodes and cells, coordinates, node numbers (32-bit) from 0. OUT: metric after
+// metric.
 #include <lacuna/quality/metrics.h>
 
 #include <cstdint>

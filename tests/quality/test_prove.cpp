@@ -8,7 +8,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <random>
 
@@ -16,19 +15,14 @@ using namespace lacuna;
 
 namespace {
 
-std::string code_of(const std::function<void()>& work)
+std::string code_of(const quality::Proof& proof)
 {
-    try {
-        work();
-    } catch (const NotSweepable& error) {
-        return error.code();
-    }
-    return "";
+    return proof.finding ? quality::fault_code(proof.finding->fault) : "";
 }
 
 std::string code_of(const mesh::HexMesh& mesh, double limit = 0)
 {
-    return code_of([&] { quality::prove(mesh, limit); });
+    return code_of(quality::prove(mesh, limit));
 }
 
 std::vector<Hex> all_hexes(const mesh::HexMesh& mesh)
@@ -55,10 +49,10 @@ TEST_CASE("sound meshes are proved, swept or as a list with their skin, and meas
               test::block({.columns = 5, .rows = 5, .layers = layers, .leave_out = [](int i, int j) {
                                return i == j && i % 2 == 1;
                            }})}) {
-            CHECK(quality::prove(mesh).volume == quality::measure(mesh).volume);
+            CHECK(quality::prove(mesh).quality.volume == quality::measure(mesh).volume);
             const auto hexes = all_hexes(mesh);
-            CHECK(quality::prove_cells(mesh.nodes, hexes).hexes == hexes.size());
-            CHECK(quality::prove_cells(mesh.nodes, hexes, all_skin(mesh)).hexes == hexes.size());
+            CHECK(quality::prove_cells(mesh.nodes, hexes).quality.hexes == hexes.size());
+            CHECK(quality::prove_cells(mesh.nodes, hexes, all_skin(mesh)).quality.hexes == hexes.size());
         }
     }
 }
@@ -191,8 +185,7 @@ TEST_CASE("nodes of two parts in one place are found, to within 1e-9 of the diag
         CHECK(code_of(slit(width)) == "quality.coincident_nodes");
     for (const double width : {1.1e-9 * diagonal, 1e-7, 1e-3}) CHECK(code_of(slit(width)).empty());
     const auto listed = slit(0);
-    CHECK(code_of([&] { quality::prove_cells(listed.nodes, all_hexes(listed)); }) ==
-          "quality.coincident_nodes");
+    CHECK(code_of(quality::prove_cells(listed.nodes, all_hexes(listed))) == "quality.coincident_nodes");
 }
 
 TEST_CASE("a cell that is invalid between valid corners is refused")
@@ -217,15 +210,33 @@ TEST_CASE("a refusal names the worst cells, their layer and their place")
 {
     auto mesh = test::block({.columns = 3, .rows = 3, .layers = 3});
     mesh.nodes[16 + 5].z() += 0.7; // inner node of the second level
-    std::string message;
-    try {
-        quality::prove(mesh);
-    } catch (const NotSweepable& error) {
-        message = error.what();
-    }
+    const quality::Proof proof = quality::prove(mesh);
+    REQUIRE(proof.finding);
+    const std::string& message = proof.finding->message;
     CHECK(message.find("layer 2 of 3") != std::string::npos);
     CHECK(message.find("scaled Jacobian -") != std::string::npos);
     CHECK(message.find(" at ") != std::string::npos);
+}
+
+TEST_CASE("a finding becomes an error of the same code and words where it is required that there is none")
+{
+    auto mesh = test::block({});
+    CHECK_NOTHROW(quality::require(quality::prove(mesh)));
+    mesh.nodes[21].z() += 0.7;
+    const quality::Proof proof = quality::prove(mesh);
+    REQUIRE(proof.finding);
+    CHECK(quality::can_be_improved(proof.finding->fault));
+    CHECK(proof.quality.inverted > 0);
+    try {
+        quality::require(proof);
+        FAIL("a finding was let pass");
+    } catch (const NotSweepable& error) {
+        CHECK(error.code() == "quality.inverted");
+        CHECK(error.what() == proof.finding->message);
+    }
+    CHECK_FALSE(quality::can_be_improved(quality::Fault::not_conformal));
+    CHECK(quality::fault_code(quality::Fault::empty) == "quality.empty");
+    CHECK(quality::fault_code(quality::Fault::below_limit) == "quality.below_limit");
 }
 
 TEST_CASE("what is wrong with a list of cells is found and called by its name")
@@ -234,7 +245,7 @@ TEST_CASE("what is wrong with a list of cells is found and called by its name")
     auto nodes = mesh.nodes;
     auto hexes = all_hexes(mesh);
     auto skin = all_skin(mesh);
-    const auto code = [&] { return code_of([&] { quality::prove_cells(nodes, hexes, skin); }); };
+    const auto code = [&] { return code_of(quality::prove_cells(nodes, hexes, skin)); };
     REQUIRE(code().empty());
 
     SUBCASE("no cells")
@@ -273,8 +284,7 @@ TEST_CASE("what is wrong with a list of cells is found and called by its name")
     {
         const auto pinched = test::block(
             {.columns = 2, .rows = 2, .leave_out = [](int i, int j) { return i == j; }});
-        CHECK(code_of([&] { quality::prove_cells(pinched.nodes, all_hexes(pinched)); }) ==
-              "quality.open_skin");
+        CHECK(code_of(quality::prove_cells(pinched.nodes, all_hexes(pinched))) == "quality.open_skin");
     }
     SUBCASE("a hanging node")
     {

@@ -16,7 +16,7 @@ struct BlockOptions {
     std::function<bool(int column, int row)> leave_out = nullptr; ///< quads that are not there
 };
 
-/// Patches: 0 the source (tag 1), 1 the target (tag 2), 2 the walls (tag 3).
+/// SkinPatches: 0 the source (tag 1), 1 the target (tag 2), 2 the walls (tag 3).
 mesh::HexMesh block(const BlockOptions& options = {});
 
 /// A tube: a source with a hole, `around` quads about it and two across.

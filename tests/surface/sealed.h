@@ -19,7 +19,8 @@ inline topology::OpenVolume sealed(const PrismOptions& options, const closure::C
     return volume;
 }
 
-/// A box whose source is a board of n × m faces, and whose walls are one face a side; `gone` squares make holes, which have walls too.
+/// A box whose source is a board of n × m faces, and whose walls are one face a side; `gone` squares make
+/// holes, which have walls too.
 inline topology::OpenVolume board_box(int n, int m, double height,
                                       const std::function<bool(int, int)>& gone = nullptr)
 {

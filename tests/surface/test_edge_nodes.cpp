@@ -110,7 +110,7 @@ TEST_CASE("a chain runs through its edges in the direction they are used, and it
                 const auto points = chain.points(at);
                 for (std::size_t k = 0; k + 1 < at.size(); ++k) {
                     CHECK((points[k + 1] - points[k]).norm() <= (at[k + 1] - at[k]) * (1 + 1e-9));
-                    const auto place = chain.place(at[k]);
+                    const auto place = chain.position(at[k]);
                     CHECK(place.fraction >= 0);
                     CHECK(place.fraction <= 1);
                     const std::vector<double> f{place.fraction};

@@ -35,7 +35,8 @@ int total(const Model& model, FaceId face, const Seeds& seeds)
     return sum;
 }
 
-/// Mapped faces: as many sides opposite each other. Free ones: an even number in all. Pieces run over each edge without a gap.
+/// Mapped faces: as many sides opposite each other. Free ones: an even number in all. Pieces run over each
+/// edge without a gap.
 void check_seeds(const OpenVolume& volume, const Seeds& seeds)
 {
     const Model& model = volume.model;
@@ -85,8 +86,8 @@ TEST_CASE(
                     for (const QuadStyle style : {QuadStyle::automatic, QuadStyle::free}) {
                         const auto volume = test::sealed(
                             {.sides = sides, .holes = holes, .hole_sides = hole_sides});
-                        const auto belts = surface::belts(volume);
-                        const Seeds seeds = surface::seed_source(volume, belts, even(size), style);
+                        const auto links = surface::linking_surfaces(volume);
+                        const Seeds seeds = surface::seed_source(volume, links, even(size), style);
                         CAPTURE(sides);
                         CAPTURE(holes);
                         CAPTURE(hole_sides);
@@ -121,14 +122,14 @@ TEST_CASE("boards of source faces agree along the edges they share")
             if (hole && (n < 3 || m < 3)) continue;
             const auto volume = test::board_box(n, m, 1,
                                                 [&](int i, int j) { return hole && i == 1 && j == 1; });
-            const auto belts = surface::belts(volume);
+            const auto links = surface::linking_surfaces(volume);
             for (const QuadStyle style : {QuadStyle::automatic, QuadStyle::free, QuadStyle::mapped}) {
                 const auto graded = [](const Vec3& p) { return 0.15 + 0.1 * p.x() + 0.03 * p.y() * p.y(); };
                 CAPTURE(n);
                 CAPTURE(m);
                 CAPTURE(hole);
-                check_seeds(volume, surface::seed_source(volume, belts, graded, style));
-                check_seeds(volume, surface::seed_source(volume, belts, even(0.37), style));
+                check_seeds(volume, surface::seed_source(volume, links, graded, style));
+                check_seeds(volume, surface::seed_source(volume, links, even(0.37), style));
                 combinations += 2;
             }
         }
@@ -140,9 +141,9 @@ TEST_CASE("a face that is to be mapped and is no grid of right angles is refused
 {
     for (const int sides : {3, 5, 0}) {
         const auto volume = test::sealed({.sides = sides});
-        const auto belts = surface::belts(volume);
+        const auto links = surface::linking_surfaces(volume);
         try {
-            surface::seed_source(volume, belts, even(0.2), QuadStyle::mapped);
+            surface::seed_source(volume, links, even(0.2), QuadStyle::mapped);
             FAIL("it was mapped");
         } catch (const NotSweepable& error) {
             CHECK(error.code() == "surface.not_four_sided");
@@ -151,16 +152,17 @@ TEST_CASE("a face that is to be mapped and is no grid of right angles is refused
     }
     // Four corners, and a round hole.
     const auto holed = test::sealed({.sides = 4, .holes = 1, .hole_sides = 0});
-    CHECK_THROWS_AS(surface::seed_source(holed, surface::belts(holed), even(0.2), QuadStyle::mapped),
-                    NotSweepable);
+    CHECK_THROWS_AS(
+        surface::seed_source(holed, surface::linking_surfaces(holed), even(0.2), QuadStyle::mapped),
+        NotSweepable);
 }
 
 TEST_CASE("a size that varies is followed along an edge")
 {
     const auto volume = test::sealed({.sides = 4});
-    const auto belts = surface::belts(volume);
+    const auto links = surface::linking_surfaces(volume);
     const auto graded = [](const Vec3& p) { return p.x() > 0 ? 0.05 : 0.2; };
-    const Seeds seeds = surface::seed_source(volume, belts, graded, QuadStyle::free);
+    const Seeds seeds = surface::seed_source(volume, links, graded, QuadStyle::free);
     int fine = 0, coarse = 0;
     for (const auto& [edge, pieces] : seeds.pieces) {
         const Vec3 a = volume.model.at(volume.model[edge].points.front()),
@@ -184,9 +186,9 @@ TEST_CASE("counts of faces of right angles are made to agree, so that their grid
     for (const double size : {0.31, 0.23, 0.17, 0.11}) {
         CAPTURE(size);
         const topology::OpenVolume volume = test::sealed({.outline = corners});
-        const auto belts = surface::belts(volume);
+        const auto links = surface::linking_surfaces(volume);
         const auto even = [size](const Vec3&) { return size; };
-        const surface::Seeds seeds = surface::seed_source(volume, belts, even, surface::QuadStyle::automatic);
+        const surface::Seeds seeds = surface::seed_source(volume, links, even, surface::QuadStyle::automatic);
         for (const FaceId face : volume.faces(topology::Role::source)) {
             CHECK(seeds.submapped.contains(face));
             const auto total = [&](const std::vector<EdgeId>& edges) {
@@ -199,7 +201,7 @@ TEST_CASE("counts of faces of right angles are made to agree, so that their grid
             for (const auto& sides : pairs) CHECK(total(sides[0]) == total(sides[1]));
         }
         const surface::SourceMesh mesh = surface::mesh_source(
-            volume, belts, seeds, {even}, [](const quads::PlanarRegion& region, const RunContext& context) {
+            volume, links, seeds, {even}, [](const quads::PlanarRegion& region, const RunContext& context) {
                 return quads::pave(region, {}, context);
             });
         REQUIRE(mesh.notes.size() == 1);

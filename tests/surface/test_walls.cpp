@@ -13,16 +13,16 @@
 
 using namespace lacuna;
 using namespace lacuna::topology;
-using surface::Belt;
-using surface::BeltNodes;
+using surface::LinkingNodes;
+using surface::LinkingSurface;
 using test::PrismOptions;
 using test::without;
 
 namespace {
 
 struct Meshed {
-    std::vector<Belt> belts;
-    std::vector<BeltNodes> nodes;
+    std::vector<LinkingSurface> links;
+    std::vector<LinkingNodes> nodes;
     std::vector<surface::WallMesh> walls;
 };
 
@@ -36,12 +36,12 @@ std::vector<double> levels(int layers)
 Meshed meshed(const OpenVolume& volume, const std::vector<double>& heights, int sides_each)
 {
     Meshed result;
-    result.belts = surface::belts(volume);
-    for (const Belt& belt : result.belts) {
-        const std::vector<int> counts(belt.stretches.size(), sides_each);
-        result.nodes.push_back(surface::belt_nodes(belt, counts));
+    result.links = surface::linking_surfaces(volume);
+    for (const LinkingSurface& link : result.links) {
+        const std::vector<int> counts(link.segments.size(), sides_each);
+        result.nodes.push_back(surface::linking_nodes(link, counts));
     }
-    result.walls = surface::mesh_walls(volume, result.belts, result.nodes, heights);
+    result.walls = surface::mesh_walls(volume, result.links, result.nodes, heights);
     return result;
 }
 
@@ -53,10 +53,10 @@ void check_walls(const OpenVolume& volume, const Meshed& mesh, std::size_t layer
         const std::size_t n = mesh.nodes[b].source_at.size();
         REQUIRE(wall.points.size() == n * (layers + 1));
         REQUIRE(wall.face.size() == n * layers);
-        const auto low = mesh.belts[b].source.points(mesh.nodes[b].source_at);
+        const auto low = mesh.links[b].source.points(mesh.nodes[b].source_at);
         for (std::size_t i = 0; i < n; ++i) CHECK(wall.points[i] == low[i]);
         std::vector<Triangle> triangles;
-        for (const FaceId face : mesh.belts[b].walls) {
+        for (const FaceId face : mesh.links[b].walls) {
             const auto& more = volume.model[face].triangles;
             triangles.insert(triangles.end(), more.begin(), more.end());
         }
@@ -78,8 +78,8 @@ void check_walls(const OpenVolume& volume, const Meshed& mesh, std::size_t layer
         }
         CHECK(folded == 0);
         for (const FaceId face : wall.face)
-            CHECK(std::find(mesh.belts[b].walls.begin(), mesh.belts[b].walls.end(), face) !=
-                  mesh.belts[b].walls.end());
+            CHECK(std::find(mesh.links[b].walls.begin(), mesh.links[b].walls.end(), face) !=
+                  mesh.links[b].walls.end());
     }
 }
 
@@ -192,7 +192,7 @@ TEST_CASE(
                 CAPTURE(rows);
                 CAPTURE(layers);
                 std::map<FaceId, std::pair<double, double>> span;
-                for (const FaceId wall : mesh.belts[0].walls) {
+                for (const FaceId wall : mesh.links[0].walls) {
                     double low = 1e300, high = -1e300;
                     for (const Triangle& t : volume.model[wall].triangles) {
                         for (const Index p : t) {

@@ -3,7 +3,7 @@
 
 // Families of source meshes and of motions for the sweep tests.
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/sweep/columns.h>
+#include <lacuna/sweep/rim_columns.h>
 
 #include <algorithm>
 #include <cmath>
@@ -194,10 +194,10 @@ inline std::vector<Vec3> moved(const mesh::QuadMesh& mesh, const Motion& motion,
     return nodes;
 }
 
-/// Columns that follow a motion which leaves the source in place at height 0.
-inline sweep::Columns columns_along(const mesh::QuadMesh& mesh, int layers, const Motion& motion)
+/// RimColumns that follow a motion which leaves the source in place at height 0.
+inline sweep::RimColumns columns_along(const mesh::QuadMesh& mesh, int layers, const Motion& motion)
 {
-    sweep::Columns columns;
+    sweep::RimColumns columns;
     columns.layers = layers;
     columns.rim = rim_nodes(mesh);
     for (int l = 0; l <= layers; ++l) {

@@ -2,7 +2,7 @@
 #include "families.h"
 
 #include <lacuna/core/error.h>
-#include <lacuna/sweep/layers.h>
+#include <lacuna/sweep/detail/layer_placer.h>
 
 #include <doctest/doctest.h>
 
@@ -44,7 +44,7 @@ double largest_gap(std::span<const Vec3> a, std::span<const Vec3> b)
 }
 
 /// What always holds: sizes, rim and ends bit for bit.
-void check_kept(const mesh::QuadMesh& mesh, std::span<const Vec3> target, const sweep::Columns& columns,
+void check_kept(const mesh::QuadMesh& mesh, std::span<const Vec3> target, const sweep::RimColumns& columns,
                 const LayerNodes& result)
 {
     const std::size_t count = mesh.nodes.size();
@@ -198,7 +198,7 @@ TEST_CASE("straight lines are straight, at the heights asked for")
         options.straight_lines = true;
         options.heights = {0, 0.1, 0.7, 1};
         const auto target = moved(family.mesh, bent(3, 60), 1);
-        sweep::Columns columns = columns_along(family.mesh, 3, [&](const Vec3& p, double t) {
+        sweep::RimColumns columns = columns_along(family.mesh, 3, [&](const Vec3& p, double t) {
             const double height = options.heights[static_cast<std::size_t>(std::lround(3 * t))];
             return Vec3((1 - height) * p + height * bent(3, 60)(p, 1));
         });
@@ -322,8 +322,8 @@ TEST_CASE("moving everything rigidly moves the result, source and target swapped
 
     auto back = mesh;
     back.nodes = moved(mesh, waved, 1);
-    sweep::Columns columns = columns_along(mesh, 6, waved);
-    sweep::Columns down = columns;
+    sweep::RimColumns columns = columns_along(mesh, 6, waved);
+    sweep::RimColumns down = columns;
     for (int l = 0; l <= 6; ++l) {
         const auto row = columns.row(6 - l);
         std::copy(row.begin(), row.end(),
@@ -345,7 +345,7 @@ TEST_CASE("a closed source without a rim is swept along straight lines")
     mesh::QuadMesh cube;
     for (int i = 0; i < 8; ++i) cube.nodes.emplace_back(i & 1, (i >> 1) & 1, (i >> 2) & 1);
     cube.quads = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-    sweep::Columns columns;
+    sweep::RimColumns columns;
     columns.layers = 3;
     std::vector<Vec3> target;
     for (const Vec3& p : cube.nodes) target.push_back(3 * p - Vec3(1, 1, 1));
@@ -359,7 +359,7 @@ TEST_CASE("columns that do not fit are refused, the node named")
     const auto mesh = disc(4, 2);
     const auto target = moved(mesh, lifted(1), 1);
     const auto good = columns_along(mesh, 3, lifted(1));
-    const auto refused = [&](const sweep::Columns& columns, std::span<const Vec3> end) {
+    const auto refused = [&](const sweep::RimColumns& columns, std::span<const Vec3> end) {
         try {
             place_layers(mesh, end, columns);
         } catch (const InvalidInput& error) {

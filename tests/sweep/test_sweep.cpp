@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -35,7 +36,8 @@ SweepOptions layers_of(int count, double size)
     return options;
 }
 
-/// Layers, and a size near the one wanted that gives every edge of the source an even number of sides, as the test's mesher needs.
+/// Layers, and a size near the one wanted that gives every edge of the source an even number of sides, as the
+/// test's mesher needs.
 SweepOptions layers_of(int count, double size, const OpenVolume& volume)
 {
     SweepOptions options = layers_of(count, size);
@@ -474,12 +476,6 @@ TEST_CASE("bad options are refused")
         options.layers.bias = bias;
         CHECK(refusal([&] { sweep::sweep(volume, options); }) != "done");
     }
-    for (const double least : {nan, 1.5, -1.5}) {
-        SweepOptions options = layers_of(2, 0.3);
-        options.min_scaled_jacobian = least;
-        CAPTURE(least);
-        CHECK(refusal([&] { sweep::sweep(volume, options); }) != "done");
-    }
     SweepOptions strict = layers_of(2, 0.3);
     strict.min_scaled_jacobian = 0.999;
     CHECK(refusal([&] {
@@ -496,6 +492,69 @@ TEST_CASE("bad options are refused")
           }) == "sweep.not_closed");
     // So fine that the counts would not fit.
     CHECK(refusal([&] { sweep::sweep(volume, layers_of(2, 1e-300)); }) != "done");
+}
+
+TEST_CASE("every option out of range is refused by name, before and by the sweep")
+{
+    const double nan = std::numeric_limits<double>::quiet_NaN(),
+                 infinity = std::numeric_limits<double>::infinity();
+    const auto size = [](const Vec3&) { return 0.5; };
+    struct Wrong {
+        std::string code;
+        std::function<void(SweepOptions&)> set;
+    };
+    std::vector<Wrong> wrongs{
+        {"sweep.layers", [](SweepOptions& o) { o.layers.count = 0; }},
+        {"sweep.layer_heights",
+         [](SweepOptions& o) {
+             o.layers.heights = {0.5, 1};
+         }}, // and a count of 3
+        {"sweep.bias", [](SweepOptions& o) { o.layers.bias = 0; }},
+        {"sweep.rows", [](SweepOptions& o) { o.rows = -1; }},
+        {"sweep.rows", [&](SweepOptions& o) { o.row_height = size; }},
+    };
+    for (const double least : {nan, 1.5, -0.1}) {
+        wrongs.push_back(
+            {"sweep.min_scaled_jacobian", [least](SweepOptions& o) { o.min_scaled_jacobian = least; }});
+    }
+    for (const sweep::Quads quads : {sweep::Quads::mapped, sweep::Quads::gmsh, sweep::Quads::keep}) {
+        wrongs.push_back({"sweep.rows", [=](SweepOptions& o) {
+                              o.quads = quads;
+                              o.rows = 2;
+                          }});
+    }
+    for (const double value : {nan, -2.0, 2.0}) {
+        wrongs.push_back({"sweep.improve", [value](SweepOptions& o) { o.improving.good_enough = value; }});
+    }
+    for (const double value : {nan, -1.0}) {
+        wrongs.push_back({"sweep.improve", [value](SweepOptions& o) { o.improving.work = value; }});
+        wrongs.push_back({"sweep.improve", [value](SweepOptions& o) { o.improving.seconds = value; }});
+    }
+    wrongs.push_back({"sweep.improve", [](SweepOptions& o) { o.improving.iterations = 0; }});
+    wrongs.push_back({"sweep.improve", [](SweepOptions& o) { o.improving.rings = -1; }});
+    const auto volume = test::sealed({.sides = 4});
+    for (const Wrong& wrong : wrongs) {
+        SweepOptions options = layers_of(3, 0.5);
+        REQUIRE_NOTHROW(sweep::check(options));
+        wrong.set(options);
+        CAPTURE(wrong.code);
+        CHECK(refusal([&] { sweep::check(options); }) == wrong.code);
+        CHECK(refusal([&] { sweep::sweep(volume, options); }) == wrong.code);
+    }
+    for (const int threads : {-1, 1025, std::numeric_limits<int>::max()}) {
+        RunContext context;
+        context.threads = threads;
+        CHECK(refusal([&] { sweep::sweep(volume, layers_of(3, 0.5), context); }) == "sweep.threads");
+    }
+    SweepOptions rows = layers_of(3, 0.5);
+    rows.rows = 1;
+    rows.row_height = size;
+    for (const sweep::Quads quads : {sweep::Quads::automatic, sweep::Quads::paved}) {
+        rows.quads = quads;
+        CHECK_NOTHROW(sweep::check(rows));
+    }
+    rows.improving.seconds = infinity;
+    CHECK_NOTHROW(sweep::check(rows));
 }
 
 TEST_CASE("a sweep stops when it is told to")

@@ -33,8 +33,8 @@ inline constexpr std::array<std::array<std::size_t, 3>, 8> kHexNeighbours{
 /// A part of the skin with names: what Gmsh calls a surface entity.
 struct SkinPatch {
     int tag = 0; ///< entity tag written to files, unique in the mesh, > 0
-    std::vector<std::string>
-        groups; ///< physical groups it belongs to: "source", "wall:12", a name of the input…
+    /// Physical groups it belongs to: "source", "wall:12", a name of the input…
+    std::vector<std::string> groups;
 };
 
 /// Swept hexahedra, kept as source quads times layers: cells and skin are computed, never stored.
@@ -77,7 +77,8 @@ struct SkinQuad {
     Index patch;
 };
 
-/// Skin quad `i`: the source quads first, then the target's, then the walls layer by layer. @pre i < skin_count()
+/// Skin quad `i`: the source quads first, then the target's, then the walls layer by layer.
+/// @pre i < skin_count()
 SkinQuad skin_quad(const HexMesh& mesh, std::size_t i);
 
 } // namespace lacuna::mesh

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/mesh/incidence.h>
 #include <lacuna/mesh/quad_mesh.h>
 
 #include <algorithm>
@@ -24,7 +25,7 @@ std::vector<BoundarySide> boundary_sides(const std::vector<Quad>& quads)
 std::vector<Index> opposite_sides(const std::vector<Quad>& quads, Index node_count)
 {
     // Sides are put in the bin of their lower node; bins are as small as a node has neighbours.
-    struct Side {
+    struct SideUse {
         Index high, number;
         bool rising;
     };
@@ -34,7 +35,7 @@ std::vector<Index> opposite_sides(const std::vector<Quad>& quads, Index node_cou
         for (int i = 0; i < 4; ++i) ++start[static_cast<std::size_t>(low_of(q, i)) + 1];
     for (std::size_t n = 1; n < start.size(); ++n) start[n] += start[n - 1];
 
-    std::vector<Side> sides(4 * quads.size());
+    std::vector<SideUse> sides(4 * quads.size());
     std::vector<Index> next(start.begin(), start.end() - 1);
     for (std::size_t q = 0; q < quads.size(); ++q) {
         for (int i = 0; i < 4; ++i) {
@@ -46,13 +47,13 @@ std::vector<Index> opposite_sides(const std::vector<Quad>& quads, Index node_cou
     }
 
     std::vector<Index> opposite(4 * quads.size(), kRimSide);
-    const auto at = [&](const Side& side) -> Index& {
+    const auto at = [&](const SideUse& side) -> Index& {
         return opposite[static_cast<std::size_t>(side.number)];
     };
     for (std::size_t n = 0; n + 1 < start.size(); ++n) {
         const auto first = sides.begin() + start[n];
         const auto last = sides.begin() + start[n + 1];
-        std::sort(first, last, [](const Side& a, const Side& b) {
+        std::sort(first, last, [](const SideUse& a, const SideUse& b) {
             return std::tie(a.high, a.number) < std::tie(b.high, b.number);
         });
         for (auto i = first; i != last;) {
@@ -69,6 +70,14 @@ std::vector<Index> opposite_sides(const std::vector<Quad>& quads, Index node_cou
         }
     }
     return opposite;
+}
+
+Incidence quads_at_nodes(std::span<const Quad> quads, std::size_t node_count)
+{
+    return incidence(node_count, [&](const auto& visit) {
+        for (std::size_t q = 0; q < quads.size(); ++q)
+            for (const Index node : quads[q]) visit(index(node), static_cast<Index>(q));
+    });
 }
 
 SkinQuad skin_quad(const HexMesh& mesh, std::size_t i)

@@ -15,8 +15,8 @@ struct QuadMesh {
     std::vector<Vec3> nodes; ///< [model length]
     std::vector<Quad> quads; ///< node numbers, counter-clockwise
     std::vector<Index> face; ///< a caller's label for each quad (which face it lies on)
-    std::vector<std::vector<Index>>
-        loops; ///< node cycles of the boundary, region on the left, first not repeated
+    /// Node cycles of the boundary, region on the left, first not repeated.
+    std::vector<std::vector<Index>> loops;
 };
 
 /// Directed sides used by one quad alone, each with its quad.

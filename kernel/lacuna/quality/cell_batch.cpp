@@ -115,7 +115,8 @@ LACUNA_INLINE void find_middles(const Edges<N>& edges, CellValues<N>& values)
             const int i = e % 2; // end in direction p
             const int j = e / 2; // end in direction q
             const int at = 2 * i * kStride[p] + 2 * j * kStride[q] + kStride[d];
-            // An edge along p counts its ends in d and q, one along q in d and p, the lower direction fastest.
+            // An edge along p counts its ends in d and q, one along q in d and p, the lower direction
+            // fastest.
             const auto p_edge = [&](int s) { return d < q ? s + 2 * j : j + 2 * s; };
             const auto q_edge = [&](int s) { return d < p ? s + 2 * i : i + 2 * s; };
             const auto& ps = edges.along[p];
@@ -291,8 +292,8 @@ double least_middle(const Coefficients& c)
     return std::min(std::min(rows[0], rows[2]), rows[1]);
 }
 
-/// The direction along which the least coefficient lies in the middle, so that a cut lifts it, of those with cuts
-/// left; -1 where none is left.
+/// The direction along which the least coefficient lies in the middle, so that a cut lifts it, of those with
+/// cuts left; -1 where none is left.
 int best_cut(const Coefficients& c, const std::array<int, 3>& cuts_left)
 {
     const double middles[3] = {least_middle<1>(c), least_middle<3>(c), least_middle<9>(c)};
@@ -302,8 +303,9 @@ int best_cut(const Coefficients& c, const std::array<int, 3>& cuts_left)
     return best;
 }
 
-/// Depth first; a part is cut in two along the one direction that helps most. Every part that eight-fold cutting
-/// to the same depth finds positive is found so here, as what is cut further only rises (convex hull).
+/// Depth first; a part is cut in two along the one direction that helps most. Every part that eight-fold
+/// cutting to the same depth finds positive is found so here, as what is cut further only rises (convex
+/// hull).
 /// @pre  `whole` is positive at its corners, and finite
 bool positive_parts(const Coefficients& whole, std::array<int, 3> cuts_left)
 {

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
-// The trilinear map of a cell, with r, s, t from -1 to 1:
-//   x = (sum of corners + a r + b s + c t + ab rs + ac rt + bc st + abc rst) / 8.
-// a, b, c are the axes, four times as long; ab, ac, bc say how opposite edges differ (Taylor and Flanagan 1989).
+// The trilinear map of a cell, with r, s, t from -1 to 1: x = (sum of corners + a r + b s + c t + ab rs + ac
+// rt + bc st + abc rst) / 8. a, b, c are the axes, four times as long; ab, ac, bc say how opposite edges
+// differ (Taylor and Flanagan 1989).
 
 namespace lacuna::quality {
 namespace {
@@ -304,8 +304,9 @@ LACUNA_INLINE Real volume_64(const Parts& p, const Differences& d)
     return 64 * p.centre + (1.0 / 3) * rest;
 }
 
-/// V / sqrt(2 |dV/dx|²) over all nodes x (Flanagan and Belytschko 1981). The coefficients of the map belong to
-/// orthogonal sign vectors of length √8, so that |dV/dx|² is 8 × the sum over the derivatives by coefficients.
+/// V / sqrt(2 |dV/dx|²) over all nodes x (Flanagan and Belytschko 1981). The coefficients of the map belong
+/// to orthogonal sign vectors of length √8, so that |dV/dx|² is 8 × the sum over the derivatives by
+/// coefficients.
 LACUNA_INLINE Real dimension(const Parts& p)
 {
     const Differences d = differences(p);

@@ -23,9 +23,9 @@ struct Entry {
     Index point;
 };
 
-/// Cubes of 1024 tolerances, so that a point within a tolerance of a cube's side, which is entered in the cube
-/// beyond as well, is rare. Their corner is set a fraction of a cube off the bounds, because meshes like to put
-/// whole planes of nodes exactly there.
+/// Cubes of 1024 tolerances, so that a point within a tolerance of a cube's side, which is entered in the
+/// cube beyond as well, is rare. Their corner is set a fraction of a cube off the bounds, because meshes like
+/// to put whole planes of nodes exactly there.
 struct Grid {
     Vec3 corner;
     double tolerance;

@@ -10,7 +10,7 @@
 namespace lacuna::quality {
 namespace {
 
-constexpr std::size_t kWorst = 10;
+constexpr std::size_t kWorst = 10; ///< as `Quality::worst` promises
 
 struct Ranked {
     double scaled_jacobian;
@@ -60,7 +60,7 @@ void add_cell(Partial& partial, const CellValues<kLanes>& values, int lane, std:
     if (!(scaled > 0)) ++partial.inverted;
     Coefficients bezier;
     for (std::size_t c = 0; c < 27; ++c) bezier[c] = values.bezier[c][lane];
-    constexpr int kDepth = 6; // as `certified_positive()`
+    constexpr int kDepth = 6; ///< as `certified_positive()`
     if (!(scaled > 0) || !positive_everywhere(bezier, kDepth)) ++partial.uncertified;
 }
 

@@ -16,9 +16,9 @@ namespace lacuna::quality {
 
 /// Verdict's measures of a hexahedron @cite stimpson_2007_verdict, as VTK 9.1's vtkMeshQuality computes them.
 ///
-/// "Axes" are the three lines between the middles of opposite sides; "corners" the three edges at each corner.
-/// Where Verdict says 1e30 or not-a-number of a measure that is better the larger it is, ours is 0, so that no
-/// average or ranking praises a cell that has no shape.
+/// "Axes" are the three lines between the middles of opposite sides; "corners" the three edges at each
+/// corner. Where Verdict says 1e30 or not-a-number of a measure that is better the larger it is, ours is 0,
+/// so that no average or ranking praises a cell that has no shape.
 enum class Metric {
     scaled_jacobian,             ///< the corners' alone, as everywhere else in Lacuna
     scaled_jacobian_with_centre, ///< Verdict's: the axes count as a ninth corner

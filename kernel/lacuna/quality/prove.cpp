@@ -9,62 +9,68 @@
 
 #include <algorithm>
 #include <unordered_set>
+#include <utility>
 
-// Sides of swept cells need no search: the cells stand on quads, so a side of the mesh is a quad on a layer or
-// a side of a quad times a layer. The mesh is conformal, and its skin closed, exactly when the quads are so.
+// Sides of swept cells need no search: the cells stand on quads, so a side of the mesh is a quad on a layer
+// or a side of a quad times a layer. The mesh is conformal, and its skin closed, exactly when the quads are
+// so.
 
 namespace lacuna::quality {
 namespace {
 
-[[noreturn]] void fail(const char* code, const std::string& message) { throw NotSweepable(code, message); }
-
 std::string person(std::size_t number) { return std::to_string(number + 1); }
 
-void check_sizes(const mesh::HexMesh& mesh)
+Found check_sizes(const mesh::HexMesh& mesh)
 {
-    const auto expect = [](const char* what, std::size_t found, std::size_t expected) {
-        if (found == expected) return;
-        fail("quality.wrong_size", std::string("the mesh holds ") + std::to_string(found) + " " + what +
-                                       " where " + std::to_string(expected) + " were expected");
-    };
     if (mesh.layers < 1 || mesh.quads.empty() || mesh.nodes_per_layer < 4)
-        fail("quality.empty", "the mesh has no cells: " + std::to_string(mesh.quads.size()) +
-                                  " source quads and " + std::to_string(mesh.layers) + " layers");
+        return Finding{Fault::empty, "the mesh has no cells: " + std::to_string(mesh.quads.size()) +
+                                         " source quads and " + std::to_string(mesh.layers) + " layers"};
     const auto layers = static_cast<std::size_t>(mesh.layers);
-    expect("nodes", mesh.nodes.size(), (layers + 1) * static_cast<std::size_t>(mesh.nodes_per_layer));
-    expect("patches of source quads", mesh.source_patch.size(), mesh.quads.size());
-    expect("patches of target quads", mesh.target_patch.size(), mesh.quads.size());
-    expect("patches of wall quads", mesh.wall_patch.size(), layers * mesh.rim.size());
+    struct Size {
+        const char* what;
+        std::size_t found, expected;
+    };
+    for (const auto& [what, found, expected] :
+         {Size{"nodes", mesh.nodes.size(), (layers + 1) * index(mesh.nodes_per_layer)},
+          Size{"patches of source quads", mesh.source_patch.size(), mesh.quads.size()},
+          Size{"patches of target quads", mesh.target_patch.size(), mesh.quads.size()},
+          Size{"patches of wall quads", mesh.wall_patch.size(), layers * mesh.rim.size()}}) {
+        if (found != expected)
+            return Finding{Fault::wrong_size, std::string("the mesh holds ") + std::to_string(found) + " " +
+                                                  what + " where " + std::to_string(expected) +
+                                                  " were expected"};
+    }
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
         for (const Index node : mesh.quads[q]) {
             if (node < 0 || node >= mesh.nodes_per_layer)
-                fail("quality.unknown_node", "source quad " + person(q) + " names node " +
-                                                 std::to_string(node + 1) + " of " +
-                                                 std::to_string(mesh.nodes_per_layer));
+                return Finding{Fault::unknown_node, "source quad " + person(q) + " names node " +
+                                                        std::to_string(node + 1) + " of " +
+                                                        std::to_string(mesh.nodes_per_layer)};
         }
     }
+    return std::nullopt;
 }
 
-void check_patches(const mesh::HexMesh& mesh)
+Found check_patches(const mesh::HexMesh& mesh)
 {
     std::unordered_set<int> tags;
     for (const mesh::SkinPatch& patch : mesh.patches) {
         if (patch.tag <= 0 || !tags.insert(patch.tag).second)
-            fail("quality.patch_tag", "the skin patch with tag " + std::to_string(patch.tag) +
-                                          " must have a positive tag of its own");
+            return Finding{Fault::patch_tag, "the skin patch with tag " + std::to_string(patch.tag) +
+                                                 " must have a positive tag of its own"};
     }
     const auto count = static_cast<Index>(mesh.patches.size());
-    const auto check = [&](const char* where, const std::vector<Index>& patches) {
-        const auto wrong = std::find_if(patches.begin(), patches.end(),
+    for (const auto& [where, patches] :
+         {std::pair("source", &mesh.source_patch), std::pair("target", &mesh.target_patch),
+          std::pair("wall", &mesh.wall_patch)}) {
+        const auto wrong = std::find_if(patches->begin(), patches->end(),
                                         [&](Index p) { return p < 0 || p >= count; });
-        if (wrong == patches.end()) return;
-        fail("quality.no_patch", std::string(where) + " quad " +
-                                     person(static_cast<std::size_t>(wrong - patches.begin())) +
-                                     " belongs to no patch of the skin");
-    };
-    check("source", mesh.source_patch);
-    check("target", mesh.target_patch);
-    check("wall", mesh.wall_patch);
+        if (wrong != patches->end())
+            return Finding{Fault::no_patch, std::string(where) + " quad " +
+                                                person(static_cast<std::size_t>(wrong - patches->begin())) +
+                                                " belongs to no patch of the skin"};
+    }
+    return std::nullopt;
 }
 
 std::string source_node(const mesh::HexMesh& mesh, Index node)
@@ -73,68 +79,79 @@ std::string source_node(const mesh::HexMesh& mesh, Index node)
            place(mesh.nodes[static_cast<std::size_t>(node)]) + ")";
 }
 
-void check_sides(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
+Found check_sides(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
 {
     for (std::size_t side = 0; side < opposite.size(); ++side) {
         const Quad& quad = mesh.quads[side / 4];
         const Index from = quad[side % 4];
         const Index to = quad[(side + 1) % 4];
         if (from != to && opposite[side] != mesh::kBadSide) continue;
-        fail("quality.not_conformal",
-             "the side of source quad " + person(side / 4) + " from " + source_node(mesh, from) + " to " +
-                 source_node(mesh, to) +
-                 (from == to ? " has no length: its ends are one node"
-                             : " is used by more than two quads, or twice in the same direction"));
+        return Finding{Fault::not_conformal,
+                       "the side of source quad " + person(side / 4) + " from " + source_node(mesh, from) +
+                           " to " + source_node(mesh, to) +
+                           (from == to ? " has no length: its ends are one node"
+                                       : " is used by more than two quads, or twice in the same direction")};
     }
+    return std::nullopt;
 }
 
-/// Every node is used, and the quads around it form one fan: else an edge of the mesh is pinched.
-/// @return  the node that follows each node along the rim, -1 inside.
-std::vector<Index> check_fans(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
+/// The node that follows each node along the rim, -1 inside.
+std::vector<Index> rim_followers(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
 {
-    const auto nodes = static_cast<std::size_t>(mesh.nodes_per_layer);
-    std::vector<Index> valence(nodes, 0);
-    std::vector<Index> first(nodes, -1); // a side that leaves the node; one on the rim where there is one
-    std::vector<Index> follows(nodes, -1);
+    std::vector<Index> follows(index(mesh.nodes_per_layer), -1);
     for (std::size_t side = 0; side < opposite.size(); ++side) {
-        const auto node = static_cast<std::size_t>(mesh.quads[side / 4][side % 4]);
-        ++valence[node];
-        const bool rim = opposite[side] == mesh::kRimSide;
-        if (rim || first[node] < 0) first[node] = static_cast<Index>(side);
-        if (rim) follows[node] = mesh.quads[side / 4][(side + 1) % 4];
-    }
-    for (std::size_t node = 0; node < nodes; ++node) {
-        if (valence[node] == 0)
-            fail("quality.unused_node", source_node(mesh, static_cast<Index>(node)) + " belongs to no quad");
-        // Turn from quad to quad: a quad's side that arrives at the node is the next quad's that leaves it.
-        Index turned = 1;
-        for (Index side = first[node];; ++turned) {
-            const Index arrives = side % 4 == 0 ? side + 3 : side - 1;
-            side = opposite[static_cast<std::size_t>(arrives)];
-            if (side < 0 || side == first[node]) break;
-        }
-        if (turned != valence[node])
-            fail("quality.pinched", "the quads around " + source_node(mesh, static_cast<Index>(node)) +
-                                        " touch in the node alone; give each part a node of its own");
+        if (opposite[side] == mesh::kRimSide)
+            follows[index(mesh.quads[side / 4][side % 4])] = mesh.quads[side / 4][(side + 1) % 4];
     }
     return follows;
 }
 
-void check_rim(const mesh::HexMesh& mesh, std::vector<Index> follows)
+/// Every node must be used, and the quads around it form one fan: else an edge of the mesh is pinched.
+Found check_fans(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
+{
+    const std::size_t nodes = index(mesh.nodes_per_layer);
+    std::vector<Index> valence(nodes, 0);
+    std::vector<Index> first(nodes, -1); // a side that leaves the node; one on the rim where there is one
+    for (std::size_t side = 0; side < opposite.size(); ++side) {
+        const std::size_t node = index(mesh.quads[side / 4][side % 4]);
+        ++valence[node];
+        if (opposite[side] == mesh::kRimSide || first[node] < 0) first[node] = static_cast<Index>(side);
+    }
+    for (std::size_t node = 0; node < nodes; ++node) {
+        if (valence[node] == 0)
+            return Finding{Fault::unused_node,
+                           source_node(mesh, static_cast<Index>(node)) + " belongs to no quad"};
+        // Turn from quad to quad: a quad's side that arrives at the node is the next quad's that leaves it.
+        Index turned = 1;
+        for (Index side = first[node];; ++turned) {
+            const Index arrives = side % 4 == 0 ? side + 3 : side - 1;
+            side = opposite[index(arrives)];
+            if (side < 0 || side == first[node]) break;
+        }
+        if (turned != valence[node])
+            return Finding{Fault::pinched, "the quads around " + source_node(mesh, static_cast<Index>(node)) +
+                                               " touch in the node alone; give each part a node of its own"};
+    }
+    return std::nullopt;
+}
+
+Found check_rim(const mesh::HexMesh& mesh, std::vector<Index> follows)
 {
     for (const Segment& side : mesh.rim) {
         const bool known = side[0] >= 0 && side[0] < mesh.nodes_per_layer;
         if (!known || follows[static_cast<std::size_t>(side[0])] != side[1] || side[1] < 0)
-            fail("quality.open_skin", "the rim side from node " + std::to_string(side[0] + 1) + " to " +
-                                          std::to_string(side[1] + 1) +
-                                          " is not a boundary side of the source quads, or is listed twice");
+            return Finding{Fault::open_skin,
+                           "the rim side from node " + std::to_string(side[0] + 1) + " to " +
+                               std::to_string(side[1] + 1) +
+                               " is not a boundary side of the source quads, or is listed twice"};
         follows[static_cast<std::size_t>(side[0])] = -1;
     }
     const auto missed = std::find_if(follows.begin(), follows.end(), [](Index to) { return to >= 0; });
     if (missed != follows.end())
-        fail("quality.open_skin", "the boundary side of the source quads from " +
-                                      source_node(mesh, static_cast<Index>(missed - follows.begin())) +
-                                      " to " + source_node(mesh, *missed) + " carries no wall");
+        return Finding{Fault::open_skin, "the boundary side of the source quads from " +
+                                             source_node(mesh, static_cast<Index>(missed - follows.begin())) +
+                                             " to " + source_node(mesh, *missed) + " carries no wall"};
+    return std::nullopt;
 }
 
 } // namespace
@@ -150,23 +167,24 @@ std::string node_name(std::span<const Vec3> nodes, Index node, Index nodes_per_l
     return text + "at " + place(nodes[static_cast<std::size_t>(node)]) + ")";
 }
 
-void check_nodes(std::span<const Vec3> nodes, Index nodes_per_layer, const RunContext& context)
+Found check_nodes(std::span<const Vec3> nodes, Index nodes_per_layer, const RunContext& context)
 {
     const Eigen::AlignedBox3d bounds = finite_bounds(nodes, context);
     if (bounds.isEmpty()) {
         const auto wrong = std::find_if(nodes.begin(), nodes.end(),
                                         [](const Vec3& p) { return !p.allFinite(); });
-        fail("quality.not_finite",
-             node_name(nodes, static_cast<Index>(wrong - nodes.begin()), nodes_per_layer) +
-                 " has no finite place");
+        return Finding{Fault::not_finite,
+                       node_name(nodes, static_cast<Index>(wrong - nodes.begin()), nodes_per_layer) +
+                           " has no finite place"};
     }
     if (const auto pair = find_coincident(nodes, bounds, context))
-        fail("quality.coincident_nodes", node_name(nodes, (*pair)[0], nodes_per_layer) + " and " +
-                                             node_name(nodes, (*pair)[1], nodes_per_layer) +
-                                             " lie in one place (within 1e-9 of the mesh's diagonal)");
+        return Finding{Fault::coincident_nodes, node_name(nodes, (*pair)[0], nodes_per_layer) + " and " +
+                                                    node_name(nodes, (*pair)[1], nodes_per_layer) +
+                                                    " lie in one place (within 1e-9 of the mesh's diagonal)"};
+    return std::nullopt;
 }
 
-void check_quality(const Quality& quality, double min_scaled_jacobian, int layers)
+Found check_quality(const Quality& quality, double min_scaled_jacobian, int layers)
 {
     const auto worst = [&](std::size_t bad) {
         std::string text;
@@ -176,37 +194,66 @@ void check_quality(const Quality& quality, double min_scaled_jacobian, int layer
     };
     const std::string cells = " of " + std::to_string(quality.hexes) + " cells ";
     if (quality.inverted > 0)
-        fail("quality.inverted", std::to_string(quality.inverted) + cells +
-                                     "are inverted. The worst:" + worst(quality.inverted) +
-                                     "\nTry more layers, a smaller size, or let the sweep improve the mesh");
+        return Finding{Fault::inverted,
+                       std::to_string(quality.inverted) + cells +
+                           "are inverted. The worst:" + worst(quality.inverted) +
+                           "\nTry more layers, a smaller size, or let the sweep improve the mesh"};
     if (quality.uncertified > 0)
-        fail("quality.not_certified",
-             std::to_string(quality.uncertified) + cells +
-                 "have a Jacobian that is not positive everywhere, though it is at their corners. "
-                 "The worst cells of the mesh:" +
-                 worst(quality.worst.size()));
+        return Finding{Fault::not_certified,
+                       std::to_string(quality.uncertified) + cells +
+                           "have a Jacobian that is not positive everywhere, though it is at their corners. "
+                           "The worst cells of the mesh:" +
+                           worst(quality.worst.size())};
     if (quality.min_scaled_jacobian < min_scaled_jacobian) {
         const auto below = static_cast<std::size_t>(
             std::count_if(quality.worst.begin(), quality.worst.end(),
                           [&](const WorstCell& cell) { return cell.scaled_jacobian < min_scaled_jacobian; }));
-        fail("quality.below_limit", "the smallest scaled Jacobian is " + number(quality.min_scaled_jacobian) +
-                                        ", below the limit of " + number(min_scaled_jacobian) +
-                                        ". The worst:" + worst(below));
+        return Finding{Fault::below_limit, "the smallest scaled Jacobian is " +
+                                               number(quality.min_scaled_jacobian) + ", below the limit of " +
+                                               number(min_scaled_jacobian) + ". The worst:" + worst(below)};
     }
+    return std::nullopt;
 }
 
-Quality prove(const mesh::HexMesh& mesh, double min_scaled_jacobian, const RunContext& context)
+std::string fault_code(Fault fault)
 {
-    check_sizes(mesh);
-    check_patches(mesh);
+    static constexpr std::array kNames{
+        "empty",          "wrong_size",    "unknown_node",     "patch_tag",   "no_patch",
+        "collapsed_side", "not_conformal", "pinched",          "unused_node", "open_skin",
+        "skin_differs",   "not_finite",    "coincident_nodes", "inverted",    "not_certified",
+        "below_limit",
+    };
+    static_assert(kNames.size() == static_cast<std::size_t>(Fault::below_limit) + 1);
+    return std::string("quality.") + kNames[static_cast<std::size_t>(fault)];
+}
+
+bool can_be_improved(Fault fault)
+{
+    return fault == Fault::inverted || fault == Fault::not_certified || fault == Fault::below_limit;
+}
+
+void require(const Proof& proof)
+{
+    if (proof.finding) throw NotSweepable(fault_code(proof.finding->fault), proof.finding->message);
+}
+
+Proof prove(const mesh::HexMesh& mesh, double min_scaled_jacobian, const RunContext& context)
+{
+    Proof proof;
+    const auto found = [&](Found finding) {
+        proof.finding = std::move(finding);
+        return proof.finding.has_value();
+    };
+    if (found(check_sizes(mesh)) || found(check_patches(mesh))) return proof;
     const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads, mesh.nodes_per_layer);
-    check_sides(mesh, opposite);
-    check_rim(mesh, check_fans(mesh, opposite));
+    if (found(check_sides(mesh, opposite)) || found(check_fans(mesh, opposite)) ||
+        found(check_rim(mesh, rim_followers(mesh, opposite))))
+        return proof;
     check_cancelled(context);
-    Quality quality = measure(mesh, context);
-    check_quality(quality, min_scaled_jacobian, mesh.layers);
-    check_nodes(mesh.nodes, mesh.nodes_per_layer, context);
-    return quality;
+    proof.quality = measure(mesh, context);
+    if (!found(check_quality(proof.quality, min_scaled_jacobian, mesh.layers)))
+        found(check_nodes(mesh.nodes, mesh.nodes_per_layer, context));
+    return proof;
 }
 
 } // namespace lacuna::quality

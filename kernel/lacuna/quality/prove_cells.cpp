@@ -2,24 +2,26 @@
 #include <lacuna/quality/detail/findings.h>
 #include <lacuna/quality/quality.h>
 
-#include <lacuna/core/error.h>
-
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace lacuna::quality {
 namespace {
 
-constexpr Index kGivenSkin = -1; // owner of a side that comes from the list of skin quads
+constexpr Index kGivenSkin = -1; ///< owner of a side that comes from the list of skin quads
 
 /// A side of a cell, told by its nodes: the lowest, the one across and the others in order.
-struct Side {
+struct CellSide {
     std::array<Index, 4> key;
     Quad nodes;
     Index owner;
 };
 
-bool operator<(const Side& a, const Side& b) { return std::tie(a.key, a.owner) < std::tie(b.key, b.owner); }
+bool operator<(const CellSide& a, const CellSide& b)
+{
+    return std::tie(a.key, a.owner) < std::tie(b.key, b.owner);
+}
 
 /// A quad turned so that it begins with its lowest node; same side, same direction.
 Quad turned(const Quad& quad)
@@ -28,46 +30,46 @@ Quad turned(const Quad& quad)
     return {quad[lowest], quad[(lowest + 1) % 4], quad[(lowest + 2) % 4], quad[(lowest + 3) % 4]};
 }
 
-Side make_side(const Quad& quad, Index owner)
+CellSide make_side(const Quad& quad, Index owner)
 {
-    Side side{{quad[0], quad[1], quad[2], quad[3]}, turned(quad), owner};
+    CellSide side{{quad[0], quad[1], quad[2], quad[3]}, turned(quad), owner};
     std::sort(side.key.begin(), side.key.end());
     return side;
 }
 
-std::string side_name(std::span<const Vec3> nodes, const Side& side)
+std::string side_name(std::span<const Vec3> nodes, const CellSide& side)
 {
     return "the side of cell " + std::to_string(side.owner + 1) + " between " +
            node_name(nodes, side.nodes[0], 0) + " and " + node_name(nodes, side.nodes[2], 0);
 }
 
-void check_corners(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin)
+Found check_corners(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin)
 {
-    if (hexes.empty()) throw NotSweepable("quality.empty", "the mesh has no cells");
+    if (hexes.empty()) return Finding{Fault::empty, "the mesh has no cells"};
     std::vector<char> used(nodes.size(), 0);
     const auto known = [&](Index node) { return node >= 0 && static_cast<std::size_t>(node) < nodes.size(); };
     for (std::size_t h = 0; h < hexes.size(); ++h) {
         for (const Index node : hexes[h]) {
             if (!known(node))
-                throw NotSweepable("quality.unknown_node", "cell " + std::to_string(h + 1) + " names node " +
-                                                               std::to_string(std::int64_t(node) + 1) +
-                                                               " of " + std::to_string(nodes.size()));
+                return Finding{Fault::unknown_node, "cell " + std::to_string(h + 1) + " names node " +
+                                                        std::to_string(std::int64_t(node) + 1) + " of " +
+                                                        std::to_string(nodes.size())};
             used[static_cast<std::size_t>(node)] = 1;
         }
     }
     for (const Quad& quad : skin)
         if (!std::all_of(quad.begin(), quad.end(), known))
-            throw NotSweepable("quality.unknown_node", "a quad of the skin names a node that is not there");
+            return Finding{Fault::unknown_node, "a quad of the skin names a node that is not there"};
     const auto unused = std::find(used.begin(), used.end(), 0);
     if (unused != used.end())
-        throw NotSweepable("quality.unused_node",
-                           node_name(nodes, static_cast<Index>(unused - used.begin()), 0) +
-                               " belongs to no cell");
+        return Finding{Fault::unused_node, node_name(nodes, static_cast<Index>(unused - used.begin()), 0) +
+                                               " belongs to no cell"};
+    return std::nullopt;
 }
 
 /// Sides of all cells and of the given skin, brought together by their lowest node.
-std::vector<Side> sorted_sides(std::span<const Vec3> nodes, std::span<const Hex> hexes,
-                               std::span<const Quad> skin)
+std::vector<CellSide> sorted_sides(std::span<const Vec3> nodes, std::span<const Hex> hexes,
+                                   std::span<const Quad> skin)
 {
     std::vector<std::size_t> start(nodes.size() + 1, 0);
     const auto for_each_quad = [&](const auto& body) {
@@ -83,10 +85,10 @@ std::vector<Side> sorted_sides(std::span<const Vec3> nodes, std::span<const Hex>
         ++start[static_cast<std::size_t>(*std::min_element(quad.begin(), quad.end())) + 1];
     });
     for (std::size_t n = 1; n < start.size(); ++n) start[n] += start[n - 1];
-    std::vector<Side> sides(start.back());
+    std::vector<CellSide> sides(start.back());
     std::vector<std::size_t> next(start.begin(), start.end() - 1);
     for_each_quad([&](const Quad& quad, Index owner) {
-        const Side side = make_side(quad, owner);
+        const CellSide side = make_side(quad, owner);
         sides[next[static_cast<std::size_t>(side.key[0])]++] = side;
     });
     for (std::size_t n = 0; n + 1 < start.size(); ++n)
@@ -96,38 +98,37 @@ std::vector<Side> sorted_sides(std::span<const Vec3> nodes, std::span<const Hex>
 }
 
 /// One side with all who use it: the given skin first, then the cells.
-void check_side(std::span<const Vec3> nodes, std::span<const Side> users, bool skin_given,
-                std::vector<Quad>& skin)
+Found check_side(std::span<const Vec3> nodes, std::span<const CellSide> users, bool skin_given)
 {
     const auto given = static_cast<std::size_t>(
-        std::count_if(users.begin(), users.end(), [](const Side& s) { return s.owner == kGivenSkin; }));
-    const std::span<const Side> cells = users.subspan(given);
-    const Side& any = users.back();
+        std::count_if(users.begin(), users.end(), [](const CellSide& s) { return s.owner == kGivenSkin; }));
+    const std::span<const CellSide> cells = users.subspan(given);
+    const CellSide& any = users.back();
     const auto& key = any.key;
     if (std::adjacent_find(key.begin(), key.end()) != key.end())
-        throw NotSweepable("quality.collapsed_side", side_name(nodes, any) + " uses a node twice");
+        return Finding{Fault::collapsed_side, side_name(nodes, any) + " uses a node twice"};
     if (cells.size() > 2)
-        throw NotSweepable("quality.not_conformal", side_name(nodes, any) + " is shared by " +
-                                                        std::to_string(cells.size()) + " cells");
+        return Finding{Fault::not_conformal,
+                       side_name(nodes, any) + " is shared by " + std::to_string(cells.size()) + " cells"};
     if (cells.size() == 2) {
         const Quad& a = cells[0].nodes;
         const Quad& b = cells[1].nodes;
         if (a[1] != b[3] || a[2] != b[2] || a[3] != b[1])
-            throw NotSweepable("quality.not_conformal", side_name(nodes, any) +
-                                                            " is not the same, run the other way, in cell " +
-                                                            std::to_string(cells[0].owner + 1));
+            return Finding{Fault::not_conformal, side_name(nodes, any) +
+                                                     " is not the same, run the other way, in cell " +
+                                                     std::to_string(cells[0].owner + 1)};
     }
     const std::size_t expected = cells.size() == 1 ? 1 : 0;
     if (skin_given && given != expected)
-        throw NotSweepable("quality.skin_differs",
-                           "the quad between " + node_name(nodes, any.nodes[0], 0) + " and " +
-                               node_name(nodes, any.nodes[2], 0) + " is listed " + std::to_string(given) +
-                               " times as a quad of the skin; expected " + std::to_string(expected));
-    if (cells.size() == 1) skin.push_back(cells[0].nodes);
+        return Finding{Fault::skin_differs,
+                       "the quad between " + node_name(nodes, any.nodes[0], 0) + " and " +
+                           node_name(nodes, any.nodes[2], 0) + " is listed " + std::to_string(given) +
+                           " times as a quad of the skin; expected " + std::to_string(expected)};
+    return std::nullopt;
 }
 
 /// Every edge of the skin joins two of its quads, which run it in opposite directions.
-void check_skin_edges(std::span<const Vec3> nodes, const std::vector<Quad>& skin)
+Found check_skin_edges(std::span<const Vec3> nodes, const std::vector<Quad>& skin)
 {
     struct Use {
         Index low, high;
@@ -149,34 +150,40 @@ void check_skin_edges(std::span<const Vec3> nodes, const std::vector<Quad>& skin
         std::size_t j = i;
         while (j < uses.size() && uses[j].low == uses[i].low && uses[j].high == uses[i].high) ++j;
         if (j - i != 2 || uses[i].rising == uses[i + 1].rising)
-            throw NotSweepable("quality.open_skin", "the edge of the skin from " +
-                                                        node_name(nodes, uses[i].low, 0) + " to " +
-                                                        node_name(nodes, uses[i].high, 0) + " is used by " +
-                                                        std::to_string(j - i) + " quads; expected two");
+            return Finding{Fault::open_skin, "the edge of the skin from " + node_name(nodes, uses[i].low, 0) +
+                                                 " to " + node_name(nodes, uses[i].high, 0) + " is used by " +
+                                                 std::to_string(j - i) + " quads; expected two"};
         i = j;
     }
+    return std::nullopt;
 }
 
 } // namespace
 
-Quality prove_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin,
-                    double min_scaled_jacobian, const RunContext& context)
+Proof prove_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin,
+                  double min_scaled_jacobian, const RunContext& context)
 {
-    check_corners(nodes, hexes, skin);
-    Quality quality = measure_cells(nodes, hexes, context);
-    check_quality(quality, min_scaled_jacobian, 0);
+    Proof proof;
+    const auto found = [&](Found finding) {
+        proof.finding = std::move(finding);
+        return proof.finding.has_value();
+    };
+    if (found(check_corners(nodes, hexes, skin))) return proof;
+    proof.quality = measure_cells(nodes, hexes, context);
+    if (found(check_quality(proof.quality, min_scaled_jacobian, 0))) return proof;
 
-    const std::vector<Side> sides = sorted_sides(nodes, hexes, skin);
+    const std::vector<CellSide> sides = sorted_sides(nodes, hexes, skin);
     std::vector<Quad> found_skin;
     for (std::size_t i = 0; i < sides.size();) {
-        std::size_t j = i;
-        while (j < sides.size() && sides[j].key == sides[i].key) ++j;
-        check_side(nodes, std::span(sides).subspan(i, j - i), !skin.empty(), found_skin);
+        std::size_t j = i, cells = 0;
+        for (; j < sides.size() && sides[j].key == sides[i].key; ++j)
+            cells += sides[j].owner != kGivenSkin ? 1 : 0;
+        if (found(check_side(nodes, std::span(sides).subspan(i, j - i), !skin.empty()))) return proof;
+        if (cells == 1) found_skin.push_back(sides[j - 1].nodes); // the given skin is sorted before the cells
         i = j;
     }
-    check_skin_edges(nodes, found_skin);
-    check_nodes(nodes, 0, context);
-    return quality;
+    if (!found(check_skin_edges(nodes, found_skin))) found(check_nodes(nodes, 0, context));
+    return proof;
 }
 
 } // namespace lacuna::quality

@@ -6,19 +6,22 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace lacuna::quality {
 
-/// Smallest scaled Jacobian over the eight corners of a hexahedron, Verdict's without the centre; -1…1, 1 for a cube.
+/// Smallest scaled Jacobian over the eight corners of a hexahedron, Verdict's without the centre; -1…1, 1 for
+/// a cube.
 double scaled_jacobian(std::span<const Vec3, 8> corners);
 
 /// True when the Jacobian of the trilinear map is positive everywhere in the cell.
 ///
 /// Algorithm: Bézier coefficients of the Jacobian (Johnen, Weill and Remacle 2017): 27 coefficients, all
-/// positive ⇒ valid; a corner not positive ⇒ invalid; else subdivided until decided or `max_depth`, then invalid.
+/// positive ⇒ valid; a corner not positive ⇒ invalid; else subdivided until decided or `max_depth`, then
+/// invalid.
 bool certified_positive(std::span<const Vec3, 8> corners, int max_depth = 6);
 
 /// A cell with what is wrong with it.
@@ -51,14 +54,55 @@ Quality measure_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes,
 /// As a table with a histogram.
 std::string to_table(const Quality& quality);
 
-/// Prove a mesh fit to be written: conformal (every side of a cell used once or twice), skin closed and made of
-/// exactly the patches, no node twice in one place or unused, every Jacobian certified positive.
-/// @throw NotSweepable  names what is wrong, the worst cells, their layer and place.
-Quality prove(const mesh::HexMesh& mesh, double min_scaled_jacobian = 0, const RunContext& context = {});
+/// What can be wrong with a mesh.
+enum class Fault {
+    empty,            ///< no cells
+    wrong_size,       ///< arrays of a swept mesh that do not fit its counts
+    unknown_node,     ///< a corner names no node
+    patch_tag,        ///< a patch of the skin without a tag of its own
+    no_patch,         ///< a quad of the skin that belongs to no patch
+    collapsed_side,   ///< a side of a cell with a node twice
+    not_conformal,    ///< a side used by more than two cells, or not alike in both
+    pinched,          ///< quads that touch in one node alone
+    unused_node,      ///< a node no cell uses
+    open_skin,        ///< an edge of the skin without two quads
+    skin_differs,     ///< the skin that was handed over is not that of the cells
+    not_finite,       ///< a coordinate that is no number
+    coincident_nodes, ///< two nodes in one place
+    inverted,         ///< cells with a corner that is not positive
+    not_certified,    ///< cells whose Jacobian could not be shown positive everywhere
+    below_limit,      ///< cells below the least scaled Jacobian that was asked for
+};
+
+/// Stable name of a fault, for programs: "quality.not_conformal".
+std::string fault_code(Fault fault);
+
+/// Whether moving nodes may cure the fault: cells inverted, not certified or below the limit.
+bool can_be_improved(Fault fault);
+
+/// Something wrong with a mesh.
+struct Finding {
+    Fault fault;
+    std::string message; ///< for a person: which nodes or cells, their layer and place, and what to try
+};
+
+/// What is known of a mesh that was to be proved.
+struct Proof {
+    Quality quality;                ///< of the cells; empty where the fault lies in the arrays themselves
+    std::optional<Finding> finding; ///< the first fault met; none: the mesh is fit to be written
+};
+
+/// Prove a mesh fit to be written: conformal (every side of a cell used once or twice), skin closed and made
+/// of exactly the patches, no node twice in one place or unused, every Jacobian certified positive. O(cells).
+Proof prove(const mesh::HexMesh& mesh, double min_scaled_jacobian = 0, const RunContext& context = {});
 
 /// The same for hexahedra of any origin.
 /// @param skin  where not empty, quads that must be exactly the skin, in any order and direction.
-Quality prove_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin = {},
-                    double min_scaled_jacobian = 0, const RunContext& context = {});
+Proof prove_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin = {},
+                  double min_scaled_jacobian = 0, const RunContext& context = {});
+
+/// Turn the finding of a proof, if there is one, into an error.
+/// @throw NotSweepable  with the fault's code and the finding's message.
+void require(const Proof& proof);
 
 } // namespace lacuna::quality

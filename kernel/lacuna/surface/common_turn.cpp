@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/common_turn.h>
 
-#include <lacuna/surface/detail/wall_map.h>
+#include <lacuna/geometry/affine.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/surface/detail/linking_map.h>
 
 #include <Eigen/Geometry>
 
@@ -12,7 +14,8 @@ namespace lacuna::surface {
 
 namespace {
 
-constexpr std::size_t kSamples = 96; ///< round a rim; a parabola finds the place between them
+/// Points round a rim: one every 4 degrees, and a parabola finds the shift between them.
+constexpr std::size_t kSamples = 96;
 
 std::vector<Vec3> round_points(const Chain& chain)
 {
@@ -22,49 +25,34 @@ std::vector<Vec3> round_points(const Chain& chain)
     return chain.points(at);
 }
 
-Vec3 centre_of(const std::vector<Vec3>& points)
-{
-    Vec3 sum = Vec3::Zero();
-    for (const Vec3& p : points) sum += p;
-    return sum / static_cast<double>(points.size());
-}
-
-Vec3 area_of(const std::vector<Vec3>& points)
-{
-    Vec3 sum = Vec3::Zero();
-    const Vec3 centre = centre_of(points);
-    for (std::size_t i = 0; i < points.size(); ++i)
-        sum += (points[i] - centre).cross(points[(i + 1) % points.size()] - centre) / 2;
-    return sum;
-}
-
-/// Places of source and target that belong together, with the length of rim they stand for.
-struct Pair {
+/// Points of source and target that belong together, with the length of rim they stand for.
+struct RimPair {
     Vec3 source, target;
     double weight;
 };
 
-std::vector<Pair> pairs_of(std::span<const Belt> belts)
+std::vector<RimPair> pairs_of(std::span<const LinkingSurface> links)
 {
-    std::vector<Pair> pairs;
-    for (const Belt& belt : belts) {
-        if (belt.lines.empty()) {
-            pairs.push_back({centre_of(round_points(belt.source)), centre_of(round_points(belt.target)),
-                             belt.source.length()});
+    std::vector<RimPair> pairs;
+    for (const LinkingSurface& link : links) {
+        if (link.lines.empty()) {
+            pairs.push_back({geometry::mean_point(round_points(link.source)),
+                             geometry::mean_point(round_points(link.target)), link.source.length()});
             continue;
         }
-        for (const Stretch& stretch : belt.stretches) {
-            const double s[] = {stretch.source_from};
-            const double t[] = {std::fmod(stretch.target_from, belt.target.length())};
-            pairs.push_back({belt.source.points(s).front(), belt.target.points(t).front(),
-                             stretch.source_to - stretch.source_from});
+        for (const RimSegment& segment : link.segments) {
+            const double s[] = {segment.source_from};
+            const double t[] = {std::fmod(segment.target_from, link.target.length())};
+            pairs.push_back({link.source.points(s).front(), link.target.points(t).front(),
+                             segment.source_to - segment.source_from});
         }
     }
     return pairs;
 }
 
-/// The rotation that takes the pairs' sources to their targets: area vectors onto each other, then the best turn about them.
-std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<Pair>& pairs, const Vec3& source_area,
+/// The rotation that takes the pairs' sources to their targets: area vectors onto each other, then the best
+/// turn about them.
+std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPair>& pairs, const Vec3& source_area,
                                            const Vec3& target_area)
 {
     if (!(source_area.norm() > 0) || !(target_area.norm() > 0)) return std::nullopt;
@@ -74,7 +62,7 @@ std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<Pair>& pairs, const
 
     Vec3 from = Vec3::Zero(), to = Vec3::Zero();
     double weight = 0;
-    for (const Pair& pair : pairs) {
+    for (const RimPair& pair : pairs) {
         from += pair.weight * pair.source;
         to += pair.weight * pair.target;
         weight += pair.weight;
@@ -82,33 +70,35 @@ std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<Pair>& pairs, const
     from /= weight;
     to /= weight;
     double along = 0, across = 0;
-    for (const Pair& pair : pairs) {
+    for (const RimPair& pair : pairs) {
         Vec3 a = upright * (pair.source - from), b = pair.target - to;
         a -= a.dot(normal) * normal;
         b -= b.dot(normal) * normal;
         along += pair.weight * a.dot(b);
         across += pair.weight * normal.dot(a.cross(b));
     }
-    // quads::Loops about one centre say nothing of a turn; a thousandth of the section is as good as one centre.
+    // Loops about one centre say nothing of a turn; a thousandth of the section is as good as one
+    // centre.
     const double size2 = std::min(source_area.norm(), target_area.norm());
     if (std::hypot(along, across) < 1e-6 * weight * size2) return std::nullopt;
     return Eigen::AngleAxisd(std::atan2(across, along), normal).toRotationMatrix() * upright;
 }
 
-std::optional<Eigen::Matrix3d> common_turn(std::span<const Belt> belts)
+std::optional<Eigen::Matrix3d> common_turn(std::span<const LinkingSurface> links)
 {
     Vec3 source_area = Vec3::Zero(), target_area = Vec3::Zero();
-    for (const Belt& belt : belts) {
-        source_area += area_of(round_points(belt.source));
-        target_area += area_of(round_points(belt.target));
+    for (const LinkingSurface& link : links) {
+        source_area += geometry::newell_vector(round_points(link.source));
+        target_area += geometry::newell_vector(round_points(link.target));
     }
-    return fitted_turn(pairs_of(belts), source_area, target_area);
+    return fitted_turn(pairs_of(links), source_area, target_area);
 }
 
-/// The shift of the target's points against the source's, in turns [0, 1), that leaves the turned rings closest.
+/// The shift of the target's points against the source's, in turns [0, 1), that leaves the turned rings
+/// closest.
 double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eigen::Matrix3d& turn)
 {
-    const Vec3 from = centre_of(source), to = centre_of(target);
+    const Vec3 from = geometry::mean_point(source), to = geometry::mean_point(target);
     for (Vec3& p : source) p = turn * (p - from);
     for (Vec3& p : target) p -= to;
     std::vector<double> apart(kSamples, 0);
@@ -124,39 +114,39 @@ double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eige
     return share - std::floor(share);
 }
 
-double best_start(const Belt& belt, const Eigen::Matrix3d& turn)
+double best_start(const LinkingSurface& link, const Eigen::Matrix3d& turn)
 {
-    return best_shift(round_points(belt.source), round_points(belt.target), turn) * belt.target.length();
+    return best_shift(round_points(link.source), round_points(link.target), turn) * link.target.length();
 }
 
 /// Follows the common turn up the walls, row by row.
 class TurnTracker {
 public:
-    TurnTracker(const topology::OpenVolume& volume, std::span<const Belt> belts)
-        : belts_(belts), rings_(belts.size())
+    TurnTracker(const topology::OpenVolume& volume, std::span<const LinkingSurface> links)
+        : links_(links), rings_(links.size())
     {
-        for (const Belt& belt : belts) maps_.emplace_back(volume, belt);
-        for (std::size_t b = 0; b < belts.size(); ++b) {
+        for (const LinkingSurface& link : links) maps_.emplace_back(volume, link);
+        for (std::size_t b = 0; b < links.size(); ++b) {
             for (std::size_t row = 0; row <= kRows; ++row)
                 rings_[b].push_back(ring(volume.model, maps_[b], static_cast<double>(row) / kRows));
         }
     }
 
-    /// For each belt the s, counted from its column, of the target end of its shortest way up.
+    /// For each linking surface the s, counted from its column, of the target end of its shortest way up.
     std::vector<double> branches()
     {
-        std::vector<double> shift(belts_.size(), 0.0);
+        std::vector<double> shift(links_.size(), 0.0);
         Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
         for (std::size_t row = 1; row <= kRows; ++row) {
             turn = step(row) * turn;
-            for (std::size_t b = 0; b < belts_.size(); ++b) {
-                if (!belts_[b].lines.empty()) continue;
+            for (std::size_t b = 0; b < links_.size(); ++b) {
+                if (!links_[b].lines.empty()) continue;
                 const double off = best_shift(rings_[b].front(), rings_[b][row], turn) - shift[b];
                 shift[b] += off - std::round(off);
             }
         }
         std::vector<double> branches;
-        for (std::size_t b = 0; b < belts_.size(); ++b)
+        for (std::size_t b = 0; b < links_.size(); ++b)
             branches.push_back(maps_[b].target_branch() - shift[b]);
         return branches;
     }
@@ -164,29 +154,30 @@ public:
 private:
     static constexpr std::size_t kRows = 32; ///< a full turn is followed in steps of 11 degrees
 
-    static std::vector<Vec3> ring(const topology::Model& model, const WallMap& map, double height)
+    static std::vector<Vec3> ring(const topology::Model& model, const LinkingMap& map, double height)
     {
         std::vector<Vec3> points;
         for (std::size_t i = 0; i < kSamples; ++i) {
-            const WallMap::Place place = map.locate(static_cast<double>(i) / kSamples, map.from_even(height));
-            const FacetPlace at[] = {place.at};
+            const WallPosition place = map.locate(static_cast<double>(i) / kSamples, map.from_even(height));
+            const FacetPosition at[] = {place.at};
             points.push_back(points_at(model, place.face, at).front());
         }
         return points;
     }
 
-    /// The rotation from a row to the next: of the rings' centres, and of the rings themselves where side lines tell their points.
+    /// The rotation from a row to the next: of the rings' centres, and of the rings themselves where side
+    /// lines tell their points.
     [[nodiscard]] Eigen::Matrix3d step(std::size_t row) const
     {
-        std::vector<Pair> pairs;
+        std::vector<RimPair> pairs;
         Vec3 low = Vec3::Zero(), high = Vec3::Zero();
-        for (std::size_t b = 0; b < belts_.size(); ++b) {
+        for (std::size_t b = 0; b < links_.size(); ++b) {
             const std::vector<Vec3>&from = rings_[b][row - 1], &to = rings_[b][row];
-            low += area_of(from);
-            high += area_of(to);
-            const double weight = belts_[b].source.length();
-            if (belts_[b].lines.empty()) {
-                pairs.push_back({centre_of(from), centre_of(to), weight});
+            low += geometry::newell_vector(from);
+            high += geometry::newell_vector(to);
+            const double weight = links_[b].source.length();
+            if (links_[b].lines.empty()) {
+                pairs.push_back({geometry::mean_point(from), geometry::mean_point(to), weight});
                 continue;
             }
             for (std::size_t i = 0; i < kSamples; ++i) pairs.push_back({from[i], to[i], weight / kSamples});
@@ -194,24 +185,25 @@ private:
         return fitted_turn(pairs, low, high).value_or(Eigen::Matrix3d::Identity());
     }
 
-    std::span<const Belt> belts_;
-    std::vector<WallMap> maps_;
-    std::vector<std::vector<std::vector<Vec3>>> rings_; ///< of each belt and row
+    std::span<const LinkingSurface> links_;
+    std::vector<LinkingMap> maps_;
+    std::vector<std::vector<std::vector<Vec3>>> rings_; ///< of each linking surface and row
 };
 
 } // namespace
 
 std::vector<std::optional<CommonTurn>> common_turns(const topology::OpenVolume& volume,
-                                                    std::span<const Belt> belts)
+                                                    std::span<const LinkingSurface> links)
 {
-    std::vector<std::optional<CommonTurn>> turns(belts.size());
-    const bool free = std::any_of(belts.begin(), belts.end(), [](const Belt& b) { return b.lines.empty(); });
-    if (!free || belts.size() < 2) return turns;
-    const std::optional<Eigen::Matrix3d> turn = common_turn(belts);
+    std::vector<std::optional<CommonTurn>> turns(links.size());
+    const bool free = std::any_of(links.begin(), links.end(),
+                                  [](const LinkingSurface& b) { return b.lines.empty(); });
+    if (!free || links.size() < 2) return turns;
+    const std::optional<Eigen::Matrix3d> turn = common_turn(links);
     if (!turn) return turns;
-    const std::vector<double> branches = TurnTracker(volume, belts).branches();
-    for (std::size_t b = 0; b < belts.size(); ++b) {
-        if (belts[b].lines.empty()) turns[b] = CommonTurn{best_start(belts[b], *turn), branches[b]};
+    const std::vector<double> branches = TurnTracker(volume, links).branches();
+    for (std::size_t b = 0; b < links.size(); ++b) {
+        if (links[b].lines.empty()) turns[b] = CommonTurn{best_start(links[b], *turn), branches[b]};
     }
     return turns;
 }

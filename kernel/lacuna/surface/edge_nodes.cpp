@@ -11,17 +11,24 @@ using namespace topology;
 
 namespace {
 
-/// So close to a point of the polyline, in its sides, a place is that point, bit for bit: given nodes stay.
+/// A position this close to a point of the polyline, as a share of its side, is that point, bit for bit:
+/// given nodes stay. Rounding is a million times less.
 constexpr double kOnPoint = 1e-9;
 
 } // namespace
 
+std::vector<Vec3> edge_line(const Model& model, EdgeId edge)
+{
+    std::vector<Vec3> line;
+    line.reserve(model[edge].points.size());
+    for (const Index p : model[edge].points) line.push_back(model.at(p));
+    return line;
+}
+
 std::vector<Vec3> edge_points(const Model& model, EdgeId id, std::span<const double> fractions)
 {
     const Edge& edge = model[id];
-    std::vector<Vec3> line;
-    line.reserve(edge.points.size());
-    for (const Index p : edge.points) line.push_back(model.at(p));
+    const std::vector<Vec3> line = edge_line(model, id);
     const std::vector<double> arc = geometry::arc_lengths(line);
 
     std::vector<Vec3> result(fractions.size());
@@ -59,7 +66,7 @@ Chain::Chain(const Model& model, std::vector<EdgeUse> uses)
     for (const EdgeUse& use : uses_) start_.push_back(start_.back() + edge_length(model, use.edge));
 }
 
-Chain::Place Chain::place(double s) const
+ChainPosition Chain::position(double s) const
 {
     const auto after = std::upper_bound(start_.begin(), start_.end(), s);
     const auto found = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - start_.begin() - 1, 0));
@@ -71,14 +78,15 @@ Chain::Place Chain::place(double s) const
 std::vector<Vec3> Chain::points(std::span<const double> lengths) const
 {
     std::vector<Vec3> result(lengths.size());
-    std::vector<Place> places;
-    places.reserve(lengths.size());
-    for (const double s : lengths) places.push_back(place(s));
-    for (std::size_t i = 0; i < places.size();) {
+    std::vector<ChainPosition> positions;
+    positions.reserve(lengths.size());
+    for (const double s : lengths) positions.push_back(position(s));
+    for (std::size_t i = 0; i < positions.size();) {
         std::vector<double> fractions;
         std::size_t j = i;
-        while (j < places.size() && places[j].use == places[i].use) fractions.push_back(places[j++].fraction);
-        const std::vector<Vec3> on_edge = edge_points(*model_, uses_[places[i].use].edge, fractions);
+        while (j < positions.size() && positions[j].use == positions[i].use)
+            fractions.push_back(positions[j++].fraction);
+        const std::vector<Vec3> on_edge = edge_points(*model_, uses_[positions[i].use].edge, fractions);
         std::copy(on_edge.begin(), on_edge.end(), result.begin() + static_cast<std::ptrdiff_t>(i));
         i = j;
     }

@@ -14,10 +14,12 @@ using namespace topology;
 
 namespace {
 
-/// Below this inner angle a vertex is a corner of a mapped face, above its opposite it is a reversal [degrees].
+/// Below this inner angle a vertex is a corner of a mapped face, above its opposite it is a reversal
+/// [degrees]. Half way from a right angle to a straight one, and as far beyond.
 constexpr double kCorner = 135;
 constexpr double kReversal = 225;
-/// A face with opposite sides more unlike than this is not mapped unless asked to: its quads would be as unlike.
+/// A face with opposite sides more unlike than this is not mapped unless asked to: its quads would be as
+/// unlike. A choice, not a measurement.
 constexpr double kUnlike = 3;
 
 /// Inner angle of a face where use i of its loop starts [degrees].
@@ -29,7 +31,8 @@ double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_
     const Index at = after.front();
     Vec3 normal = Vec3::Zero();
     for (const Triangle& t : model[face].triangles) {
-        // Facets on the two sides that meet here: the corner's own, also where the face comes by twice (a seam).
+        // Facets on the two sides that meet here: the corner's own, also where the face comes by twice (a
+        // seam).
         const bool touches = std::find(t.begin(), t.end(), at) != t.end();
         const bool on_side = std::find(t.begin(), t.end(), after[1]) != t.end() ||
                              std::find(t.begin(), t.end(), before[before.size() - 2]) != t.end();
@@ -73,17 +76,16 @@ std::optional<std::vector<std::size_t>> four_corners(const Model& model, FaceId 
     return corners.size() == 4 ? std::optional(corners) : std::nullopt;
 }
 
-std::vector<OppositeSides> opposite_sides(const Model& model, FaceId face,
-                                          const std::vector<std::size_t>& corners)
+std::vector<SidePair> side_pairs(const Model& model, FaceId face, const std::vector<std::size_t>& corners)
 {
     const Loop& loop = model[face].loops[0];
     return {{side_edges(loop, corners, 0), side_edges(loop, corners, 2)},
             {side_edges(loop, corners, 1), side_edges(loop, corners, 3)}};
 }
 
-std::vector<OppositeSides> grid_sides(const Model& model, FaceId face)
+std::vector<SidePair> grid_sides(const Model& model, FaceId face)
 {
-    std::vector<OppositeSides> pairs;
+    std::vector<SidePair> pairs;
     int outer = 0;
     for (const Loop& loop : model[face].loops) {
         std::array<std::vector<EdgeId>, 4> along;
@@ -100,12 +102,12 @@ std::vector<OppositeSides> grid_sides(const Model& model, FaceId face)
         pairs.push_back({along[0], along[2]});
         pairs.push_back({along[1], along[3]});
     }
-    return outer == 1 ? pairs : std::vector<OppositeSides>();
+    return outer == 1 ? pairs : std::vector<SidePair>();
 }
 
-bool alike(const Model& model, const std::vector<OppositeSides>& pairs)
+bool alike(const Model& model, const std::vector<SidePair>& pairs)
 {
-    return std::all_of(pairs.begin(), pairs.end(), [&](const OppositeSides& sides) {
+    return std::all_of(pairs.begin(), pairs.end(), [&](const SidePair& sides) {
         const double a = length_of(model, sides[0]), b = length_of(model, sides[1]);
         return std::max(a, b) <= kUnlike * std::min(a, b);
     });

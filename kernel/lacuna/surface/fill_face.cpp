@@ -6,6 +6,7 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/surface/detail/fine_facets.h>
+#include <lacuna/surface/edge_nodes.h>
 #include <lacuna/surface/projector.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -111,11 +112,7 @@ public:
         std::vector<Vec2> places;
         for (const RimNode& node : rim) {
             std::vector<double>& arc = arcs[node.edge];
-            if (arc.empty()) {
-                std::vector<Vec3> line;
-                for (const Index p : model_[node.edge].points) line.push_back(model_.at(p));
-                arc = geometry::arc_lengths(line);
-            }
+            if (arc.empty()) arc = geometry::arc_lengths(edge_line(model_, node.edge));
             const geometry::PolylinePlace at = geometry::place_at(arc, node.fraction * arc.back());
             places.push_back(place_on(node.edge, static_cast<double>(at.segment) + at.fraction));
         }
@@ -140,7 +137,7 @@ public:
 
     [[nodiscard]] std::vector<Vec3> lift(std::span<const Vec2> points) const
     {
-        std::vector<FacetPlace> places;
+        std::vector<FacetPosition> places;
         for (const Vec2& p : points) {
             const auto found = locator_.locate(p);
             places.push_back({found.triangle, found.barycentric});
@@ -167,7 +164,8 @@ private:
         return flat_.position[static_cast<std::size_t>(found - flat_.used.begin())];
     }
 
-    /// Lengths in the plane over those on the face, at each point used: the square root of the areas round it.
+    /// Lengths in the plane over those on the face, at each point used: the square root of the areas round
+    /// it.
     void measure_stretch()
     {
         std::vector<double> plane(flat_.used.size(), 0.0), space(flat_.used.size(), 0.0);

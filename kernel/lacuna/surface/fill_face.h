@@ -28,9 +28,9 @@ struct FaceQuads {
 
 /// Fill a face with quads inside given boundary nodes.
 ///
-/// A face in a plane is filled in that plane. Another is laid flat by facets that are fine enough for the size
-/// (`fine_facets()`), the nodes of its rim with its edges; the size is corrected for the stretch at each place, the plane is
-/// filled, and the new nodes go back by the facets they lie on to the exact surface.
+/// A face in a plane is filled in that plane. Another is laid flat by facets that are fine enough for the
+/// size (`fine_facets()`), the nodes of its rim with its edges; the size is corrected for the stretch at each
+/// place, the plane is filled, and the new nodes go back by the facets they lie on to the exact surface.
 /// @param rim    nodes of the boundary; they stay, in this order.
 /// @param loops  cycles of places in `rim`, the face on the left.
 /// @throw NotSweepable "surface.not_flat"  a face that cannot be laid flat; what the mesher throws.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/fine_facets.h>
 
+#include <lacuna/core/edge_key.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,12 +14,6 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
-
-std::uint64_t key_of(Index a, Index b)
-{
-    if (a > b) std::swap(a, b);
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32) | static_cast<std::uint32_t>(b);
-}
 
 /// The face as it is.
 FineFacets copy_of(const Model& model, FaceId face)
@@ -49,7 +45,7 @@ FineFacets copy_of(const Model& model, FaceId face)
 }
 
 /// A side of facets and its middle on the exact face.
-struct Side {
+struct FacetSide {
     Index a, b;
     Vec3 middle;
     Vec2 uv = Vec2::Zero(); ///< to start the projection from
@@ -82,12 +78,12 @@ public:
         collect();
         find_middles();
         bool any = false;
-        for (Side& side : sides_) {
+        for (FacetSide& side : sides_) {
             if (is_settled(side)) continue;
             const Vec3 chord = (fine_.points[index(side.a)] + fine_.points[index(side.b)]) / 2;
             side.halved = (side.middle - chord).norm() > off_ * size_(side.middle);
             any = any || side.halved;
-            if (!side.halved) settled_.insert(key_of(side.a, side.b));
+            if (!side.halved) settled_.insert(edge_key(side.a, side.b));
         }
         if (!any) return false;
         FineFacets before = fine_;
@@ -99,9 +95,9 @@ public:
     }
 
 private:
-    [[nodiscard]] Side& side(const Triangle& t, std::size_t k)
+    [[nodiscard]] FacetSide& side(const Triangle& t, std::size_t k)
     {
-        return sides_[number_.at(key_of(t[k], t[(k + 1) % 3]))];
+        return sides_[number_.at(edge_key(t[k], t[(k + 1) % 3]))];
     }
 
     void collect()
@@ -112,7 +108,7 @@ private:
             const Triangle& t = fine_.triangles[i];
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index a = t[k], b = t[(k + 1) % 3];
-                if (!number_.try_emplace(key_of(a, b), sides_.size()).second) continue;
+                if (!number_.try_emplace(edge_key(a, b), sides_.size()).second) continue;
                 sides_.push_back({a, b, (fine_.points[index(a)] + fine_.points[index(b)]) / 2});
                 if (!fine_.uv.empty()) sides_.back().uv = (fine_.uv[i][k] + fine_.uv[i][(k + 1) % 3]) / 2;
             }
@@ -126,7 +122,7 @@ private:
             std::vector<double> params;
             std::vector<std::size_t> which;
             for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-                const auto found = number_.find(key_of(chain[i].point, chain[i + 1].point));
+                const auto found = number_.find(edge_key(chain[i].point, chain[i + 1].point));
                 if (found == number_.end()) continue;
                 sides_[found->second].on_edge = true;
                 if (model_[edge].curve == nullptr) continue;
@@ -145,9 +141,9 @@ private:
         project(inside);
     }
 
-    [[nodiscard]] bool is_settled(const Side& side) const
+    [[nodiscard]] bool is_settled(const FacetSide& side) const
     {
-        return settled_.contains(key_of(side.a, side.b));
+        return settled_.contains(edge_key(side.a, side.b));
     }
 
     void project(const std::vector<std::size_t>& which)
@@ -193,7 +189,7 @@ private:
             if (sides_[s].halved && !sides_[s].on_edge && is_settled(sides_[s])) late.push_back(s);
         }
         project(late);
-        for (Side& side : sides_) {
+        for (FacetSide& side : sides_) {
             if (!side.halved) continue;
             side.point = static_cast<Index>(fine_.points.size());
             fine_.points.push_back(side.middle);
@@ -203,7 +199,7 @@ private:
             for (std::size_t i = 0; i < chain.size(); ++i) {
                 longer.push_back(chain[i]);
                 if (i + 1 == chain.size()) break;
-                const auto found = number_.find(key_of(chain[i].point, chain[i + 1].point));
+                const auto found = number_.find(edge_key(chain[i].point, chain[i + 1].point));
                 if (found == number_.end() || !sides_[found->second].halved) continue;
                 longer.push_back({(chain[i].at + chain[i + 1].at) / 2, sides_[found->second].point});
             }
@@ -248,7 +244,7 @@ private:
     FineFacets& fine_;
     const SizeField& size_;
     double off_;
-    std::vector<Side> sides_;
+    std::vector<FacetSide> sides_;
     std::unordered_map<std::uint64_t, std::size_t> number_; ///< of each side
     std::unordered_set<std::uint64_t> settled_;             ///< sides found straight enough
 };

@@ -9,7 +9,7 @@ namespace lacuna::surface {
 
 using namespace topology;
 
-std::vector<Vec3> points_at(const FacetView& facets, std::span<const FacetPlace> places)
+std::vector<Vec3> points_at(const FacetView& facets, std::span<const FacetPosition> places)
 {
     std::vector<Vec3> points(places.size());
     const auto at = [&](Index p) -> const Vec3& { return facets.points[static_cast<std::size_t>(p)]; };
@@ -29,7 +29,7 @@ std::vector<Vec3> points_at(const FacetView& facets, std::span<const FacetPlace>
     return points;
 }
 
-std::vector<Vec3> points_at(const Model& model, FaceId face, std::span<const FacetPlace> places)
+std::vector<Vec3> points_at(const Model& model, FaceId face, std::span<const FacetPosition> places)
 {
     const Face& f = model[face];
     return points_at({model.points, f.triangles, f.uv, f.surface.get()}, places);

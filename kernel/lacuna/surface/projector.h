@@ -11,7 +11,7 @@
 namespace lacuna::surface {
 
 /// A place on the facets of a face.
-struct FacetPlace {
+struct FacetPosition {
     Index triangle = -1;             ///< of the face
     Vec3 barycentric = Vec3::Zero(); ///< weights of the corners
 };
@@ -25,9 +25,9 @@ struct FacetView {
 };
 
 /// Places on facets, as points of the exact surface; on the facets themselves where there is none.
-std::vector<Vec3> points_at(const FacetView& facets, std::span<const FacetPlace> places);
+std::vector<Vec3> points_at(const FacetView& facets, std::span<const FacetPosition> places);
 /// Places on one face's facets, as points of its exact surface; on the facets themselves where there is none.
-std::vector<Vec3> points_at(const topology::Model& model, FaceId face, std::span<const FacetPlace> places);
+std::vector<Vec3> points_at(const topology::Model& model, FaceId face, std::span<const FacetPosition> places);
 
 /// Closest points on a set of faces: the facets say which face and where, the exact surface says the point.
 class Projector {

@@ -2,6 +2,7 @@
 #include <lacuna/surface/seeds.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/polyline.h>
 #include <lacuna/surface/detail/face_sides.h>
 
 #include <algorithm>
@@ -19,11 +20,13 @@ using namespace topology;
 
 namespace {
 
-/// However large the size asked for, a side of a quad stands for no more than this much of a bend [degrees]: a circle keeps eight.
+/// However large the size asked for, a side of a quad stands for no more than this much of a bend [degrees]:
+/// a circle keeps eight.
 constexpr double kTurnPerSide = 45;
-/// Points per piece at which the size is asked.
+/// Points per piece at which the size is asked: a choice, not a measurement.
 constexpr int kSizeSamples = 32;
-/// Sizes that differ by less along an edge are one, and its nodes stand evenly.
+/// Sizes that differ by a smaller share along an edge are one, and its nodes stand evenly: less than can be
+/// seen.
 constexpr double kSameSize = 1e-3;
 
 /// How much an edge turns from end to end, all bends added [degrees]; a closed one also where it closes.
@@ -44,10 +47,11 @@ double turning(const Model& model, EdgeId id)
 
 class Seeder {
 public:
-    Seeder(const OpenVolume& volume, std::span<const Belt> belts, const SizeField& size, QuadStyle style)
+    Seeder(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
+           QuadStyle style)
         : volume_(volume), model_(volume.model), size_(size), style_(style)
     {
-        for (const Belt& belt : belts) add_rim(belt);
+        for (const LinkingSurface& link : links) add_rim(link);
         for (const FaceId face : volume.faces(Role::source)) {
             if (keeps(face)) seeds_.kept.insert(face);
             for (const Loop& loop : model_[face].loops) {
@@ -82,20 +86,20 @@ public:
     }
 
 private:
-    void add_rim(const Belt& belt)
+    void add_rim(const LinkingSurface& link)
     {
-        for (const Stretch& stretch : belt.stretches) {
-            const EdgeUse use = belt.source.uses()[stretch.use];
-            const double start = belt.source.start(stretch.use);
-            const double length = belt.source.start(stretch.use + 1) - start;
-            double from = std::clamp((stretch.source_from - start) / length, 0.0, 1.0);
-            double to = std::clamp((stretch.source_to - start) / length, 0.0, 1.0);
+        for (const RimSegment& segment : link.segments) {
+            const EdgeUse use = link.source.uses()[segment.use];
+            const double start = link.source.start(segment.use);
+            const double length = link.source.start(segment.use + 1) - start;
+            double from = std::clamp((segment.source_from - start) / length, 0.0, 1.0);
+            double to = std::clamp((segment.source_to - start) / length, 0.0, 1.0);
             if (use.reversed) {
                 std::swap(from, to);
                 from = 1 - from;
                 to = 1 - to;
             }
-            seeds_.pieces[use.edge].push_back({from, to, stretch.source_to - stretch.source_from, 1});
+            seeds_.pieces[use.edge].push_back({from, to, segment.source_to - segment.source_from, 1});
             rim_.insert(use.edge);
         }
         for (auto& [edge, pieces] : seeds_.pieces) {
@@ -125,10 +129,7 @@ private:
     /// The pieces of an edge get the nodes it came with.
     void keep_nodes(FaceId face, EdgeId edge)
     {
-        std::vector<double> arc{0};
-        const std::vector<Index>& points = model_[edge].points;
-        for (std::size_t i = 1; i < points.size(); ++i)
-            arc.push_back(arc.back() + (model_.at(points[i]) - model_.at(points[i - 1])).norm());
+        const std::vector<double> arc = geometry::arc_lengths(edge_line(model_, edge));
         for (SeedPiece& piece : seeds_.pieces[edge]) {
             if (piece.fixed) continue;
             const double slack = model_.tolerance / arc.back();
@@ -186,8 +187,8 @@ private:
     {
         if (style_ == QuadStyle::free || seeds_.kept.contains(face)) return;
         const auto corners = four_corners(model_, face);
-        const std::vector<OppositeSides> opposite = corners ? opposite_sides(model_, face, *corners)
-                                                            : grid_sides(model_, face);
+        const std::vector<SidePair> opposite = corners ? side_pairs(model_, face, *corners)
+                                                       : grid_sides(model_, face);
         if (style_ == QuadStyle::mapped && opposite.empty()) {
             throw NotSweepable(
                 "surface.not_four_sided",
@@ -205,11 +206,14 @@ private:
             seeds_.submapped.insert(face);
     }
 
-    /// Does the size ask for about as many sides on either side? Else one would get as many as the other needs.
-    [[nodiscard]] bool counts_alike(const std::vector<OppositeSides>& pairs) const
+    /// Whether the size asks for about as many sides of quads on either side of the face. Where it does not,
+    /// one side would get as many as the other needs.
+    [[nodiscard]] bool counts_alike(const std::vector<SidePair>& pairs) const
     {
+        // As `alike()` for lengths, in counts; up to four sides any ratio will do. A choice, not a
+        // measurement.
         constexpr int kUnlike = 3, kFew = 4;
-        return std::all_of(pairs.begin(), pairs.end(), [&](const OppositeSides& sides) {
+        return std::all_of(pairs.begin(), pairs.end(), [&](const SidePair& sides) {
             const int a = total(sides[0]), b = total(sides[1]);
             return std::max(a, b) <= std::max(kUnlike * std::min(a, b), kFew);
         });
@@ -239,7 +243,8 @@ private:
                                [&](int sum, EdgeId e) { return sum + seeds_.count(e); });
     }
 
-    /// Equal counts on opposite sides of every mapped face. Counts only grow; where they would chase each other, the face is meshed freely.
+    /// Equal counts on opposite sides of every mapped face. Counts only grow; where they would chase each
+    /// other, the face is meshed freely.
     void balance()
     {
         const std::size_t most = 4 * seeds_.pieces.size() + 16;
@@ -247,7 +252,7 @@ private:
             bool changed = false;
             for (auto it = opposite_.begin(); it != opposite_.end();) {
                 bool raised = false, stuck = false;
-                for (const OppositeSides& sides : it->second) {
+                for (const SidePair& sides : it->second) {
                     const int difference = total(sides[0]) - total(sides[1]);
                     if (difference == 0) continue;
                     stuck = !raise(sides[difference > 0 ? 1 : 0], std::abs(difference)) || stuck;
@@ -293,7 +298,8 @@ private:
         return std::all_of(pieces.begin(), pieces.end(), [](const SeedPiece& piece) { return piece.fixed; });
     }
 
-    /// Free faces by how many edges lie between them and a rim edge of their own, farthest first: each hands its odd side on.
+    /// Free faces by how many edges lie between them and a rim edge of their own, farthest first: each hands
+    /// its odd side on.
     void make_even()
     {
         std::map<FaceId, EdgeId> way_out;
@@ -342,7 +348,7 @@ private:
     const SizeField& size_;
     QuadStyle style_;
     Seeds seeds_;
-    std::map<FaceId, std::vector<OppositeSides>> opposite_; ///< of mapped and submapped faces
+    std::map<FaceId, std::vector<SidePair>> opposite_; ///< of mapped and submapped faces
     std::set<EdgeId> rim_;
     std::map<EdgeId, std::set<FaceId>> users_;
 };
@@ -388,10 +394,10 @@ std::vector<double> SeedPiece::fractions() const
     return result;
 }
 
-Seeds seed_source(const OpenVolume& volume, std::span<const Belt> belts, const SizeField& size,
+Seeds seed_source(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
                   QuadStyle style)
 {
-    return Seeder(volume, belts, size, style).run();
+    return Seeder(volume, links, size, style).run();
 }
 
 double rim_spacing(const OpenVolume& volume)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/belt.h>
+#include <lacuna/surface/linking_surface.h>
 #include <lacuna/surface/size_field.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -15,7 +15,7 @@ namespace lacuna::surface {
 
 /// How source faces are meshed.
 enum class QuadStyle {
-    automatic, ///< its own quads where it came with some; mapped, or submapped, where its sides are not too unlike; else free
+    automatic, ///< kept where it came with quads, mapped or submapped where sides are alike, else free
     kept,      ///< its own quads, or an error
     mapped,    ///< mapped or submapped, or an error
     free,      ///< by the planar mesher
@@ -26,8 +26,8 @@ struct SeedPiece {
     double from = 0, to = 1; ///< fractions of the edge's length, as the edge runs
     double length = 0;       ///< [model length]
     int count = 1;           ///< sides, >= 1
-    /// Sides wanted from the start to each of some even steps, where the size asked for changes along the piece: nodes stand
-    /// where it reaches whole parts. Empty: nodes stand evenly.
+    /// Where the size asked for changes along the piece: the number of sides it asks for from the start to
+    /// each of some even steps. Nodes divide that number evenly. Empty: nodes stand evenly.
     std::vector<double> wanted{};
     std::vector<double> kept{}; ///< nodes inside that were given, as fractions of the edge; with `fixed`
     bool fixed = false;         ///< the nodes of a given mesh: none more, none less
@@ -36,12 +36,12 @@ struct SeedPiece {
     [[nodiscard]] std::vector<double> fractions() const;
 };
 
-/// Sides of every edge of the source faces, consistent: a mapped face has as many on opposite sides, a submapped one as many each way as back, a free face an
-/// even number in all.
+/// Numbers of sides on every edge of the source faces, made to agree (interval assignment): equal on opposite
+/// sides of a mapped face, as many each way as back on a submapped one, an even number in all on a free one.
 struct Seeds {
     std::map<EdgeId, std::vector<SeedPiece>> pieces; ///< in order along the edge
-    std::map<FaceId, std::vector<std::size_t>>
-        corners;                ///< of mapped faces: the four uses of the loop that start a side
+    /// Of mapped faces: the four uses of the loop that start a side.
+    std::map<FaceId, std::vector<std::size_t>> corners;
     std::set<FaceId> submapped; ///< faces whose counts are those of a grid of right angles
     std::set<FaceId> kept;      ///< faces whose own quads are the mesh
     [[nodiscard]] int count(EdgeId edge) const;
@@ -49,15 +49,17 @@ struct Seeds {
     [[nodiscard]] std::vector<double> fractions(EdgeId edge) const;
 };
 
-/// Numbers of sides for the edges of the source, by size where there are no constraints; a bend of 45° has a side at least.
+/// Assign numbers of sides to the edges of the source: by the size, with a side at least for a bend of 45°.
 ///
-/// Edges of faces that keep their own quads have the nodes of those. Where the size changes along an edge its nodes follow.
-/// Opposite sides of mapped faces are raised to the larger count, a face at a time until nothing changes; then each free face with an
-/// odd total gets one more side on a rim edge of its own, or on an edge towards one.
-/// @throw NotSweepable  a face to be kept that has not quads all over, or whose rim has no node where the other end has a corner;
-///                      a face to be mapped that has neither four sides nor right angles alone; a face whose total cannot be made even; names them.
-Seeds seed_source(const topology::OpenVolume& volume, std::span<const Belt> belts, const SizeField& size,
-                  QuadStyle style);
+/// Edges of faces that keep their own quads have the nodes of those. Where the size changes along an edge its
+/// nodes follow. Opposite sides of mapped faces are raised to the larger count, a face at a time until
+/// nothing changes; then each free face with an odd total gets one more side on a rim edge of its own, or on
+/// an edge towards one.
+/// @throw NotSweepable  a face to be kept that has not quads all over, or whose rim has no node where the
+///                      other end has a corner; a face to be mapped that has neither four sides nor right
+///                      angles alone; a face whose total cannot be made even; names them.
+Seeds seed_source(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
+                  const SizeField& size, QuadStyle style);
 
 /// Mean length of the facets' sides on the source's rim: the size where none is asked for [model length].
 double rim_spacing(const topology::OpenVolume& volume);

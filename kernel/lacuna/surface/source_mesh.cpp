@@ -18,7 +18,7 @@ namespace {
 
 class SourceMesher {
 public:
-    SourceMesher(const OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds,
+    SourceMesher(const OpenVolume& volume, std::span<const LinkingSurface> links, const Seeds& seeds,
                  const SizeFields& sizes, const quads::PlanarQuadMesher& mesher, const RunContext& context)
         : volume_(volume),
           model_(volume.model),
@@ -27,7 +27,7 @@ public:
           mesher_(mesher),
           context_(context)
     {
-        for (const Belt& belt : belts) add_belt(belt);
+        for (const LinkingSurface& link : links) add_link(link);
         for (const FaceId face : volume.faces(Role::source)) {
             for (const Loop& loop : model_[face].loops) {
                 for (const EdgeUse& use : loop.uses) add_edge(use.edge);
@@ -63,28 +63,29 @@ private:
         return static_cast<Index>(result_.quads.nodes.size()) - 1;
     }
 
-    void add_belt(const Belt& belt)
+    void add_link(const LinkingSurface& link)
     {
         std::vector<std::vector<double>> shares;
-        for (const Stretch& stretch : belt.stretches) {
-            const EdgeUse use = belt.source.uses()[stretch.use];
-            const double middle = belt.source.place((stretch.source_from + stretch.source_to) / 2).fraction;
+        for (const RimSegment& segment : link.segments) {
+            const EdgeUse use = link.source.uses()[segment.use];
+            const double middle =
+                link.source.position((segment.source_from + segment.source_to) / 2).fraction;
             for (const SeedPiece& piece : seeds_.pieces.at(use.edge)) {
                 if (middle > piece.from && middle < piece.to)
                     shares.push_back(shares_of(piece, use.reversed));
             }
         }
-        BeltNodes nodes = belt_nodes(belt, shares);
+        LinkingNodes nodes = linking_nodes(link, shares);
         const auto first = static_cast<Index>(result_.quads.nodes.size());
-        const std::vector<Vec3> points = belt.source.points(nodes.source_at);
+        const std::vector<Vec3> points = link.source.points(nodes.source_at);
         for (const Vec3& p : points) add_node(p);
         std::vector<Index>& loop = result_.quads.loops.emplace_back();
         for (std::size_t i = points.size(); i-- > 0;) loop.push_back(first + static_cast<Index>(i));
 
         // The nodes of each edge, as the edge runs.
         std::size_t i = 0;
-        for (std::size_t u = 0; u < belt.source.uses().size(); ++u) {
-            const EdgeUse use = belt.source.uses()[u];
+        for (std::size_t u = 0; u < link.source.uses().size(); ++u) {
+            const EdgeUse use = link.source.uses()[u];
             std::vector<Index> chain;
             for (int k = 0; k <= seeds_.count(use.edge); ++k)
                 chain.push_back(first +
@@ -94,7 +95,7 @@ private:
             if (use.reversed) std::reverse(chain.begin(), chain.end());
             nodes_on_[use.edge] = std::move(chain);
         }
-        result_.belts.push_back(std::move(nodes));
+        result_.links.push_back(std::move(nodes));
         result_.first.push_back(first);
     }
 
@@ -251,11 +252,11 @@ private:
 
 } // namespace
 
-SourceMesh mesh_source(const OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds,
+SourceMesh mesh_source(const OpenVolume& volume, std::span<const LinkingSurface> links, const Seeds& seeds,
                        const SizeFields& sizes, const quads::PlanarQuadMesher& mesher,
                        const RunContext& context)
 {
-    return SourceMesher(volume, belts, seeds, sizes, mesher, context).run();
+    return SourceMesher(volume, links, seeds, sizes, mesher, context).run();
 }
 
 } // namespace lacuna::surface

@@ -14,20 +14,23 @@ namespace lacuna::surface {
 
 /// Quads on all source faces together.
 struct SourceMesh {
-    mesh::QuadMesh
-        quads; ///< normals into the volume; the rim nodes come first, belt by belt; `face` is the FaceId's index
-    std::vector<BeltNodes> belts;   ///< of each belt; node i of belt b is quad node first[b] + i
-    std::vector<Index> first;       ///< first quad node of each belt
+    /// Normals into the volume. The rim nodes come first, one linking surface after the other. `face` is the
+    /// FaceId's index.
+    mesh::QuadMesh quads;
+    /// Rim nodes of each linking surface: node i of surface b is quad node first[b] + i.
+    std::vector<LinkingNodes> links;
+    std::vector<Index> first;       ///< first quad node of each linking surface
     std::vector<std::string> notes; ///< a line a face: how it was meshed
 };
 
 /// Mesh the source faces with quads by their seeds.
 ///
-/// Kept faces: their own quads, every node bit for bit. Mapped faces: transfinite in arc length, then onto the face. Free ones: the face is laid flat, filled by `mesher` and lifted back onto
-/// its exact surface. Nodes of edges and vertices are shared between faces.
+/// Kept faces have their own quads, every node bit for bit. Mapped faces are meshed transfinitely in arc
+/// length and projected onto the face. Free faces are laid flat, filled by `mesher` and lifted back onto the
+/// exact surface. Nodes of edges and vertices are shared between faces.
 /// @throw NotSweepable  a face that needs `mesher` and there is none, or that cannot be laid flat; names it.
-SourceMesh mesh_source(const topology::OpenVolume& volume, std::span<const Belt> belts, const Seeds& seeds,
-                       const SizeFields& sizes, const quads::PlanarQuadMesher& mesher,
+SourceMesh mesh_source(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
+                       const Seeds& seeds, const SizeFields& sizes, const quads::PlanarQuadMesher& mesher,
                        const RunContext& context = {});
 
 } // namespace lacuna::surface

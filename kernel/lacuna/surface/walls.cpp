@@ -7,7 +7,7 @@
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/swept_patch.h>
 #include <lacuna/geometry/transfinite.h>
-#include <lacuna/surface/detail/wall_map.h>
+#include <lacuna/surface/detail/linking_map.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,22 +22,23 @@ using namespace topology;
 
 namespace {
 
-/// A patch this far from its face, as a share of the shorter rim, is no guide to where nodes belong on it.
+/// A patch this far from its face, as a share of the shorter rim, is no guide to where nodes belong on it. A
+/// choice, not a measurement.
 constexpr double kFarFromPatch = 0.05;
 
-/// The faces of the stretch of walls after each side line.
-std::vector<std::vector<FaceId>> panel_faces(const Model& model, const Belt& belt)
+/// The faces of the segment of walls after each side line.
+std::vector<std::vector<FaceId>> panel_faces(const Model& model, const LinkingSurface& link)
 {
     std::set<EdgeId> borders;
-    for (const BeltLine& line : belt.lines) {
+    for (const LinkingLine& line : link.lines) {
         for (const EdgeUse& use : line.line.uses) borders.insert(use.edge);
     }
     const auto uses = edge_uses(model);
-    const std::set<FaceId> walls(belt.walls.begin(), belt.walls.end());
+    const std::set<FaceId> walls(link.walls.begin(), link.walls.end());
     std::vector<std::vector<FaceId>> panels;
-    for (const BeltLine& line : belt.lines) {
+    for (const LinkingLine& line : link.lines) {
         const EdgeUse foot =
-            belt.source.uses()[belt.source.place(line.source_at + 1e-9 * belt.source.length()).use];
+            link.source.uses()[link.source.position(line.source_at + 1e-9 * link.source.length()).use];
         std::vector<FaceId> faces;
         for (const FaceUse& use : uses[foot.edge.index()]) {
             if (walls.contains(use.face)) faces.push_back(use.face);
@@ -58,19 +59,19 @@ std::vector<std::vector<FaceId>> panel_faces(const Model& model, const Belt& bel
     return panels;
 }
 
-/// Nodes first … last of a belt that stand on a void face which follows the given walls.
+/// Nodes first … last of a linking surface that stand on a void face which follows the given walls.
 struct FollowedPanel {
-    std::size_t belt, first, last;
+    std::size_t link, first, last;
 };
 
-/// One belt being meshed.
+/// One linking surface being meshed.
 class WallMesher {
 public:
-    WallMesher(const OpenVolume& volume, const Belt& belt, const BeltNodes& nodes,
+    WallMesher(const OpenVolume& volume, const LinkingSurface& link, const LinkingNodes& nodes,
                std::span<const double> heights, const RunContext& context)
         : volume_(volume),
           model_(volume.model),
-          belt_(belt),
+          link_(link),
           nodes_(nodes),
           heights_(heights.begin(), heights.end()),
           context_(context),
@@ -83,14 +84,14 @@ public:
 
     WallMesh run()
     {
-        set_row(0, belt_.source.points(nodes_.source_at));
-        set_row(layers_, belt_.target.points(wrapped(nodes_.target_at, belt_.target.length())));
-        const auto panels = panel_faces(model_, belt_);
+        set_row(0, link_.source.points(nodes_.source_at));
+        set_row(layers_, link_.target.points(wrapped(nodes_.target_at, link_.target.length())));
+        const auto panels = panel_faces(model_, link_);
         const bool simple = !panels.empty() &&
                             std::all_of(panels.begin(), panels.end(),
                                         [&](const auto& faces) { return is_simple(faces); });
         if (!simple) {
-            map_ = std::make_unique<WallMap>(volume_, belt_);
+            map_ = std::make_unique<LinkingMap>(volume_, link_);
             plan_rings();
         }
         mesh_lines();
@@ -104,7 +105,7 @@ public:
                 continue;
             }
             if (is_simple(panels[i]) && mesh_transfinite(panels[i].front(), first, last)) continue;
-            if (map_ == nullptr) map_ = std::make_unique<WallMap>(volume_, belt_);
+            if (map_ == nullptr) map_ = std::make_unique<LinkingMap>(volume_, link_);
             mesh_by_map(first, last);
         }
         return std::move(mesh_);
@@ -146,14 +147,14 @@ private:
         return faces.size() == 1 && model_[faces.front()].loops.size() == 1;
     }
 
-    /// Give each ring the layer nearest to it; rings that want the same layer share it where they are one step of the walls, and
-    /// else the later ones are passed over.
+    /// Give each ring the layer nearest to it; rings that want the same layer share it where they are one
+    /// step of the walls, and else the later ones are passed over.
     void plan_rings()
     {
         int last = 0;
         double last_height = -1;
         const auto layers = static_cast<int>(layers_);
-        for (const WallMap::Ring& ring : map_->rings()) {
+        for (const LinkingMap::Ring& ring : map_->rings()) {
             int nearest = 1;
             for (int k = 1; k < layers; ++k) {
                 if (std::abs(heights_[static_cast<std::size_t>(k)] - ring.height) <
@@ -208,8 +209,8 @@ private:
         std::map<int, double> at_layer;
         for (std::size_t r = 0; r < ring_layer_.size(); ++r) {
             if (ring_layer_[r] == 0) continue;
-            const WallMap::Ring& ring = map_->rings()[r];
-            for (const double t : WallMap::crossings(ring, s)) {
+            const LinkingMap::Ring& ring = map_->rings()[r];
+            for (const double t : LinkingMap::crossings(ring, s)) {
                 const auto [found, fresh] = at_layer.try_emplace(ring_layer_[r], t);
                 if (!fresh && std::abs(t - ring.height) < std::abs(found->second - ring.height))
                     found->second = t;
@@ -220,8 +221,8 @@ private:
 
     void mesh_lines()
     {
-        for (std::size_t i = 0; i < belt_.lines.size(); ++i) {
-            const Chain chain(model_, belt_.lines[i].line.uses);
+        for (std::size_t i = 0; i < link_.lines.size(); ++i) {
+            const Chain chain(model_, link_.lines[i].line.uses);
             std::map<int, double> at_layer;
             for (std::size_t u = 1; u < chain.uses().size(); ++u) {
                 const VertexId v = use_from(model_, chain.uses()[u]);
@@ -267,7 +268,8 @@ private:
             double moved = 0;
             for (std::size_t i = 0; i < inside.size(); ++i)
                 moved = std::max(moved, (inside[i] - patch[i]).norm());
-            // Round a seam the patch has no chord to turn with; far from the face it would spread the nodes by chance.
+            // Round a seam the patch has no chord to turn with; far from the face it would spread the nodes
+            // by chance.
             const bool round_a_seam = n == count_;
             if (round_a_seam &&
                 moved > kFarFromPatch * std::min(geometry::length(bottom), geometry::length(top)))
@@ -299,16 +301,16 @@ private:
 
     void mesh_by_map(std::size_t first, std::size_t last)
     {
-        std::map<FaceId, std::pair<std::vector<FacetPlace>, std::vector<std::size_t>>> on_face;
+        std::map<FaceId, std::pair<std::vector<FacetPosition>, std::vector<std::size_t>>> on_face;
         const auto s_of = [&](std::size_t i) {
-            return i < count_ ? nodes_.source_at[i] / belt_.source.length() : 1.0;
+            return i < count_ ? nodes_.source_at[i] / link_.source.length() : 1.0;
         };
         const std::set<std::size_t> lines(nodes_.line.begin(), nodes_.line.end());
         std::vector<double> before;
         for (std::size_t i = first; i <= last; ++i) {
             const std::vector<double> at = heights_at(s_of(i));
             for (std::size_t k = 1; k < layers_ && i < last && !lines.contains(i); ++k) {
-                const WallMap::Place place = map_->locate(s_of(i), at[k]);
+                const WallPosition place = map_->locate(s_of(i), at[k]);
                 on_face[place.face].first.push_back(place.at);
                 on_face[place.face].second.push_back(k * count_ + i);
             }
@@ -326,13 +328,13 @@ private:
 
     const OpenVolume& volume_;
     const Model& model_;
-    const Belt& belt_;
-    const BeltNodes& nodes_;
+    const LinkingSurface& link_;
+    const LinkingNodes& nodes_;
     std::vector<double> heights_;
     const RunContext& context_;
     std::size_t count_, layers_;
     WallMesh mesh_;
-    std::unique_ptr<WallMap> map_;
+    std::unique_ptr<LinkingMap> map_;
     std::vector<FollowedPanel> followed_;
     std::vector<int> ring_layer_; ///< of each ring of the map; 0: none
 };
@@ -340,10 +342,10 @@ private:
 /// The rows of the walls that are there, as a section each.
 struct Rows {
     std::vector<std::vector<Vec3>> points; ///< of each row, those of all known columns
-    std::vector<Vec3> areas;               ///< Newell vectors of each row's belts
+    std::vector<Vec3> areas;               ///< Newell vectors of each row's linking surfaces
 };
 
-Rows known_rows(const std::vector<WallMesh>& meshes, std::span<const BeltNodes> nodes,
+Rows known_rows(const std::vector<WallMesh>& meshes, std::span<const LinkingNodes> nodes,
                 const std::vector<FollowedPanel>& followed, std::size_t layers)
 {
     Rows rows;
@@ -353,7 +355,7 @@ Rows known_rows(const std::vector<WallMesh>& meshes, std::span<const BeltNodes> 
         const std::size_t n = nodes[b].source_at.size();
         std::vector<bool> known(n, true);
         for (const FollowedPanel& panel : followed) {
-            for (std::size_t i = panel.first + 1; panel.belt == b && i < panel.last; ++i) known[i] = false;
+            for (std::size_t i = panel.first + 1; panel.link == b && i < panel.last; ++i) known[i] = false;
         }
         for (std::size_t k = 0; k <= layers; ++k) {
             std::vector<Vec3> loop;
@@ -367,9 +369,9 @@ Rows known_rows(const std::vector<WallMesh>& meshes, std::span<const BeltNodes> 
     return rows;
 }
 
-/// Put the nodes of followed panels where each row's known columns carry the source rim and the target rim, blended by height and moved
-/// to meet the panel's sides.
-void follow_rows(std::vector<WallMesh>& meshes, std::span<const BeltNodes> nodes,
+/// Put the nodes of followed panels where each row's known columns lead the source rim and the target rim,
+/// blended by height and moved to meet the panel's sides.
+void follow_rows(std::vector<WallMesh>& meshes, std::span<const LinkingNodes> nodes,
                  const std::vector<FollowedPanel>& followed, std::size_t layers)
 {
     const Rows rows = known_rows(meshes, nodes, followed, layers);
@@ -380,17 +382,17 @@ void follow_rows(std::vector<WallMesh>& meshes, std::span<const BeltNodes> nodes
         const geometry::AffineFit down = geometry::fit_affine(rows.points.back(), rows.points[k],
                                                               rows.areas.back(), rows.areas[k]);
         for (const FollowedPanel& panel : followed) {
-            std::vector<Vec3>& points = meshes[panel.belt].points;
-            const std::size_t n = nodes[panel.belt].source_at.size();
-            const auto carried = [&](std::size_t i) {
+            std::vector<Vec3>& points = meshes[panel.link].points;
+            const std::size_t n = nodes[panel.link].source_at.size();
+            const auto led = [&](std::size_t i) {
                 return Vec3((1 - t) * up(points[i % n]) + t * down(points[layers * n + i % n]));
             };
-            const Vec3 left = points[k * n + panel.first % n] - carried(panel.first);
-            const Vec3 right = points[k * n + panel.last % n] - carried(panel.last);
+            const Vec3 left = points[k * n + panel.first % n] - led(panel.first);
+            const Vec3 right = points[k * n + panel.last % n] - led(panel.last);
             for (std::size_t i = panel.first + 1; i < panel.last; ++i) {
                 const double s = static_cast<double>(i - panel.first) /
                                  static_cast<double>(panel.last - panel.first);
-                points[k * n + i] = carried(i) + (1 - s) * left + s * right;
+                points[k * n + i] = led(i) + (1 - s) * left + s * right;
             }
         }
     }
@@ -398,46 +400,46 @@ void follow_rows(std::vector<WallMesh>& meshes, std::span<const BeltNodes> nodes
 
 } // namespace
 
-BeltNodes belt_nodes(const Belt& belt, std::span<const int> counts)
+LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const int> counts)
 {
     std::vector<std::vector<double>> shares;
     for (const int count : counts) {
         shares.emplace_back();
         for (int k = 0; k < count; ++k) shares.back().push_back(static_cast<double>(k) / count);
     }
-    return belt_nodes(belt, shares);
+    return linking_nodes(link, shares);
 }
 
-BeltNodes belt_nodes(const Belt& belt, std::span<const std::vector<double>> shares)
+LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vector<double>> shares)
 {
-    BeltNodes nodes;
+    LinkingNodes nodes;
     std::size_t line = 0;
-    for (std::size_t i = 0; i < belt.stretches.size(); ++i) {
-        const Stretch& stretch = belt.stretches[i];
-        while (line < belt.lines.size() &&
-               belt.lines[line].source_at <= stretch.source_from + 1e-12 * belt.source.length()) {
+    for (std::size_t i = 0; i < link.segments.size(); ++i) {
+        const RimSegment& segment = link.segments[i];
+        while (line < link.lines.size() &&
+               link.lines[line].source_at <= segment.source_from + 1e-12 * link.source.length()) {
             nodes.line.push_back(nodes.source_at.size());
             ++line;
         }
         for (const double f : shares[i]) {
-            nodes.source_at.push_back(stretch.source_from + f * (stretch.source_to - stretch.source_from));
-            nodes.target_at.push_back(stretch.target_from + f * (stretch.target_to - stretch.target_from));
+            nodes.source_at.push_back(segment.source_from + f * (segment.source_to - segment.source_from));
+            nodes.target_at.push_back(segment.target_from + f * (segment.target_to - segment.target_from));
         }
     }
     return nodes;
 }
 
-std::vector<WallMesh> mesh_walls(const OpenVolume& volume, std::span<const Belt> belts,
-                                 std::span<const BeltNodes> nodes, std::span<const double> heights,
+std::vector<WallMesh> mesh_walls(const OpenVolume& volume, std::span<const LinkingSurface> links,
+                                 std::span<const LinkingNodes> nodes, std::span<const double> heights,
                                  const RunContext& context)
 {
     std::vector<WallMesh> meshes;
     std::vector<FollowedPanel> followed;
-    for (std::size_t b = 0; b < belts.size(); ++b) {
-        WallMesher mesher(volume, belts[b], nodes[b], heights, context);
+    for (std::size_t b = 0; b < links.size(); ++b) {
+        WallMesher mesher(volume, links[b], nodes[b], heights, context);
         meshes.push_back(mesher.run());
         for (FollowedPanel panel : mesher.followed()) {
-            panel.belt = b;
+            panel.link = b;
             followed.push_back(panel);
         }
     }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/surface/belt.h>
+#include <lacuna/surface/linking_surface.h>
 
 #include <span>
 #include <string>
@@ -10,36 +10,38 @@
 
 namespace lacuna::surface {
 
-/// Nodes round a belt, in walking order from the belt's start; the first is not repeated.
-struct BeltNodes {
+/// Nodes round a linking surface, in walking order from its start; the first is not repeated.
+struct LinkingNodes {
     std::vector<double> source_at; ///< running length on the source chain
     std::vector<double> target_at; ///< running length on the target chain
     std::vector<std::size_t> line; ///< node at the foot of each side line
 };
 
-/// Spread `counts[i]` sides evenly over stretch i.
-BeltNodes belt_nodes(const Belt& belt, std::span<const int> counts);
-/// Nodes at given shares of each stretch, rising from 0 and below 1.
-BeltNodes belt_nodes(const Belt& belt, std::span<const std::vector<double>> shares);
+/// Spread `counts[i]` sides evenly over segment i.
+LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const int> counts);
+/// Nodes at given shares of each segment, rising from 0 and below 1.
+LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vector<double>> shares);
 
-/// A structured quad mesh on the walls of a belt.
+/// A structured quad mesh on the walls of a linking surface.
 struct WallMesh {
     std::vector<Vec3> points; ///< (layers + 1) × nodes, layer-major from the source
     std::vector<FaceId> face; ///< wall of each quad: layer · nodes + i, the quad from node i to node i + 1
     std::vector<std::string> notes;
 };
 
-/// Mesh the walls of all belts: one row of quads a layer.
+/// Mesh the walls of all linking surfaces: one row of quads a layer.
 ///
-/// Between two side lines that one face spans: transfinite in arc length, then onto the face (paper sect. 7; for void faces
-/// Algorithms 5 and 6). Anything else, several faces stacked or in a row or no side line at all: by the belt's harmonic
-/// strip, where a ring edge between stacked faces draws the nearest layer to it. Void faces that follow the given walls come last: their
-/// nodes go where the rows of the other walls lead them (two-sided affine fit a row), so that rows stay level round the volume.
-/// @param nodes    of each belt.
+/// A part between two side lines that is one face is meshed transfinitely in arc length and projected onto
+/// the face (paper sect. 7; for void faces Algorithms 5 and 6). Other parts (several faces stacked or in a
+/// row, or no side line at all) are meshed by the harmonic map of the linking surface; there, an edge that
+/// runs round between stacked faces draws the nearest layer to it. Void faces that follow the given walls
+/// come last: two affine fits a row say where the rows of the other walls lead their nodes, so that rows stay
+/// level round the volume.
+/// @param nodes    of each linking surface.
 /// @param heights  layers + 1 numbers from 0 to 1.
 /// @post  nodes on given faces and edges lie on the exact geometry; rows 0 and last are points of the rims.
-std::vector<WallMesh> mesh_walls(const topology::OpenVolume& volume, std::span<const Belt> belts,
-                                 std::span<const BeltNodes> nodes, std::span<const double> heights,
+std::vector<WallMesh> mesh_walls(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
+                                 std::span<const LinkingNodes> nodes, std::span<const double> heights,
                                  const RunContext& context = {});
 
 } // namespace lacuna::surface

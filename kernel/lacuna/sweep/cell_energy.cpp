@@ -36,7 +36,8 @@ Edges edges_of(const std::array<Vec3, 8>& corners)
     return edges;
 }
 
-/// The foldover-free energy of a corner by its determinant over the box's and the squares of its edges over the box's.
+/// The foldover-free energy of a corner by its determinant over the box's and the squares of its edges over
+/// the box's.
 struct Shape {
     double value, by_determinant, by_squares;
 };

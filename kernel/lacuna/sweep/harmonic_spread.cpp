@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/harmonic_spread.h>
+#include <lacuna/sweep/detail/harmonic_spread.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/parallel.h>
@@ -16,7 +16,7 @@ namespace {
 /// Nodes a walk along sides reaches from the fixed ones, the fixed ones included.
 std::vector<char> joined_to(const NodeGraph& graph, std::span<const Index> fixed)
 {
-    std::vector<char> joined(graph.begin.size() - 1, 0);
+    std::vector<char> joined(graph.size(), 0);
     std::vector<Index> front;
     for (const Index node : fixed) {
         joined[static_cast<std::size_t>(node)] = 1;
@@ -39,31 +39,23 @@ std::vector<char> joined_to(const NodeGraph& graph, std::span<const Index> fixed
 NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes)
 {
     // Every quad offers two neighbours to each corner; sides two quads share are offered twice, then weeded.
-    std::vector<Index> offset(nodes + 1, 0);
-    for (const Quad& quad : quads) {
-        for (const Index node : quad) offset[static_cast<std::size_t>(node) + 1] += 2;
-    }
-    for (std::size_t i = 0; i < nodes; ++i) offset[i + 1] += offset[i];
-    std::vector<Index> offered(static_cast<std::size_t>(offset[nodes]));
-    std::vector<Index> next(offset.begin(), offset.end() - 1);
-    for (const Quad& quad : quads) {
-        for (std::size_t i = 0; i < 4; ++i) {
-            Index& at = next[static_cast<std::size_t>(quad[i])];
-            offered[static_cast<std::size_t>(at++)] = quad[(i + 1) % 4];
-            offered[static_cast<std::size_t>(at++)] = quad[(i + 3) % 4];
+    mesh::Incidence offered = mesh::incidence(nodes, [&](const auto& visit) {
+        for (const Quad& quad : quads) {
+            for (std::size_t i = 0; i < 4; ++i) {
+                visit(index(quad[i]), quad[(i + 1) % 4]);
+                visit(index(quad[i]), quad[(i + 3) % 4]);
+            }
         }
-    }
-
+    });
     NodeGraph graph;
     graph.begin.reserve(nodes + 1);
-    graph.begin.push_back(0);
-    graph.neighbours.reserve(offered.size() / 2 + nodes);
+    graph.items.reserve(offered.items.size() / 2 + nodes);
     for (std::size_t i = 0; i < nodes; ++i) {
-        const auto first = offered.begin() + offset[i];
-        const auto last = offered.begin() + offset[i + 1];
+        const auto first = offered.items.begin() + offered.begin[i];
+        const auto last = offered.items.begin() + offered.begin[i + 1];
         std::sort(first, last);
-        std::unique_copy(first, last, std::back_inserter(graph.neighbours));
-        graph.begin.push_back(static_cast<Index>(graph.neighbours.size()));
+        std::unique_copy(first, last, std::back_inserter(graph.items));
+        graph.begin.push_back(static_cast<Index>(graph.items.size()));
     }
     return graph;
 }
@@ -71,7 +63,7 @@ NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes)
 std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> quads,
                                  std::span<const Vec3> nodes)
 {
-    std::vector<double> weights(graph.neighbours.size(), 0.0);
+    std::vector<double> weights(graph.items.size(), 0.0);
     const auto add = [&](Index from, Index to, double weight) {
         const std::span<const Index> around = graph.of(static_cast<std::size_t>(from));
         const auto place = std::lower_bound(around.begin(), around.end(), to) - around.begin();
@@ -98,7 +90,7 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
                                std::span<const Index> fixed)
     : fixed_count_(fixed.size())
 {
-    const std::size_t nodes = graph.begin.size() - 1;
+    const std::size_t nodes = graph.size();
     const std::vector<char> joined = joined_to(graph, fixed);
     std::vector<Index> position(nodes, -1); // of fixed nodes in `fixed`
     for (std::size_t k = 0; k < fixed.size(); ++k)
@@ -120,7 +112,7 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
             sum += weights[static_cast<std::size_t>(k)];
         laplacian.insert(place_[i], place_[i]) = sum;
         for (Index k = graph.begin[i]; k < graph.begin[i + 1]; ++k) {
-            const auto next = static_cast<std::size_t>(graph.neighbours[static_cast<std::size_t>(k)]);
+            const auto next = static_cast<std::size_t>(graph.items[static_cast<std::size_t>(k)]);
             const double weight = weights[static_cast<std::size_t>(k)];
             if (place_[next] > place_[i]) laplacian.insert(place_[next], place_[i]) = -weight;
             if (place_[next] < 0) rim_sides_.push_back({place_[i], position[next], weight});

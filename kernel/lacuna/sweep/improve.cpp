@@ -3,7 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/geometry/minimise.h>
-#include <lacuna/sweep/detail/region.h>
+#include <lacuna/sweep/detail/cell_region.h>
 
 #include <algorithm>
 #include <array>
@@ -15,12 +15,13 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Smallest regularisation, of a cell's volume.
+/// Smallest regularisation, of a cell's volume: a choice, not a measurement.
 constexpr double kLeastEpsilon = 1e-3;
-/// Rounds of untangling, each with a smaller regularisation, and how many may pass without gain.
+/// Rounds of untangling, each with a smaller regularisation, and how many may pass without gain: bounds on
+/// the work, chosen and not measured.
 constexpr int kUntanglings = 40;
 constexpr int kPatience = 4;
-/// A share of what cells lack that is gain while untangling.
+/// A share of what cells lack that counts as gain while untangling.
 constexpr double kGain = 0.01;
 /// Sharpness of the second stage, round by round: at first all poor corners count, at last the worst alone.
 constexpr std::array<double, 6> kSharpness{6, 12, 20, 30, 45, 60};
@@ -28,13 +29,13 @@ constexpr std::array<double, 6> kSharpness{6, 12, 20, 30, 45, 60};
 constexpr double kShapeShare = 1e-3;
 /// A gain in the least scaled Jacobian, or a share of what is lacking, that is worth moving nodes for.
 constexpr double kWorthIt = 1e-4;
-/// How much the mean may fall for the least to rise.
+/// How much the mean may fall for the least to rise: a choice, told in the header.
 constexpr double kMeanGivenUp = 0.01;
 
 class Improver {
 public:
-    Improver(mesh::HexMesh& mesh, const Region& region, const ImproveOptions& options, const Sliding& sliding,
-             const RunContext& context)
+    Improver(mesh::HexMesh& mesh, const CellRegion& region, const ImproveOptions& options,
+             const Sliding& sliding, const RunContext& context)
         : mesh_(mesh),
           region_(region),
           options_(options),
@@ -67,7 +68,7 @@ public:
     }
 
 private:
-    static std::vector<Vec3> places_of(const mesh::HexMesh& mesh, const Region& region)
+    static std::vector<Vec3> places_of(const mesh::HexMesh& mesh, const CellRegion& region)
     {
         std::vector<Vec3> places;
         for (const Index n : region.node) places.push_back(mesh.nodes[static_cast<std::size_t>(n)]);
@@ -200,7 +201,7 @@ private:
     }
 
     mesh::HexMesh& mesh_;
-    const Region& region_;
+    const CellRegion& region_;
     const ImproveOptions& options_;
     const Sliding& sliding_;
     const RunContext& context_;
@@ -216,7 +217,8 @@ private:
 Improved improve(mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
                  const RunContext& context)
 {
-    const Region region = poor_region(mesh, options, sliding, context);
+    check(options);
+    const CellRegion region = poor_region(mesh, options, sliding, context);
     if (region.free == 0) return {};
     return Improver(mesh, region, options, sliding, context).run();
 }

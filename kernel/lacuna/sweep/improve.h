@@ -14,13 +14,15 @@ namespace lacuna::sweep {
 
 struct ImproveOptions {
     double good_enough = 0.5; ///< cells with a smaller scaled Jacobian are worked on [-1, 1]
-    int rings = 2;            ///< layers of neighbours that move with them
-    int iterations = 60;      ///< descent steps of each minimisation
-    double work =
-        4e7; ///< cells evaluated at most, about 20 seconds of one core: the same work on every machine
-    double seconds =
-        0; ///< no step is begun after this; 0: `work` alone ends it, so that the same comes out everywhere
+    int rings = 2;            ///< rings of neighbours that move with them, >= 0
+    int iterations = 60;      ///< descent steps of each minimisation, >= 1
+    double work = 4e7;        ///< cells evaluated at most, > 0; about 20 seconds of one core
+    double seconds = 0;       ///< no step is begun after this, >= 0; 0: `work` alone ends it
+    // `work` counts and does not time, so that the same comes out on every machine.
 };
+
+/// @throw InvalidInput  an option out of range; names it.
+void check(const ImproveOptions& options);
 
 /// Skin nodes that may slide, each along the surface its face lies on.
 struct Sliding {
@@ -38,17 +40,23 @@ struct Improved {
     bool won = false;                       ///< nodes were moved
 };
 
-/// Move nodes so that folded cells open up and poor ones grow better; nodes of edges stay, as do all of the skin that may not slide.
+/// Move nodes so that folded cells open up and poor ones grow better. Nodes of edges stay, as do all of the
+/// skin that may not slide.
 ///
-/// Two stages, both minimisations over the poor cells and their neighbours, by L-BFGS:
-/// 1. While a Jacobian is not positive: foldover-free maps (Garanzha et al. 2021), the energy tr(JᵀJ)/χ^⅔ and (1 + det²)/χ with
-///    χ = (D + √(ε² + D²))/2 at the eight corners of each cell, ε falling as the least determinant rises. Each cell's reference
-///    is a box of its own mean edge lengths, so that thin layers stay thin.
-/// 2. Then the sum of exp(-k s) over the corners' scaled Jacobians s, whose heaviest terms are the worst corners, with k rising;
-///    a share of the first energy keeps the edges' lengths and is the barrier against folding.
-/// @post  the least scaled Jacobian is not smaller than before, nor, where no cell was folded, the mean by more than a hundredth. Where
-///        nothing was won, nothing is changed. Cells that the nodes around them keep poor hold up no others: what they fall short of
-///        what they could be counts. Sliding nodes lie on their surfaces.
+/// Two stages, both minimisations over the poor cells and their neighbours by L-BFGS:
+/// 1. While a Jacobian is not positive: foldover-free maps (Garanzha et al. 2021). The energy is tr(JᵀJ)/χ^⅔
+///    and (1 + det²)/χ with χ = (D + √(ε² + D²))/2 at the eight corners of each cell; ε falls as the least
+///    determinant rises. A cell is measured against a box of its own mean edge lengths, so that thin layers
+///    stay thin.
+/// 2. Then the sum of exp(-k s) over the corners' scaled Jacobians s, whose heaviest terms are the worst
+///    corners, with k rising. A share of the first energy keeps the edges' lengths and is the barrier against
+///    folding.
+///
+/// @post  the least scaled Jacobian is not smaller than before; nor is the mean by more than a hundredth,
+///        where no cell was folded. Where nothing was won, nothing is changed. A cell that fixed nodes keep
+///        poor holds up no other: each is judged by what it lacks of the best it could be. Sliding nodes lie
+///        on their surfaces.
+/// @throw InvalidInput  what `check()` refuses.
 /// @note  The same for any thread count, unless `seconds` ends it. O(iterations · cells of the region).
 Improved improve(mesh::HexMesh& mesh, const ImproveOptions& options = {}, const Sliding& sliding = {},
                  const RunContext& context = {});

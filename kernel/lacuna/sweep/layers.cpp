@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: MIT
 //
-// Every inner layer l is, before its rim residual is spread,
-//   (1 - h) · A(source node) + h · B(target node),
-// h the layer's height, A and B the affine maps of the source's and the target's rim onto the layer's. Where an affine
-// motion takes rim to rim the two agree, and the sum is the motion itself.
-#include <lacuna/sweep/layers.h>
+// Every inner layer l is, before its rim residual is spread, (1 - h) · A(source node) + h · B(target node), h
+// the layer's height, A and B the affine maps of the source's and the target's rim onto the layer's. Where an
+// affine motion takes rim to rim the two agree, and the sum is the motion itself.
+#include <lacuna/sweep/detail/layer_placer.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/parallel.h>
 #include <lacuna/sweep/detail/rim.h>
+#include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace lacuna::sweep {
 
 namespace {
 
 /// Mean over the columns of the part of their length that lies below each layer.
-std::vector<double> mean_heights(const Columns& columns)
+std::vector<double> mean_heights(const RimColumns& columns)
 {
     const auto layers = static_cast<std::size_t>(columns.layers);
     std::vector<double> heights(layers + 1, 0.0);
@@ -41,7 +40,7 @@ std::vector<double> mean_heights(const Columns& columns)
     return heights;
 }
 
-std::vector<double> heights_of(const Columns& columns, const PlacementOptions& options)
+std::vector<double> heights_of(const RimColumns& columns, const PlacementOptions& options)
 {
     if (options.heights.empty()) return mean_heights(columns);
     if (options.heights.size() != static_cast<std::size_t>(columns.layers) + 1) {
@@ -52,17 +51,10 @@ std::vector<double> heights_of(const Columns& columns, const PlacementOptions& o
     return options.heights;
 }
 
-std::string in_short(double value)
-{
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.2g", value);
-    return buffer;
-}
-
 } // namespace
 
-LayerPlacer::LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> target, const Columns& columns,
-                         const PlacementOptions& options)
+LayerPlacer::LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> target,
+                         const RimColumns& columns, const PlacementOptions& options)
     : source_(source), target_(target), columns_(columns)
 {
     if (target.size() != source.nodes.size()) {
@@ -84,7 +76,7 @@ void LayerPlacer::fit_straight(std::span<const double> heights)
 {
     for (int l = 1; l < columns_.layers; ++l) {
         const double height = heights[static_cast<std::size_t>(l)];
-        motions_.push_back(
+        maps_.push_back(
             {(1 - height) * Eigen::Matrix3d::Identity(), height * Eigen::Matrix3d::Identity(), Vec3::Zero()});
     }
 }
@@ -108,9 +100,9 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
         const double negligible = kNegligible * side_by_radius * size;
         const geometry::AffineFit up = from_source.fit(rim, area, negligible);
         const geometry::AffineFit down = from_target.fit(rim, area, negligible);
-        motions_.push_back({(1 - height) * up.linear, height * down.linear,
-                            (1 - height) * (up.to_centre - up.linear * up.from_centre) +
-                                height * (down.to_centre - down.linear * down.from_centre)});
+        maps_.push_back({(1 - height) * up.linear, height * down.linear,
+                         (1 - height) * (up.to_centre - up.linear * up.from_centre) +
+                             height * (down.to_centre - down.linear * down.from_centre)});
         for (std::size_t k = 0; k < rim.size(); ++k) {
             residuals_.push_back(rim[k] - (1 - height) * up(low[k]) - height * down(high[k]));
             const double residual = residuals_.back().norm();
@@ -138,7 +130,7 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
 {
     const std::size_t nodes = source_.nodes.size();
     const std::size_t rim = columns_.rim.size();
-    // A chunk's ends stay in the nearest cache while all its layers are written.
+    // A chunk of both ends is 24 kB, which stays in the nearest cache while all its layers are written.
     constexpr std::size_t kChunk = 512;
     parallel_for(context, nodes, kChunk, [&](std::size_t begin, std::size_t end) {
         for (int l = first; l < last; ++l) {
@@ -150,10 +142,9 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
                 std::copy(target_.begin() + static_cast<std::ptrdiff_t>(begin),
                           target_.begin() + static_cast<std::ptrdiff_t>(end), layer + begin);
             } else {
-                const Motion motion = motions_[static_cast<std::size_t>(l - 1)];
+                const LayerMap map = maps_[static_cast<std::size_t>(l - 1)];
                 for (std::size_t i = begin; i < end; ++i) {
-                    layer[i] = motion.from_source * source_.nodes[i] + motion.from_target * target_[i] +
-                               motion.shift;
+                    layer[i] = map.from_source * source_.nodes[i] + map.from_target * target_[i] + map.shift;
                 }
             }
         }
@@ -186,7 +177,7 @@ std::string LayerPlacer::report() const
            (spread_ ? "spread harmonically" : "left at the rim");
 }
 
-LayerNodes place_layers(const mesh::QuadMesh& source, std::span<const Vec3> target, const Columns& columns,
+LayerNodes place_layers(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns,
                         const PlacementOptions& options, const RunContext& context)
 {
     const LayerPlacer placer(source, target, columns, options);

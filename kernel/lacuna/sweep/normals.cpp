@@ -2,9 +2,9 @@
 #include <lacuna/sweep/detail/normals.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/sweep/detail/harmonic_spread.h>
 #include <lacuna/sweep/detail/rim.h>
 #include <lacuna/sweep/detail/surface_smoothing.h>
-#include <lacuna/sweep/harmonic_spread.h>
 
 #include <algorithm>
 #include <string>
@@ -13,7 +13,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Passes of the smoother over each layer.
+/// Passes of the smoother over each layer: a choice, not a measurement.
 constexpr int kPasses = 5;
 
 /// Every node that is not on the rim to the mean of its neighbours.
@@ -34,7 +34,7 @@ void smooth(std::vector<Vec3>& layer, const NodeGraph& graph, const std::vector<
 } // namespace
 
 LayerNodes place_along_normals(const mesh::QuadMesh& source, std::span<const Vec3> target,
-                               const Columns& columns, const RunContext& context)
+                               const RimColumns& columns, const RunContext& context)
 {
     check_columns(source, columns, target);
     const std::size_t count = source.nodes.size();

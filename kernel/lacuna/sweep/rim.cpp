@@ -17,7 +17,7 @@ namespace {
 [[noreturn]] void refuse(const std::string& message) { throw InvalidInput("sweep.columns", message); }
 
 /// Column over each source node; -1 for none.
-std::vector<Index> column_of_node(const mesh::QuadMesh& source, const Columns& columns)
+std::vector<Index> column_of_node(const mesh::QuadMesh& source, const RimColumns& columns)
 {
     std::vector<Index> column(source.nodes.size(), -1);
     for (std::size_t k = 0; k < columns.rim.size(); ++k) {
@@ -36,7 +36,7 @@ std::vector<Index> column_of_node(const mesh::QuadMesh& source, const Columns& c
 }
 
 /// The row must hold the very nodes of the mesh it ends on, up to what a projection leaves.
-void check_row(const Columns& columns, int layer, std::span<const Vec3> nodes, const char* end)
+void check_row(const RimColumns& columns, int layer, std::span<const Vec3> nodes, const char* end)
 {
     const std::span<const Vec3> row = columns.row(layer);
     double reach = 0;
@@ -54,7 +54,7 @@ void check_row(const Columns& columns, int layer, std::span<const Vec3> nodes, c
 
 } // namespace
 
-void check_columns(const mesh::QuadMesh& source, const Columns& columns, std::span<const Vec3> target)
+void check_columns(const mesh::QuadMesh& source, const RimColumns& columns, std::span<const Vec3> target)
 {
     if (columns.layers < 1) {
         refuse("a sweep needs at least 1 layer, found " + std::to_string(columns.layers));
@@ -77,7 +77,7 @@ void check_columns(const mesh::QuadMesh& source, const Columns& columns, std::sp
     if (!target.empty()) check_row(columns, columns.layers, target, "target");
 }
 
-std::vector<Segment> rim_sides(const mesh::QuadMesh& source, const Columns& columns)
+std::vector<Segment> rim_sides(const mesh::QuadMesh& source, const RimColumns& columns)
 {
     const std::vector<Index> column = column_of_node(source, columns);
     std::vector<Segment> sides;

@@ -12,9 +12,11 @@ namespace lacuna::sweep {
 
 namespace {
 
-// Enough for the relaxation's preconditioned steps to settle; the best mesh on the way is what is kept.
+/// Enough for the relaxation's preconditioned steps to settle; the best mesh on the way is what is kept.
 constexpr int kRelaxations = 20;
+/// Rounds of trials: a bound on the work alone, for a round without gain is the last.
 constexpr int kPolishes = 20;
+/// Steps tried for a node, round it and shorter and shorter: a choice, not a measurement.
 constexpr int kDirections = 8;
 constexpr int kLengths = 3;
 
@@ -27,7 +29,8 @@ Vec3 along(const Vec3& move, const Vec3& normal)
     return squared > 0 ? Vec3(move - normal * (normal.dot(move) / squared)) : move;
 }
 
-/// Turns the weights of the neighbours so that their mean is the node itself as seen along its normal; their sum stays.
+/// Turns the weights of the neighbours so that their mean is the node itself as seen along its normal; their
+/// sum stays.
 void hold_in_place(std::span<const Vec3> nodes, std::span<const Index> neighbours, const Vec3& node,
                    const Vec3& normal, std::span<double> weights)
 {
@@ -117,7 +120,7 @@ SurfaceSmoother::SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& g
       free_nodes_(free_nodes),
       project_(project),
       weights_(weights.begin(), weights.end()),
-      quad_begin_(model.nodes.size() + 1, 0),
+      quads_at_(mesh::quads_at_nodes(model.quads, model.nodes.size())),
       is_free_(model.nodes.size(), 0)
 {
     const std::vector<Vec3> normals = node_normals(model.quads, model.nodes);
@@ -128,19 +131,6 @@ SurfaceSmoother::SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& g
         hold_in_place(
             model.nodes, neighbours, model.nodes[i], normals[i],
             std::span(weights_).subspan(static_cast<std::size_t>(graph.begin[i]), neighbours.size()));
-    }
-
-    for (const Quad& quad : model.quads) {
-        for (const Index node : quad) ++quad_begin_[static_cast<std::size_t>(node) + 1];
-    }
-    for (std::size_t i = 1; i < quad_begin_.size(); ++i) quad_begin_[i] += quad_begin_[i - 1];
-    quad_list_.resize(static_cast<std::size_t>(quad_begin_.back()));
-    std::vector<Index> next(quad_begin_.begin(), quad_begin_.end() - 1);
-    for (std::size_t q = 0; q < model.quads.size(); ++q) {
-        for (const Index node : model.quads[q]) {
-            quad_list_[static_cast<std::size_t>(next[static_cast<std::size_t>(node)]++)] = static_cast<Index>(
-                q);
-        }
     }
 }
 
@@ -178,17 +168,11 @@ std::vector<Vec3> SurfaceSmoother::relax(std::vector<Vec3> nodes, double good_en
     return best;
 }
 
-std::span<const Index> SurfaceSmoother::quads_of(std::size_t node) const
-{
-    const auto first = static_cast<std::size_t>(quad_begin_[node]);
-    return {quad_list_.data() + first, static_cast<std::size_t>(quad_begin_[node + 1]) - first};
-}
-
 double SurfaceSmoother::worst_around(std::size_t node, std::span<const Vec3> nodes,
                                      std::span<const Vec3> normals) const
 {
     double worst = 1;
-    for (const Index q : quads_of(node)) {
+    for (const Index q : quads_at_.of(node)) {
         worst = std::min(worst, quad_quality(model_.quads[static_cast<std::size_t>(q)], nodes, normals));
     }
     return worst;

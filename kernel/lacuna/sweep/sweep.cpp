@@ -8,19 +8,19 @@
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/projector.h>
 #include <lacuna/surface/source_mesh.h>
-#include <lacuna/sweep/detail/mend.h>
 #include <lacuna/sweep/detail/normals.h>
+#include <lacuna/sweep/detail/prove_or_improve.h>
+#include <lacuna/sweep/detail/words.h>
 #include <lacuna/sweep/layers.h>
+#include <lacuna/sweep/morph.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <limits>
 #include <map>
-#include <optional>
 
 namespace lacuna::sweep {
 
@@ -28,13 +28,11 @@ using namespace topology;
 
 namespace {
 
-bool asks_rows(const SweepOptions& options) { return options.rows > 0 || options.row_height; }
-
 surface::QuadStyle style_of(const SweepOptions& options)
 {
     switch (options.quads) {
     case Quads::automatic:
-        return asks_rows(options) ? surface::QuadStyle::free : surface::QuadStyle::automatic;
+        return options.rows > 0 ? surface::QuadStyle::free : surface::QuadStyle::automatic;
     case Quads::mapped:
         return surface::QuadStyle::mapped;
     case Quads::gmsh:
@@ -59,7 +57,7 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options)
                                    " boundary nodes enclose folds or overlaps; use quads = \"auto\"");
         };
     }
-    const int rows = asks_rows(options) ? std::max(options.rows, 1) : -1;
+    const int rows = options.rows > 0 ? options.rows : -1; // -1: the paver decides
     const bool grids = options.quads != Quads::paved;
     return [rows, grids](const quads::PlanarRegion& region, const RunContext& context) {
         return quads::pave(region, {.rows = rows, .grids = grids}, context);
@@ -67,15 +65,15 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options)
 }
 
 /// A field that refuses what is no length before anything is divided by it.
-surface::SizeField checked(const surface::SizeField& field, const std::string& name)
+surface::SizeField checked(const surface::SizeField& field, const std::string& option)
 {
-    return [field, name](const Vec3& p) {
+    return [field, option](const Vec3& p) {
         const double h = field(p);
         if (!(h > 0) || !std::isfinite(h)) {
-            throw InvalidInput("sweep.size", "the " + name + " at (" + std::to_string(p.x()) + ", " +
-                                                 std::to_string(p.y()) + ", " + std::to_string(p.z()) +
-                                                 ") is " + std::to_string(h) +
-                                                 "; it must be a positive length");
+            throw InvalidInput("sweep.size", "sweep: option '" + option +
+                                                 "' must be a positive number everywhere; at (" +
+                                                 in_short(p.x()) + ", " + in_short(p.y()) + ", " +
+                                                 in_short(p.z()) + ") it is " + in_full(h));
         }
         return h;
     };
@@ -91,14 +89,14 @@ surface::SizeField checked_size(const OpenVolume& volume, const SweepOptions& op
 /// The size, and the height of rows where they are asked for.
 surface::SizeFields size_fields(const surface::SizeField& size, const SweepOptions& options)
 {
-    if (!asks_rows(options)) return {size};
-    return {size, options.row_height ? checked(options.row_height, "row height") : size};
+    if (options.rows == 0) return {size};
+    return {size, options.row_height ? checked(options.row_height, "row_height") : size};
 }
 
 /// Refuse at once what could never be numbered, instead of filling the memory first.
 void check_amount(const OpenVolume& volume, const surface::SizeField& size, const LayerSpec& layers)
 {
-    constexpr std::size_t kSamples = 64;
+    constexpr std::size_t kSamples = 64; ///< facets a face; a rough count will do
     double quads = 0;
     for (const FaceId face : volume.faces(Role::source)) {
         const std::vector<Triangle>& triangles = volume.model[face].triangles;
@@ -125,20 +123,20 @@ void check_amount(const OpenVolume& volume, const surface::SizeField& size, cons
                        std::string(words.data()) + "; ask for a larger 'size' or fewer 'layers'");
 }
 
-Columns columns_of(const OpenVolume& volume, const std::vector<surface::Belt>& belts,
-                   const surface::SourceMesh& source, const std::vector<double>& heights,
-                   std::vector<surface::WallMesh>& walls, const RunContext& context)
+RimColumns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
+                      const surface::SourceMesh& source, const std::vector<double>& heights,
+                      std::vector<surface::WallMesh>& walls, const RunContext& context)
 {
-    Columns columns;
+    RimColumns columns;
     columns.layers = static_cast<int>(heights.size()) - 1;
-    walls = surface::mesh_walls(volume, belts, source.belts, heights, context);
-    for (std::size_t b = 0; b < belts.size(); ++b) {
-        for (std::size_t i = 0; i < source.belts[b].source_at.size(); ++i)
+    walls = surface::mesh_walls(volume, links, source.links, heights, context);
+    for (std::size_t b = 0; b < links.size(); ++b) {
+        for (std::size_t i = 0; i < source.links[b].source_at.size(); ++i)
             columns.rim.push_back(source.first[b] + static_cast<Index>(i));
     }
     for (std::size_t layer = 0; layer < heights.size(); ++layer) {
-        for (std::size_t b = 0; b < belts.size(); ++b) {
-            const std::size_t n = source.belts[b].source_at.size();
+        for (std::size_t b = 0; b < links.size(); ++b) {
+            const std::size_t n = source.links[b].source_at.size();
             const auto row = walls[b].points.begin() + static_cast<std::ptrdiff_t>(layer * n);
             columns.points.insert(columns.points.end(), row, row + static_cast<std::ptrdiff_t>(n));
         }
@@ -147,21 +145,21 @@ Columns columns_of(const OpenVolume& volume, const std::vector<surface::Belt>& b
 }
 
 /// Void walls alone, ruled between the ends: the paper's class I, whose node lines are straight.
-bool ruled(const OpenVolume& volume, const std::vector<surface::Belt>& belts)
+bool ruled(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links)
 {
     for (const FaceId wall : volume.faces(Role::wall)) {
         if (volume.model[wall].origin == Origin::given) return false;
     }
-    for (const surface::Belt& belt : belts) {
-        if (belt.lines.empty()) return false;
+    for (const surface::LinkingSurface& link : links) {
+        if (link.lines.empty()) return false;
     }
     return true;
 }
 
-/// Patches of the skin, one a face, with the groups a person reads.
-class Patches {
+/// SkinPatches of the skin, one a face, with the groups a person reads.
+class SkinPatches {
 public:
-    Patches(const OpenVolume& volume, mesh::HexMesh& mesh) : volume_(volume), mesh_(mesh) {}
+    SkinPatches(const OpenVolume& volume, mesh::HexMesh& mesh) : volume_(volume), mesh_(mesh) {}
 
     /// Face of each patch.
     [[nodiscard]] std::vector<FaceId> faces() const
@@ -224,7 +222,7 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
                                 const surface::Projector& target, const std::vector<surface::WallMesh>& walls,
                                 mesh::HexMesh& mesh)
 {
-    Patches patches(volume, mesh);
+    SkinPatches patches(volume, mesh);
     for (const Index face : source.quads.face) mesh.source_patch.push_back(patches.of(FaceId(face)));
     const std::span<const Vec3> top{mesh.nodes.data() + static_cast<std::size_t>(mesh.layers) *
                                                             static_cast<std::size_t>(mesh.nodes_per_layer),
@@ -236,13 +234,14 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
             mesh.target_patch.push_back(patches.of(face));
     }
 
-    // A belt's sides run with the belt or against it; each side of the rim finds its place by the nodes it joins.
-    struct Place {
-        std::size_t belt, side;
+    // A linking surface's sides run with the linking surface or against it; each side of the rim finds its
+    // place by the nodes it joins.
+    struct RimPosition {
+        std::size_t link, side;
     };
-    std::map<std::pair<Index, Index>, Place> places;
+    std::map<std::pair<Index, Index>, RimPosition> places;
     for (std::size_t b = 0; b < walls.size(); ++b) {
-        const std::size_t n = source.belts[b].source_at.size();
+        const std::size_t n = source.links[b].source_at.size();
         for (std::size_t i = 0; i < n; ++i) {
             const Index a = source.first[b] + static_cast<Index>(i);
             const Index c = source.first[b] + static_cast<Index>((i + 1) % n);
@@ -251,24 +250,24 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
     }
     for (int layer = 0; layer < mesh.layers; ++layer) {
         for (const Segment& side : mesh.rim) {
-            const Place place = places.at({std::min(side[0], side[1]), std::max(side[0], side[1])});
-            const std::size_t n = source.belts[place.belt].source_at.size();
+            const RimPosition place = places.at({std::min(side[0], side[1]), std::max(side[0], side[1])});
+            const std::size_t n = source.links[place.link].source_at.size();
             mesh.wall_patch.push_back(
-                patches.of(walls[place.belt].face[static_cast<std::size_t>(layer) * n + place.side]));
+                patches.of(walls[place.link].face[static_cast<std::size_t>(layer) * n + place.side]));
         }
     }
     return patches.faces();
 }
 
-/// The layers, by the way whose worst cell is best: with the rim's residual spread over each layer, and, where that leaves poor
-/// cells, without.
-LayerNodes best_layers(const surface::SourceMesh& source, const Carried& carried, const Columns& columns,
+/// The layers, by the way whose worst cell is best: with the rim's residual spread over each layer, and,
+/// where that leaves poor cells, without.
+LayerNodes best_layers(const surface::SourceMesh& source, const Morphed& morphed, const RimColumns& columns,
                        PlacementOptions placement, const SweepOptions& options, const RunContext& context)
 {
     if (options.interior == Interior::normals)
-        return place_along_normals(source.quads, carried.nodes, columns, context);
+        return place_along_normals(source.quads, morphed.nodes, columns, context);
     placement.spread_residual = options.interior != Interior::affine;
-    LayerNodes spread = place_layers(source.quads, carried.nodes, columns, placement, context);
+    LayerNodes spread = place_layers(source.quads, morphed.nodes, columns, placement, context);
     if (options.interior != Interior::automatic || spread.placement != Placement::fitted) return spread;
     const auto least = [&](LayerNodes& layers) {
         mesh::HexMesh mesh;
@@ -283,18 +282,25 @@ LayerNodes best_layers(const surface::SourceMesh& source, const Carried& carried
     const double with = least(spread);
     if (with >= options.improving.good_enough) return spread;
     placement.spread_residual = false;
-    LayerNodes plain = place_layers(source.quads, carried.nodes, columns, placement, context);
+    LayerNodes plain = place_layers(source.quads, morphed.nodes, columns, placement, context);
     return least(plain) > with ? plain : spread;
 }
 
-/// Seeds, quads, walls, target, layers and proof between the rims of belts that say what goes with what.
-Swept sweep_between(const OpenVolume& volume, const std::vector<surface::Belt>& belts,
-                    const std::vector<double>& heights, const surface::SizeField& size,
-                    const SweepOptions& options, const RunContext& context)
+/// A mesh with what its proof says.
+struct ProvedSweep {
+    Swept swept;
+    quality::Proof proof;
+};
+
+/// Seeds, quads, walls, target, layers and proof between the rims of linking surfaces that say what goes with
+/// what.
+ProvedSweep sweep_between(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
+                          const std::vector<double>& heights, const surface::SizeField& size,
+                          const SweepOptions& options, const RunContext& context)
 {
     Swept result;
-    const surface::Seeds seeds = surface::seed_source(volume, belts, size, style_of(options));
-    surface::SourceMesh source = surface::mesh_source(volume, belts, seeds, size_fields(size, options),
+    const surface::Seeds seeds = surface::seed_source(volume, links, size, style_of(options));
+    surface::SourceMesh source = surface::mesh_source(volume, links, seeds, size_fields(size, options),
                                                       mesher_of(options), context);
     for (std::string& note : source.notes) result.report.push_back("source " + note);
     for (const Role role : {Role::target, Role::wall}) {
@@ -307,20 +313,20 @@ Swept sweep_between(const OpenVolume& volume, const std::vector<surface::Belt>& 
     }
 
     std::vector<surface::WallMesh> walls;
-    const Columns columns = columns_of(volume, belts, source, heights, walls, context);
+    const RimColumns columns = columns_of(volume, links, source, heights, walls, context);
     for (const surface::WallMesh& wall : walls) {
         for (const std::string& note : wall.notes) result.report.push_back("walls: " + note);
     }
     check_cancelled(context);
 
     const surface::Projector target(volume.model, volume.faces(Role::target));
-    const Carried carried = carry(
+    const Morphed morphed = morph(
         source.quads, columns, [&](std::span<Vec3> points) { target.project(points, context); }, context);
-    result.report.push_back("target: " + carried.report);
+    result.report.push_back("target: " + morphed.report);
     PlacementOptions placement;
-    placement.straight_lines = options.interior == Interior::automatic && ruled(volume, belts);
+    placement.straight_lines = options.interior == Interior::automatic && ruled(volume, links);
     placement.heights = heights;
-    LayerNodes layers = best_layers(source, carried, columns, placement, options, context);
+    LayerNodes layers = best_layers(source, morphed, columns, placement, options, context);
     result.report.push_back(layers.report);
 
     mesh::HexMesh& mesh = result.mesh;
@@ -339,62 +345,63 @@ Swept sweep_between(const OpenVolume& volume, const std::vector<surface::Belt>& 
             "walls: " + name_of(volume.model, wall) +
             " is smaller than the quads there and has none, nor a group; use a smaller size or more layers");
     }
-    const quality::Quality quality = prove_or_mend(result, volume.model, faces, seeds.kept, options, context);
+    quality::Proof proof = prove_or_improve(result, volume.model, faces, seeds.kept, options, context);
+    const quality::Quality& quality = proof.quality;
     result.min_scaled_jacobian = quality.min_scaled_jacobian;
     result.report.push_back("cells: " + std::to_string(quality.hexes) + ", all certified, scaled Jacobian " +
                             std::to_string(quality.min_scaled_jacobian) + " at least, " +
                             std::to_string(quality.mean_scaled_jacobian) + " on average");
-    return result;
+    return {std::move(result), std::move(proof)};
 }
 
 /// Round walls do not say how far they turn; several loops together may.
-bool can_turn_together(const std::vector<surface::Belt>& belts)
+bool can_turn_together(const std::vector<surface::LinkingSurface>& links)
 {
-    return belts.size() > 1 && std::any_of(belts.begin(), belts.end(),
-                                           [](const surface::Belt& belt) { return belt.lines.empty(); });
+    return links.size() > 1 &&
+           std::any_of(links.begin(), links.end(),
+                       [](const surface::LinkingSurface& link) { return link.lines.empty(); });
 }
 
-/// Each loop turned by its own walls; where that makes poor cells, all turned as one body if that makes better ones.
-Swept better_turning(const OpenVolume& volume, const std::vector<surface::Belt>& belts,
-                     const std::vector<double>& heights, const surface::SizeField& size,
-                     const SweepOptions& options, const RunContext& context)
+/// Each loop turned by its own walls; where that makes poor cells, all turned as one body if that makes
+/// better ones.
+ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
+                           const std::vector<double>& heights, const surface::SizeField& size,
+                           const SweepOptions& options, const RunContext& context)
 {
     const auto start = std::chrono::steady_clock::now();
-    std::optional<Swept> alone;
-    std::exception_ptr failure; // What went wrong first says more than what goes wrong second.
-    try {
-        alone = sweep_between(volume, belts, heights, size, options, context);
-        if (alone->min_scaled_jacobian >= options.improving.good_enough) return std::move(*alone);
-    } catch (const NotSweepable& error) {
-        if (!is_poor(error)) throw;
-        failure = std::current_exception();
-    }
-    const std::vector<surface::Belt> as_one = surface::belts(volume, surface::Turning::together);
-    const bool same = std::none_of(as_one.begin(), as_one.end(),
-                                   [](const surface::Belt& belt) { return belt.branch.has_value(); });
+    ProvedSweep alone = sweep_between(volume, links, heights, size, options, context);
+    const bool poor = alone.proof.finding ? quality::can_be_improved(alone.proof.finding->fault)
+                                          : alone.swept.min_scaled_jacobian < options.improving.good_enough;
+    if (!poor) return alone;
+    const std::vector<surface::LinkingSurface> as_one = surface::linking_surfaces(volume,
+                                                                                  surface::Turning::together);
+    const bool same = std::none_of(as_one.begin(), as_one.end(), [](const surface::LinkingSurface& link) {
+        return link.branch.has_value();
+    });
+    if (same) return alone;
     SweepOptions rest = options;
     if (rest.improving.seconds > 0) { // One budget for both.
         const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
         rest.improving.seconds -= used.count();
         rest.improve = rest.improve && rest.improving.seconds > 0;
     }
-    try {
-        if (!same) {
-            Swept together = sweep_between(volume, as_one, heights, size, rest, context);
-            if (!alone || together.min_scaled_jacobian > alone->min_scaled_jacobian) {
-                together.report.insert(
-                    together.report.begin(),
-                    "loops: turned as one body; each by its own walls the cells are worse");
-                return together;
-            }
+    try { // What went wrong first says more than what goes wrong second.
+        ProvedSweep together = sweep_between(volume, as_one, heights, size, rest, context);
+        if (together.proof.finding) {
+            log_line(context, "loops turned as one body: " + together.proof.finding->message);
+        } else if (alone.proof.finding ||
+                   together.swept.min_scaled_jacobian > alone.swept.min_scaled_jacobian) {
+            together.swept.report.insert(
+                together.swept.report.begin(),
+                "loops: turned as one body; each by its own walls the cells are worse");
+            return together;
         }
     } catch (const Cancelled&) {
         throw;
     } catch (const Error& error) {
         log_line(context, std::string("loops turned as one body: ") + error.what());
     }
-    if (failure) std::rethrow_exception(failure);
-    return std::move(*alone);
+    return alone;
 }
 
 } // namespace
@@ -402,11 +409,7 @@ Swept better_turning(const OpenVolume& volume, const std::vector<surface::Belt>&
 Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
 {
     check_cancelled(context);
-    if (!(options.min_scaled_jacobian >= -1 && options.min_scaled_jacobian <= 1)) {
-        throw InvalidInput("sweep.min_scaled_jacobian", "min_scaled_jacobian is " +
-                                                            std::to_string(options.min_scaled_jacobian) +
-                                                            "; a scaled Jacobian lies between -1 and 1");
-    }
+    check(options, context);
     const surface::SizeField size = checked_size(volume, options);
     check_amount(volume, size, options.layers);
     std::vector<double> heights = layer_heights(options.layers);
@@ -418,9 +421,12 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
         throw NotSweepable("sweep.not_closed",
                            "the volume is not sealed; close it first with volume:close()");
     }
-    const std::vector<surface::Belt> belts = surface::belts(volume);
-    if (!can_turn_together(belts)) return sweep_between(volume, belts, heights, size, options, context);
-    return better_turning(volume, belts, heights, size, options, context);
+    const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(volume);
+    ProvedSweep result = can_turn_together(links)
+                             ? better_turning(volume, links, heights, size, options, context)
+                             : sweep_between(volume, links, heights, size, options, context);
+    quality::require(result.proof);
+    return std::move(result.swept);
 }
 
 } // namespace lacuna::sweep

@@ -19,36 +19,50 @@ enum class Spacing { geometric, bell, both_ends };
 
 struct LayerSpec {
     int count = 0; ///< hexes along the sweep, >= 1; 0 with `heights`
-    double bias =
-        1; ///< last / first layer height (geometric), middle / end (bell), end / middle (both_ends), > 0 [-]
+    /// Ratio of layer heights, > 0 [-]: last / first (geometric), middle / end (bell), end / middle
+    /// (both_ends).
+    double bias = 1;
     Spacing spacing = Spacing::geometric;
-    std::vector<double> heights; ///< rising, in (0, 1], the last 1; instead of a count
+    /// Instead of a count: rising, in (0, 1], the last 1 up to the rounding of sums.
+    std::vector<double> heights;
 };
 
-/// Heights in [0, 1] of every layer's nodes: layers + 1 numbers from 0 to 1.
 /// @throw InvalidInput  a count below 1, a bias that is not positive, heights that do not rise to 1.
+void check(const LayerSpec& spec);
+
+/// Heights in [0, 1] of every layer's nodes: layers + 1 numbers from 0 to 1.
+/// @throw InvalidInput  what `check()` refuses; a bias so far from 1 that layers have no height.
 std::vector<double> layer_heights(const LayerSpec& spec);
 
 /// How source faces are meshed.
 enum class Quads { automatic, paved, mapped, gmsh, keep };
 
-/// How the inside of the layers is placed: the best that is known; or, for comparison, the affine fit alone, with the rim's
-/// residual spread over it, or the paper's advance along local normals.
-enum class Interior { automatic, affine, residual, normals };
+/// How the inside of the layers is placed.
+enum class Interior {
+    automatic, ///< the best that is known
+    affine,    ///< for comparison: the affine fit alone
+    residual,  ///< for comparison: the fit with the rim's residual spread over it
+    normals,   ///< for comparison: the paper's advance along local normals
+};
 
 struct SweepOptions {
     LayerSpec layers;
     surface::SizeField size; ///< null: from the rim's own spacing
     Quads quads = Quads::automatic;
-    /// Rows of quads from every loop of the source that stay as they are laid; 0: none but what the paver lays. Paved faces alone.
-    int rows = 0;
-    surface::SizeField row_height;       ///< of those rows, one at least; null: the size
+    int rows = 0; ///< exact rows along every loop of the source, >= 0; needs quads automatic or paved
+    surface::SizeField row_height;       ///< of those rows; null: the size
     quads::PlanarQuadMesher quad_mesher; ///< what `Quads::gmsh` calls for
     Interior interior = Interior::automatic;
-    double min_scaled_jacobian = 0; ///< below it the mesh is refused [-1, 1]
+    double min_scaled_jacobian = 0; ///< below it the mesh is refused [0, 1]
     bool improve = true;            ///< move nodes where cells are folded or poor
     ImproveOptions improving;       ///< how far
 };
+
+/// Whether options can be used, before any work is done. `sweep()` asks it itself; a host may ask first.
+/// @throw InvalidInput  names the option, what it must be and what was found: layers, improving,
+///                      min_scaled_jacobian; rows below 0 or of quads that are not paved, a row height
+///                      without rows; threads of the context below 0 or above 1024.
+void check(const SweepOptions& options, const RunContext& context = {});
 
 /// Hexahedra and how they came about.
 struct Swept {
@@ -58,7 +72,8 @@ struct Swept {
 };
 
 /// Fill a sealed volume with hexahedra. What goes with what is read off the sealed walls.
-/// @throw InvalidInput   options out of range.
+/// @throw InvalidInput   what `check()` refuses; a size that is no positive length, or too many cells to
+///                       number.
 /// @throw NotSweepable   names the face, wall or cells, what was expected and found, and what to try.
 /// @post  the mesh is proved: conformal, skin closed, every Jacobian certified positive.
 Swept sweep(const topology::OpenVolume& volume, const SweepOptions& options, const RunContext& context = {});

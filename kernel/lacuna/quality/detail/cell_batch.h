@@ -8,11 +8,12 @@
 
 /// The arithmetic of one cell, for several cells at once. Internal to this folder.
 ///
-/// With the cell's edges along u, v, w as U(v,w), V(u,w), W(u,v), each bilinear, the Jacobian of the trilinear
-/// map is J = det(U, V, W), of degree two in each of u, v, w. Its 27 Bézier coefficients follow from 20
-/// determinants (Johnen, Weill and Remacle 2017): at a corner the coefficient is J itself; at the middle of an
-/// edge along u it is (det(U, V0 + V1, W0 + W1) - J0 - J1) / 2; and as J holds no u²v², u²w² or v²w² term, the
-/// coefficients in the middle of a side and of the cell are (2 · edges - corners) / 4 of the square around them.
+/// With the cell's edges along u, v, w as U(v,w), V(u,w), W(u,v), each bilinear, the Jacobian of the
+/// trilinear map is J = det(U, V, W), of degree two in each of u, v, w. Its 27 Bézier coefficients follow
+/// from 20 determinants (Johnen, Weill and Remacle 2017): at a corner the coefficient is J itself; at the
+/// middle of an edge along u it is (det(U, V0 + V1, W0 + W1) - J0 - J1) / 2; and as J holds no u²v², u²w² or
+/// v²w² term, the coefficients in the middle of a side and of the cell are (2 · edges - corners) / 4 of the
+/// square around them.
 namespace lacuna::quality {
 
 /// Cells worked on together: their numbers fit the first-level cache, and loops over them are vector code.
@@ -33,8 +34,8 @@ struct CellBatch {
 /// What is known of `N` cells.
 template <int N>
 struct CellValues {
-    alignas(
-        64) double scaled[N]; ///< scaled Jacobian; 0 where an edge has no length or a node is not a number
+    /// Scaled Jacobian; 0 where an edge has no length or a node is not a number.
+    alignas(64) double scaled[N];
     alignas(64) double smallest[N]; ///< smallest Bézier coefficient: all of J lies above it
     alignas(64) double volume[N];
     alignas(64) double bezier[27][N]; ///< coefficient (a, b, c) at a + 3b + 9c

@@ -9,8 +9,8 @@
 #include <cstring>
 #include <span>
 
-/// Cells of either kind of mesh as columns, so that a level of nodes is fetched once for the cells below and above
-/// it. Internal to this folder. Cell (column, layer) has the number layer · columns + column.
+/// Cells of either kind of mesh as columns, so that a level of nodes is fetched once for the cells below and
+/// above it. Internal to this folder. Cell (column, layer) has the number layer · columns + column.
 namespace lacuna::quality {
 
 using LevelCorners = std::array<const Vec3*, 4>;
@@ -68,8 +68,8 @@ void load_level(const Cells& cells, std::size_t first, int filled, std::size_t l
     }
 }
 
-/// Call `body(batch, first cell, filled lanes)` for the columns [begin, end) from the source up: the upper corners
-/// of a cell are the lower ones of the next.
+/// Call `body(batch, first cell, filled lanes)` for the columns [begin, end) from the source up: the upper
+/// corners of a cell are the lower ones of the next.
 template <int N, class Cells, class Body>
 void for_each_batch(const Cells& cells, std::size_t begin, std::size_t end, const Body& body)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/belt.h>
+#include <lacuna/surface/linking_surface.h>
 
 #include <optional>
 #include <span>
@@ -9,19 +9,20 @@
 
 namespace lacuna::surface {
 
-/// How a belt without side lines lies when all loops turn as one body.
+/// How a linking surface without side lines lies when all loops turn as one body.
 struct CommonTurn {
     double start = 0; ///< where on its target chain its source chain's start belongs [running length]
-    double branch =
-        0; ///< s of the target end of its shortest way up, with whole turns counted: see `Belt::branch`
+    /// S of the target end of its shortest way up, with whole turns counted: see `LinkingSurface::branch`.
+    double branch = 0;
 };
 
-/// The turns of belts without side lines; none for a belt that has them.
+/// The turns of linking surfaces without side lines; none for a linking surface that has them.
 ///
-/// The turn is the rigid motion that fits the loops' centres, and the points that side lines pair, best. It is followed from
-/// row to row of the walls, so that half a turn and more to one side is not taken for less to the other. None is given when
-/// nothing tells it: one loop, loops about one centre, or no belt without side lines.
+/// The turn is the rigid motion that fits the loops' centres, and the points that side lines pair, best. It
+/// is followed from row to row of the walls, so that half a turn and more to one side is not taken for less
+/// to the other. None is given when nothing tells it: one loop, loops about one centre, or no linking surface
+/// without side lines.
 std::vector<std::optional<CommonTurn>> common_turns(const topology::OpenVolume& volume,
-                                                    std::span<const Belt> belts);
+                                                    std::span<const LinkingSurface> links);
 
 } // namespace lacuna::surface

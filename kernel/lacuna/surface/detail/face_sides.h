@@ -11,21 +11,22 @@
 namespace lacuna::surface {
 
 /// The edges of two sides of a face that a grid over it runs between: both have as many sides of quads.
-using OppositeSides = std::array<std::vector<EdgeId>, 2>;
+using SidePair = std::array<std::vector<EdgeId>, 2>;
 
 /// The uses that start the four sides of a face; nothing when it has not four.
 std::optional<std::vector<std::size_t>> four_corners(const topology::Model& model, FaceId face);
 
 /// The two pairs of sides of a face with four.
 /// @pre  corners from `four_corners()`.
-std::vector<OppositeSides> opposite_sides(const topology::Model& model, FaceId face,
-                                          const std::vector<std::size_t>& corners);
+std::vector<SidePair> side_pairs(const topology::Model& model, FaceId face,
+                                 const std::vector<std::size_t>& corners);
 
-/// The pairs of sides of a face whose loops turn by right angles at vertices, as a polygon of squares does: of each loop what
-/// runs one way and what runs back. None where a vertex's angle fits no grid, or a loop does not turn once about.
-std::vector<OppositeSides> grid_sides(const topology::Model& model, FaceId face);
+/// The pairs of sides of a face whose loops turn by right angles at vertices, as a polygon of squares does:
+/// of each loop what runs one way and what runs back. None where a vertex's angle fits no grid, or a loop
+/// does not turn once about.
+std::vector<SidePair> grid_sides(const topology::Model& model, FaceId face);
 
-/// Is no side much longer than the one opposite?
-bool alike(const topology::Model& model, const std::vector<OppositeSides>& pairs);
+/// Whether no side is much longer than the one opposite.
+bool alike(const topology::Model& model, const std::vector<SidePair>& pairs);
 
 } // namespace lacuna::surface

@@ -28,17 +28,19 @@ struct FineFacets {
 
 /// Options of `fine_facets()`.
 struct FineFacetOptions {
-    double off =
-        0.05;       ///< how far the middle of a side may be off the face, in sizes asked for there, > 0 [-]
-    int rounds = 8; ///< of halving, >= 0
+    /// How far the middle of a side may be off the face, in sizes asked for there, > 0 [-]
+    double off = 0.05;
+    int rounds = 8;    ///< of halving, >= 0
     double most = 1e5; ///< facets; with so many no more are made
 };
 
-/// The facets of a face, their sides halved where they miss the exact face by more than quads of this size bear.
+/// The facets of a face, their sides halved where they miss the exact face by more than quads of this size
+/// bear.
 ///
-/// Facets cut for looking at a face are large beside fine quads: the nodes of its rim, which are on the exact edge, then
-/// stand up to a row's height off the facets. Midpoints lie on the exact edges and the exact surface; a facet with two sides to be
-/// halved is cut in four, with one in two. Without exact geometry the facets stay as they are.
+/// Facets cut for looking at a face are large beside fine quads: the nodes of its rim, which are on the exact
+/// edge, then stand up to a row's height off the facets. Midpoints lie on the exact edges and the exact
+/// surface; a facet with two sides to be halved is cut in four, with one in two. Without exact geometry the
+/// facets stay as they are.
 FineFacets fine_facets(const topology::Model& model, FaceId face, const SizeField& size,
                        const FineFacetOptions& options = {});
 

@@ -9,8 +9,8 @@ namespace lacuna::sweep {
 
 /// Energies of one hexahedron, sums over its eight corners.
 struct CellEnergy {
-    double epsilon =
-        1e-3; ///< how far χ stays from nought where the determinant is not positive; of the reference's volume
+    /// How far χ stays from nought where the determinant is not positive; of the reference's volume.
+    double epsilon = 1e-3;
     double shape = 1;     ///< weight of the foldover-free energy
     double sharpness = 0; ///< k of exp(-k s); 0: without that term
 };
@@ -23,8 +23,8 @@ double least_determinant(const std::array<Vec3, 8>& corners, const Vec3& box);
 
 /// Energy of a cell, its slopes by the corners written to `slope`.
 ///
-/// With J the corner's edges over the box's: shape · (127/128 tr(JᵀJ)/χ^⅔ + 1/128 (1 + det²)/χ), χ = (D + √(ε² + D²))/2
-/// (Garanzha et al. 2021), and exp(-k s), s the corner's scaled Jacobian.
+/// With J the corner's edges over the box's: shape · (127/128 tr(JᵀJ)/χ^⅔ + 1/128 (1 + det²)/χ), χ = (D +
+/// √(ε² + D²))/2 (Garanzha et al. 2021), and exp(-k s), s the corner's scaled Jacobian.
 double cell_energy(const CellEnergy& energy, const std::array<Vec3, 8>& corners, const Vec3& box,
                    std::array<Vec3, 8>& slope);
 

@@ -3,24 +3,27 @@
 
 #include <lacuna/geometry/affine.h>
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/sweep/columns.h>
+#include <lacuna/sweep/rim_columns.h>
 
 #include <span>
 #include <vector>
 
 namespace lacuna::sweep {
 
-/// @throw InvalidInput  columns that do not fit the source: sizes, node numbers, boundary nodes without a column, a number
-///                      that is not finite, a first row away from the source's nodes, a last one away from the target's.
-void check_columns(const mesh::QuadMesh& source, const Columns& columns, std::span<const Vec3> target = {});
+/// @throw InvalidInput  columns that do not fit the source: sizes, node numbers, boundary nodes without a
+///                      column, a number that is not finite, a first row away from the source's nodes, a last
+///                      one away from the target's.
+void check_columns(const mesh::QuadMesh& source, const RimColumns& columns,
+                   std::span<const Vec3> target = {});
 
 /// Boundary sides of the source as pairs of column numbers.
-std::vector<Segment> rim_sides(const mesh::QuadMesh& source, const Columns& columns);
+std::vector<Segment> rim_sides(const mesh::QuadMesh& source, const RimColumns& columns);
 
 /// Newell area vector enclosed by the rim's sides, all loops summed.
 Vec3 rim_area(std::span<const Vec3> rim, std::span<const Segment> sides);
 
-/// Rim residuals below this part of the shortest side of the mesh cannot be seen in the shape of any cell.
+/// Rim residuals below this part of the shortest side of the mesh cannot be seen in the shape of any cell:
+/// an angle changes by less than a hundredth of a degree.
 inline constexpr double kNegligible = 1e-4;
 
 /// Length of the shortest side of a quad [model length]; 0 for no quads.
@@ -28,9 +31,10 @@ double shortest_side(std::span<const Quad> quads, std::span<const Vec3> nodes);
 
 /// One end of the sweep, ready to be moved onto other rims.
 ///
-/// The rim's points alone decide the map where they span what lies between them, the map is exact and right-handed: a
-/// skin between two circles, say. Elsewhere (planar and nearly planar rims) the pseudo-normals join in, since the map
-/// would otherwise be thrown far off the rim's plane by the smallest waves of the rim.
+/// The rim's points alone decide the map where they span what lies between them, the map is exact and
+/// right-handed: a skin between two circles, say. Elsewhere (planar and nearly planar rims) the
+/// pseudo-normals join in, since the map would otherwise be thrown far off the rim's plane by the smallest
+/// waves of the rim.
 class RimFitter {
 public:
     /// @param rim    the end's rim, in the order of the columns; must outlive the fitter.

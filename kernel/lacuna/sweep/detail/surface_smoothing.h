@@ -3,8 +3,8 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/sweep/carry.h>
-#include <lacuna/sweep/harmonic_spread.h>
+#include <lacuna/sweep/detail/harmonic_spread.h>
+#include <lacuna/sweep/morph.h>
 
 #include <span>
 #include <vector>
@@ -14,8 +14,8 @@ namespace lacuna::sweep {
 /// Area vector around each node: the sum of those of its quads.
 std::vector<Vec3> node_normals(std::span<const Quad> quads, std::span<const Vec3> nodes);
 
-/// Smallest scaled Jacobian at the corners of a quad, seen along its own normal turned to the side its nodes' normals
-/// are on: 1 for a rectangle, 0 for a corner without an angle, negative where folded over.
+/// Smallest scaled Jacobian at the corners of a quad, seen along its own normal turned to the side its nodes'
+/// normals are on: 1 for a rectangle, 0 for a corner without an angle, negative where folded over.
 double quad_quality(const Quad& quad, std::span<const Vec3> nodes, std::span<const Vec3> normals);
 
 /// The worst of all quads; 1 for none.
@@ -26,13 +26,15 @@ void project_nodes(std::vector<Vec3>& nodes, std::span<const Index> which, const
 
 /// Moves the free nodes of a mesh along a surface until its worst quad is as good as that of a model mesh.
 ///
-/// Two ways, each kept only as far as it betters the worst quad. Relaxation: every node goes where its neighbours put it
-/// with the weights that hold the model's node in place, so the model's grading survives; solved for all nodes at once
-/// with the graph Laplacian as preconditioner. Then the nodes of the quads still poor try the neighbours' mean and steps
-/// along the surface, and take what betters the worst of their own quads.
+/// Two ways, each kept only as far as it betters the worst quad. Relaxation: every node goes where its
+/// neighbours put it with the weights that hold the model's node in place, so the model's grading survives;
+/// solved for all nodes at once with the graph Laplacian as preconditioner. Then the nodes of the quads still
+/// poor try the neighbours' mean and steps along the surface, and take what betters the worst of their own
+/// quads.
 class SurfaceSmoother {
 public:
-    /// All are referred to and must outlive the smoother. @param spread  with the nodes that must not move fixed.
+    /// All are referred to and must outlive the smoother. @param spread  with the nodes that must not move
+    /// fixed.
     SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& graph, std::span<const double> weights,
                     const HarmonicSpread& spread, std::span<const Index> free_nodes,
                     const SurfaceProjector& project);
@@ -44,8 +46,6 @@ public:
     std::vector<Vec3> polish(std::vector<Vec3> nodes, double good_enough, const RunContext& context) const;
 
 private:
-    /// Quads around each node, compressed as in NodeGraph.
-    [[nodiscard]] std::span<const Index> quads_of(std::size_t node) const;
     [[nodiscard]] double worst_around(std::size_t node, std::span<const Vec3> nodes,
                                       std::span<const Vec3> normals) const;
     [[nodiscard]] std::vector<std::size_t> poor_nodes(std::span<const Vec3> nodes,
@@ -60,9 +60,9 @@ private:
     const HarmonicSpread& spread_;
     std::span<const Index> free_nodes_;
     const SurfaceProjector& project_;
-    std::vector<double>
-        weights_; ///< of the neighbours, in the graph's order; their sum is that of the sides' own
-    std::vector<Index> quad_begin_, quad_list_;
+    /// Of the neighbours, in the graph's order; their sum is that of the sides' own.
+    std::vector<double> weights_;
+    mesh::Incidence quads_at_; ///< of each node
     std::vector<char> is_free_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/detail/wall_map.h>
+#include <lacuna/surface/detail/linking_map.h>
 
+#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/harmonic.h>
 #include <lacuna/geometry/polyline.h>
@@ -20,27 +21,23 @@ using namespace topology;
 
 namespace {
 
-std::uint64_t directed(Index a, Index b)
-{
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32) | static_cast<std::uint32_t>(b);
-}
-
-/// The belt's facets, all faces together.
-struct BeltFacets {
+/// The linking surface's facets, all faces together.
+struct LinkingFacets {
     std::vector<Triangle> triangles;
     std::vector<FaceId> face;
     std::vector<Index> number;                           ///< in its face
     std::unordered_map<std::uint64_t, std::size_t> half; ///< directed side → triangle
 };
 
-BeltFacets facets_of(const Model& model, const std::vector<FaceId>& walls)
+LinkingFacets facets_of(const Model& model, const std::vector<FaceId>& walls)
 {
-    BeltFacets facets;
+    LinkingFacets facets;
     for (const FaceId wall : walls) {
         const std::vector<Triangle>& triangles = model[wall].triangles;
         for (std::size_t t = 0; t < triangles.size(); ++t) {
             for (std::size_t i = 0; i < 3; ++i)
-                facets.half[directed(triangles[t][i], triangles[t][(i + 1) % 3])] = facets.triangles.size();
+                facets.half[directed_key(triangles[t][i], triangles[t][(i + 1) % 3])] =
+                    facets.triangles.size();
             facets.triangles.push_back(triangles[t]);
             facets.face.push_back(wall);
             facets.number.push_back(static_cast<Index>(t));
@@ -79,8 +76,10 @@ std::vector<Index> line_points(const Model& model, const matching::SideLine& lin
     return result;
 }
 
-/// Shortest way along facet sides from the source chain's start to the target rim, off the rims between its ends.
-std::vector<Index> shortest_way_up(const Model& model, const BeltFacets& facets, const Belt& belt)
+/// Shortest way along facet sides from the source chain's start to the target rim, off the rims between its
+/// ends.
+std::vector<Index> shortest_way_up(const Model& model, const LinkingFacets& facets,
+                                   const LinkingSurface& link)
 {
     std::unordered_map<Index, std::vector<Index>> neighbours;
     for (const Triangle& t : facets.triangles) {
@@ -90,9 +89,9 @@ std::vector<Index> shortest_way_up(const Model& model, const BeltFacets& facets,
         }
     }
     std::set<Index> low, high;
-    for (const RimPoint& p : rim_points(model, belt.source)) low.insert(p.point);
-    for (const RimPoint& p : rim_points(model, belt.target)) high.insert(p.point);
-    const Index start = model[use_from(model, belt.source.uses().front())].point;
+    for (const RimPoint& p : rim_points(model, link.source)) low.insert(p.point);
+    for (const RimPoint& p : rim_points(model, link.target)) high.insert(p.point);
+    const Index start = model[use_from(model, link.source.uses().front())].point;
 
     std::unordered_map<Index, double> cost{{start, 0}};
     std::unordered_map<Index, Index> from;
@@ -119,13 +118,14 @@ std::vector<Index> shortest_way_up(const Model& model, const BeltFacets& facets,
             front.emplace(next, q);
         }
     }
-    throw NotSweepable("surface.wall_broken", "the facets of " + name_of(model, belt.walls.front()) +
+    throw NotSweepable("surface.wall_broken", "the facets of " + name_of(model, link.walls.front()) +
                                                   " do not lead from the source's rim to the target's");
 }
 
-/// Turns of the corners along a cut, which leads upwards. Walking round as the belt does, s grows away from the cut's left (seen from
-/// outside): there corners on the cut keep their value, on its right they are seen one turn on.
-std::vector<std::array<int, 3>> turns_along(const BeltFacets& facets, const std::vector<Index>& cut)
+/// Turns of the corners along a cut, which leads upwards. Walking round as the linking surface does, s grows
+/// away from the cut's left (seen from outside): there corners on the cut keep their value, on its right they
+/// are seen one turn on.
+std::vector<std::array<int, 3>> turns_along(const LinkingFacets& facets, const std::vector<Index>& cut)
 {
     std::vector<std::array<int, 3>> turns(facets.triangles.size(), {0, 0, 0});
     std::set<std::pair<Index, Index>> sides;
@@ -137,11 +137,12 @@ std::vector<std::array<int, 3>> turns_along(const BeltFacets& facets, const std:
         const Triangle& triangle = facets.triangles[t];
         return static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), p) - triangle.begin());
     };
-    // Round each point of the cut, flood the facets on its right, which hold the cut's sides against its direction.
+    // Round each point of the cut, flood the facets on its right, which hold the cut's sides against its
+    // direction.
     for (std::size_t i = 0; i < cut.size(); ++i) {
         std::vector<std::size_t> front;
         const auto start_at = [&](Index a, Index b) {
-            const auto found = facets.half.find(directed(b, a));
+            const auto found = facets.half.find(directed_key(b, a));
             if (found != facets.half.end()) front.push_back(found->second);
         };
         if (i + 1 < cut.size()) start_at(cut[i], cut[i + 1]);
@@ -155,7 +156,7 @@ std::vector<std::array<int, 3>> turns_along(const BeltFacets& facets, const std:
             const Triangle& triangle = facets.triangles[t];
             for (const Index q : {triangle[(c + 1) % 3], triangle[(c + 2) % 3]}) {
                 if (sides.contains({cut[i], q})) continue;
-                for (const std::uint64_t side : {directed(cut[i], q), directed(q, cut[i])}) {
+                for (const std::uint64_t side : {directed_key(cut[i], q), directed_key(q, cut[i])}) {
                     const auto found = facets.half.find(side);
                     if (found != facets.half.end() && found->second != t) front.push_back(found->second);
                 }
@@ -165,18 +166,19 @@ std::vector<std::array<int, 3>> turns_along(const BeltFacets& facets, const std:
     return turns;
 }
 
-/// s of the belt with the target rim left free: how the walls themselves lead up. A row a model point.
-Eigen::MatrixXd natural_coordinate(const Model& model, const BeltFacets& facets, const Belt& belt,
-                                   const std::vector<Index>& cut)
+/// s of the linking surface with the target rim left free: how the walls themselves lead up. A row a model
+/// point.
+Eigen::MatrixXd natural_coordinate(const Model& model, const LinkingFacets& facets,
+                                   const LinkingSurface& link, const std::vector<Index>& cut)
 {
     geometry::HarmonicProblem problem;
     problem.points = model.points;
     problem.triangles = facets.triangles;
-    const std::vector<RimPoint> rim = rim_points(model, belt.source);
+    const std::vector<RimPoint> rim = rim_points(model, link.source);
     problem.fixed_values.resize(static_cast<Eigen::Index>(rim.size()), 1);
     for (std::size_t i = 0; i < rim.size(); ++i) {
         problem.fixed.push_back(rim[i].point);
-        problem.fixed_values(static_cast<Eigen::Index>(i), 0) = rim[i].at / belt.source.length();
+        problem.fixed_values(static_cast<Eigen::Index>(i), 0) = rim[i].at / link.source.length();
     }
     problem.corner_turns = turns_along(facets, cut);
     problem.period = Eigen::RowVectorXd::Ones(1);
@@ -185,15 +187,16 @@ Eigen::MatrixXd natural_coordinate(const Model& model, const BeltFacets& facets,
 
 } // namespace
 
-double unguided_target_start(const OpenVolume& volume, const Belt& belt)
+double unguided_target_start(const OpenVolume& volume, const LinkingSurface& link)
 {
     const Model& model = volume.model;
-    const BeltFacets facets = facets_of(model, belt.walls);
-    const Eigen::MatrixXd s = natural_coordinate(model, facets, belt, shortest_way_up(model, facets, belt));
-    // The mean difference, on the circle, between the lead-up coordinate and the share of the target's length.
-    const double length = belt.target.length();
+    const LinkingFacets facets = facets_of(model, link.walls);
+    const Eigen::MatrixXd s = natural_coordinate(model, facets, link, shortest_way_up(model, facets, link));
+    // The mean difference, on the circle, between the lead-up coordinate and the share of the target's
+    // length.
+    const double length = link.target.length();
     Vec2 sum = Vec2::Zero();
-    for (const RimPoint& p : rim_points(model, belt.target)) {
+    for (const RimPoint& p : rim_points(model, link.target)) {
         const double off = 2 * std::numbers::pi * (p.at / length - s(p.point, 0));
         sum += Vec2(std::cos(off), std::sin(off));
     }
@@ -201,55 +204,55 @@ double unguided_target_start(const OpenVolume& volume, const Belt& belt)
     return (start - std::floor(start)) * length;
 }
 
-double target_coordinate(const Belt& belt, double target_at)
+double target_coordinate(const LinkingSurface& link, double target_at)
 {
-    const double length = belt.target.length();
-    const double first = belt.stretches.front().target_from;
+    const double length = link.target.length();
+    const double first = link.segments.front().target_from;
     double at = target_at;
     while (at < first - 1e-12 * length) at += length;
     while (at > first + length * (1 + 1e-12)) at -= length;
-    for (const Stretch& stretch : belt.stretches) {
-        if (at > stretch.target_to && &stretch != &belt.stretches.back()) continue;
-        const double f = (at - stretch.target_from) / (stretch.target_to - stretch.target_from);
-        return (stretch.source_from + f * (stretch.source_to - stretch.source_from)) / belt.source.length();
+    for (const RimSegment& segment : link.segments) {
+        if (at > segment.target_to && &segment != &link.segments.back()) continue;
+        const double f = (at - segment.target_from) / (segment.target_to - segment.target_from);
+        return (segment.source_from + f * (segment.source_to - segment.source_from)) / link.source.length();
     }
     return 1;
 }
 
-WallMap::WallMap(const OpenVolume& volume, const Belt& belt)
+LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link)
 {
     const Model& model = volume.model;
-    const BeltFacets facets = facets_of(model, belt.walls);
+    const LinkingFacets facets = facets_of(model, link.walls);
     std::map<Index, Vec2> fixed;
     double end_branch = 0;
     std::vector<Index> cut;
-    const std::vector<RimPoint> high = rim_points(model, belt.target);
-    if (belt.lines.empty()) {
-        cut = shortest_way_up(model, facets, belt);
-        const double natural = belt.branch ? *belt.branch
-                                           : natural_coordinate(model, facets, belt, cut)(cut.back(), 0);
+    const std::vector<RimPoint> high = rim_points(model, link.target);
+    if (link.lines.empty()) {
+        cut = shortest_way_up(model, facets, link);
+        const double natural = link.branch ? *link.branch
+                                           : natural_coordinate(model, facets, link, cut)(cut.back(), 0);
         const auto end = std::find_if(high.begin(), high.end(),
                                       [&](const RimPoint& p) { return p.point == cut.back(); });
-        const double wanted = target_coordinate(belt, end->at);
+        const double wanted = target_coordinate(link, end->at);
         end_branch = wanted + std::round(natural - wanted);
         branch_ = end_branch;
     } else {
-        cut = line_points(model, belt.lines.front().line);
+        cut = line_points(model, link.lines.front().line);
     }
-    for (const RimPoint& p : rim_points(model, belt.source))
-        fixed[p.point] = Vec2(p.at / belt.source.length(), 0);
+    for (const RimPoint& p : rim_points(model, link.source))
+        fixed[p.point] = Vec2(p.at / link.source.length(), 0);
     for (const RimPoint& p : high) {
-        const double s = target_coordinate(belt, p.at);
+        const double s = target_coordinate(link, p.at);
         const double turned = s - std::floor(s - end_branch + 1e-12);
         fixed[p.point] = Vec2(p.point == cut.back() ? end_branch : turned, 1);
     }
-    for (const BeltLine& line : belt.lines) {
+    for (const LinkingLine& line : link.lines) {
         const std::vector<Index> points = line_points(model, line.line);
-        std::vector<double> at{0};
-        for (std::size_t i = 1; i < points.size(); ++i)
-            at.push_back(at.back() + (model.at(points[i]) - model.at(points[i - 1])).norm());
+        std::vector<Vec3> way;
+        for (const Index p : points) way.push_back(model.at(p));
+        const std::vector<double> at = geometry::arc_lengths(way);
         for (std::size_t i = 0; i < points.size(); ++i)
-            fixed[points[i]] = Vec2(line.source_at / belt.source.length(), at[i] / at.back());
+            fixed[points[i]] = Vec2(line.source_at / link.source.length(), at[i] / at.back());
     }
 
     geometry::HarmonicProblem problem;
@@ -264,10 +267,11 @@ WallMap::WallMap(const OpenVolume& volume, const Belt& belt)
     problem.period = Eigen::RowVector2d(1, 0);
     const Eigen::MatrixXd strip = geometry::solve_harmonic(problem);
 
-    // The strip's own proportions, so that the closest facet to a place off the strip by rounding is the right one.
-    width_ = (belt.source.length() + belt.target.length()) / 2;
+    // The strip's own proportions, so that the closest facet to a place off the strip by rounding is the
+    // right one.
+    width_ = (link.source.length() + link.target.length()) / 2;
     double area = 0;
-    for (const FaceId wall : belt.walls) area += face_area(model, wall);
+    for (const FaceId wall : link.walls) area += face_area(model, wall);
     height_ = area / width_;
 
     std::vector<std::array<Vec2, 3>> corners(facets.triangles.size());
@@ -292,21 +296,22 @@ WallMap::WallMap(const OpenVolume& volume, const Belt& belt)
     tree_ = geometry::FacetTree(flat, flat_triangles);
     face_of_ = facets.face;
     triangle_of_ = facets.number;
-    if (belt.lines.empty()) measure_heights(model);
-    find_rings(volume, belt, corners);
+    if (link.lines.empty()) measure_heights(model);
+    find_rings(volume, link, corners);
 }
 
-void WallMap::measure_heights(const Model& model)
+void LinkingMap::measure_heights(const Model& model)
 {
+    // Columns up the walls and steps along each: a choice, not a measurement.
     constexpr std::size_t kColumns = 16, kSteps = 64;
     even_.assign(kSteps + 1, 0.0);
     for (std::size_t c = 0; c < kColumns; ++c) {
         std::vector<Vec3> column;
         for (std::size_t k = 0; k <= kSteps; ++k) {
-            const Place place = locate(static_cast<double>(c) / kColumns, static_cast<double>(k) / kSteps);
-            const Triangle& t = model[place.face].triangles[static_cast<std::size_t>(place.at.triangle)];
-            const Vec3& b = place.at.barycentric;
-            column.push_back(b[0] * model.at(t[0]) + b[1] * model.at(t[1]) + b[2] * model.at(t[2]));
+            const WallPosition place = locate(static_cast<double>(c) / kColumns,
+                                              static_cast<double>(k) / kSteps);
+            const FacetPosition at[] = {place.at};
+            column.push_back(points_at({model.points, model[place.face].triangles, {}, nullptr}, at).front());
         }
         const std::vector<double> arc = geometry::arc_lengths(column);
         for (std::size_t k = 0; k <= kSteps; ++k) even_[k] += arc[k] / arc.back() / kColumns;
@@ -319,7 +324,7 @@ void WallMap::measure_heights(const Model& model)
     if (off < kEvenAlready) even_.clear();
 }
 
-double WallMap::from_even(double height) const
+double LinkingMap::from_even(double height) const
 {
     if (even_.empty()) return height;
     const auto steps = static_cast<double>(even_.size() - 1);
@@ -329,26 +334,26 @@ double WallMap::from_even(double height) const
     return high > low ? std::clamp((k + (height - low) / (high - low)) / steps, 0.0, 1.0) : k / steps;
 }
 
-WallMap::Place WallMap::locate(double s, double t) const
+WallPosition LinkingMap::locate(double s, double t) const
 {
     const auto hit = tree_.closest(Vec3(s * width_, t * height_, 0));
     const auto original = static_cast<std::size_t>(original_[static_cast<std::size_t>(hit.triangle)]);
     return {face_of_[original], {triangle_of_[original], hit.barycentric}};
 }
 
-void WallMap::find_rings(const OpenVolume& volume, const Belt& belt,
-                         const std::vector<std::array<Vec2, 3>>& corners)
+void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link,
+                            const std::vector<std::array<Vec2, 3>>& corners)
 {
     const Model& model = volume.model;
-    const BeltFacets facets = facets_of(model, belt.walls);
+    const LinkingFacets facets = facets_of(model, link.walls);
     std::set<EdgeId> taken;
-    for (const EdgeUse& use : belt.source.uses()) taken.insert(use.edge);
-    for (const EdgeUse& use : belt.target.uses()) taken.insert(use.edge);
-    for (const BeltLine& line : belt.lines) {
+    for (const EdgeUse& use : link.source.uses()) taken.insert(use.edge);
+    for (const EdgeUse& use : link.target.uses()) taken.insert(use.edge);
+    for (const LinkingLine& line : link.lines) {
         for (const EdgeUse& use : line.line.uses) taken.insert(use.edge);
     }
     std::vector<Ring> pieces;
-    for (const FaceId wall : belt.walls) {
+    for (const FaceId wall : link.walls) {
         for (const Loop& loop : model[wall].loops) {
             for (const EdgeUse& use : loop.uses) {
                 if (!taken.insert(use.edge).second) continue;
@@ -356,7 +361,7 @@ void WallMap::find_rings(const OpenVolume& volume, const Belt& belt,
                 double along = 0, up = 0;
                 const std::vector<Index> points = use_points(model, use);
                 for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-                    const auto found = facets.half.find(directed(points[i], points[i + 1]));
+                    const auto found = facets.half.find(directed_key(points[i], points[i + 1]));
                     if (found == facets.half.end()) continue;
                     const Triangle& t = facets.triangles[found->second];
                     const auto c = static_cast<std::size_t>(std::find(t.begin(), t.end(), points[i]) -
@@ -409,10 +414,10 @@ void WallMap::find_rings(const OpenVolume& volume, const Belt& belt,
                      [](const Ring& a, const Ring& b) { return a.height < b.height; });
 }
 
-std::vector<double> WallMap::crossings(const Ring& ring, double s)
+std::vector<double> LinkingMap::crossings(const Ring& ring, double s)
 {
     // A column on the end of a piece still crosses it.
-    constexpr double kSlack = 1e-9;
+    constexpr double kSlack = 1e-9; ///< of a turn: rounding
     std::vector<double> result;
     for (const auto& [a, b] : ring.segments) {
         const double low = std::min(a.x(), b.x()), high = std::max(a.x(), b.x());

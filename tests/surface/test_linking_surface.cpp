@@ -2,8 +2,8 @@
 #include "surface/sealed.h"
 
 #include <lacuna/core/error.h>
-#include <lacuna/surface/belt.h>
-#include <lacuna/surface/detail/wall_map.h>
+#include <lacuna/surface/detail/linking_map.h>
+#include <lacuna/surface/linking_surface.h>
 
 #include <doctest/doctest.h>
 
@@ -14,40 +14,41 @@
 
 using namespace lacuna;
 using namespace lacuna::topology;
-using surface::Belt;
+using surface::LinkingSurface;
 using test::Part;
 using test::PrismOptions;
 using test::without;
 
 namespace {
 
-/// Lines in order round both rims; stretches one after the other, once round each.
-void check_belt(const Belt& belt)
+/// Lines in order round both rims; segments one after the other, once round each.
+void check_link(const LinkingSurface& link)
 {
-    for (std::size_t i = 0; i + 1 < belt.lines.size(); ++i) {
-        CHECK(belt.lines[i].source_at < belt.lines[i + 1].source_at);
-        CHECK(belt.lines[i].target_at < belt.lines[i + 1].target_at);
+    for (std::size_t i = 0; i + 1 < link.lines.size(); ++i) {
+        CHECK(link.lines[i].source_at < link.lines[i + 1].source_at);
+        CHECK(link.lines[i].target_at < link.lines[i + 1].target_at);
     }
-    REQUIRE(!belt.stretches.empty());
-    CHECK(belt.stretches.front().source_from == 0);
-    CHECK(belt.stretches.back().source_to == doctest::Approx(belt.source.length()));
-    CHECK(belt.stretches.back().target_to - belt.stretches.front().target_from ==
-          doctest::Approx(belt.target.length()));
-    for (std::size_t i = 0; i < belt.stretches.size(); ++i) {
-        const auto& s = belt.stretches[i];
+    REQUIRE(!link.segments.empty());
+    CHECK(link.segments.front().source_from == 0);
+    CHECK(link.segments.back().source_to == doctest::Approx(link.source.length()));
+    CHECK(link.segments.back().target_to - link.segments.front().target_from ==
+          doctest::Approx(link.target.length()));
+    for (std::size_t i = 0; i < link.segments.size(); ++i) {
+        const auto& s = link.segments[i];
         CHECK(s.source_from < s.source_to);
         CHECK(s.target_from < s.target_to);
-        CHECK(s.source_from >= belt.source.start(s.use) - 1e-9);
-        CHECK(s.source_to <= belt.source.start(s.use + 1) + 1e-9);
+        CHECK(s.source_from >= link.source.start(s.use) - 1e-9);
+        CHECK(s.source_to <= link.source.start(s.use + 1) + 1e-9);
         if (i == 0) continue;
-        CHECK(s.source_from == belt.stretches[i - 1].source_to);
-        CHECK(s.target_from == belt.stretches[i - 1].target_to);
+        CHECK(s.source_from == link.segments[i - 1].source_to);
+        CHECK(s.target_from == link.segments[i - 1].target_to);
     }
 }
 
 } // namespace
 
-TEST_CASE("there is a belt a loop, its lines in order round both ends, and together they have all walls")
+TEST_CASE(
+    "there is a linking surface a loop, its lines in order round both ends, and together they have all walls")
 {
     int combinations = 0;
     for (const int sides : {0, 3, 4, 6}) {
@@ -70,15 +71,15 @@ TEST_CASE("there is a belt a loop, its lines in order round both ends, and toget
                             CAPTURE(rows);
                             CAPTURE(pieces);
                             CAPTURE(bend);
-                            const auto belts = surface::belts(volume);
-                            REQUIRE(belts.size() == static_cast<std::size_t>(holes) + 1);
+                            const auto links = surface::linking_surfaces(volume);
+                            REQUIRE(links.size() == static_cast<std::size_t>(holes) + 1);
                             std::set<FaceId> walls;
-                            for (std::size_t b = 0; b < belts.size(); ++b) {
-                                check_belt(belts[b]);
-                                for (const FaceId wall : belts[b].walls) CHECK(walls.insert(wall).second);
+                            for (std::size_t b = 0; b < links.size(); ++b) {
+                                check_link(links[b]);
+                                for (const FaceId wall : links[b].walls) CHECK(walls.insert(wall).second);
                                 const int n = b == 0 ? sides : hole_sides;
                                 const int lines = n == 0 ? (pieces == 1 ? 0 : pieces) : n * pieces;
-                                CHECK(belts[b].lines.size() == static_cast<std::size_t>(lines));
+                                CHECK(links[b].lines.size() == static_cast<std::size_t>(lines));
                             }
                             CHECK(walls.size() == volume.faces(Role::wall).size());
                             ++combinations;
@@ -91,7 +92,7 @@ TEST_CASE("there is a belt a loop, its lines in order round both ends, and toget
     MESSAGE(combinations << " sealed prisms");
 }
 
-TEST_CASE("belts of void walls are like those of given ones")
+TEST_CASE("linking surfaces of void walls are like those of given ones")
 {
     int combinations = 0;
     for (const int sides : {0, 3, 4, 5}) {
@@ -101,9 +102,9 @@ TEST_CASE("belts of void walls are like those of given ones")
                                      without(false, true, false)}) {
                 const auto volume = test::sealed(
                     {.sides = sides, .holes = holes, .taper = 0.7, .drop = drop});
-                const auto belts = surface::belts(volume);
-                REQUIRE(belts.size() == static_cast<std::size_t>(holes) + 1);
-                for (const Belt& belt : belts) check_belt(belt);
+                const auto links = surface::linking_surfaces(volume);
+                REQUIRE(links.size() == static_cast<std::size_t>(holes) + 1);
+                for (const LinkingSurface& link : links) check_link(link);
                 ++combinations;
             }
         }
@@ -122,15 +123,16 @@ TEST_CASE("without side lines the target is started where the walls lead straigh
                                               .cuts = 4,
                                               .levels = 12,
                                               .twist = twist});
-            for (const Belt& belt : surface::belts(volume)) {
-                REQUIRE(belt.lines.empty());
+            for (const LinkingSurface& link : surface::linking_surfaces(volume)) {
+                REQUIRE(link.lines.empty());
                 const std::vector<double> low{0},
-                    high{std::fmod(belt.stretches.front().target_from, belt.target.length())};
-                const Vec3 a = belt.source.points(low)[0], b = belt.target.points(high)[0];
+                    high{std::fmod(link.segments.front().target_from, link.target.length())};
+                const Vec3 a = link.source.points(low)[0], b = link.target.points(high)[0];
                 const double turn = std::remainder(std::atan2(b.y(), b.x()) - std::atan2(a.y(), a.x()),
                                                    2 * std::numbers::pi) *
                                     180 / std::numbers::pi;
-                // Walls that turn their facets lead half of the way round with them; a smooth round wall does not turn anything.
+                // Walls that turn their facets lead half of the way round with them; a smooth round wall does
+                // not turn anything.
                 CAPTURE(twist);
                 CHECK(std::abs(turn) <= std::abs(twist) + 2);
             }
@@ -141,10 +143,10 @@ TEST_CASE("without side lines the target is started where the walls lead straigh
 TEST_CASE("walls that do not join one loop to one are refused")
 {
     const auto bare = test::prism({.drop = without(false, false, true)}).open();
-    CHECK_THROWS_AS(surface::belts(bare), NotSweepable);
+    CHECK_THROWS_AS(surface::linking_surfaces(bare), NotSweepable);
     const auto fewer = test::prism({.holes = 1, .drop = [](const Part& p) { return p.loop == 1; }}).open();
     try {
-        surface::belts(fewer);
+        surface::linking_surfaces(fewer);
         FAIL("a loop without walls was taken");
     } catch (const NotSweepable& error) {
         CHECK(error.code() == "surface.no_belt");
@@ -152,8 +154,8 @@ TEST_CASE("walls that do not join one loop to one are refused")
     }
 }
 
-TEST_CASE(
-    "the strip of a belt is one to one: neighbours stay neighbours, and it turns once round and once up")
+TEST_CASE("the strip of a linking surface is one to one: neighbours stay neighbours, and it turns once round "
+          "and once up")
 {
     int combinations = 0;
     for (const int sides : {0, 3, 4}) {
@@ -168,15 +170,15 @@ TEST_CASE(
                                                       .levels = 4,
                                                       .twist = twist,
                                                       .taper = 0.8});
-                    const Belt belt = surface::belts(volume).front();
-                    const surface::WallMap map(volume, belt);
+                    const LinkingSurface link = surface::linking_surfaces(volume).front();
+                    const surface::LinkingMap map(volume, link);
                     CAPTURE(sides);
                     CAPTURE(rows);
                     CAPTURE(pieces);
                     CAPTURE(twist);
                     const auto at = [&](double s, double t) {
                         const auto place = map.locate(s, t);
-                        const std::vector<surface::FacetPlace> one{place.at};
+                        const std::vector<surface::FacetPosition> one{place.at};
                         return surface::points_at(volume.model, place.face, one)[0];
                     };
                     constexpr int kRound = 48, kUp = 12;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/detail/region.h>
+#include <lacuna/sweep/detail/cell_region.h>
 
 #include <lacuna/core/parallel.h>
 #include <lacuna/quality/quality.h>
@@ -12,7 +12,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Cells worked on at a time; sums are made chunk by chunk.
+/// Cells worked on at a time: enough to be worth a task. Sums are made chunk by chunk, in order.
 constexpr std::size_t kChunk = 512;
 
 std::array<Vec3, 8> corners_of(const std::vector<Vec3>& places, const Hex& hex)
@@ -62,8 +62,9 @@ double bound_of(const std::array<Vec3, 8>& corners, const Hex& hex, const std::v
     return bound;
 }
 
-/// A gain so small is not worth the work.
-constexpr double kWorthIt = 0.01;
+/// A cell this close to the best its held nodes allow is left alone: what is to be gained is not worth the
+/// work.
+constexpr double kLeastRoom = 0.01;
 
 /// Whether each cell is poor and could be better.
 std::vector<char> poor_cells(const mesh::HexMesh& mesh, const std::vector<char>& locked, double good_enough,
@@ -78,7 +79,7 @@ std::vector<char> poor_cells(const mesh::HexMesh& mesh, const std::vector<char>&
             if (scaled >= good_enough) {
                 poor[c] = quality::certified_positive(corners) ? 0 : 1;
             } else {
-                poor[c] = scaled <= 0 || scaled + kWorthIt < bound_of(corners, hex, locked) ? 1 : 0;
+                poor[c] = scaled <= 0 || scaled + kLeastRoom < bound_of(corners, hex, locked) ? 1 : 0;
             }
         }
     });
@@ -101,30 +102,24 @@ void grow(const mesh::HexMesh& mesh, std::vector<char>& taken)
 }
 
 /// The uses of each free node.
-void index_uses(Region& region)
+mesh::Incidence uses_of(const CellRegion& region)
 {
-    region.use_begin.assign(region.free + 1, 0);
-    const auto each = [&](const auto& visit) {
+    return mesh::incidence(region.free, [&](const auto& visit) {
         for (std::size_t c = 0; c < region.cells.size(); ++c) {
             for (std::size_t k = 0; k < 8; ++k) {
-                const auto node = static_cast<std::size_t>(region.cells[c][k]);
-                if (node < region.free) visit(node, static_cast<Index>(8 * c + k));
+                if (index(region.cells[c][k]) < region.free)
+                    visit(index(region.cells[c][k]), static_cast<Index>(8 * c + k));
             }
         }
-    };
-    each([&](std::size_t node, Index) { ++region.use_begin[node + 1]; });
-    for (std::size_t i = 0; i < region.free; ++i) region.use_begin[i + 1] += region.use_begin[i];
-    region.uses.resize(static_cast<std::size_t>(region.use_begin.back()));
-    std::vector<Index> next(region.use_begin.begin(), region.use_begin.end() - 1);
-    each([&](std::size_t node, Index use) { region.uses[static_cast<std::size_t>(next[node]++)] = use; });
+    });
 }
 
 } // namespace
 
-Region poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
-                   const RunContext& context)
+CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
+                       const RunContext& context)
 {
-    Region region;
+    CellRegion region;
     const std::vector<char> locked = locked_nodes(mesh, sliding);
     std::vector<char> taken = poor_cells(mesh, locked, options.good_enough, context);
     if (std::none_of(taken.begin(), taken.end(), [](char c) { return c != 0; })) return region;
@@ -158,13 +153,13 @@ Region poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, con
         region.cells.push_back(local);
         const std::array<Vec3, 8> corners = corners_of(mesh.nodes, hex);
         region.box.push_back(mean_edges(corners));
-        region.aim.push_back(std::min(options.good_enough, bound_of(corners, hex, held) - kWorthIt));
+        region.aim.push_back(std::min(options.good_enough, bound_of(corners, hex, held) - kLeastRoom));
     }
-    index_uses(region);
+    region.uses = uses_of(region);
     return region;
 }
 
-RegionQuality measure(const Region& region, const std::vector<Vec3>& places, const RunContext& context)
+RegionQuality measure(const CellRegion& region, const std::vector<Vec3>& places, const RunContext& context)
 {
     const std::size_t chunks = (region.cells.size() + kChunk - 1) / kChunk;
     std::vector<RegionQuality> part(chunks);
@@ -190,7 +185,7 @@ RegionQuality measure(const Region& region, const std::vector<Vec3>& places, con
     return whole;
 }
 
-RegionEnergy::RegionEnergy(const Region& region, std::vector<Vec3> places, const RunContext& context)
+RegionEnergy::RegionEnergy(const CellRegion& region, std::vector<Vec3> places, const RunContext& context)
     : region_(region),
       context_(context),
       places_(std::move(places)),
@@ -220,8 +215,7 @@ double RegionEnergy::operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradi
     parallel_for(context_, region_.free, kChunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             Vec3 sum = Vec3::Zero();
-            for (Index u = region_.use_begin[i]; u < region_.use_begin[i + 1]; ++u)
-                sum += slopes_[static_cast<std::size_t>(region_.uses[static_cast<std::size_t>(u)])];
+            for (const Index use : region_.uses.of(i)) sum += slopes_[index(use)];
             sum -= normal_[i] * normal_[i].dot(sum);
             gradient.segment<3>(3 * static_cast<Eigen::Index>(i)) = sum;
         }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/carry.h>
+#include <lacuna/sweep/morph.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/sweep/detail/harmonic_spread.h>
 #include <lacuna/sweep/detail/rim.h>
 #include <lacuna/sweep/detail/surface_smoothing.h>
-#include <lacuna/sweep/harmonic_spread.h>
+#include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -16,9 +16,9 @@ namespace lacuna::sweep {
 
 namespace {
 
-// A worst quad this much below the source's is as good as the source's.
+/// A worst quad this much below the source's is as good as the source's. A choice, not a measurement.
 constexpr double kSameQuality = 0.01;
-// Moves below this part of the rim are what a projection leaves of a point that lies on the surface already.
+/// Moves below this part of the rim are what a projection leaves of a point that lies on the surface already.
 constexpr double kOnSurface = 1e-9;
 
 /// The mesh's graph and its factor, made when first asked for: affine images on planes need neither.
@@ -56,7 +56,7 @@ struct Guess {
 };
 
 /// Nodes where the rims put them, the surface not asked.
-Guess guess_from_rims(const mesh::QuadMesh& source, const Columns& columns, Spreader& spreader,
+Guess guess_from_rims(const mesh::QuadMesh& source, const RimColumns& columns, Spreader& spreader,
                       const RunContext& context)
 {
     Guess guess{source.nodes, true};
@@ -81,9 +81,9 @@ Guess guess_from_rims(const mesh::QuadMesh& source, const Columns& columns, Spre
     return guess;
 }
 
-/// The source itself, moved as its rim is: what a skin far from its rims (a bent tube swept through its thickness) asks for, where
-/// an affine map fitted to the rims alone says nothing.
-std::vector<Vec3> displaced(const mesh::QuadMesh& source, const Columns& columns, Spreader& spreader,
+/// The source itself, moved as its rim is: what a skin far from its rims (a bent tube swept through its
+/// thickness) asks for, where an affine map fitted to the rims alone says nothing.
+std::vector<Vec3> displaced(const mesh::QuadMesh& source, const RimColumns& columns, Spreader& spreader,
                             const RunContext& context)
 {
     std::vector<Vec3> nodes = source.nodes;
@@ -96,7 +96,7 @@ std::vector<Vec3> displaced(const mesh::QuadMesh& source, const Columns& columns
     return nodes;
 }
 
-std::vector<Index> nodes_off_rim(const mesh::QuadMesh& source, const Columns& columns)
+std::vector<Index> nodes_off_rim(const mesh::QuadMesh& source, const RimColumns& columns)
 {
     std::vector<char> on_rim(source.nodes.size(), 0);
     for (const Index node : columns.rim) on_rim[static_cast<std::size_t>(node)] = 1;
@@ -113,13 +113,6 @@ struct Candidate {
     double worst = -1;
 };
 
-std::string in_short(double value)
-{
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.2g", value);
-    return buffer;
-}
-
 double largest_move(std::span<const Vec3> from, std::span<const Vec3> to)
 {
     double largest = 0;
@@ -127,10 +120,12 @@ double largest_move(std::span<const Vec3> from, std::span<const Vec3> to)
     return largest;
 }
 
-/// A deep bowl above a flat rim: the closest places to the flat guess are crowded on the rim. Guesses bulged to either
-/// side, as a membrane under pressure is, meet it evenly; the one whose image has the best worst quad is taken.
-Candidate bulged_start(const mesh::QuadMesh& source, const Columns& columns, const std::vector<Vec3>& guess,
-                       const HarmonicSpread& spread, const SurfaceSmoother& smoother, Candidate best)
+/// A deep bowl above a flat rim: the closest places to the flat guess are crowded on the rim. Guesses bulged
+/// to either side, as a membrane under pressure is, meet it evenly; the one whose image has the best worst
+/// quad is taken.
+Candidate bulged_start(const mesh::QuadMesh& source, const RimColumns& columns,
+                       const std::vector<Vec3>& guess, const HarmonicSpread& spread,
+                       const SurfaceSmoother& smoother, Candidate best)
 {
     const std::span<const Vec3> rim = columns.row(columns.layers);
     const Vec3 area = rim_area(rim, rim_sides(source, columns));
@@ -152,7 +147,7 @@ Candidate bulged_start(const mesh::QuadMesh& source, const Columns& columns, con
 }
 
 /// The best mesh that can be found from `found` on, until the worst quad is good enough.
-Candidate smoothed(const mesh::QuadMesh& source, const Columns& columns, const std::vector<Vec3>& guess,
+Candidate smoothed(const mesh::QuadMesh& source, const RimColumns& columns, const std::vector<Vec3>& guess,
                    Spreader& spreader, std::span<const Index> free_nodes, const SurfaceProjector& project,
                    double good_enough, Candidate found, const RunContext& context)
 {
@@ -169,7 +164,7 @@ Candidate smoothed(const mesh::QuadMesh& source, const Columns& columns, const s
 
 } // namespace
 
-Carried carry(const mesh::QuadMesh& source, const Columns& columns, const SurfaceProjector& project,
+Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const SurfaceProjector& project,
               const RunContext& context)
 {
     check_columns(source, columns);
@@ -177,11 +172,11 @@ Carried carry(const mesh::QuadMesh& source, const Columns& columns, const Surfac
     Spreader spreader(source, columns.rim);
     const Guess guess = guess_from_rims(source, columns, spreader, context);
 
-    Carried result;
+    Morphed result;
     result.worst_source = worst_quad(source.quads, source.nodes);
     result.report = guess.affine ? "affine image of the source" : "fitted image of the source";
     Candidate found{guess.nodes, worst_quad(source.quads, guess.nodes)};
-    // What an affine map takes from the source's quads is the rims' doing; the rest is there to be mended.
+    // What an affine map takes from the source's quads is the rims' doing; the rest can be improved.
     const double model = guess.affine ? std::min(result.worst_source, found.worst) : result.worst_source;
     if (project && !free_nodes.empty()) {
         Candidate projected{guess.nodes, -1};
@@ -220,12 +215,6 @@ Carried carry(const mesh::QuadMesh& source, const Columns& columns, const Surfac
                      ")";
     log_line(context, result.report);
     return result;
-}
-
-std::vector<Vec3> carry_to_target(const mesh::QuadMesh& source, const Columns& columns,
-                                  const SurfaceProjector& project, const RunContext& context)
-{
-    return carry(source, columns, project, context).nodes;
 }
 
 } // namespace lacuna::sweep

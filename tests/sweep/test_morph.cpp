@@ -4,12 +4,13 @@
 #include <lacuna/core/error.h>
 #include <lacuna/sweep/detail/surface_smoothing.h>
 #include <lacuna/sweep/layers.h>
+#include <lacuna/sweep/morph.h>
 
 #include <doctest/doctest.h>
 
 using namespace lacuna;
 using namespace lacuna::test;
-using sweep::carry;
+using sweep::morph;
 using sweep::SurfaceProjector;
 using sweep::worst_quad;
 
@@ -50,12 +51,12 @@ SurfaceProjector plane(double height)
 }
 
 /// One layer of columns from the source's rim to where `map` takes it.
-sweep::Columns columns_to(const mesh::QuadMesh& source, const Map& map)
+sweep::RimColumns columns_to(const mesh::QuadMesh& source, const Map& map)
 {
     return columns_along(source, 1, [&](const Vec3& p, double) { return map(p); });
 }
 
-void check_rim(const sweep::Columns& columns, const std::vector<Vec3>& nodes)
+void check_rim(const sweep::RimColumns& columns, const std::vector<Vec3>& nodes)
 {
     std::size_t astray = 0;
     for (std::size_t k = 0; k < columns.rim.size(); ++k) {
@@ -86,7 +87,7 @@ TEST_CASE("an affine image that lies on the target is left as it is")
         CAPTURE(family.name);
         const auto columns = columns_to(family.mesh, map);
         for (const bool projected : {false, true}) {
-            const auto result = carry(family.mesh, columns, projected ? plane(3) : SurfaceProjector());
+            const auto result = morph(family.mesh, columns, projected ? plane(3) : SurfaceProjector());
             check_rim(columns, result.nodes);
             for (std::size_t i = 0; i < result.nodes.size(); ++i) {
                 CHECK((result.nodes[i] - map(family.mesh.nodes[i])).norm() < 1e-12);
@@ -103,12 +104,13 @@ TEST_CASE("on caps from shallow to deep, nodes lie on the sphere and quads stay 
         for (const Family& family : {Family{"disc", disc(6, 4)}, Family{"fine disc", disc(14, 8)}}) {
             CAPTURE(family.name);
             const auto columns = columns_to(family.mesh, [](const Vec3& p) { return Vec3(p[0], p[1], 2); });
-            const auto result = carry(family.mesh, columns, cap.projector());
+            const auto result = morph(family.mesh, columns, cap.projector());
             check_rim(columns, result.nodes);
             for (const Vec3& p : result.nodes) CHECK(std::abs((p - cap.centre).norm() - cap.radius) < 1e-12);
             CHECK(result.worst == doctest::Approx(worst_quad(family.mesh.quads, result.nodes)));
             CHECK(result.worst > 0.3);
-            // The cells under the dome, straight columns at its rim: beyond 90 degrees it leans out over them.
+            // The cells under the dome, straight columns at its rim: beyond 90 degrees it leans out over
+            // them.
             if (degrees > 90) continue;
             const auto walls = columns_along(family.mesh, 6, lifted(2));
             const auto layers = sweep::place_layers(family.mesh, result.nodes, walls);
@@ -117,7 +119,7 @@ TEST_CASE("on caps from shallow to deep, nodes lie on the sphere and quads stay 
     }
 }
 
-TEST_CASE("a bowl is carried to a flat target without folding")
+TEST_CASE("a bowl is morphed to a flat target without folding")
 {
     for (const double degrees : {30.0, 60.0, 90.0}) {
         CAPTURE(degrees);
@@ -125,9 +127,9 @@ TEST_CASE("a bowl is carried to a flat target without folding")
         const auto flat = disc(8, 5);
         const auto onto = columns_to(flat, [](const Vec3& p) { return Vec3(p[0], p[1], 2); });
         auto bowl = flat;
-        bowl.nodes = carry(flat, onto, cap.projector()).nodes;
+        bowl.nodes = morph(flat, onto, cap.projector()).nodes;
         const auto columns = columns_to(bowl, [](const Vec3& p) { return Vec3(p[0], p[1], 5); });
-        const auto result = carry(bowl, columns, plane(5));
+        const auto result = morph(bowl, columns, plane(5));
         check_rim(columns, result.nodes);
         CHECK(result.worst > 0.3);
     }
@@ -143,7 +145,7 @@ TEST_CASE("a square becomes a disc, an L bends, and no quad folds")
     for (const int count : {2, 6, 20}) {
         const auto mesh = square(count);
         const auto columns = columns_to(mesh, round);
-        const auto result = carry(mesh, columns, plane(2));
+        const auto result = morph(mesh, columns, plane(2));
         check_rim(columns, result.nodes);
         CHECK(result.worst > 0);
     }
@@ -151,7 +153,7 @@ TEST_CASE("a square becomes a disc, an L bends, and no quad folds")
     const auto bend = [](const Vec3& p) {
         return Vec3(p[0] + 0.2 * p[1] * p[1], p[1] + 0.3 * std::sin(2 * p[0]), 2);
     };
-    const auto result = carry(mesh, columns_to(mesh, bend), plane(2));
+    const auto result = morph(mesh, columns_to(mesh, bend), plane(2));
     CHECK(result.worst > 0.5);
 }
 
@@ -185,7 +187,7 @@ TEST_CASE("smoothing never makes the worst quad worse, and mends one that was pu
     }
 }
 
-TEST_CASE("a tube is carried to a wider tube that bulges")
+TEST_CASE("a tube is morphed to a wider tube that bulges")
 {
     const auto skin = tube(24, 8);
     const SurfaceProjector barrel = [](std::span<Vec3> points) {
@@ -196,7 +198,7 @@ TEST_CASE("a tube is carried to a wider tube that bulges")
         }
     };
     const auto columns = columns_to(skin, [](const Vec3& p) { return Vec3(2 * p[0], 2 * p[1], p[2]); });
-    const auto result = carry(skin, columns, barrel);
+    const auto result = morph(skin, columns, barrel);
     check_rim(columns, result.nodes);
     CHECK(result.worst > 0.9);
 }
@@ -211,27 +213,27 @@ TEST_CASE("a finely graded mesh keeps its grading on a curved target")
     });
     const Cap cap(60);
     const auto columns = columns_to(graded, [](const Vec3& p) { return Vec3(p[0], p[1], 2); });
-    const auto result = carry(graded, columns, cap.projector());
+    const auto result = morph(graded, columns, cap.projector());
     CHECK(result.worst > 0.3);
     const std::size_t last_ring = graded.nodes.size() - 24;
     for (std::size_t i = last_ring; i < graded.nodes.size(); ++i) {
         const double thin = (graded.nodes[i] - graded.nodes[i - 24]).norm();
-        const double carried = (result.nodes[i] - result.nodes[i - 24]).norm();
-        CHECK(carried / thin > 0.5);
-        CHECK(carried / thin < 2);
+        const double morphed = (result.nodes[i] - result.nodes[i - 24]).norm();
+        CHECK(morphed / thin > 0.5);
+        CHECK(morphed / thin < 2);
     }
 }
 
-TEST_CASE("the carried nodes do not depend on the number of threads")
+TEST_CASE("the morphed nodes do not depend on the number of threads")
 {
     const auto mesh = disc(10, 6);
     const Cap cap(90);
     const auto columns = columns_to(mesh, [](const Vec3& p) { return Vec3(p[0], p[1], 2); });
     RunContext context;
     context.threads = 1;
-    const auto first = carry_to_target(mesh, columns, cap.projector(), context);
+    const auto first = morph(mesh, columns, cap.projector(), context).nodes;
     for (const int threads : {2, 5}) {
         context.threads = threads;
-        CHECK(carry_to_target(mesh, columns, cap.projector(), context) == first);
+        CHECK(morph(mesh, columns, cap.projector(), context).nodes == first);
     }
 }

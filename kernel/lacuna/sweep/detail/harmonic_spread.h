@@ -3,6 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
+#include <lacuna/mesh/incidence.h>
 
 #include <Eigen/SparseCore>
 
@@ -12,47 +13,39 @@
 
 namespace lacuna::sweep {
 
-/// The nodes each node shares a quad side with, rising: those of node i are neighbours[begin[i]] … [begin[i + 1]).
-struct NodeGraph {
-    std::vector<Index> begin;
-    std::vector<Index> neighbours;
-
-    [[nodiscard]] std::span<const Index> of(std::size_t node) const
-    {
-        const auto first = static_cast<std::size_t>(begin[node]);
-        return {neighbours.data() + first, static_cast<std::size_t>(begin[node + 1]) - first};
-    }
-};
+/// The nodes each node shares a quad side with, rising.
+using NodeGraph = mesh::Incidence;
 
 /// O(quads).
 NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes);
 
-/// Weight of each side, in the order of the graph's neighbours: the length across it, between the middles of its quads,
-/// over its own. That of finite volumes: never negative, and blind to how mesh lines crowd.
+/// Weight of each side, in the order of the graph's neighbours: the length across it, between the middles of
+/// its quads, over its own. That of finite volumes: never negative, and blind to how mesh lines crowd.
 std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> quads,
                                  std::span<const Vec3> nodes);
 
 /// Spreads values given at fixed nodes over the rest, each the weighted mean of its neighbours.
 ///
-/// The graph Laplacian, factored once. The weights are positive, so a spread value never leaves the range of the given
-/// ones. A part of the mesh that no fixed node is joined to gets zero.
+/// The graph Laplacian, factored once. The weights are positive, so a spread value never leaves the range of
+/// the given ones. A part of the mesh that no fixed node is joined to gets zero.
 class HarmonicSpread {
 public:
-    static constexpr int kFields =
-        4; ///< fields solved together; each entry of the factor is then read once for 12 numbers
+    /// Fields solved together; each entry of the factor is then read once for 12 numbers.
+    static constexpr int kFields = 4;
 
     /// @param weights  of the graph's sides, equal both ways, above 0.
     /// @param fixed    nodes whose values are given, each named once.
     HarmonicSpread(const NodeGraph& graph, std::span<const double> weights, std::span<const Index> fixed);
 
-    /// Add the spread of each of `fields` fields to the nodes that are not fixed: out[f · stride + node] += value.
+    /// Add the spread of each of `fields` fields to the nodes that are not fixed: out[f · stride + node] +=
+    /// value.
     /// @param values  fields × fixed.size(), field-major.
     /// The result of a field does not depend on which others it is solved with, nor on the number of threads.
     void add(std::span<const Vec3> values, std::size_t fields, Vec3* out, std::size_t stride,
              const RunContext& context = {}) const;
 
-    /// Solve for a given load at every free node with fixed nodes held at zero, in place: one Vec3 a node of the mesh;
-    /// what the fixed nodes hold is ignored, and set to zero.
+    /// Solve for a given load at every free node with fixed nodes held at zero, in place: one Vec3 a node of
+    /// the mesh; what the fixed nodes hold is ignored, and set to zero.
     void solve(std::span<Vec3> load) const;
 
 private:

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/mesh/incidence.h>
 #include <lacuna/sweep/detail/cell_energy.h>
 #include <lacuna/sweep/improve.h>
 
@@ -12,23 +13,23 @@
 
 namespace lacuna::sweep {
 
-/// The part of a mesh that is worked on, with numbers of its own: nodes that may move first, then those that hold it.
-struct Region {
+/// The part of a mesh that is worked on, with numbers of its own: nodes that may move first, then those that
+/// hold it.
+struct CellRegion {
     std::vector<Hex> cells; ///< by the region's node numbers
     std::vector<Vec3> box;  ///< of each cell: its mean edges when the work began
-    std::vector<double>
-        aim; ///< of each cell: the scaled Jacobian that is good enough, or the best its held nodes allow
-    std::vector<Index> node;      ///< mesh node of each node
-    std::size_t free = 0;         ///< nodes that may move
-    std::vector<Index> surface;   ///< of each free node; -1: inside
-    std::vector<Index> use_begin; ///< uses of free node i: use_begin[i] … use_begin[i + 1]
-    std::vector<Index> uses;      ///< 8 · cell + corner
+    /// Of each cell: the scaled Jacobian that is good enough, or the best its held nodes allow.
+    std::vector<double> aim;
+    std::vector<Index> node;    ///< mesh node of each node
+    std::size_t free = 0;       ///< nodes that may move
+    std::vector<Index> surface; ///< of each free node; -1: inside
+    mesh::Incidence uses;       ///< of each free node: 8 · cell + corner
 };
 
 /// Cells that are poor for no fault of the nodes that stay, and `rings` of neighbours.
 /// A corner can be no better than the angle between two of its edges that cannot move.
-Region poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
-                   const RunContext& context);
+CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
+                       const RunContext& context);
 
 /// What is known of a region's cells.
 struct RegionQuality {
@@ -37,14 +38,14 @@ struct RegionQuality {
     double lacking = 0; ///< sum over the cells of what they fall short of their aims
 };
 
-RegionQuality measure(const Region& region, const std::vector<Vec3>& places, const RunContext& context);
+RegionQuality measure(const CellRegion& region, const std::vector<Vec3>& places, const RunContext& context);
 
-/// Sum of the cells' energies and its gradient by the free nodes, which for nodes that slide lies along their surface.
-/// Parallel; sums are made in an order that does not depend on the threads.
+/// Sum of the cells' energies and its gradient by the free nodes, which for nodes that slide lies along their
+/// surface. Parallel; sums are made in an order that does not depend on the threads.
 class RegionEnergy {
 public:
     /// @param places  of the region's nodes; the held ones are used, the free ones come with each call.
-    RegionEnergy(const Region& region, std::vector<Vec3> places, const RunContext& context);
+    RegionEnergy(const CellRegion& region, std::vector<Vec3> places, const RunContext& context);
 
     CellEnergy energy;
 
@@ -56,7 +57,7 @@ public:
 private:
     void put(const Eigen::VectorXd& x);
 
-    const Region& region_;
+    const CellRegion& region_;
     const RunContext& context_;
     std::vector<Vec3> places_;
     std::vector<Vec3> slopes_; ///< of each use

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/detail/mend.h>
+#include <lacuna/sweep/detail/prove_or_improve.h>
 
 #include <lacuna/surface/projector.h>
 #include <lacuna/sweep/improve.h>
@@ -17,7 +17,8 @@ using namespace topology;
 
 namespace {
 
-/// Skin nodes within one face slide on it; those between faces stay, as do those of faces that keep their own quads.
+/// Skin nodes within one face slide on it; those between faces stay, as do those of faces that keep their own
+/// quads.
 std::vector<Index> sliding_nodes(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
                                  const std::set<FaceId>& kept)
 {
@@ -68,43 +69,27 @@ std::string in_words(const Improved& improved)
     return words.data();
 }
 
-/// What was done about a mesh that is refused all the same.
-[[noreturn]] void refuse(const NotSweepable& error, const Improved& improved)
-{
-    throw NotSweepable(error.code(), std::string(error.what()) + "\n" + in_words(improved));
-}
-
 } // namespace
 
-bool is_poor(const NotSweepable& error)
-{
-    return error.code() == "quality.inverted" || error.code() == "quality.not_certified" ||
-           error.code() == "quality.below_limit";
-}
-
-quality::Quality prove_or_mend(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
-                               const std::set<FaceId>& kept, const SweepOptions& options,
-                               const RunContext& context)
+quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
+                                const std::set<FaceId>& kept, const SweepOptions& options,
+                                const RunContext& context)
 {
     ImproveOptions improving = options.improving;
     improving.good_enough = std::max(improving.good_enough, options.min_scaled_jacobian);
-    try {
-        const quality::Quality quality = quality::prove(swept.mesh, options.min_scaled_jacobian, context);
-        if (!options.improve || quality.min_scaled_jacobian >= improving.good_enough) return quality;
-    } catch (const NotSweepable& error) {
-        if (!options.improve || !is_poor(error)) throw;
-    }
+    quality::Proof proof = quality::prove(swept.mesh, options.min_scaled_jacobian, context);
+    const bool poor = proof.finding ? quality::can_be_improved(proof.finding->fault)
+                                    : proof.quality.min_scaled_jacobian < improving.good_enough;
+    if (!options.improve || !poor) return proof;
     FaceProjectors projectors(model, faces, context);
     const Sliding sliding{sliding_nodes(swept.mesh, faces, kept),
                           [&](Index patch, std::span<Vec3> points) { projectors.project(patch, points); }};
     const Improved improved = improve(swept.mesh, improving, sliding, context);
     if (improved.won || improved.unfinished) swept.report.push_back(in_words(improved));
-    try {
-        return quality::prove(swept.mesh, options.min_scaled_jacobian, context);
-    } catch (const NotSweepable& error) {
-        if (!is_poor(error)) throw;
-        refuse(error, improved);
-    }
+    proof = quality::prove(swept.mesh, options.min_scaled_jacobian, context);
+    if (proof.finding && quality::can_be_improved(proof.finding->fault))
+        proof.finding->message += "\n" + in_words(improved);
+    return proof;
 }
 
 } // namespace lacuna::sweep

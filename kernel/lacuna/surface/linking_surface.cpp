@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/belt.h>
+#include <lacuna/surface/linking_surface.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/matching/corners.h>
 #include <lacuna/surface/detail/common_turn.h>
-#include <lacuna/surface/detail/wall_map.h>
+#include <lacuna/surface/detail/linking_map.h>
 
 #include <algorithm>
 #include <cmath>
@@ -89,10 +89,10 @@ std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const 
 }
 
 /// Side lines must meet both rims in the same cyclic order: keep the first and all that follow it in order.
-std::vector<BeltLine> in_order(std::vector<BeltLine> lines)
+std::vector<LinkingLine> in_order(std::vector<LinkingLine> lines)
 {
-    std::vector<BeltLine> kept;
-    for (BeltLine& line : lines) {
+    std::vector<LinkingLine> kept;
+    for (LinkingLine& line : lines) {
         if (kept.empty() || line.target_at > kept.back().target_at) kept.push_back(std::move(line));
     }
     return kept;
@@ -114,12 +114,13 @@ std::vector<double> corners_between(const Model& model, const Chain& chain, doub
     return result;
 }
 
-/// Pair the breaks of two stretches in order: the pairs that lie nearest to each other in relative length, none crossing;
-/// the rest stay alone. Dynamic programming; a break alone costs as much as a pair this far apart.
+/// Pair the breaks of two segments in order: the pairs that lie nearest to each other in relative length,
+/// none crossing; the rest stay alone. Dynamic programming; a break alone costs as much as a pair this far
+/// apart.
 std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a,
                                                      const std::vector<double>& b)
 {
-    constexpr double kAlone = 0.1;
+    constexpr double kAlone = 0.1; ///< of the whole length; a choice, not a measurement
     const std::size_t n = a.size(), m = b.size();
     std::vector<std::vector<double>> cost(n + 1, std::vector<double>(m + 1, 0));
     for (std::size_t i = 0; i <= n; ++i) {
@@ -149,7 +150,8 @@ std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& 
     return result;
 }
 
-/// Fill in the other side of breaks that stand alone, at the same share of the way between the pairs around them.
+/// Fill in the other side of breaks that stand alone, at the same share of the way between the pairs around
+/// them.
 void complete(std::vector<std::pair<double, double>>& breaks)
 {
     std::vector<std::pair<double, double>> anchors{{0, 0}};
@@ -172,10 +174,10 @@ void complete(std::vector<std::pair<double, double>>& breaks)
     }
 }
 
-void add_stretches(const Model& model, Belt& belt, double s0, double s1, double t0, double t1)
+void add_segments(const Model& model, LinkingSurface& link, double s0, double s1, double t0, double t1)
 {
-    std::vector<double> a = corners_between(model, belt.source, s0, s1, true);
-    std::vector<double> b = corners_between(model, belt.target, t0, t1, false);
+    std::vector<double> a = corners_between(model, link.source, s0, s1, true);
+    std::vector<double> b = corners_between(model, link.target, t0, t1, false);
     for (double& x : a) x = (x - s0) / (s1 - s0);
     for (double& x : b) x = (x - t0) / (t1 - t0);
     std::vector<std::pair<double, double>> breaks = paired_breaks(a, b);
@@ -184,17 +186,17 @@ void add_stretches(const Model& model, Belt& belt, double s0, double s1, double 
     breaks.emplace_back(1, 1);
     double a0 = 0, b0 = 0;
     for (const auto& [a1, b1] : breaks) {
-        Stretch stretch{s0 + a0 * (s1 - s0), s0 + a1 * (s1 - s0), t0 + b0 * (t1 - t0), t0 + b1 * (t1 - t0),
-                        0};
-        stretch.use = belt.source.place((stretch.source_from + stretch.source_to) / 2).use;
-        belt.stretches.push_back(stretch);
+        RimSegment segment{s0 + a0 * (s1 - s0), s0 + a1 * (s1 - s0), t0 + b0 * (t1 - t0), t0 + b1 * (t1 - t0),
+                           0};
+        segment.use = link.source.position((segment.source_from + segment.source_to) / 2).use;
+        link.segments.push_back(segment);
         a0 = a1;
         b0 = b1;
     }
 }
 
-Belt make_belt(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& source_rim,
-               const Rim& target_rim, const std::vector<matching::SideLine>& lines)
+LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& source_rim,
+                         const Rim& target_rim, const std::vector<matching::SideLine>& lines)
 {
     const Model& model = volume.model;
     std::vector<EdgeUse> source = source_rim.uses;
@@ -208,30 +210,31 @@ Belt make_belt(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& s
         source = rotated(std::move(source), *use_leaving(model, source, mine.front().source));
         target = rotated(std::move(target), *use_leaving(model, target, mine.front().target));
     }
-    Belt belt{std::move(walls), Chain(model, source), Chain(model, target), {}, {}, {}};
+    LinkingSurface link{std::move(walls), Chain(model, source), Chain(model, target), {}, {}, {}};
     for (const matching::SideLine& line : mine) {
-        belt.lines.push_back({line, belt.source.start(*use_leaving(model, source, line.source)),
-                              belt.target.start(*use_leaving(model, target, line.target))});
+        link.lines.push_back({line, link.source.start(*use_leaving(model, source, line.source)),
+                              link.target.start(*use_leaving(model, target, line.target))});
     }
-    std::sort(belt.lines.begin(), belt.lines.end(),
-              [](const BeltLine& a, const BeltLine& b) { return a.source_at < b.source_at; });
-    belt.lines = in_order(std::move(belt.lines));
+    std::sort(link.lines.begin(), link.lines.end(),
+              [](const LinkingLine& a, const LinkingLine& b) { return a.source_at < b.source_at; });
+    link.lines = in_order(std::move(link.lines));
 
-    const double s_end = belt.source.length();
-    const double t_end = belt.target.length();
-    if (belt.lines.empty()) {
-        const double start = unguided_target_start(volume, belt);
-        add_stretches(model, belt, 0, s_end, start, start + t_end);
+    const double s_end = link.source.length();
+    const double t_end = link.target.length();
+    if (link.lines.empty()) {
+        const double start = unguided_target_start(volume, link);
+        add_segments(model, link, 0, s_end, start, start + t_end);
     }
-    for (std::size_t i = 0; i < belt.lines.size(); ++i) {
-        const bool last = i + 1 == belt.lines.size();
-        add_stretches(model, belt, belt.lines[i].source_at, last ? s_end : belt.lines[i + 1].source_at,
-                      belt.lines[i].target_at, last ? t_end : belt.lines[i + 1].target_at);
+    for (std::size_t i = 0; i < link.lines.size(); ++i) {
+        const bool last = i + 1 == link.lines.size();
+        add_segments(model, link, link.lines[i].source_at, last ? s_end : link.lines[i + 1].source_at,
+                     link.lines[i].target_at, last ? t_end : link.lines[i + 1].target_at);
     }
-    return belt;
+    return link;
 }
 
-/// The walls of a loop are a ring. With a tunnel through them (a bore from one wall to another) no strip covers them.
+/// The walls of a loop are a ring. With a tunnel through them (a bore from one wall to another) no strip
+/// covers them.
 void check_ring(const Model& model, const std::vector<FaceId>& part)
 {
     if (euler_number(model, part) == 0) return;
@@ -250,7 +253,7 @@ void check_ring(const Model& model, const std::vector<FaceId>& part)
 
 } // namespace
 
-std::vector<Belt> belts(const OpenVolume& volume, Turning turning)
+std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning turning)
 {
     const Model& model = volume.model;
     const RimOf source = rims_of(volume, Role::source);
@@ -262,7 +265,7 @@ std::vector<Belt> belts(const OpenVolume& volume, Turning turning)
                                "; a sweep needs as many on both ends: check the roles");
     }
     const std::vector<matching::SideLine> lines = matching::side_lines(volume);
-    std::vector<std::optional<Belt>> by_rim(source.rims.size());
+    std::vector<std::optional<LinkingSurface>> by_rim(source.rims.size());
     for (std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
         const std::size_t s = only_rim(model, part, source, "source");
         const std::size_t t = only_rim(model, part, target, "target");
@@ -273,9 +276,9 @@ std::vector<Belt> belts(const OpenVolume& volume, Turning turning)
                 "the walls " + names(model, part) + " and " + names(model, by_rim[s]->walls) +
                     " stand on the same source loop without touching; the loop's walls must join");
         }
-        by_rim[s] = make_belt(volume, std::move(part), source.rims[s], target.rims[t], lines);
+        by_rim[s] = make_link(volume, std::move(part), source.rims[s], target.rims[t], lines);
     }
-    std::vector<Belt> result;
+    std::vector<LinkingSurface> result;
     for (std::size_t s = 0; s < by_rim.size(); ++s) {
         if (!by_rim[s]) {
             throw NotSweepable("surface.no_belt", "source loop " + std::to_string(s + 1) + ", with " +
@@ -288,11 +291,11 @@ std::vector<Belt> belts(const OpenVolume& volume, Turning turning)
     const std::vector<std::optional<CommonTurn>> turns = common_turns(volume, result);
     for (std::size_t b = 0; b < result.size(); ++b) {
         if (!turns[b]) continue;
-        Belt& belt = result[b];
-        belt.stretches.clear();
-        add_stretches(model, belt, 0, belt.source.length(), turns[b]->start,
-                      turns[b]->start + belt.target.length());
-        belt.branch = turns[b]->branch;
+        LinkingSurface& link = result[b];
+        link.segments.clear();
+        add_segments(model, link, 0, link.source.length(), turns[b]->start,
+                     turns[b]->start + link.target.length());
+        link.branch = turns[b]->branch;
     }
     return result;
 }

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/projector.h>
+
+#include <vector>
+
+namespace lacuna::surface {
+
+/// A point of a wall.
+struct WallPosition {
+    FaceId face;
+    FacetPosition at;
+};
+
+/// A linking surface mapped onto a strip: s runs round it from 0 to 1 and closes on itself, t rises from 0 on
+/// the source rim to 1 on the target rim.
+///
+/// Both coordinates are harmonic (mean value weights). They are given on the rims, by their segments, and on
+/// the side lines, which are upright. So the map is one to one (Tutte) whatever faces the walls are made of:
+/// stacked, in rows, with seams that do not line up.
+class LinkingMap {
+public:
+    LinkingMap(const topology::OpenVolume& volume, const LinkingSurface& link);
+
+    [[nodiscard]] WallPosition locate(double s, double t) const;
+
+    /// t at a share of the walls' length from source to target, in the mean over the columns. Where there are
+    /// side lines t is that share already; without them a harmonic t rises faster where the walls are narrow.
+    [[nodiscard]] double from_even(double height) const;
+    /// s of the target end of the shortest way up a linking surface without side lines, with whole turns
+    /// counted.
+    [[nodiscard]] double target_branch() const { return branch_; }
+
+    /// Edges that run round the linking surface, between faces stacked on each other: where a layer should
+    /// lie.
+    struct Ring {
+        double height = 0;                         ///< mean t
+        std::vector<std::array<Vec2, 2>> segments; ///< (s, t) pieces
+        std::vector<VertexId> vertices;
+    };
+    [[nodiscard]] const std::vector<Ring>& rings() const { return rings_; }
+    /// t where a ring crosses the column at s, from lowest to highest; usually one.
+    [[nodiscard]] static std::vector<double> crossings(const Ring& ring, double s);
+
+private:
+    void measure_heights(const topology::Model& model);
+    void find_rings(const topology::OpenVolume& volume, const LinkingSurface& link,
+                    const std::vector<std::array<Vec2, 3>>& corners);
+
+    std::vector<FaceId> face_of_;
+    std::vector<Index> triangle_of_;
+    std::vector<Index> original_; ///< triangle of the linking surface behind each triangle of the tree
+    double width_ = 1, height_ = 1;
+    double branch_ = 0;
+    std::vector<double> even_; ///< share of the way up at equal steps of t; empty with side lines
+    geometry::FacetTree tree_;
+    std::vector<Ring> rings_;
+};
+
+/// Where on the target chain of a linking surface without side lines the source chain's start belongs, so
+/// that the strip is sheared least [running length].
+double unguided_target_start(const topology::OpenVolume& volume, const LinkingSurface& link);
+
+/// s in [0, 1] of a running length of the target chain, by the linking surface's segments.
+double target_coordinate(const LinkingSurface& link, double target_at);
+
+} // namespace lacuna::surface

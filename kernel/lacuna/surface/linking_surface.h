@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/matching/side_lines.h>
+#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// A segment of the source rim and the segment of the target rim it is swept to, in running lengths of the
+/// linking surface's chains. It lies within one source edge.
+struct RimSegment {
+    double source_from = 0, source_to = 0;
+    double target_from = 0, target_to = 0; ///< may run past the target chain's length: modulo it
+    std::size_t use = 0;                   ///< of the source chain
+};
+
+/// A side line as the linking surface sees it.
+struct LinkingLine {
+    matching::SideLine line;
+    double source_at = 0, target_at = 0; ///< running lengths of its ends
+};
+
+/// The ring of walls, given and void, between one source loop and one target loop: what the literature on
+/// sweeping calls a linking surface. Here and in the code near it, `link` for short.
+///
+/// `source` walks the source's rim with the source on its left; `target` walks the target's rim the same way
+/// round, so with the target on its right. Both start at the first side line, where there is one.
+struct LinkingSurface {
+    std::vector<FaceId> walls;
+    Chain source, target;
+    std::vector<LinkingLine> lines;   ///< in walking order
+    std::vector<RimSegment> segments; ///< in walking order, the first from source length 0
+    /// For a ring without side lines: where the shortest way up from the source's start meets the target rim,
+    /// as a number of turns round the ring. Set where the other loops tell it; else the walls themselves
+    /// decide.
+    std::optional<double> branch{};
+};
+
+/// How linking surfaces without side lines turn between source and target.
+enum class Turning {
+    each,     ///< each so that its own walls are sheared least
+    together, ///< all loops as one body, which holes that go round each other need
+};
+
+/// The linking surfaces of a sealed volume: one for each loop of the source, in their order.
+/// @throw NotSweepable  walls that join a source loop to none or several of the target's; names them.
+std::vector<LinkingSurface> linking_surfaces(const topology::OpenVolume& volume,
+                                             Turning turning = Turning::each);
+
+} // namespace lacuna::surface

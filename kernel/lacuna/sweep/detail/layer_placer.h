@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/sweep/detail/harmonic_spread.h>
+#include <lacuna/sweep/layers.h>
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// `place_layers()` a few layers at a time: fits and factors once, then places any layer alone.
+/// Refers to the source, the target and the columns; they must outlive it.
+class LayerPlacer {
+public:
+    LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns,
+                const PlacementOptions& options = {});
+
+    /// Nodes of layers [first, last), 0 the source and `columns.layers` the target: those of
+    /// `place_layers()`, bit for bit.
+    /// @param out  (last - first) × source.nodes, layer-major.
+    void place(int first, int last, std::span<Vec3> out, const RunContext& context = {}) const;
+
+    [[nodiscard]] Placement placement() const { return placement_; }
+    [[nodiscard]] std::string report() const;
+
+private:
+    /// An inner layer before its residual: from_source · source node + from_target · target node + shift.
+    struct LayerMap {
+        Eigen::Matrix3d from_source, from_target;
+        Vec3 shift;
+    };
+    void fit_straight(std::span<const double> heights);
+    void fit_rims(std::span<const double> heights, const PlacementOptions& options);
+
+    const mesh::QuadMesh& source_;
+    std::span<const Vec3> target_;
+    const RimColumns& columns_;
+    Placement placement_ = Placement::affine;
+    double residual_ = 0;                  ///< largest distance of a rim node from its fit [model length]
+    double size_ = 0;                      ///< across the rim where that was found [model length]
+    std::vector<LayerMap> maps_;           ///< of the inner layers 1 … layers - 1
+    std::vector<Vec3> residuals_;          ///< of the inner layers' rims; only where fitted
+    std::optional<HarmonicSpread> spread_; ///< only where fitted
+};
+
+} // namespace lacuna::sweep
