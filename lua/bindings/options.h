@@ -2,8 +2,8 @@
 #pragma once
 
 // The one way options are read: a table per call that names each key and the reader of its value. What is not
-// in the table is an error that names the nearest key that is; what is of the wrong kind is an error that says
-// which option of which call, what it must be and what was found.
+// in the table is an error that names the nearest key that is; what is of the wrong kind is an error that
+// says which option of which call, what it must be and what was found.
 
 #include "bindings/box.h"
 

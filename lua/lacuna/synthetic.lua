@@ -2,15 +2,16 @@
 -- lacuna.synthetic: open volumes of any class and size, for trials and benchmarks.
 --
 -- Each one is a section, which is a list of closed loops in the plane (the outer one counter-clockwise, holes
--- clockwise), carried along an axis by a map (x, y, t) -> point with t in [0, 1]. Faces that meet take their common
--- points from the same call with the same numbers, so they agree to the bit.
+-- clockwise), swept along an axis by a map (x, y, t) -> point with t in [0, 1]. Faces that meet take their
+-- common points from the same call with the same numbers, so they agree to the bit.
 local lacuna, internal = ...
 local synthetic = {}
 lacuna.synthetic = synthetic
 
 local pi, sin, cos = math.pi, math.sin, math.cos
 
--- --- options ---------------------------------------------------------------------------------------------------
+-- --- options
+-- ---------------------------------------------------------------------------------------------------
 
 -- What a value must be: a test and its words.
 local kinds = {
@@ -87,10 +88,11 @@ local function read_drop(call, drop, names)
   return left_out
 end
 
--- --- sections ----------------------------------------------------------------------------------------------------
+-- --- sections
+-- ----------------------------------------------------------------------------------------------------
 
--- A loop: points {x, y}, and the numbers of those that are corners; between corners runs one wall. A loop without
--- corners is one closed wall.
+-- A loop: points {x, y}, and the numbers of those that are corners; between corners runs one wall. A loop
+-- without corners is one closed wall.
 local function reversed(loop)
   local points, corners, n = {}, {}, #loop.points
   for i = 1, n do points[i] = loop.points[(n + 1 - i) % n + 1] end  -- starts at the same point
@@ -130,7 +132,8 @@ local function circle(radius, x, y, facets)
   return loop
 end
 
--- --- triangles of a section ----------------------------------------------------------------------------------------
+-- --- triangles of a section
+-- ----------------------------------------------------------------------------------------
 
 local function cross(a, b, c) return (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]) end
 
@@ -227,7 +230,8 @@ local function triangulate(points, loops)
   return cells
 end
 
--- --- carrying a section along ----------------------------------------------------------------------------------------
+-- --- sweeping a section along
+-- ----------------------------------------------------------------------------------------
 
 -- Source and target: the section at t = 0 seen from below, at t = 1 from above.
 local function end_face(section, map, t)
@@ -248,7 +252,8 @@ local function end_face(section, map, t)
   return points, cells
 end
 
--- The wall over points `from`..`to` of a loop (`to` may run past the end; the whole loop makes a closed wall).
+-- The wall over points `from`..`to` of a loop (`to` may run past the end; the whole loop makes a closed
+-- wall).
 local function wall_face(loop, from, to, map, levels)
   local points, cells, n = {}, {}, #loop.points
   local closed = to - from == n
@@ -283,7 +288,16 @@ local function walls_of(section)
   return walls
 end
 
-local function carry(call, section, map, levels, drop)
+-- Facets a synthetic volume may have; a recipe that asks for more has an option wrong, or wants a file.
+local most_facets = 2e7
+
+local function build(call, section, map, levels, drop)
+  local around = 0
+  for _, loop in ipairs(section) do around = around + #loop.points end
+  if not (2 * around * levels <= most_facets) then
+    fail(call, "the walls would have %.3g facets, and %.3g are the most; lower 'twist', 'bend', 'angle' or 'facets'",
+         2 * around * levels, most_facets)
+  end
   local walls = walls_of(section)
   local names = { "source", "target" }
   for i = 1, #walls do names[#names + 1] = "wall_" .. i end
@@ -314,7 +328,8 @@ local function levels_for(length, segment, turn)
   return math.max(1, math.ceil(length / segment), math.ceil(math.abs(turn) / 5))
 end
 
--- --- the volumes -------------------------------------------------------------------------------------------------------
+-- --- the volumes
+-- -------------------------------------------------------------------------------------------------------
 
 -- Regular holes in a regular prism: one in the middle, several on a circle.
 local function prism_holes(call, o, cuts)
@@ -354,7 +369,7 @@ function synthetic.prism(given)
   end
   local curved = o.twist ~= 0 or o.bend ~= 0
   local levels = curved and levels_for(o.height, side / cuts, math.abs(o.twist) + math.abs(o.bend)) or 1
-  return carry("prism", section, map, levels, drop)
+  return build("prism", section, map, levels, drop)
 end
 
 --- annulus { inner, outer, height, facets, drop }: wall_1 is the outer cylinder, wall_2 the inner one
@@ -365,10 +380,11 @@ function synthetic.annulus(given)
   if o.inner >= o.outer then fail("annulus", "option 'inner' must be below 'outer', found %.6g and %.6g", o.inner, o.outer) end
   local facets = math.max(3, o.facets or 48)
   local section = { circle(o.outer, 0, 0, facets), reversed(circle(o.inner, 0, 0, facets)) }
-  return carry("annulus", section, axis(o.height, 0), 1, drop)
+  return build("annulus", section, axis(o.height, 0), 1, drop)
 end
 
---- elbow { radius, inner, bend_radius, angle [degrees], facets, drop }: a bent pipe; wall_2 is the bore, if `inner` > 0
+--- elbow { radius, inner, bend_radius, angle [degrees], facets, drop }: a bent pipe; wall_2 is the bore, if
+--- `inner` > 0
 function synthetic.elbow(given)
   local o, drop = read_options("elbow", {
     radius = { 1, "positive" }, inner = { 0, "not_negative" }, bend_radius = { 3, "positive" }, angle = { 90, "positive" },
@@ -383,7 +399,7 @@ function synthetic.elbow(given)
   if o.inner > 0 then section[2] = reversed(circle(o.inner, 0, 0, facets)) end
   local length = o.bend_radius * math.rad(o.angle)
   local levels = levels_for(length, 2 * pi * o.radius / facets, o.angle)
-  return carry("elbow", section, axis(length, o.angle), levels, drop)
+  return build("elbow", section, axis(length, o.angle), levels, drop)
 end
 
 --- barrel { radius, height, bulge, facets, drop }: radius (1 + bulge) half way up
@@ -398,10 +414,11 @@ function synthetic.barrel(given)
     return scale * x, scale * y, o.height * t
   end
   local levels = math.max(12, levels_for(o.height, 2 * pi * o.radius / facets, 0))
-  return carry("barrel", { circle(o.radius, 0, 0, facets) }, map, levels, drop)
+  return build("barrel", { circle(o.radius, 0, 0, facets) }, map, levels, drop)
 end
 
---- plate { length, width, height, holes, hole_radius, facets, drop }: round holes in rows; walls 1 to 4 are the sides
+--- plate { length, width, height, holes, hole_radius, facets, drop }: round holes in rows; walls 1 to 4 are
+--- the sides
 function synthetic.plate(given)
   local o, drop = read_options("plate", {
     length = { 4, "positive" }, width = { 4, "positive" }, height = { 0.5, "positive" }, holes = { 4, "whole" },
@@ -421,5 +438,5 @@ function synthetic.plate(given)
     local cx, cy = -x + (h % columns + 0.5) * dx, -y + (h // columns + 0.5) * dy
     section[#section + 1] = reversed(circle(radius, cx, cy, math.max(3, o.facets or 24)))
   end
-  return carry("plate", section, axis(o.height, 0), 1, drop)
+  return build("plate", section, axis(o.height, 0), 1, drop)
 end

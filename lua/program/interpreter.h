@@ -11,7 +11,7 @@
 namespace lacuna::program {
 
 /// Exit codes of the program.
-enum class Exit { done = 0, failed = 1, bad_usage = 2, interrupted = 130 };
+enum class Exit { done = 0, failed = 1, bad_usage = 2, interrupted = 130, terminated = 143 };
 
 /// A Lua state with `lacuna` ready to be required, that can be interrupted and, in the sandbox, limited.
 class Interpreter {
@@ -57,7 +57,7 @@ Exit run_prompt(Interpreter& interpreter);
 
 // --- stopping: set by signals, read by Lua's count hook and by the kernel -------------------------------
 
-/// Stop on Ctrl-C from now on (a second one ends the process), or as before.
+/// Stop on Ctrl-C, SIGTERM and SIGHUP from now on (a second one ends the process), or as before.
 void watch_interrupts(bool watch);
 
 } // namespace lacuna::program

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- Bad input, as people make it: each ends with exit code 1 and a message that names recipe, line, the entity and what
--- to try, and leaves no file behind.
+-- Bad input, as people make it: each ends with exit code 1 and a message that names recipe, line, the entity
+-- and what to try, and leaves no file behind.
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
 local lacuna = require "lacuna"
 local params = lacuna.params { lacuna = "", scratch = "" }

@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- Quads that came in stay as they are: every node bit for bit, every quad once, on the source's end of the mesh.
+-- Quads that came in stay as they are: every node bit for bit, every quad once, on the source's end of the
+-- mesh.
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
 local lacuna = require "lacuna"
 

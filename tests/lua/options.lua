@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- Every option of every call: an unknown key names the nearest known one, and a wrong value is told which option of
--- which call it is, what was expected and what was found.
+-- Every option of every call: an unknown key names the nearest known one, and a wrong value is told which
+-- option of which call it is, what was expected and what was found.
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
 local lacuna = require "lacuna"
 

@@ -74,7 +74,8 @@ end
 mesh:write(folder .. "/a.msh")
 local checked = lacuna.check(folder .. "/a.msh")
 for _, name in ipairs(names) do
-  check.near(checked.metrics[name].min, quality.metrics[name].min, 1e-12) -- sizes: the mean is summed otherwise
+  -- sizes: the mean is summed otherwise
+  check.near(checked.metrics[name].min, quality.metrics[name].min, 1e-12)
   check.near(checked.metrics[name].max, quality.metrics[name].max, 1e-9 * math.abs(quality.metrics[name].max))
   check.equal(checked.metrics[name].outside, quality.metrics[name].outside, name)
   check.equal(checked.metrics[name].worst.layer, nil, name)

@@ -65,10 +65,15 @@ refused(mesh:format "x.msh", { "recipe.lua:4:", "--output-dir" })
 check.that(not check.exists(folder .. "/x.msh"))
 for _, path in ipairs { "../x.msh", folder .. "/x.msh", "deeper/../../x.msh", "/tmp/lacuna_sandbox_x.msh", "link/x.msh" } do
   os.execute(("ln -sfn '%s/elsewhere' '%s/out/link'"):format(folder, folder))
-  refused(mesh:format(path), { "the sandbox writes below", path }, "--output-dir", "out")
+  refused(mesh:format(path), { "is not below", path }, "--output-dir", "out")
 end
 check.that(not check.exists(folder .. "/x.msh") and not check.exists(folder .. "/elsewhere/x.msh"))
 check.that(not check.exists("/tmp/lacuna_sandbox_x.msh"))
+-- A file that is a link leads out as a folder does.
+os.execute(("ln -sfn '%s/elsewhere/y.msh' '%s/out/y.msh'"):format(folder, folder))
+refused(mesh:format "y.msh", { "y.msh", "not a plain file" }, "--output-dir", "out")
+check.that(not check.exists(folder .. "/elsewhere/y.msh"))
+os.execute(("rm '%s/out/y.msh'"):format(folder))
 refused(mesh:format "x.msh", { "nowhere" }, "--output-dir", "nowhere")
 allowed(mesh:format "x.msh", "--output-dir", "out")
 allowed(mesh:format "deeper/y.msh", "--output-dir", "out")

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- lacuna.synthetic over a family of sizes: whole, each volume is closed and has the volume its formula says; with
--- faces left out, it is of the class it should be and can be sealed.
+-- lacuna.synthetic over a family of sizes: whole, each volume is closed and has the volume its formula says;
+-- with faces left out, it is of the class it should be and can be sealed.
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
 local lacuna = require "lacuna"
 local s = lacuna.synthetic
@@ -17,8 +17,8 @@ local function open(model)
   return model:open_volume(roles)
 end
 
--- Volume inside the facets, by the divergence theorem over what describe() cannot hide: area, normal and centroid
--- are exact for plane faces.
+-- Volume inside the facets, by the divergence theorem over what describe() cannot hide: area, normal and
+-- centroid are exact for plane faces.
 local function plane_volume(model)
   local sum = 0
   for _, face in ipairs(model:faces()) do
