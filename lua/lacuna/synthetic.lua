@@ -40,7 +40,8 @@ local function read_options(call, spec, given)
     if type(key) ~= "string" then
       fail(call, "%s stands among the options without a name; write key = value", internal.found(value))
     elseif not known[key] then
-      fail(call, "unknown option '%s'; the nearest is '%s'. The keys are: %s", key, internal.nearest(key, keys),
+      fail(call, "unknown option '%s'; the nearest is '%s'. The keys are: %s", key,
+          internal.nearest(key, keys),
            table.concat(keys, ", "))
     end
   end
@@ -73,9 +74,12 @@ local function read_drop(call, drop, names)
   local known = { walls = true }
   for _, name in ipairs(names) do known[name] = true end
   for i, name in ipairs(drop) do
-    if type(name) ~= "string" then fail(call, "option 'drop[%d]' must be the name of a face, found %s", i, internal.found(name)) end
+    if type(name) ~= "string" then
+      fail(call, "option 'drop[%d]' must be the name of a face, found %s", i, internal.found(name))
+    end
     if not known[name] then
-      fail(call, "option 'drop' names \"%s\", which is no face of this volume; the nearest is \"%s\". The faces are: %s",
+      fail(call, "option 'drop' names \"%s\", which is no face of this volume; the nearest is \"%s\". "
+          .. "The faces are: %s",
            name, internal.nearest(name, names), table.concat(names, ", "))
     end
     left_out[name] = true
@@ -163,7 +167,10 @@ local function bridged(points, loops)
           if not best or length < best.length then
             local clear = true
             for k, a in ipairs(chain) do
-              if crosses(points[p], points[q], points[a], points[chain[k % #chain + 1]]) then clear = false break end
+              if crosses(points[p], points[q], points[a], points[chain[k % #chain + 1]]) then
+                clear = false
+                break
+              end
             end
             if clear then best = { length = length, hole = h, j = j, i = i } end
           end
@@ -295,7 +302,8 @@ local function build(call, section, map, levels, drop)
   local around = 0
   for _, loop in ipairs(section) do around = around + #loop.points end
   if not (2 * around * levels <= most_facets) then
-    fail(call, "the walls would have %.3g facets, and %.3g are the most; lower 'twist', 'bend', 'angle' or 'facets'",
+    fail(call, "the walls would have %.3g facets, and %.3g are the most; "
+        .. "lower 'twist', 'bend', 'angle' or 'facets'",
          2 * around * levels, most_facets)
   end
   local walls = walls_of(section)
@@ -340,7 +348,8 @@ local function prism_holes(call, o, cuts)
   local room = o.holes == 1 and inner or math.min(centre * sin(pi / o.holes), inner - centre)
   local radius = o.hole_radius or 0.6 * room
   if radius >= room then
-    fail(call, "option 'hole_radius' must be below %.6g for %d holes to fit, found %.6g", room, o.holes, radius)
+    fail(call, "option 'hole_radius' must be below %.6g for %d holes to fit, found %.6g", room, o.holes,
+        radius)
   end
   for h = 1, o.holes do
     local angle = 2 * pi * (h - 1) / o.holes
@@ -353,10 +362,12 @@ end
 function synthetic.prism(given)
   local o, drop = read_options("prism", {
     sides = { 6, "sides" }, radius = { 1, "positive" }, height = { 2, "positive" }, holes = { 0, "whole" },
-    hole_radius = { false, "positive" }, twist = { 0, "number" }, taper = { 1, "positive" }, bend = { 0, "number" },
+    hole_radius = { false, "positive" }, twist = { 0, "number" }, taper = { 1, "positive" },
+        bend = { 0, "number" },
   }, given)
   if o.bend ~= 0 and math.abs(o.height / math.rad(o.bend)) <= o.radius * math.max(1, o.taper) then
-    fail("prism", "option 'bend' of %.6g degrees over height %.6g folds a prism of radius %.6g; bend less or make it higher",
+    fail("prism", "option 'bend' of %.6g degrees over height %.6g folds a prism of radius %.6g; "
+        .. "bend less or make it higher",
          o.bend, o.height, o.radius * math.max(1, o.taper))
   end
   local side = 2 * o.radius * sin(pi / o.sides)
@@ -377,7 +388,9 @@ function synthetic.annulus(given)
   local o, drop = read_options("annulus", {
     inner = { 0.5, "positive" }, outer = { 1, "positive" }, height = { 1, "positive" },
   }, given)
-  if o.inner >= o.outer then fail("annulus", "option 'inner' must be below 'outer', found %.6g and %.6g", o.inner, o.outer) end
+  if o.inner >= o.outer then
+    fail("annulus", "option 'inner' must be below 'outer', found %.6g and %.6g", o.inner, o.outer)
+  end
   local facets = math.max(3, o.facets or 48)
   local section = { circle(o.outer, 0, 0, facets), reversed(circle(o.inner, 0, 0, facets)) }
   return build("annulus", section, axis(o.height, 0), 1, drop)
@@ -387,12 +400,15 @@ end
 --- `inner` > 0
 function synthetic.elbow(given)
   local o, drop = read_options("elbow", {
-    radius = { 1, "positive" }, inner = { 0, "not_negative" }, bend_radius = { 3, "positive" }, angle = { 90, "positive" },
+    radius = { 1, "positive" }, inner = { 0, "not_negative" }, bend_radius = { 3, "positive" },
+        angle = { 90, "positive" },
   }, given)
   if o.bend_radius <= o.radius then
     fail("elbow", "option 'bend_radius' must be above 'radius', found %.6g and %.6g", o.bend_radius, o.radius)
   end
-  if o.inner >= o.radius then fail("elbow", "option 'inner' must be below 'radius', found %.6g and %.6g", o.inner, o.radius) end
+  if o.inner >= o.radius then
+    fail("elbow", "option 'inner' must be below 'radius', found %.6g and %.6g", o.inner, o.radius)
+  end
   if o.angle >= 360 then fail("elbow", "option 'angle' must be below 360 degrees, found %.6g", o.angle) end
   local facets = math.max(3, o.facets or 32)
   local section = { circle(o.radius, 0, 0, facets) }
@@ -421,7 +437,8 @@ end
 --- the sides
 function synthetic.plate(given)
   local o, drop = read_options("plate", {
-    length = { 4, "positive" }, width = { 4, "positive" }, height = { 0.5, "positive" }, holes = { 4, "whole" },
+    length = { 4, "positive" }, width = { 4, "positive" }, height = { 0.5, "positive" },
+        holes = { 4, "whole" },
     hole_radius = { false, "positive" },
   }, given)
   local x, y = o.length / 2, o.width / 2
@@ -432,7 +449,8 @@ function synthetic.plate(given)
   local room = math.min(dx, dy) / 2
   local radius = o.hole_radius or 0.5 * room
   if o.holes > 0 and radius >= room then
-    fail("plate", "option 'hole_radius' must be below %.6g for %d holes to fit, found %.6g", room, o.holes, radius)
+    fail("plate", "option 'hole_radius' must be below %.6g for %d holes to fit, found %.6g", room, o.holes,
+        radius)
   end
   for h = 0, o.holes - 1 do
     local cx, cy = -x + (h % columns + 0.5) * dx, -y + (h // columns + 0.5) * dy

@@ -49,7 +49,8 @@ private:
 
 /// Take away what a recipe in the sandbox must not have; opens the libraries it may.
 void open_sandbox_libraries(lua_State* L);
-/// Limit the process: memory by its data segment, time by an alarm that asks first and ends the process later.
+/// Limit the process: memory by its data segment, time by an alarm that asks first and later ends
+/// the process.
 void limit_process(double megabytes, double seconds);
 
 /// Read, run, print until the end of the input.

@@ -10,7 +10,8 @@ local has_cad = lacuna.gmsh_version ~= "none"
 -- Lines before the recipe's own, then lines after; the error is expected in between, on line 2.
 local function expect(line, words, after)
   check.empty_folder(folder)
-  check.write(folder .. "/recipe.lua", ('local lacuna = require "lacuna"; local s = lacuna.synthetic\n%s\n%s\n'):format(line, after or ""))
+  check.write(folder .. "/recipe.lua",
+      ('local lacuna = require "lacuna"; local s = lacuna.synthetic\n%s\n%s\n'):format(line, after or ""))
   check.write(folder .. "/empty.step", "")
   check.write(folder .. "/empty.stl", "")
   check.write(folder .. "/garbage.step", ("no step file at all\n"):rep(20))
@@ -19,7 +20,9 @@ local function expect(line, words, after)
   local told = ("%s\nstandard output: %s\nstandard error: %s"):format(line, out, err)
   check.equal(code, 1, told)
   check.that(err:find("lacuna: recipe.lua:2: ", 1, true), told)
-  for _, word in ipairs(words) do check.that(err:find(word, 1, true), ("'%s' is not said:\n%s"):format(word, told)) end
+  for _, word in ipairs(words) do
+    check.that(err:find(word, 1, true), ("'%s' is not said:\n%s"):format(word, told))
+  end
   check.equal(table.concat(check.files(folder), " "), before, told)
 end
 
@@ -36,7 +39,8 @@ end
 -- Faces and roles.
 expect("s.prism():open_volume { source = 99 }", { "'source'", "99", 'face 1 "source"' })
 expect("s.prism():open_volume { source = 'sauce' }", { "'source'", '"sauce"', 'face 1 "source"' })
-expect("s.prism():open_volume { source = 1, target = 2, walls = { 3, 1 } }", { 'face 1 "source"', "source", "wall" })
+expect("s.prism():open_volume { source = 1, target = 2, walls = { 3, 1 } }",
+    { 'face 1 "source"', "source", "wall" })
 expect("s.prism():open_volume { source = 1, target = 1 }", { 'face 1 "source"', "source", "target" })
 expect("s.prism():open_volume { source = 1, target = 2, walls = { 3, 3 } }", { 'face 3 "wall_1"' })
 expect("s.prism():open_volume { faces = 1, source = 1 }", { "source", "'faces'" })
@@ -47,10 +51,12 @@ expect("lacuna.model():open_volume { source = 1 }", { "1", "no faces" })
 -- Options of the sweep.
 local void = "s.prism({ sides = 4, drop = 'walls' }):open_volume { source = 1, target = 2 }"
 for _, layers in ipairs { "0", "-3", "2.5", "0/0" } do
-  expect(void .. ":sweep { size = 0.5, layers = " .. layers .. " }", { "sweep: option 'layers'", "positive whole number" })
+  expect(void .. ":sweep { size = 0.5, layers = " .. layers .. " }",
+      { "sweep: option 'layers'", "positive whole number" })
 end
 for _, size in ipairs { "0", "-0.5", "0/0", "math.huge", "'fine'" } do
-  expect(void .. ":sweep { layers = 2, size = " .. size .. " }", { "sweep: option 'size'", "positive number" })
+  expect(void .. ":sweep { layers = 2, size = " .. size .. " }",
+      { "sweep: option 'size'", "positive number" })
 end
 expect(void .. ":sweep { size = 0.5 }", { "layers" })
 expect(void .. ":sweep()", { "layers" })

@@ -73,14 +73,16 @@ end
 -- A callback that raises, in every way there is, leaves the volume usable.
 for _, thrown in ipairs { "text", 7, { code = 1 }, setmetatable({}, { __tostring = error }) } do
   local v = volume()
-  local fine, found = pcall(v.sweep, v, { layers = 2, quads = "paved", size = function() error(thrown, 0) end })
+  local fine, found = pcall(v.sweep, v,
+      { layers = 2, quads = "paved", size = function() error(thrown, 0) end })
   check.that(not fine and (found == thrown or type(thrown) == "string"))
   check.that(v:sweep { layers = 2, size = 0.5 }.hexes > 0)
 end
 do
   local v = volume()
   local inside = coroutine.wrap(function()
-    return pcall(v.sweep, v, { layers = 2, quads = "paved", size = function() coroutine.yield() return 1 end })
+    return pcall(v.sweep, v,
+        { layers = 2, quads = "paved", size = function() coroutine.yield() return 1 end })
   end)
   local fine, message = inside()
   check.that(fine == false and message:find("yield", 1, true), tostring(message))

@@ -54,7 +54,8 @@ check.near(quality.worst[1].centre[1], x, 1e-12)
 -- All fields are met by pairs(), the metrics included, asked for or not.
 local met = {}
 for key in pairs(mesh:quality()) do met[key] = true end
-for _, key in ipairs { "min_scaled_jacobian", "mean_scaled_jacobian", "inverted", "certified", "worst", "histogram", "metrics" } do
+for _, key in ipairs { "min_scaled_jacobian", "mean_scaled_jacobian", "inverted", "certified", "worst",
+    "histogram", "metrics" } do
   check.that(met[key], key)
 end
 check.equal(quality.no_such_field, nil)
