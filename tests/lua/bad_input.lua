@@ -64,13 +64,15 @@ expect(void .. ":sweep()", { "layers" })
 -- Ends that cannot go together.
 expect("lacuna.check 'nowhere.msh'", { "nowhere.msh" })
 local function triangle(z, name)
-  return ("m:add_face { name = '%s', points = { { 0, 0, %d }, { 1, 0, %d }, { 0, 1, %d } }, cells = { { 1, 2, 3 } } }")
+  return ("m:add_face { name = '%s', points = { { 0, 0, %d }, { 1, 0, %d }, { 0, 1, %d } }, "
+    .. "cells = { { 1, 2, 3 } } }")
     :format(name, z, z, z)
 end
 expect("local m = s.annulus { drop = { 'target', 'walls' } } " .. triangle(2, "disc")
          .. " m:open_volume({ source = 'source', target = 'disc' }):close()", { "2", "1", "loop" })
 expect("local m = s.prism { sides = 4, drop = { 'wall_1' } } " .. triangle(50, "far")
-         .. " m:open_volume({ source = 'source', target = 'target', walls = { 'wall_2', 'wall_3', 'wall_4', 'far' } }):close()",
+         .. " m:open_volume({ source = 'source', target = 'target',"
+         .. " walls = { 'wall_2', 'wall_3', 'wall_4', 'far' } }):close()",
        { '"far"' })
 
 -- Places to write to.

@@ -34,9 +34,8 @@ check.equal(allowed "print(load('return 1 + 1')(), require 'lacuna'.version, str
 
 -- What is not there.
 for _, call in ipairs { "os.execute('true')", "os.getenv('HOME')", "os.remove('x')", "io.open('x')",
-    "io.popen('true')",
-                        "io.write('x')", "debug.getregistry()", "package.loadlib('x', 'y')",
-                            "dofile('x.lua')",
+                        "io.popen('true')", "io.write('x')", "debug.getregistry()",
+                        "package.loadlib('x', 'y')", "dofile('x.lua')",
                         "loadfile('x.lua')" } do
   refused(call, { "the sandbox has no '" .. call:match("^%w+") .. "'" })
 end
@@ -62,11 +61,12 @@ allowed("for i = 1, 1e6 do end", "--seconds", "60", "--memory", "100")
 -- Files.
 local mesh = [[
 local lacuna = require "lacuna"
-local void = lacuna.synthetic.prism({ sides = 4, drop = "walls" }):open_volume { source = "source", target = "target" }
+local prism = lacuna.synthetic.prism { sides = 4, drop = "walls" }
+local void = prism:open_volume { source = "source", target = "target" }
 local mesh = void:sweep { layers = 1, size = 1 }
 mesh:write(%q)
 ]]
-refused(mesh:format "x.msh", { "recipe.lua:4:", "--output-dir" })
+refused(mesh:format "x.msh", { "recipe.lua:5:", "--output-dir" })
 check.that(not check.exists(folder .. "/x.msh"))
 for _, path in ipairs { "../x.msh", folder .. "/x.msh", "deeper/../../x.msh", "/tmp/lacuna_sandbox_x.msh",
     "link/x.msh" } do
