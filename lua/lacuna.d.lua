@@ -104,9 +104,9 @@
 ---@field centre lacuna.Vector
 ---@field scaled_jacobian number
 
---- Verdict's metrics of hexahedra, as VTK computes them. `scaled_jacobian` is that of the corners alone, Verdict's
---- counts the centre too. `edge_ratio` is VTK's, which overlooks edges; `full_edge_ratio` compares all twelve. `volume`
---- is VTK's and Cubit's, from the centre alone; `Quality.volume` is exact.
+--- Verdict's metrics of hexahedra, as VTK computes them. `scaled_jacobian` is that of the corners alone,
+--- Verdict's counts the centre too. `edge_ratio` is VTK's, which overlooks edges; `full_edge_ratio` compares
+--- all twelve. `volume` is VTK's and Cubit's, from the centre alone; `Quality.volume` is exact.
 ---@alias lacuna.MetricName
 ---| "scaled_jacobian" | "scaled_jacobian_with_centre" | "jacobian" | "shape" | "shear" | "condition"
 ---| "max_aspect_frobenius" | "med_aspect_frobenius" | "oddy" | "skew" | "taper" | "max_edge_ratio" | "edge_ratio"

@@ -74,8 +74,8 @@ const Option<cad::WriteCadOptions> kWriteOptions[] = {
 int write_cad(lua_State* L)
 {
     lua_settop(L, 3);
-    const auto& state = check<VolumeState>(L, 1);
-    const char* path = push_output_path(L, 2, "write_cad");
+    const auto& state = hold<VolumeState>(L, 1);
+    const io::OutputPath& path = push_output_path(L, 2, "write_cad");
     cad::WriteCadOptions options;
     read_options(L, 3, "write_cad", kWriteOptions, options);
     RunContext& context = push_context(L);

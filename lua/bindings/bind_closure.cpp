@@ -49,13 +49,16 @@ void push_closure(lua_State* L, const topology::Model& model, const closure::Clo
 int close(lua_State* L)
 {
     lua_settop(L, 2);
-    auto& state = check<VolumeState>(L, 1);
+    auto& state = hold<VolumeState>(L, 1);
     if (state.closure && has_options(L, 2, "close"))
         fail(L, "close: the volume is sealed already, by other options");
     CloseOptions options;
     read_options(L, 2, "close", kCloseOptions, options);
     RunContext& context = push_context(L);
-    guard(L, [&] { close_volume(state, options, context); });
+    guard(L, [&] {
+        const Busy busy(state, "close");
+        close_volume(state, options, context);
+    });
     push_closure(L, state.volume.model, *state.closure);
     return 1;
 }
@@ -63,7 +66,7 @@ int close(lua_State* L)
 /// boolean = volume:is_watertight()
 int is_watertight(lua_State* L)
 {
-    const auto& state = check<VolumeState>(L, 1);
+    const auto& state = hold<VolumeState>(L, 1);
     bool watertight = false;
     guard(L, [&] { watertight = closure::is_watertight(state.volume); });
     lua_pushboolean(L, watertight);

@@ -22,8 +22,8 @@ struct WriteArguments {
     bool quality_given = false;
 };
 
-/// Metrics to be written. Version 2.2 is for readers that know no other, some of which (meshio 5) refuse a file with
-/// $ElementData: there only where it is asked for.
+/// Metrics to be written. Version 2.2 is for readers that know no other, some of which (meshio 5) refuse a
+/// file with $ElementData: there only where it is asked for.
 std::vector<quality::Metric> metrics_of(const WriteArguments& arguments)
 {
     if (!arguments.quality_given && arguments.msh.version == 2.2) return {};
@@ -80,7 +80,7 @@ const Option<WriteArguments> kWriteOptions[] = {
 struct Format {
     const char* ending;
     bool has_version, has_binary;
-    void (*write)(const mesh::HexMesh& mesh, const std::string& path, const io::MshOptions& options,
+    void (*write)(const mesh::HexMesh& mesh, const io::OutputPath& path, const io::MshOptions& options,
                   const RunContext& context);
 };
 
@@ -120,14 +120,14 @@ const Format& format_of(const std::string& path, const WriteArguments& arguments
 int write(lua_State* L)
 {
     lua_settop(L, 3);
-    const auto& state = check<MeshState>(L, 1);
-    const char* path = push_output_path(L, 2, "write");
+    const auto& state = hold<MeshState>(L, 1);
+    const io::OutputPath& path = push_output_path(L, 2, "write");
     auto& arguments = temporary<WriteArguments>(L);
     read_options(L, 3, "write", kWriteOptions, arguments);
     RunContext& context = push_context(L);
     guard(L, [&] {
         const mesh::HexMesh& mesh = state.swept.mesh;
-        const Format& format = format_of(path, arguments);
+        const Format& format = format_of(path.text(), arguments);
         for (const quality::Metric metric : metrics_of(arguments))
             arguments.msh.fields.push_back(
                 {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
@@ -154,8 +154,8 @@ const Option<io::FacetFileOptions> kFacetOptions[] = {{"binary", boolean<&io::Fa
 int write_facets(lua_State* L)
 {
     lua_settop(L, 3);
-    const auto& state = check<VolumeState>(L, 1);
-    const char* path = push_output_path(L, 2, "write_facets");
+    const auto& state = hold<VolumeState>(L, 1);
+    const io::OutputPath& path = push_output_path(L, 2, "write_facets");
     io::FacetFileOptions options;
     read_options(L, 3, "write_facets", kFacetOptions, options);
     RunContext& context = push_context(L);

@@ -88,13 +88,14 @@ void push_match(lua_State* L, const topology::Model& model, const matching::Matc
 int match(lua_State* L)
 {
     lua_settop(L, 2);
-    auto& state = check<VolumeState>(L, 1);
+    auto& state = hold<VolumeState>(L, 1);
     const bool asked = has_options(L, 2, "match");
     if (state.closure && (asked || !state.match))
         fail(L, "match: the volume is sealed already; match it before close()");
     auto& options = temporary<MatchOptions>(L);
     read_options(L, 2, "match", kMatchOptions, options);
     guard(L, [&] {
+        const Busy busy(state, "match");
         std::optional<matching::Match> before = std::exchange(state.match, std::nullopt);
         if (!asked && before) {
             state.match = std::move(before);

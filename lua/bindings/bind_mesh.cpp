@@ -29,7 +29,7 @@ int mesh_layers(lua_State* L)
 
 int mesh_report(lua_State* L)
 {
-    const auto& report = check<MeshState>(L, 1).swept.report;
+    const auto& report = hold<MeshState>(L, 1).swept.report;
     lua_createtable(L, static_cast<int>(report.size()), 0);
     for (std::size_t i = 0; i < report.size(); ++i) {
         lua_pushlstring(L, report[i].data(), report[i].size());
@@ -102,7 +102,7 @@ void push_group(lua_State* L, const std::string& name, int dim, std::size_t cell
 /// { {name=, dim=, cells=}, ... } = mesh:groups()
 int groups(lua_State* L)
 {
-    const mesh::HexMesh& mesh = check<MeshState>(L, 1).swept.mesh;
+    const mesh::HexMesh& mesh = hold<MeshState>(L, 1).swept.mesh;
     auto& skin = temporary<Groups>(L);
     guard(L, [&] { skin = skin_groups(mesh); });
     lua_newtable(L);

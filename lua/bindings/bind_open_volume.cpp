@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Volume: what topology/open_volume.h knows of it. Matching, closing and sweeping add their methods to the class.
+// Volume: what topology/open_volume.h knows of it. Matching, closing and sweeping add their methods to the
+// class.
 #include "bindings/faces.h"
 
 #include <lacuna/topology/auto_roles.h>
@@ -21,7 +22,7 @@ const Word<VolumeClass> kClasses[] = {
 // --- roles ----------------------------------------------------------------------------------------------
 
 struct RoleArguments {
-    const Box<ModelState>* model = nullptr;
+    const Box<ModelState>* model = nullptr; ///< held by the call
     topology::Roles roles;
     std::vector<FaceId> faces;
     bool auto_walls = false;
@@ -101,7 +102,7 @@ VolumeState make_volume(const topology::Model& model, RoleArguments& arguments)
 int open_volume(lua_State* L)
 {
     lua_settop(L, 2);
-    Box<ModelState>& model = check_box<ModelState>(L, 1);
+    const Box<ModelState>& model = hold_box<ModelState>(L, 1);
     guard(L, [&] { refresh(*model); });
     auto& arguments = temporary<RoleArguments>(L);
     arguments.model = &model;
@@ -137,7 +138,7 @@ void set_vertex_tags(lua_State* L, const char* key, const topology::Model& model
 /// { class=, free_loops=, wall_free_source=, wall_free_target=, reasons= } = volume:classify()
 int classify(lua_State* L)
 {
-    const auto& state = check<VolumeState>(L, 1);
+    const auto& state = hold<VolumeState>(L, 1);
     const topology::Classification& found = state.classification;
     lua_createtable(L, 0, 5);
     volume_class(L);
@@ -153,11 +154,12 @@ int classify(lua_State* L)
 int override_class(lua_State* L)
 {
     lua_settop(L, 2);
-    auto& state = check<VolumeState>(L, 1);
+    auto& state = hold<VolumeState>(L, 1);
     const VolumeClass wanted = read_word(L, 2, {"override_class", nullptr}, kClasses);
     if (state.closure)
         fail(L, "override_class: the volume is sealed already; override its class before close()");
     guard(L, [&] {
+        const Busy busy(state, "override_class");
         const std::optional<VolumeClass> before = state.volume.override_class;
         state.volume.override_class = wanted;
         try {
@@ -174,7 +176,7 @@ int override_class(lua_State* L)
 /// { {tag=, from=, to=, length=}, ... } = volume:free_edges()
 int free_edges(lua_State* L)
 {
-    const auto& state = check<VolumeState>(L, 1);
+    const auto& state = hold<VolumeState>(L, 1);
     const topology::Model& model = state.volume.model;
     auto& edges = temporary<std::vector<EdgeId>>(L);
     guard(L, [&] { edges = topology::free_edges(state.volume); });
@@ -194,7 +196,7 @@ int free_edges(lua_State* L)
 /// text = volume:tree()
 int volume_tree(lua_State* L)
 {
-    const auto& state = check<VolumeState>(L, 1);
+    const auto& state = hold<VolumeState>(L, 1);
     push_text(L, [&] { return tree(state.volume); });
     return 1;
 }
@@ -202,14 +204,14 @@ int volume_tree(lua_State* L)
 /// text = volume:describe()
 int describe_volume(lua_State* L)
 {
-    const auto& state = check<VolumeState>(L, 1);
+    const auto& state = hold<VolumeState>(L, 1);
     push_text(L, [&] { return describe(state); });
     return 1;
 }
 
 int volume_to_string(lua_State* L)
 {
-    const auto& state = check<VolumeState>(L, 1);
+    const auto& state = hold<VolumeState>(L, 1);
     volume_class(L);
     lua_pushfstring(L, "Volume of class %s, %d faces, %s", lua_tostring(L, -1),
                     static_cast<int>(state.volume.model.faces.size()), state.closure ? "sealed" : "open");

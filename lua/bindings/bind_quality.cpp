@@ -154,15 +154,16 @@ int quality_to_string(lua_State* L)
 int mesh_quality(lua_State* L)
 {
     lua_settop(L, 1);
-    const Box<MeshState>& mesh = check_box<MeshState>(L, 1);
+    const Box<MeshState>& mesh = hold_box<MeshState>(L, 1);
     auto& source = temporary<QualitySource>(L);
+    const int at = lua_gettop(L);
     RunContext& context = push_context(L);
     guard(L, [&] {
         if (!mesh->quality) mesh->quality = quality::measure(mesh->swept.mesh, context);
         source.quality = *mesh->quality;
         source.mesh = mesh;
     });
-    push_quality(L, 2);
+    push_quality(L, at);
     return 1;
 }
 

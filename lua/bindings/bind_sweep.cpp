@@ -229,13 +229,14 @@ SweepArguments& push_arguments(lua_State* L, int index, const char* call)
 int sweep_volume(lua_State* L)
 {
     lua_settop(L, 2);
-    auto& state = check<VolumeState>(L, 1);
+    auto& state = hold<VolumeState>(L, 1);
     SweepArguments& arguments = push_arguments(L, 2, "sweep");
     RunContext& context = push_context(L);
     context.threads = arguments.threads;
     lua_gc(L, LUA_GCCOLLECT); // to Lua a mesh is a few bytes: it would let old ones pile up
     auto& box = new_box<MeshState>(L);
     guard(L, [&] {
+        const Busy busy(state, "sweep");
         close_volume(state, {}, context);
         box = std::make_shared<MeshState>();
         box->swept = sweep::sweep(state.volume, arguments.options, context);

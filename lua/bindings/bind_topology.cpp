@@ -106,10 +106,10 @@ void add(ModelState& state, const AddedFace& face)
 
 // --- Model ----------------------------------------------------------------------------------------------
 
-/// The Model at `index`, brought up to date.
-Box<ModelState>& check_model(lua_State* L, int index)
+/// The Model at `index`, held and brought up to date.
+const Box<ModelState>& hold_model(lua_State* L, int index)
 {
-    Box<ModelState>& state = check_box<ModelState>(L, index);
+    const Box<ModelState>& state = hold_box<ModelState>(L, index);
     guard(L, [&] { refresh(*state); });
     return state;
 }
@@ -131,7 +131,7 @@ int new_model(lua_State* L)
 int add_face(lua_State* L)
 {
     lua_settop(L, 2);
-    Box<ModelState>& state = check_box<ModelState>(L, 1);
+    const Box<ModelState>& state = hold_box<ModelState>(L, 1);
     if (!state->hand_made)
         fail(L, "add_face: faces are added to a model made by lacuna.model(); this one was read from %s",
              state->model.source.c_str());
@@ -157,7 +157,7 @@ int add_face(lua_State* L)
 int faces(lua_State* L)
 {
     lua_settop(L, 2);
-    Box<ModelState>& state = check_model(L, 1);
+    const Box<ModelState>& state = hold_model(L, 1);
     auto& selector = temporary<Selector>(L);
     read_selector(L, 2, "faces", selector);
     auto& found = temporary<std::vector<FaceId>>(L);
@@ -174,7 +174,7 @@ int faces(lua_State* L)
 int face(lua_State* L)
 {
     lua_settop(L, 2);
-    Box<ModelState>& state = check_model(L, 1);
+    const Box<ModelState>& state = hold_model(L, 1);
     auto& found = temporary<std::vector<FaceId>>(L);
     read_faces(L, 2, {"face", nullptr}, state, found);
     if (found.size() != 1)
@@ -187,14 +187,14 @@ int face(lua_State* L)
 /// text = model:describe()
 int describe_model(lua_State* L)
 {
-    Box<ModelState>& state = check_model(L, 1);
+    const Box<ModelState>& state = hold_model(L, 1);
     push_text(L, [&] { return topology::describe(state->model); });
     return 1;
 }
 
 int model_to_string(lua_State* L)
 {
-    const auto& state = check<ModelState>(L, 1);
+    const auto& state = hold<ModelState>(L, 1);
     if (state.hand_made) {
         lua_pushfstring(L, "Model of %d faces of the recipe", state.added_faces);
     } else {
@@ -207,7 +207,7 @@ int model_to_string(lua_State* L)
 template <double topology::Model::*Member>
 int model_length(lua_State* L)
 {
-    lua_pushnumber(L, check_model(L, 1)->model.*Member);
+    lua_pushnumber(L, hold_model(L, 1)->model.*Member);
     return 1;
 }
 
@@ -224,11 +224,17 @@ const Field kModelFields[] = {
 
 // --- Face -----------------------------------------------------------------------------------------------
 
-/// The face at index 1, its model up to date; indices of faces never change.
+/// The face at index 1, held, its model up to date; indices of faces never change.
+const FaceHandle& hold_face(lua_State* L)
+{
+    const auto& handle = hold<FaceHandle>(L, 1);
+    guard(L, [&] { refresh(*handle.model); });
+    return handle;
+}
+
 const topology::Face& this_face(lua_State* L)
 {
-    auto& handle = check<FaceHandle>(L, 1);
-    guard(L, [&] { refresh(*handle.model); });
+    const FaceHandle& handle = hold_face(L);
     return handle.model->model[handle.face];
 }
 
@@ -254,24 +260,21 @@ int face_kind(lua_State* L)
 
 int face_area(lua_State* L)
 {
-    this_face(L);
-    const auto& handle = check<FaceHandle>(L, 1);
+    const FaceHandle& handle = hold_face(L);
     lua_pushnumber(L, topology::face_area(handle.model->model, handle.face));
     return 1;
 }
 
 int face_normal(lua_State* L)
 {
-    this_face(L);
-    const auto& handle = check<FaceHandle>(L, 1);
+    const FaceHandle& handle = hold_face(L);
     push_vector(L, mean_normal(handle.model->model, handle.face));
     return 1;
 }
 
 int face_centroid(lua_State* L)
 {
-    this_face(L);
-    const auto& handle = check<FaceHandle>(L, 1);
+    const FaceHandle& handle = hold_face(L);
     push_vector(L, topology::face_centroid(handle.model->model, handle.face));
     return 1;
 }
@@ -298,8 +301,7 @@ int face_has_mesh(lua_State* L)
 
 int face_to_string(lua_State* L)
 {
-    this_face(L);
-    const auto& handle = check<FaceHandle>(L, 1);
+    const FaceHandle& handle = hold_face(L);
     push_text(L, [&] { return topology::name_of(handle.model->model, handle.face); });
     return 1;
 }

@@ -5,7 +5,9 @@
 // its frames. So every binding goes through the same four steps:
 //
 //   1. read the arguments     may raise; what needs a destructor lives in a temporary(), which Lua collects;
-//                             lua_settop() first, so that what is pushed never looks like an argument left out
+//                             lua_settop() first, so that what is pushed never looks like an argument left
+//                             out; hold() what is worked on: any step of Lua may run a finalizer that closes
+//                             it
 //   2. make the userdata      may raise
 //   3. guard(L, [&] {...})    kernel code, no Lua inside; an exception becomes a Lua error
 //   4. push the results       may raise; nothing to destroy
@@ -43,14 +45,25 @@ template <class T>
 T& temporary(lua_State* L)
 {
     static_assert(alignof(T) <= alignof(lua_Number), "Lua aligns userdata no further");
+    static const char key = 0; // its address is the registry's key of the type's metatable
+    if constexpr (!std::is_trivially_destructible_v<T>) {
+        // Before the value is made: making the metatable may raise, and would leave a value without its
+        // destructor.
+        if (lua_rawgetp(L, LUA_REGISTRYINDEX, &key) != LUA_TTABLE) {
+            lua_pop(L, 1);
+            lua_createtable(L, 0, 1);
+            lua_pushcfunction(L, [](lua_State* state) {
+                static_cast<T*>(lua_touserdata(state, 1))->~T();
+                return 0;
+            });
+            lua_setfield(L, -2, "__gc");
+            lua_pushvalue(L, -1);
+            lua_rawsetp(L, LUA_REGISTRYINDEX, &key);
+        }
+    }
     T* value = new (lua_newuserdatauv(L, sizeof(T), 0)) T();
     if constexpr (!std::is_trivially_destructible_v<T>) {
-        lua_createtable(L, 0, 1);
-        lua_pushcfunction(L, [](lua_State* state) {
-            static_cast<T*>(lua_touserdata(state, 1))->~T();
-            return 0;
-        });
-        lua_setfield(L, -2, "__gc");
+        lua_insert(L, -2);
         lua_setmetatable(L, -2);
     }
     return *value;
@@ -170,10 +183,49 @@ Box<T>& check_box(lua_State* L, int index)
     return *box;
 }
 
+/// The object of the box at `index`, for use before Lua runs again: any allocation of Lua's may run a
+/// finalizer, and any function of the recipe may close it. What lives longer is held.
 template <class T>
 T& check(lua_State* L, int index)
 {
     return *check_box<T>(L, index);
+}
+
+/// A share in the object of the box at `index`, on the stack until the call ends: whatever closes, collects
+/// or replaces the box meanwhile, the object lives.
+template <class T>
+const Box<T>& hold_box(lua_State* L, int index)
+{
+    struct Share {
+        Box<T> object;
+    };
+    index = lua_absindex(L, index);
+    static const char key = 0;
+    if (lua_rawgetp(L, LUA_REGISTRYINDEX, &key) != LUA_TTABLE) {
+        lua_pop(L, 1);
+        lua_createtable(L, 0, 2);
+        for (const char* event : {"__close", "__gc"}) {
+            lua_pushcfunction(L, [](lua_State* state) {
+                static_cast<Share*>(lua_touserdata(state, 1))->object.reset();
+                return 0;
+            });
+            lua_setfield(L, -2, event);
+        }
+        lua_pushvalue(L, -1);
+        lua_rawsetp(L, LUA_REGISTRYINDEX, &key);
+    }
+    auto* share = new (lua_newuserdatauv(L, sizeof(Share), 0)) Share();
+    lua_insert(L, -2);
+    lua_setmetatable(L, -2);
+    lua_toclose(L, -1); // given back when the call ends, not when Lua next collects
+    share->object = check_box<T>(L, index);
+    return share->object;
+}
+
+template <class T>
+T& hold(lua_State* L, int index)
+{
+    return *hold_box<T>(L, index);
 }
 
 } // namespace lacuna::lua

@@ -90,6 +90,14 @@ void refresh(ModelState& state)
     state.stale = false;
 }
 
+Busy::Busy(VolumeState& state, const char* method) : state_(state)
+{
+    if (state.busy)
+        throw InvalidInput("lua.busy", std::string(method) + ": this volume is being worked on by its " +
+                                           state.busy + "(); call " + method + " when that is done");
+    state.busy = method;
+}
+
 void match_volume(VolumeState& state, const matching::MatchOptions& options)
 {
     if (!state.match) state.match = matching::match(state.volume, options);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What Lua's objects hold, and the small C++ between them and the kernel. Nothing here knows of Lua but the names.
+// What Lua's objects hold, and the small C++ between them and the kernel. Nothing here knows of Lua but the
+// names.
 
 #include "bindings/box.h"
 
@@ -40,10 +41,24 @@ struct FaceHandle {
 
 struct VolumeState {
     topology::OpenVolume volume;
+    const char* busy = nullptr;              ///< the method that works on it; null: none
     std::vector<std::string> role_reasons;   ///< why the faces got their roles; empty where they were named
     topology::Classification classification; ///< as the volume was given
     std::optional<matching::Match> match;
     std::optional<closure::Closure> closure;
+};
+
+/// Marks a volume as worked on, so that a function of the recipe that is called meanwhile cannot change it.
+class Busy {
+public:
+    /// @throw InvalidInput "lua.busy"  it is being worked on.
+    Busy(VolumeState& state, const char* method);
+    ~Busy() { state_.busy = nullptr; }
+    Busy(const Busy&) = delete;
+    Busy& operator=(const Busy&) = delete;
+
+private:
+    VolumeState& state_;
 };
 
 /// Match the ends unless that is done.

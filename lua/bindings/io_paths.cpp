@@ -5,31 +5,21 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 #include <filesystem>
+#include <optional>
 
 namespace lacuna::lua {
 
 namespace fs = std::filesystem;
 
-std::string output_path(const Host& host, const std::string& path)
+io::OutputPath output_path(const Host& host, const std::string& path)
 {
     if (!host.sandboxed) return path;
-    if (host.output_dir.empty())
+    if (!host.output_folder)
         throw InvalidInput("sandbox.no_output",
                            "the sandbox writes no file; allow it with --output-dir FOLDER");
-    std::error_code error;
-    const fs::path root = fs::canonical(host.output_dir, error);
-    if (error)
-        throw InvalidInput("sandbox.no_output",
-                           "the output folder " + host.output_dir + " does not exist; create it first");
-    // Links in the folders on the way are followed before comparing; the file itself is replaced, not followed.
-    const fs::path wanted = fs::path(path).is_absolute() ? fs::path(path) : root / path;
-    const fs::path folder = fs::weakly_canonical(wanted.parent_path(), error);
-    const auto [end, rest] = std::mismatch(root.begin(), root.end(), folder.begin(), folder.end());
-    if (error || end != root.end())
-        throw InvalidInput("sandbox.outside", "the sandbox writes below " + root.string() + " alone, and " +
-                                                  path + " is not there");
-    return (folder / wanted.filename()).string();
+    return io::OutputPath::below(host.output_folder, path);
 }
 
 void check_input_path(const Host& host, const std::string& path)
@@ -47,14 +37,16 @@ void check_input_path(const Host& host, const std::string& path)
                                                  path + ".opt, which lies beside it");
 }
 
-const char* push_output_path(lua_State* L, int index, const char* call)
+const io::OutputPath& push_output_path(lua_State* L, int index, const char* call)
 {
     if (lua_type(L, index) != LUA_TSTRING || lua_rawlen(L, index) == 0)
         fail_value(L, {call, nullptr}, "the path of a file to write", index);
     const char* path = lua_tostring(L, index);
+    if (std::strlen(path) != lua_rawlen(L, index)) fail(L, "%s: the path has a zero byte in it", call);
     const Host& lent = host(L);
-    push_text(L, [&] { return output_path(lent, path); });
-    return lua_tostring(L, -1);
+    auto& place = temporary<std::optional<io::OutputPath>>(L);
+    guard(L, [&] { place = output_path(lent, path); });
+    return *place;
 }
 
 std::string ending_of(const std::string& path)

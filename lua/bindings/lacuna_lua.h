@@ -3,8 +3,11 @@
 
 #include <lua.hpp>
 
+#include <lacuna/io/whole_file.h>
+
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -15,10 +18,10 @@ namespace lacuna::lua {
 
 /// What the program around the interpreter lends to the bindings. A stock interpreter lends nothing.
 struct Host {
-    const std::atomic<bool>* cancel = nullptr; ///< set by the host to stop kernel work
-    std::function<void(std::string_view)> log; ///< notes of the kernel, a line each
-    bool sandboxed = false;                    ///< files are written below `output_dir` alone
-    std::string output_dir;                    ///< empty with `sandboxed`: nothing is written
+    const std::atomic<bool>* cancel = nullptr;       ///< set by the host to stop kernel work
+    std::function<void(std::string_view)> log;       ///< notes of the kernel, a line each
+    bool sandboxed = false;                          ///< files are written below `output_folder` alone
+    std::shared_ptr<const io::Folder> output_folder; ///< null with `sandboxed`: nothing is written
 };
 
 /// Lend `host` to the state; the host keeps it alive as long as the state. Call before luaopen_lacuna.

@@ -40,7 +40,8 @@ function lacuna.params(defaults)
       if kind == "table" or kind == "function" then
         fail("parameter '%s' is a %s, which the command line cannot give", name, kind)
       end
-      fail("parameter '%s' must be a %s, as its default %s; found \"%s\"", name, kind, tostring(defaults[name]), value)
+      fail("parameter '%s' must be a %s, as its default %s; found \"%s\"", name, kind,
+          tostring(defaults[name]), value)
     end
     defaults[name] = read
   end

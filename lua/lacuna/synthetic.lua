@@ -2,15 +2,16 @@
 -- lacuna.synthetic: open volumes of any class and size, for trials and benchmarks.
 --
 -- Each one is a section, which is a list of closed loops in the plane (the outer one counter-clockwise, holes
--- clockwise), carried along an axis by a map (x, y, t) -> point with t in [0, 1]. Faces that meet take their common
--- points from the same call with the same numbers, so they agree to the bit.
+-- clockwise), swept along an axis by a map (x, y, t) -> point with t in [0, 1]. Faces that meet take their
+-- common points from the same call with the same numbers, so they agree to the bit.
 local lacuna, internal = ...
 local synthetic = {}
 lacuna.synthetic = synthetic
 
 local pi, sin, cos = math.pi, math.sin, math.cos
 
--- --- options ---------------------------------------------------------------------------------------------------
+-- --- options
+-- ---------------------------------------------------------------------------------------------------
 
 -- What a value must be: a test and its words.
 local kinds = {
@@ -39,7 +40,8 @@ local function read_options(call, spec, given)
     if type(key) ~= "string" then
       fail(call, "%s stands among the options without a name; write key = value", internal.found(value))
     elseif not known[key] then
-      fail(call, "unknown option '%s'; the nearest is '%s'. The keys are: %s", key, internal.nearest(key, keys),
+      fail(call, "unknown option '%s'; the nearest is '%s'. The keys are: %s", key,
+          internal.nearest(key, keys),
            table.concat(keys, ", "))
     end
   end
@@ -72,9 +74,12 @@ local function read_drop(call, drop, names)
   local known = { walls = true }
   for _, name in ipairs(names) do known[name] = true end
   for i, name in ipairs(drop) do
-    if type(name) ~= "string" then fail(call, "option 'drop[%d]' must be the name of a face, found %s", i, internal.found(name)) end
+    if type(name) ~= "string" then
+      fail(call, "option 'drop[%d]' must be the name of a face, found %s", i, internal.found(name))
+    end
     if not known[name] then
-      fail(call, "option 'drop' names \"%s\", which is no face of this volume; the nearest is \"%s\". The faces are: %s",
+      fail(call, "option 'drop' names \"%s\", which is no face of this volume; the nearest is \"%s\". "
+          .. "The faces are: %s",
            name, internal.nearest(name, names), table.concat(names, ", "))
     end
     left_out[name] = true
@@ -87,10 +92,11 @@ local function read_drop(call, drop, names)
   return left_out
 end
 
--- --- sections ----------------------------------------------------------------------------------------------------
+-- --- sections
+-- ----------------------------------------------------------------------------------------------------
 
--- A loop: points {x, y}, and the numbers of those that are corners; between corners runs one wall. A loop without
--- corners is one closed wall.
+-- A loop: points {x, y}, and the numbers of those that are corners; between corners runs one wall. A loop
+-- without corners is one closed wall.
 local function reversed(loop)
   local points, corners, n = {}, {}, #loop.points
   for i = 1, n do points[i] = loop.points[(n + 1 - i) % n + 1] end  -- starts at the same point
@@ -130,7 +136,8 @@ local function circle(radius, x, y, facets)
   return loop
 end
 
--- --- triangles of a section ----------------------------------------------------------------------------------------
+-- --- triangles of a section
+-- ----------------------------------------------------------------------------------------
 
 local function cross(a, b, c) return (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]) end
 
@@ -160,7 +167,10 @@ local function bridged(points, loops)
           if not best or length < best.length then
             local clear = true
             for k, a in ipairs(chain) do
-              if crosses(points[p], points[q], points[a], points[chain[k % #chain + 1]]) then clear = false break end
+              if crosses(points[p], points[q], points[a], points[chain[k % #chain + 1]]) then
+                clear = false
+                break
+              end
             end
             if clear then best = { length = length, hole = h, j = j, i = i } end
           end
@@ -227,7 +237,8 @@ local function triangulate(points, loops)
   return cells
 end
 
--- --- carrying a section along ----------------------------------------------------------------------------------------
+-- --- sweeping a section along
+-- ----------------------------------------------------------------------------------------
 
 -- Source and target: the section at t = 0 seen from below, at t = 1 from above.
 local function end_face(section, map, t)
@@ -248,7 +259,8 @@ local function end_face(section, map, t)
   return points, cells
 end
 
--- The wall over points `from`..`to` of a loop (`to` may run past the end; the whole loop makes a closed wall).
+-- The wall over points `from`..`to` of a loop (`to` may run past the end; the whole loop makes a closed
+-- wall).
 local function wall_face(loop, from, to, map, levels)
   local points, cells, n = {}, {}, #loop.points
   local closed = to - from == n
@@ -283,7 +295,17 @@ local function walls_of(section)
   return walls
 end
 
-local function carry(call, section, map, levels, drop)
+-- Facets a synthetic volume may have; a recipe that asks for more has an option wrong, or wants a file.
+local most_facets = 2e7
+
+local function build(call, section, map, levels, drop)
+  local around = 0
+  for _, loop in ipairs(section) do around = around + #loop.points end
+  if not (2 * around * levels <= most_facets) then
+    fail(call, "the walls would have %.3g facets, and %.3g are the most; "
+        .. "lower 'twist', 'bend', 'angle' or 'facets'",
+         2 * around * levels, most_facets)
+  end
   local walls = walls_of(section)
   local names = { "source", "target" }
   for i = 1, #walls do names[#names + 1] = "wall_" .. i end
@@ -314,7 +336,8 @@ local function levels_for(length, segment, turn)
   return math.max(1, math.ceil(length / segment), math.ceil(math.abs(turn) / 5))
 end
 
--- --- the volumes -------------------------------------------------------------------------------------------------------
+-- --- the volumes
+-- -------------------------------------------------------------------------------------------------------
 
 -- Regular holes in a regular prism: one in the middle, several on a circle.
 local function prism_holes(call, o, cuts)
@@ -325,7 +348,8 @@ local function prism_holes(call, o, cuts)
   local room = o.holes == 1 and inner or math.min(centre * sin(pi / o.holes), inner - centre)
   local radius = o.hole_radius or 0.6 * room
   if radius >= room then
-    fail(call, "option 'hole_radius' must be below %.6g for %d holes to fit, found %.6g", room, o.holes, radius)
+    fail(call, "option 'hole_radius' must be below %.6g for %d holes to fit, found %.6g", room, o.holes,
+        radius)
   end
   for h = 1, o.holes do
     local angle = 2 * pi * (h - 1) / o.holes
@@ -338,10 +362,12 @@ end
 function synthetic.prism(given)
   local o, drop = read_options("prism", {
     sides = { 6, "sides" }, radius = { 1, "positive" }, height = { 2, "positive" }, holes = { 0, "whole" },
-    hole_radius = { false, "positive" }, twist = { 0, "number" }, taper = { 1, "positive" }, bend = { 0, "number" },
+    hole_radius = { false, "positive" }, twist = { 0, "number" }, taper = { 1, "positive" },
+        bend = { 0, "number" },
   }, given)
   if o.bend ~= 0 and math.abs(o.height / math.rad(o.bend)) <= o.radius * math.max(1, o.taper) then
-    fail("prism", "option 'bend' of %.6g degrees over height %.6g folds a prism of radius %.6g; bend less or make it higher",
+    fail("prism", "option 'bend' of %.6g degrees over height %.6g folds a prism of radius %.6g; "
+        .. "bend less or make it higher",
          o.bend, o.height, o.radius * math.max(1, o.taper))
   end
   local side = 2 * o.radius * sin(pi / o.sides)
@@ -354,7 +380,7 @@ function synthetic.prism(given)
   end
   local curved = o.twist ~= 0 or o.bend ~= 0
   local levels = curved and levels_for(o.height, side / cuts, math.abs(o.twist) + math.abs(o.bend)) or 1
-  return carry("prism", section, map, levels, drop)
+  return build("prism", section, map, levels, drop)
 end
 
 --- annulus { inner, outer, height, facets, drop }: wall_1 is the outer cylinder, wall_2 the inner one
@@ -362,28 +388,34 @@ function synthetic.annulus(given)
   local o, drop = read_options("annulus", {
     inner = { 0.5, "positive" }, outer = { 1, "positive" }, height = { 1, "positive" },
   }, given)
-  if o.inner >= o.outer then fail("annulus", "option 'inner' must be below 'outer', found %.6g and %.6g", o.inner, o.outer) end
+  if o.inner >= o.outer then
+    fail("annulus", "option 'inner' must be below 'outer', found %.6g and %.6g", o.inner, o.outer)
+  end
   local facets = math.max(3, o.facets or 48)
   local section = { circle(o.outer, 0, 0, facets), reversed(circle(o.inner, 0, 0, facets)) }
-  return carry("annulus", section, axis(o.height, 0), 1, drop)
+  return build("annulus", section, axis(o.height, 0), 1, drop)
 end
 
---- elbow { radius, inner, bend_radius, angle [degrees], facets, drop }: a bent pipe; wall_2 is the bore, if `inner` > 0
+--- elbow { radius, inner, bend_radius, angle [degrees], facets, drop }: a bent pipe; wall_2 is the bore, if
+--- `inner` > 0
 function synthetic.elbow(given)
   local o, drop = read_options("elbow", {
-    radius = { 1, "positive" }, inner = { 0, "not_negative" }, bend_radius = { 3, "positive" }, angle = { 90, "positive" },
+    radius = { 1, "positive" }, inner = { 0, "not_negative" }, bend_radius = { 3, "positive" },
+        angle = { 90, "positive" },
   }, given)
   if o.bend_radius <= o.radius then
     fail("elbow", "option 'bend_radius' must be above 'radius', found %.6g and %.6g", o.bend_radius, o.radius)
   end
-  if o.inner >= o.radius then fail("elbow", "option 'inner' must be below 'radius', found %.6g and %.6g", o.inner, o.radius) end
+  if o.inner >= o.radius then
+    fail("elbow", "option 'inner' must be below 'radius', found %.6g and %.6g", o.inner, o.radius)
+  end
   if o.angle >= 360 then fail("elbow", "option 'angle' must be below 360 degrees, found %.6g", o.angle) end
   local facets = math.max(3, o.facets or 32)
   local section = { circle(o.radius, 0, 0, facets) }
   if o.inner > 0 then section[2] = reversed(circle(o.inner, 0, 0, facets)) end
   local length = o.bend_radius * math.rad(o.angle)
   local levels = levels_for(length, 2 * pi * o.radius / facets, o.angle)
-  return carry("elbow", section, axis(length, o.angle), levels, drop)
+  return build("elbow", section, axis(length, o.angle), levels, drop)
 end
 
 --- barrel { radius, height, bulge, facets, drop }: radius (1 + bulge) half way up
@@ -398,13 +430,15 @@ function synthetic.barrel(given)
     return scale * x, scale * y, o.height * t
   end
   local levels = math.max(12, levels_for(o.height, 2 * pi * o.radius / facets, 0))
-  return carry("barrel", { circle(o.radius, 0, 0, facets) }, map, levels, drop)
+  return build("barrel", { circle(o.radius, 0, 0, facets) }, map, levels, drop)
 end
 
---- plate { length, width, height, holes, hole_radius, facets, drop }: round holes in rows; walls 1 to 4 are the sides
+--- plate { length, width, height, holes, hole_radius, facets, drop }: round holes in rows; walls 1 to 4 are
+--- the sides
 function synthetic.plate(given)
   local o, drop = read_options("plate", {
-    length = { 4, "positive" }, width = { 4, "positive" }, height = { 0.5, "positive" }, holes = { 4, "whole" },
+    length = { 4, "positive" }, width = { 4, "positive" }, height = { 0.5, "positive" },
+        holes = { 4, "whole" },
     hole_radius = { false, "positive" },
   }, given)
   local x, y = o.length / 2, o.width / 2
@@ -415,11 +449,12 @@ function synthetic.plate(given)
   local room = math.min(dx, dy) / 2
   local radius = o.hole_radius or 0.5 * room
   if o.holes > 0 and radius >= room then
-    fail("plate", "option 'hole_radius' must be below %.6g for %d holes to fit, found %.6g", room, o.holes, radius)
+    fail("plate", "option 'hole_radius' must be below %.6g for %d holes to fit, found %.6g", room, o.holes,
+        radius)
   end
   for h = 0, o.holes - 1 do
     local cx, cy = -x + (h % columns + 0.5) * dx, -y + (h // columns + 0.5) * dy
     section[#section + 1] = reversed(circle(radius, cx, cy, math.max(3, o.facets or 24)))
   end
-  return carry("plate", section, axis(o.height, 0), 1, drop)
+  return build("plate", section, axis(o.height, 0), 1, drop)
 end

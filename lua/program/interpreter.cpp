@@ -13,19 +13,26 @@ namespace lacuna::program {
 namespace {
 
 // Signal handlers reach nothing but globals; these are the program's only ones.
-enum class Stop { none, interrupt, time };
+enum class Stop { none, interrupt, terminate, time };
 std::atomic<bool> g_stop{false};
 std::atomic<Stop> g_reason{Stop::none};
 
+Exit exit_code(Stop reason)
+{
+    return reason == Stop::interrupt   ? Exit::interrupted
+           : reason == Stop::terminate ? Exit::terminated
+                                       : Exit::failed;
+}
+
 void on_signal(int signal)
 {
-    const Stop reason = signal == SIGALRM ? Stop::time : Stop::interrupt;
+    const Stop reason = signal == SIGALRM ? Stop::time : signal == SIGINT ? Stop::interrupt : Stop::terminate;
     if (g_stop.exchange(true)) { // asked before, and nothing came of it
         constexpr char kOver[] = "lacuna: stopped: the time limit is over\n";
         if (reason == Stop::time) {
             [[maybe_unused]] const auto written = write(STDERR_FILENO, kOver, sizeof kOver - 1);
         }
-        _exit(static_cast<int>(reason == Stop::time ? Exit::failed : Exit::interrupted));
+        _exit(static_cast<int>(exit_code(reason)));
     }
     g_reason = reason;
 }
@@ -73,7 +80,10 @@ void watch_interrupts(bool watch)
     struct sigaction action = {};
     action.sa_handler = watch ? on_signal : SIG_DFL;
     sigaction(SIGINT, &action, nullptr);
-    if (watch) sigaction(SIGALRM, &action, nullptr);
+    if (!watch) return;
+    for (const int signal : {SIGALRM, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+    // A file that grows past a limit is then an error of writing, which is told, and not the end.
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void* Interpreter::allocate(void* budget, void* block, std::size_t old_size, std::size_t new_size)
@@ -98,7 +108,7 @@ Interpreter::Interpreter(const CommandLine& line) : line_(line)
     watch_interrupts(true);
     host_.cancel = &g_stop;
     host_.sandboxed = line.sandbox;
-    host_.output_dir = line.output_dir;
+    if (!line.output_dir.empty()) host_.output_folder = std::make_shared<const io::Folder>(line.output_dir);
     if (line.verbose)
         host_.log = [](std::string_view text) {
             std::fprintf(stderr, "lacuna: %.*s\n", static_cast<int>(text.size()), text.data());
@@ -124,17 +134,18 @@ Interpreter::~Interpreter()
 Exit Interpreter::report()
 {
     const char* text = lua_tostring(state_, -1);
-    std::fflush(stdout);
+    [[maybe_unused]] const int flushed = std::fflush(stdout); // what fails is told at the end
     const Stop reason = g_reason;
     if (reason == Stop::time)
         std::fprintf(stderr, "lacuna: stopped: the time limit of %g seconds is over\n", line_.seconds);
     else
         std::fprintf(stderr, "lacuna: %s\n",
-                     reason == Stop::interrupt ? "interrupted"
-                     : text                    ? text
-                                               : "unknown error");
+                     reason == Stop::interrupt   ? "interrupted"
+                     : reason == Stop::terminate ? "terminated"
+                     : text                      ? text
+                                                 : "unknown error");
     lua_pop(state_, 1);
-    return reason == Stop::interrupt ? Exit::interrupted : Exit::failed;
+    return exit_code(reason);
 }
 
 void Interpreter::resume_after_stop()
@@ -152,7 +163,12 @@ Exit Interpreter::call(int arguments, int results)
     lua_insert(state_, base);
     const int status = lua_pcall(state_, arguments, results, base);
     lua_remove(state_, base);
-    return status == LUA_OK ? Exit::done : report();
+    if (status != LUA_OK) return report();
+    if (!g_stop) return Exit::done;
+    // Asked to stop while the last step ran, or by a recipe that caught the error: it did not do all it was
+    // to do.
+    lua_pushliteral(state_, "interrupted");
+    return report();
 }
 
 Exit Interpreter::run_file(const std::string& file, const std::vector<std::string>& words)

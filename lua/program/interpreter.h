@@ -11,7 +11,7 @@
 namespace lacuna::program {
 
 /// Exit codes of the program.
-enum class Exit { done = 0, failed = 1, bad_usage = 2, interrupted = 130 };
+enum class Exit { done = 0, failed = 1, bad_usage = 2, interrupted = 130, terminated = 143 };
 
 /// A Lua state with `lacuna` ready to be required, that can be interrupted and, in the sandbox, limited.
 class Interpreter {
@@ -49,7 +49,8 @@ private:
 
 /// Take away what a recipe in the sandbox must not have; opens the libraries it may.
 void open_sandbox_libraries(lua_State* L);
-/// Limit the process: memory by its data segment, time by an alarm that asks first and ends the process later.
+/// Limit the process: memory by its data segment, time by an alarm that asks first and later ends
+/// the process.
 void limit_process(double megabytes, double seconds);
 
 /// Read, run, print until the end of the input.
@@ -57,7 +58,7 @@ Exit run_prompt(Interpreter& interpreter);
 
 // --- stopping: set by signals, read by Lua's count hook and by the kernel -------------------------------
 
-/// Stop on Ctrl-C from now on (a second one ends the process), or as before.
+/// Stop on Ctrl-C, SIGTERM and SIGHUP from now on (a second one ends the process), or as before.
 void watch_interrupts(bool watch);
 
 } // namespace lacuna::program

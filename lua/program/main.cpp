@@ -2,7 +2,9 @@
 #include "program/command_line.h"
 #include "program/interpreter.h"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <string>
 #include <vector>
@@ -58,12 +60,23 @@ Exit run(const CommandLine& line)
     return Exit::done;
 }
 
+/// Whether all that was printed arrived; a full disk behind standard output is an error as any other.
+bool flushed()
+{
+    errno = 0;
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+    std::fprintf(stderr, "lacuna: cannot write to standard output: %s\n",
+                 errno != 0 ? std::strerror(errno) : "some of it was lost");
+    return false;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
     try {
-        return static_cast<int>(run(parse(std::vector<std::string>(argv + 1, argv + argc))));
+        const Exit result = run(parse(std::vector<std::string>(argv + 1, argv + argc)));
+        return static_cast<int>(flushed() || result != Exit::done ? result : Exit::failed);
     } catch (const BadUsage& error) {
         std::fprintf(stderr, "lacuna: %s\n`lacuna --help` says what there is\n", error.what());
         return static_cast<int>(Exit::bad_usage);

@@ -9,8 +9,10 @@
 
 #include <atomic>
 #include <csignal>
+#include <memory>
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -123,4 +125,76 @@ TEST_CASE("a cancelled writing leaves what was there before and nothing else")
         CHECK(test::bytes_of(folder.file("a.msh")) == "before");
         CHECK(folder.entries() == 1);
     }
+}
+
+TEST_CASE("a file that is replaced keeps its mode")
+{
+    const test::Folder folder;
+    const std::string path = folder.file("a.txt");
+    for (const mode_t mode : {0640, 0600, 0444, 0755}) {
+        test::put_bytes(path, "before");
+        REQUIRE(::chmod(path.c_str(), mode) == 0);
+        io::WholeFile file(path);
+        file.append("after");
+        file.commit();
+        struct stat status = {};
+        REQUIRE(::stat(path.c_str(), &status) == 0);
+        CHECK((status.st_mode & 07777) == mode);
+        CHECK(test::bytes_of(path) == "after");
+        std::filesystem::remove(path);
+    }
+}
+
+TEST_CASE("a process that is killed while it writes leaves nothing")
+{
+    const test::Folder folder;
+    test::put_bytes(folder.file("a.txt"), "before");
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        io::WholeFile file(folder.file("a.txt"));
+        io::WholeFile fresh(folder.file("b.txt"));
+        file.append("half");
+        fresh.append("half");
+        ::raise(SIGKILL);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    CHECK(WIFSIGNALED(status));
+    CHECK(test::bytes_of(folder.file("a.txt")) == "before");
+    CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("below a folder that is held, no path leads out of it")
+{
+    const test::Folder folder;
+    const test::Folder elsewhere;
+    std::filesystem::create_directory(folder.file("deeper"));
+    std::filesystem::create_symlink(elsewhere.file(""), folder.file("door"));
+    std::filesystem::create_symlink(elsewhere.file("x"), folder.file("file"));
+    const auto held = std::make_shared<const io::Folder>(folder.file(""));
+    const auto write = [&](const std::string& path) {
+        return test::error_code([&] {
+            io::WholeFile file(io::OutputPath::below(held, path));
+            file.append("x");
+            file.commit();
+        });
+    };
+    CHECK(write("../x") == "io.outside");
+    CHECK(write("deeper/../../x") == "io.outside");
+    CHECK(write("/tmp/x") == "io.outside");
+    CHECK(write(elsewhere.file("x")) == "io.outside");
+    CHECK(write("door/x") == "io.outside");
+    CHECK(write("file") == "io.not_a_file");
+    CHECK(write("nowhere/x") == "io.no_folder");
+    CHECK(write("deeper") == "io.not_a_file");
+    CHECK(elsewhere.entries() == 0);
+    CHECK(write("x") == "");
+    CHECK(write("deeper/y") == "");
+    CHECK(write(folder.file("deeper/z")) == "");
+    CHECK(test::bytes_of(folder.file("deeper/z")) == "x");
+
+    // The folder is the one that was opened, whatever takes its path.
+    std::filesystem::rename(folder.file("deeper"), folder.file("moved"));
+    CHECK(std::filesystem::exists(folder.file("moved/y")));
 }

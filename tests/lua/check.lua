@@ -15,7 +15,8 @@ end
 function check.equal(found, expected, what)
   check.count = check.count + 1
   if found ~= expected then
-    error(("%s: %sexpected %s, found %s"):format(where(), what and what .. ": " or "", tostring(expected), tostring(found)), 0)
+    error(("%s: %sexpected %s, found %s"):format(where(), what and what .. ": " or "", tostring(expected),
+        tostring(found)), 0)
   end
 end
 

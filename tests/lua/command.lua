@@ -10,12 +10,15 @@ local function run(words, input) return check.run(params.lacuna, folder, words, 
 -- Expect an exit code, and words on the streams; an empty list means the stream is silent.
 local function expect(words, code, out_words, err_words, input)
   local found, out, err = run(words, input)
-  local told = ("lacuna %s\nstandard output: %s\nstandard error: %s"):format(table.concat(words, " "), out, err)
+  local told = ("lacuna %s\nstandard output: %s\nstandard error: %s"):format(table.concat(words, " "), out,
+      err)
   check.equal(found, code, told)
   for _, pair in ipairs { { out_words, out }, { err_words, err } } do
     local wanted, text = table.unpack(pair)
     if #wanted == 0 then check.equal(text, "", told) end
-    for _, word in ipairs(wanted) do check.that(text:find(word, 1, true), ("'%s' is not said:\n%s"):format(word, told)) end
+    for _, word in ipairs(wanted) do
+      check.that(text:find(word, 1, true), ("'%s' is not said:\n%s"):format(word, told))
+    end
   end
 end
 
@@ -39,7 +42,8 @@ check.write(folder .. "/syntax.lua", "local x = = 1\n")
 expect({ "syntax.lua" }, 1, {}, { "lacuna: syntax.lua:1:" })
 check.write(folder .. "/fails.lua", "print 'before'\nlocal x = nil\nprint(x.y)\n")
 expect({ "fails.lua" }, 1, { "before" }, { "lacuna: fails.lua:3:" })
-check.write(folder .. "/object.lua", "error(setmetatable({}, { __tostring = function() return 'told by an object' end }))\n")
+check.write(folder .. "/object.lua",
+    "error(setmetatable({}, { __tostring = function() return 'told by an object' end }))\n")
 expect({ "object.lua" }, 1, {}, { "lacuna: told by an object" })
 expect({ "--verbose", "fails.lua" }, 1, { "before" }, { "traceback" })
 
@@ -51,7 +55,8 @@ print(p.layers, math.type(p.layers), p.size, p.name, p.fast)
 print(arg[0], #arg, select("#", ...))
 ]])
 expect({ "params.lua" }, 0, { "12\tinteger\t2.0\ta\tfalse", "params.lua\t0\t0" }, {})
-expect({ "params.lua", "layers=20", "size=1.5", "name=b c=d", "fast=true" }, 0, { "20\tinteger\t1.5\tb c=d\ttrue" }, {})
+expect({ "params.lua", "layers=20", "size=1.5", "name=b c=d", "fast=true" }, 0,
+    { "20\tinteger\t1.5\tb c=d\ttrue" }, {})
 expect({ "params.lua", "layres=20" }, 1, {}, { "params.lua:2:", "'layres'", "the nearest is 'layers'" })
 expect({ "params.lua", "layers=many" }, 1, {}, { "'layers'", "number", '"many"' })
 expect({ "params.lua", "fast=1" }, 1, {}, { "'fast'", "boolean" })
@@ -129,7 +134,8 @@ until [ -e '%s' ]; do sleep 0.05; done
 sleep 0.3; kill -INT $pid; wait $pid; echo "exit code $?"]]):format(params.lacuna, recipe, started)))
   local told = pipe:read("a")
   pipe:close()
-  check.that(told:find("lacuna: interrupted", 1, true) and told:find("exit code 130", 1, true), recipe .. ": " .. told)
+  check.that(told:find("lacuna: interrupted", 1, true) and told:find("exit code 130", 1, true),
+      recipe .. ": " .. told)
 end
 
 check.done()

@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- Quads that came in stay as they are: every node bit for bit, every quad once, on the source's end of the mesh.
+-- Quads that came in stay as they are: every node bit for bit, every quad once, on the source's end of the
+-- mesh.
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
 local lacuna = require "lacuna"
 
@@ -11,7 +12,9 @@ local function box(options)
   local at = { 0, 0.13, 0.31, 0.57, 0.79, 1 }
   local function place(i, j)
     local x, y = at[i + 1], at[j + 1]
-    if i > 0 and i < N and j > 0 and j < N then x, y = x + 0.05 * math.sin(7 * i + 3 * j), y + 0.05 * math.cos(5 * i - j) end
+    if i > 0 and i < N and j > 0 and j < N then
+      x, y = x + 0.05 * math.sin(7 * i + 3 * j), y + 0.05 * math.cos(5 * i - j)
+    end
     return { x, y, 0 }
   end
   local points, cells = {}, {}
@@ -91,7 +94,8 @@ do
   for i = 2, #on_side do
     local asked = 0.02 + 0.1 * (on_side[i] + on_side[i - 1]) / 2
     local ratio = (on_side[i] - on_side[i - 1]) / asked
-    assert(ratio > 0.8 and ratio < 1.25, string.format("side of %g of the size asked at %g", ratio, on_side[i]))
+    assert(ratio > 0.8 and ratio < 1.25,
+        string.format("side of %g of the size asked at %g", ratio, on_side[i]))
   end
   assert(#on_side > 15)
 end

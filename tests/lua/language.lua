@@ -13,7 +13,8 @@ local corners = {
 }
 local function cube(names)
   local sides = {
-    bottom = { 4, 3, 2, 1 }, south = { 1, 2, 6, 5 }, east = { 2, 3, 7, 6 }, north = { 3, 4, 8, 7 }, west = { 4, 1, 5, 8 },
+    bottom = { 4, 3, 2, 1 }, south = { 1, 2, 6, 5 }, east = { 2, 3, 7, 6 }, north = { 3, 4, 8, 7 },
+        west = { 4, 1, 5, 8 },
     top = { 5, 6, 7, 8 },
   }
   local model, faces = lacuna.model(), {}
@@ -170,7 +171,9 @@ check.equal(lacuna.synthetic.barrel({ drop = "target" }):open_volume().class, "I
 check.equal(lacuna.synthetic.elbow({ drop = { "source", "target" } }):open_volume().class, "V")
 
 -- Every way to give layers and sizes makes the layers asked for.
-local function swept(options) return cube(names):open_volume({ source = 1, walls = "auto" }):sweep(options) end
+local function swept(options)
+  return cube(names):open_volume({ source = 1, walls = "auto" }):sweep(options)
+end
 check.equal(swept({ layers = 2, size = 0.5 }).layers, 2)
 check.equal(swept({ layers = { 0.2, 0.5, 1 }, size = 0.5 }).layers, 3)
 for _, mode in ipairs { "geometric", "bell", "both_ends" } do
@@ -191,7 +194,8 @@ local thrown = {}
 local fine, caught = pcall(swept, { layers = 1, size = function() error(thrown) end })
 check.that(not fine and rawequal(caught, thrown), "any Lua value can be thrown through the kernel")
 for _, nonsense in ipairs { 0, -1, 0 / 0, math.huge, "1", {} } do
-  check.fails(function() swept { layers = 1, size = function() return nonsense end } end, "option 'size'", "positive number")
+  check.fails(function() swept { layers = 1, size = function() return nonsense end } end, "option 'size'",
+      "positive number")
 end
 check.fails(function() swept { layers = 1, size = function() coroutine.yield() end } end, "yield")
 
@@ -219,7 +223,9 @@ local real = {
 }
 for owner, functions in pairs(real) do
   for name, value in pairs(functions) do
-    if type(value) == "function" then check.that(stubbed[owner][name], owner .. "." .. name .. " is not in the stub") end
+    if type(value) == "function" then
+      check.that(stubbed[owner][name], owner .. "." .. name .. " is not in the stub")
+    end
   end
   for name in pairs(stubbed[owner]) do
     check.equal(type(functions[name]), "function", owner .. "." .. name .. " of the stub")

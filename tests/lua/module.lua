@@ -5,7 +5,8 @@ local lacuna = require "lacuna"
 
 check.that(package.searchpath("lacuna", package.cpath), "it is the module that was loaded")
 check.equal(require "lacuna", lacuna)
-local void = lacuna.synthetic.prism({ sides = 4, drop = "walls" }):open_volume { source = "source", target = "target" }
+local void = lacuna.synthetic.prism({ sides = 4, drop = "walls" }):open_volume { source = "source",
+    target = "target" }
 check.equal(void.class, "I")
 local mesh = void:sweep { layers = 2, size = 0.5 }
 check.equal(mesh:quality().inverted, 0)

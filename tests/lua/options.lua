@@ -1,29 +1,37 @@
 -- SPDX-License-Identifier: MIT
--- Every option of every call: an unknown key names the nearest known one, and a wrong value is told which option of
--- which call it is, what was expected and what was found.
+-- Every option of every call: an unknown key names the nearest known one, and a wrong value is told which
+-- option of which call it is, what was expected and what was found.
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
 local lacuna = require "lacuna"
 
-local function volume() return lacuna.synthetic.prism({ drop = "walls" }):open_volume { source = "source", target = "target" } end
+local function volume()
+  return lacuna.synthetic.prism({ drop = "walls" }):open_volume { source = "source", target = "target" }
+end
 
 local square = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }
 
 -- call = { how to call it with these options, { option = a good value, ... } }
 local calls = {
-  load = { function(o) lacuna.load("nowhere.step", o) end, { "tolerance", "feature_angle", "keep_mesh", "scale" } },
+  load = { function(o) lacuna.load("nowhere.step", o) end,
+      { "tolerance", "feature_angle", "keep_mesh", "scale" } },
   add_face = { function(o) lacuna.model():add_face(o) end, { "name", "points", "cells", "keep_mesh" } },
   faces = { function(o) lacuna.model():faces(o) end, { "tags", "name", "kind", "facing", "near", "area" } },
-  open_volume = { function(o) lacuna.synthetic.barrel():open_volume(o) end, { "source", "target", "walls", "faces", "class" } },
+  open_volume = { function(o) lacuna.synthetic.barrel():open_volume(o) end,
+      { "source", "target", "walls", "faces", "class" } },
   match = { function(o) volume():match(o) end, { "method", "vertices", "loops", "flip" } },
   close = { function(o) volume():close(o) end, { "edge_shape" } },
   sweep = { function(o) volume():sweep(o) end,
-            { "layers", "size", "quads", "order", "serendipity", "min_scaled_jacobian", "improve", "interior", "threads" } },
+            { "layers", "size", "quads", "order", "serendipity", "min_scaled_jacobian", "improve", "interior",
+                "threads" } },
   ["synthetic.prism"] = { lacuna.synthetic.prism,
-            { "sides", "radius", "height", "holes", "hole_radius", "twist", "taper", "bend", "facets", "drop" } },
+            { "sides", "radius", "height", "holes", "hole_radius", "twist", "taper", "bend", "facets",
+                "drop" } },
   ["synthetic.annulus"] = { lacuna.synthetic.annulus, { "inner", "outer", "height", "facets", "drop" } },
-  ["synthetic.elbow"] = { lacuna.synthetic.elbow, { "radius", "inner", "bend_radius", "angle", "facets", "drop" } },
+  ["synthetic.elbow"] = { lacuna.synthetic.elbow,
+      { "radius", "inner", "bend_radius", "angle", "facets", "drop" } },
   ["synthetic.barrel"] = { lacuna.synthetic.barrel, { "radius", "height", "bulge", "facets", "drop" } },
-  ["synthetic.plate"] = { lacuna.synthetic.plate, { "length", "width", "height", "holes", "hole_radius", "facets", "drop" } },
+  ["synthetic.plate"] = { lacuna.synthetic.plate,
+      { "length", "width", "height", "holes", "hole_radius", "facets", "drop" } },
 }
 local has_cad = lacuna.gmsh_version ~= "none"  -- without it `load` is one error whatever it is given
 if not has_cad then calls.load = nil end
@@ -32,9 +40,11 @@ for name, entry in pairs(calls) do
   for _, key in ipairs(keys) do
     -- The last letter twice: one edit away from this key, and from no other.
     local typo = key .. key:sub(-1)
-    check.fails(function() call { [typo] = 1 } end, name .. ":", "'" .. typo .. "'", "'" .. key .. "'", "The keys are:")
+    check.fails(function() call { [typo] = 1 } end, name .. ":", "'" .. typo .. "'", "'" .. key .. "'",
+        "The keys are:")
     -- No option takes a coroutine.
-    check.fails(function() call { [key] = coroutine.create(print) } end, name .. ":", "'" .. key .. "'", "must be", "a thread")
+    check.fails(function() call { [key] = coroutine.create(print) } end, name .. ":", "'" .. key .. "'",
+        "must be", "a thread")
   end
   check.fails(function() call { 7 } end, name .. ":", "7", "without a name")
   check.fails(function() call(7) end, name .. ":", "found 7")
@@ -43,7 +53,8 @@ end
 -- Values that are of the right type and still wrong.
 local function wrong(name, key, values, expected)
   for _, value in ipairs(values) do
-    local message = check.fails(function() calls[name][1] { [key] = value } end, name .. ":", "'" .. key, expected)
+    local message = check.fails(function() calls[name][1] { [key] = value } end, name .. ":", "'" .. key,
+        expected)
     if type(value) == "number" and value == value and math.abs(value) < math.huge then
       check.that(message:find(tostring(value), 1, true), "what was found is told: " .. message)
     end
@@ -65,7 +76,8 @@ wrong("add_face", "cells", { 1, {} }, "triangles")
 wrong("add_face", "cells", { { { 1, 2 } }, { 1, 2, 3 } }, "three or four")
 wrong("add_face", "cells", { { { 0, 1, 2 } }, { { 1.5, 2, 3 } } }, "a positive whole number")
 wrong("add_face", "cells", { { { 1, 2, 1 } } }, "point 1 twice")
-check.fails(function() lacuna.model():add_face { points = square, cells = { { 1, 2, 5 } } } end, "cells[1]", "point 5", "4 points")
+check.fails(function() lacuna.model():add_face { points = square, cells = { { 1, 2, 5 } } } end, "cells[1]",
+    "point 5", "4 points")
 check.fails(function() lacuna.model():add_face { points = square } end, "'cells' is missing")
 check.fails(function() lacuna.model():add_face { cells = { { 1, 2, 3 } } } end, "'points' is missing")
 check.fails(function() lacuna.model():add_face() end, "add_face:", "nothing")
@@ -90,7 +102,8 @@ wrong("sweep", "layers", { { 0.2, 0.5 } }, "must end with the height 1")
 wrong("sweep", "layers", { { bias = 2 } }, "no 'count'")
 check.fails(function() volume():sweep { layers = { count = 0 } } end, "sweep: layers", "'count'", "found 0")
 check.fails(function() volume():sweep { layers = { count = 2, bias = -1 } } end, "'bias'", "found -1")
-check.fails(function() volume():sweep { layers = { count = 2, mode = "bel" } } end, "'mode'", 'did you mean "bell"?')
+check.fails(function() volume():sweep { layers = { count = 2, mode = "bel" } } end, "'mode'",
+    'did you mean "bell"?')
 check.fails(function() volume():sweep { layers = { cuont = 2 } } end, "'cuont'", "'count'")
 wrong("sweep", "size", { 0, -1, nan, huge, "1", {} }, "a positive number")
 wrong("sweep", "quads", { "pave" }, 'did you mean "paved"?')

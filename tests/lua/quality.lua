@@ -54,7 +54,8 @@ check.near(quality.worst[1].centre[1], x, 1e-12)
 -- All fields are met by pairs(), the metrics included, asked for or not.
 local met = {}
 for key in pairs(mesh:quality()) do met[key] = true end
-for _, key in ipairs { "min_scaled_jacobian", "mean_scaled_jacobian", "inverted", "certified", "worst", "histogram", "metrics" } do
+for _, key in ipairs { "min_scaled_jacobian", "mean_scaled_jacobian", "inverted", "certified", "worst",
+    "histogram", "metrics" } do
   check.that(met[key], key)
 end
 check.equal(quality.no_such_field, nil)
@@ -74,7 +75,8 @@ end
 mesh:write(folder .. "/a.msh")
 local checked = lacuna.check(folder .. "/a.msh")
 for _, name in ipairs(names) do
-  check.near(checked.metrics[name].min, quality.metrics[name].min, 1e-12) -- sizes: the mean is summed otherwise
+  -- sizes: the mean is summed otherwise
+  check.near(checked.metrics[name].min, quality.metrics[name].min, 1e-12)
   check.near(checked.metrics[name].max, quality.metrics[name].max, 1e-9 * math.abs(quality.metrics[name].max))
   check.equal(checked.metrics[name].outside, quality.metrics[name].outside, name)
   check.equal(checked.metrics[name].worst.layer, nil, name)

@@ -17,7 +17,9 @@ end
 local function refused(recipe, words, ...)
   local code, out, err = run(recipe, ...)
   check.equal(code, 1, recipe .. "\n" .. out .. err)
-  for _, word in ipairs(words) do check.that(err:find(word, 1, true), ("'%s' is not said: %s"):format(word, err)) end
+  for _, word in ipairs(words) do
+    check.that(err:find(word, 1, true), ("'%s' is not said: %s"):format(word, err))
+  end
 end
 
 local function allowed(recipe, ...)
@@ -31,8 +33,9 @@ check.equal(allowed "print(load('return 1 + 1')(), require 'lacuna'.version, str
             "2\t" .. lacuna.version .. "\taaa\t0\n")
 
 -- What is not there.
-for _, call in ipairs { "os.execute('true')", "os.getenv('HOME')", "os.remove('x')", "io.open('x')", "io.popen('true')",
-                        "io.write('x')", "debug.getregistry()", "package.loadlib('x', 'y')", "dofile('x.lua')",
+for _, call in ipairs { "os.execute('true')", "os.getenv('HOME')", "os.remove('x')", "io.open('x')",
+                        "io.popen('true')", "io.write('x')", "debug.getregistry()",
+                        "package.loadlib('x', 'y')", "dofile('x.lua')",
                         "loadfile('x.lua')" } do
   refused(call, { "the sandbox has no '" .. call:match("^%w+") .. "'" })
 end
@@ -51,29 +54,39 @@ refused("local mt = getmetatable(require 'lacuna'.model()) error(tostring(mt))",
 -- Limits.
 refused("local t = {} for i = 1, 1e9 do t[i] = i .. 'x' end", { "not enough memory" }, "--memory", "50")
 refused("string.rep('x', 1e9)", { "not enough memory" }, "--memory", "50")
-refused("while true do pcall(function() while true do end end) end", { "time limit of 0.5 seconds" }, "--seconds", "0.5")
+refused("while true do pcall(function() while true do end end) end", { "time limit of 0.5 seconds" },
+    "--seconds", "0.5")
 allowed("for i = 1, 1e6 do end", "--seconds", "60", "--memory", "100")
 
 -- Files.
 local mesh = [[
 local lacuna = require "lacuna"
-local void = lacuna.synthetic.prism({ sides = 4, drop = "walls" }):open_volume { source = "source", target = "target" }
+local prism = lacuna.synthetic.prism { sides = 4, drop = "walls" }
+local void = prism:open_volume { source = "source", target = "target" }
 local mesh = void:sweep { layers = 1, size = 1 }
 mesh:write(%q)
 ]]
-refused(mesh:format "x.msh", { "recipe.lua:4:", "--output-dir" })
+refused(mesh:format "x.msh", { "recipe.lua:5:", "--output-dir" })
 check.that(not check.exists(folder .. "/x.msh"))
-for _, path in ipairs { "../x.msh", folder .. "/x.msh", "deeper/../../x.msh", "/tmp/lacuna_sandbox_x.msh", "link/x.msh" } do
+for _, path in ipairs { "../x.msh", folder .. "/x.msh", "deeper/../../x.msh", "/tmp/lacuna_sandbox_x.msh",
+    "link/x.msh" } do
   os.execute(("ln -sfn '%s/elsewhere' '%s/out/link'"):format(folder, folder))
-  refused(mesh:format(path), { "the sandbox writes below", path }, "--output-dir", "out")
+  refused(mesh:format(path), { "is not below", path }, "--output-dir", "out")
 end
 check.that(not check.exists(folder .. "/x.msh") and not check.exists(folder .. "/elsewhere/x.msh"))
 check.that(not check.exists("/tmp/lacuna_sandbox_x.msh"))
+-- A file that is a link leads out as a folder does.
+os.execute(("ln -sfn '%s/elsewhere/y.msh' '%s/out/y.msh'"):format(folder, folder))
+refused(mesh:format "y.msh", { "y.msh", "not a plain file" }, "--output-dir", "out")
+check.that(not check.exists(folder .. "/elsewhere/y.msh"))
+os.execute(("rm '%s/out/y.msh'"):format(folder))
 refused(mesh:format "x.msh", { "nowhere" }, "--output-dir", "nowhere")
 allowed(mesh:format "x.msh", "--output-dir", "out")
 allowed(mesh:format "deeper/y.msh", "--output-dir", "out")
 allowed(mesh:format(folder .. "/out/z.msh"), "--output-dir", folder .. "/out")
-for _, name in ipairs { "out/x.msh", "out/deeper/y.msh", "out/z.msh" } do check.that(check.exists(folder .. "/" .. name), name) end
+for _, name in ipairs { "out/x.msh", "out/deeper/y.msh", "out/z.msh" } do
+  check.that(check.exists(folder .. "/" .. name), name)
+end
 
 -- Files that Gmsh would run as a script.
 if lacuna.gmsh_version ~= "none" then

@@ -25,7 +25,8 @@ local function ell(a, b)
   lid("source", 0, { { 1, 4, 2 }, { 2, 4, 3 }, { 1, 6, 4 }, { 6, 5, 4 } })
   lid("target", 1, { { 1, 2, 4 }, { 2, 3, 4 }, { 1, 4, 6 }, { 6, 4, 5 } })
   for k = 1, 6 do
-    model:add_face { name = "wall_" .. k, points = { at(k, 0), at(k + 1, 0), at(k + 1, 1), at(k, 1) }, cells = { { 1, 2, 3 }, { 1, 3, 4 } } }
+    model:add_face { name = "wall_" .. k, points = { at(k, 0), at(k + 1, 0), at(k + 1, 1), at(k, 1) },
+        cells = { { 1, 2, 3 }, { 1, 3, 4 } } }
   end
   return model:open_volume { source = "source", target = "target", walls = "auto" }
 end
@@ -46,7 +47,10 @@ for _, size in ipairs { 0.31, 0.17, 0.093 } do
   end
 end
 
-local function disc() return lacuna.synthetic.barrel { radius = 1, height = 1, bulge = 0 }:open_volume { source = "source", target = "target", walls = "auto" } end
+local function disc()
+  return lacuna.synthetic.barrel { radius = 1, height = 1, bulge = 0 }:open_volume { source = "source",
+      target = "target", walls = "auto" }
+end
 
 -- Depths of the source's nodes below its rim, from the shallowest.
 local function depths(mesh)
@@ -74,13 +78,15 @@ end
 
 -- A height that changes, and rows alone, as high as the size.
 do
-  local mesh = disc():sweep { layers = 2, size = 0.1, row_height = function(x) return x > 0 and 0.06 or 0.04 end }
+  local mesh = disc():sweep { layers = 2, size = 0.1,
+      row_height = function(x) return x > 0 and 0.06 or 0.04 end }
   check.that(said(mesh, "1 row of its own height"))
   check.that(said(disc():sweep { layers = 1, size = 0.1, rows = 3 }, "3 rows"))
 end
 
 check.fails(function() disc():sweep { layers = 1, size = 0.1, rows = 0 } end, "rows")
 check.fails(function() disc():sweep { layers = 1, size = 0.1, row_height = -1 } end, "row_height")
-check.fails(function() disc():sweep { layers = 1, size = 0.1, row_height = function() return 0 end } end, "row_height", "positive")
+check.fails(function() disc():sweep { layers = 1, size = 0.1, row_height = function() return 0 end } end,
+    "row_height", "positive")
 check.fails(function() disc():sweep { layers = 1, size = 0.1, rows = 1, quads = "gmsh" } end, "rows", "paved")
 check.done()

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- lacuna.synthetic over a family of sizes: whole, each volume is closed and has the volume its formula says; with
--- faces left out, it is of the class it should be and can be sealed.
+-- lacuna.synthetic over a family of sizes: whole, each volume is closed and has the volume its formula says;
+-- with faces left out, it is of the class it should be and can be sealed.
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
 local lacuna = require "lacuna"
 local s = lacuna.synthetic
@@ -17,8 +17,8 @@ local function open(model)
   return model:open_volume(roles)
 end
 
--- Volume inside the facets, by the divergence theorem over what describe() cannot hide: area, normal and centroid
--- are exact for plane faces.
+-- Volume inside the facets, by the divergence theorem over what describe() cannot hide: area, normal and
+-- centroid are exact for plane faces.
 local function plane_volume(model)
   local sum = 0
   for _, face in ipairs(model:faces()) do
@@ -31,8 +31,12 @@ end
 -- Whole volumes are closed: neighbours share their points to the bit.
 local whole = {}
 for sides = 3, 8 do whole[#whole + 1] = s.prism { sides = sides, radius = sides, height = 0.5 } end
-for holes = 1, 5 do whole[#whole + 1] = s.prism { sides = 6, holes = holes, twist = 20 * holes, taper = 1 / holes } end
-for _, bend in ipairs { -90, 45, 120 } do whole[#whole + 1] = s.prism { sides = 4, height = 8, bend = bend, holes = 1 } end
+for holes = 1, 5 do
+  whole[#whole + 1] = s.prism { sides = 6, holes = holes, twist = 20 * holes, taper = 1 / holes }
+end
+for _, bend in ipairs { -90, 45, 120 } do
+  whole[#whole + 1] = s.prism { sides = 4, height = 8, bend = bend, holes = 1 }
+end
 for _, facets in ipairs { 3, 12, 48 } do
   whole[#whole + 1] = s.annulus { facets = facets, inner = 0.9 }
   whole[#whole + 1] = s.elbow { facets = facets }
@@ -52,7 +56,8 @@ for sides = 3, 9 do
     local volume = plane_volume(s.prism { sides = sides, radius = 1.5, height = 3, taper = taper })
     check.near(volume, polygon_area(sides, 1.5) * (1 + taper + taper * taper), 1e-9)
   end
-  local hollow = plane_volume(s.prism { sides = sides, radius = 1, height = 2, holes = 1, hole_radius = 0.25 })
+  local hollow = plane_volume(s.prism { sides = sides, radius = 1, height = 2, holes = 1,
+      hole_radius = 0.25 })
   check.near(hollow, 2 * (polygon_area(sides, 1) - polygon_area(sides, 0.25)), 1e-9)
 end
 
@@ -80,7 +85,8 @@ for _, sides in ipairs { 4, 6 } do
   for _, options in ipairs { {}, { taper = 0.5 }, { twist = 15 }, { holes = 1 } } do
     for _, entry in ipairs(classes) do
       local class, drop = table.unpack(entry)
-      local void = open(s.prism { sides = sides, drop = drop, table.unpack {}, taper = options.taper, twist = options.twist,
+      local void = open(s.prism { sides = sides, drop = drop, table.unpack {}, taper = options.taper,
+          twist = options.twist,
                                   holes = options.holes })
       if not (class == "I" and options.holes) then check.equal(void.class, class) end
       check.equal(void:is_watertight(), false)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The seam between Lua, which raises by longjmp, and C++, which throws: nothing is lost, nothing is destroyed twice.
+// The seam between Lua, which raises by longjmp, and C++, which throws: nothing is lost and nothing is
+// destroyed twice.
 #include "bindings/box.h"
 #include "bindings/lacuna_lua.h"
 

@@ -239,14 +239,14 @@ void check_options(const WriteCadOptions& options)
 
 } // namespace
 
-WrittenCad write_cad(const OpenVolume& volume, const std::string& path, const WriteCadOptions& options,
+WrittenCad write_cad(const OpenVolume& volume, const io::OutputPath& path, const WriteCadOptions& options,
                      const RunContext& context)
 {
     check_options(options);
-    const std::string ending = ending_of(path);
+    const std::string ending = ending_of(path.text());
     if (ending != ".step" && ending != ".stp" && ending != ".brep") {
         throw InvalidInput("cad.unknown_ending",
-                           "cannot write a solid to '" + path + "': the ending \"" + ending +
+                           "cannot write a solid to '" + path.text() + "': the ending \"" + ending +
                                "\" says no format; solids are written as .step, .stp and .brep");
     }
     check_sealed(volume);
@@ -256,7 +256,7 @@ WrittenCad write_cad(const OpenVolume& volume, const std::string& path, const Wr
     WrittenCad written;
     written.facet_volume = closure::enclosed_volume(volume);
 
-    Session session(path);
+    Session session(path.text());
     const GmshModel scratch(session);
     const CapturedOutput output;
     SolidBuilder builder(session, scratch, volume, workshop.folder());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/io/whole_file.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <cstddef>
@@ -41,7 +42,7 @@ struct WrittenCad {
 ///                      read back as one closed solid of the volume, the disk is full. Nothing is left behind.
 /// @note  The same volume gives the same bytes; the time in a STEP file's head is that of 1970, its product is
 ///        called "volume".
-WrittenCad write_cad(const topology::OpenVolume& volume, const std::string& path,
+WrittenCad write_cad(const topology::OpenVolume& volume, const io::OutputPath& path,
                      const WriteCadOptions& options = {}, const RunContext& context = {});
 
 } // namespace lacuna::cad

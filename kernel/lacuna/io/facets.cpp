@@ -416,13 +416,13 @@ std::string ending_of(const std::string& path)
 
 } // namespace
 
-void write_facets(const OpenVolume& volume, const std::string& path, const FacetFileOptions& options,
+void write_facets(const OpenVolume& volume, const OutputPath& path, const FacetFileOptions& options,
                   const RunContext& context)
 {
-    const std::string ending = ending_of(path);
+    const std::string ending = ending_of(path.text());
     if (ending != ".stl" && ending != ".obj" && ending != ".msh")
         throw InvalidInput("io.unknown_ending",
-                           "cannot write facets to '" + path + "': the ending \"" + ending +
+                           "cannot write facets to '" + path.text() + "': the ending \"" + ending +
                                "\" says no format; facets are written as .stl, .obj and .msh");
     check_sealed(volume);
     const Skin skin = skin_of(volume);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/io/whole_file.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <string>
@@ -25,7 +26,7 @@ struct FacetFileOptions {
 /// @throw InvalidInput  the volume is not sealed (names free edges), an unknown ending, a missing folder.
 /// @throw BackendError  the disk is full or the file cannot be written; nothing is left behind.
 /// @note  The same volume gives the same bytes.
-void write_facets(const topology::OpenVolume& volume, const std::string& path,
+void write_facets(const topology::OpenVolume& volume, const OutputPath& path,
                   const FacetFileOptions& options = {}, const RunContext& context = {});
 
 } // namespace lacuna::io

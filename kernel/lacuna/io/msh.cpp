@@ -407,7 +407,7 @@ void tell_lost_groups(const MshContent& content, const RunContext& context)
 
 } // namespace
 
-void write_msh(const mesh::HexMesh& mesh, const std::string& path, const MshOptions& options,
+void write_msh(const mesh::HexMesh& mesh, const OutputPath& path, const MshOptions& options,
                const RunContext& context)
 {
     const bool old = options.version == 2.2;

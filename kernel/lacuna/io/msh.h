@@ -3,6 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/io/cell_field.h>
+#include <lacuna/io/whole_file.h>
 #include <lacuna/mesh/hex_mesh.h>
 
 #include <string>
@@ -21,7 +22,7 @@ struct MshOptions {
 /// written beside its place and renamed.
 /// @throw InvalidInput  the folder does not exist, the version is unknown, as `check_fields()`.
 /// @throw BackendError  the disk is full or the file cannot be written; nothing is left behind.
-void write_msh(const mesh::HexMesh& mesh, const std::string& path, const MshOptions& options = {},
+void write_msh(const mesh::HexMesh& mesh, const OutputPath& path, const MshOptions& options = {},
                const RunContext& context = {});
 
 } // namespace lacuna::io

@@ -212,7 +212,7 @@ std::vector<Section> vtk_sections(const mesh::HexMesh& mesh, const Fields& field
 
 } // namespace
 
-void write_vtu(const mesh::HexMesh& mesh, const std::string& path, const VtuOptions& options,
+void write_vtu(const mesh::HexMesh& mesh, const OutputPath& path, const VtuOptions& options,
                const RunContext& context)
 {
     check_skin(mesh);
@@ -229,7 +229,7 @@ void write_vtu(const mesh::HexMesh& mesh, const std::string& path, const VtuOpti
     file.commit();
 }
 
-void write_vtk(const mesh::HexMesh& mesh, const std::string& path, const VtkOptions& options,
+void write_vtk(const mesh::HexMesh& mesh, const OutputPath& path, const VtkOptions& options,
                const RunContext& context)
 {
     check_skin(mesh);

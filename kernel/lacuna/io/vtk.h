@@ -3,6 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/io/cell_field.h>
+#include <lacuna/io/whole_file.h>
 #include <lacuna/mesh/hex_mesh.h>
 
 #include <string>
@@ -18,7 +19,7 @@ struct VtuOptions {
 /// tag of the skin patch, 0 for hexahedra. Whole or not at all.
 /// @throw InvalidInput  the folder does not exist, a skin quad belongs to no patch, as `check_fields()`.
 /// @throw BackendError  the disk is full or the file cannot be written; nothing is left behind.
-void write_vtu(const mesh::HexMesh& mesh, const std::string& path, const VtuOptions& options = {},
+void write_vtu(const mesh::HexMesh& mesh, const OutputPath& path, const VtuOptions& options = {},
                const RunContext& context = {});
 
 struct VtkOptions {
@@ -27,7 +28,7 @@ struct VtkOptions {
 };
 
 /// The same in VTK's legacy format.
-void write_vtk(const mesh::HexMesh& mesh, const std::string& path, const VtkOptions& options = {},
+void write_vtk(const mesh::HexMesh& mesh, const OutputPath& path, const VtkOptions& options = {},
                const RunContext& context = {});
 
 } // namespace lacuna::io

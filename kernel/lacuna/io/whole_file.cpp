@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace lacuna::io {
@@ -26,31 +27,113 @@ fs::path resolved(const std::string& path)
     return path;
 }
 
-void check_place(const std::string& path, const fs::path& target)
+[[noreturn]] void refuse_folder(const std::string& path, int error)
 {
-    if (path.empty()) throw InvalidInput("io.no_path", "no file name was given to write to");
-    std::error_code ignored;
-    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, ignored))
-        throw InvalidInput("io.no_folder", "cannot write '" + path + "': there is no folder '" +
-                                               folder.string() + "'; make it first, or name another place");
-    if (fs::is_directory(target, ignored) || !target.has_filename())
-        throw InvalidInput("io.not_a_file", "cannot write '" + path + "': it is a folder; add a file name");
-    if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored))
-        throw InvalidInput("io.not_a_file", "cannot write '" + path + "': it is not a plain file");
+    throw InvalidInput("io.no_folder", "the folder '" + path +
+                                           "' cannot be used: " + std::generic_category().message(error) +
+                                           "; make it first, or name another place");
+}
+
+std::string numbered(const std::string& name, int attempt)
+{
+    // Whatever the name is, this one must not be too long for the file system.
+    constexpr std::size_t kLongest = 200;
+    return "." + name.substr(0, kLongest) + ".unfinished-" + std::to_string(::getpid()) + "-" +
+           std::to_string(attempt);
 }
 
 } // namespace
 
-WholeFile::WholeFile(const std::string& path)
+Folder::Folder(const std::string& path)
 {
-    const fs::path target = resolved(path);
-    check_place(path, target);
-    path_ = target.string();
+    std::error_code ignored;
+    path_ = fs::weakly_canonical(path, ignored).string();
+    descriptor_ = ::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor_ < 0) refuse_folder(path, errno);
+}
+
+Folder::~Folder() { ::close(descriptor_); }
+
+std::shared_ptr<const Folder> Folder::inside(const std::string& name) const
+{
+    const int descriptor = ::openat(descriptor_, name.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    const std::string path = (fs::path(path_) / name).string();
+    if (descriptor < 0) refuse_folder(path, errno);
+    return std::shared_ptr<const Folder>(new Folder(descriptor, path));
+}
+
+OutputPath OutputPath::below(const std::shared_ptr<const Folder>& folder, const std::string& path)
+{
+    const auto outside = [&](const std::string& why) -> InvalidInput {
+        return {"io.outside", "'" + path + "' is not below " + folder->path() + ": " + why};
+    };
+    fs::path inside = fs::path(path);
+    if (inside.is_absolute()) {
+        inside = inside.lexically_relative(folder->path());
+        if (inside.empty() || *inside.begin() == "..") throw outside("it is a path of another place");
+    }
+    OutputPath result(path);
+    result.folder_ = folder;
+    for (auto part = inside.begin(); part != inside.end(); ++part) {
+        if (*part == "..") throw outside("'..' may lead out of it");
+        if (std::next(part) == inside.end()) {
+            result.name_ = part->string();
+        } else if (!part->empty() && *part != ".") {
+            struct stat status = {};
+            if (::fstatat(result.folder_->descriptor(), part->c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+                S_ISLNK(status.st_mode))
+                throw outside("'" + part->string() + "' is a link");
+            result.folder_ = result.folder_->inside(part->string());
+        }
+    }
+    return result;
+}
+
+WholeFile::WholeFile(const OutputPath& path) : path_(path.text())
+{
+    if (path_.empty()) throw InvalidInput("io.no_path", "no file name was given to write to");
+    if (path.folder_) {
+        folder_ = path.folder_;
+        name_ = path.name_;
+    } else {
+        const fs::path target = resolved(path_);
+        const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
+        std::error_code ignored;
+        if (!fs::is_directory(parent, ignored))
+            throw InvalidInput("io.no_folder", "cannot write '" + path_ + "': there is no folder '" +
+                                                   parent.string() +
+                                                   "'; make it first, or name another place");
+        folder_ = std::make_shared<const Folder>(parent.string());
+        name_ = target.filename().string();
+    }
+    struct stat before = {};
+    const bool exists = ::fstatat(folder_->descriptor(), name_.empty() ? "." : name_.c_str(), &before,
+                                  AT_SYMLINK_NOFOLLOW) == 0;
+    if (name_.empty() || (exists && S_ISDIR(before.st_mode)))
+        throw InvalidInput("io.not_a_file", "cannot write '" + path_ + "': it is a folder; add a file name");
+    if (exists && !S_ISREG(before.st_mode))
+        throw InvalidInput("io.not_a_file", "cannot write '" + path_ + "': it is not a plain file");
+    open_unnamed();
+    if (descriptor_ < 0) open_named();
+    if (exists && ::fchmod(descriptor_, before.st_mode & 07777) != 0) fail(errno);
+}
+
+void WholeFile::open_unnamed()
+{
+#ifdef O_TMPFILE
+    // A file without a name gets one through /proc alone, without privileges.
+    if (::access("/proc/self/fd", X_OK) != 0) return;
+    descriptor_ = ::openat(folder_->descriptor(), ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+#endif
+}
+
+void WholeFile::open_named()
+{
     // The name is taken by whoever makes the file first, so that two writers never share one.
     for (int attempt = 0; descriptor_ < 0; ++attempt) {
-        unfinished_ = path_ + ".unfinished-" + std::to_string(::getpid()) + "-" + std::to_string(attempt);
-        descriptor_ = ::open(unfinished_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        unfinished_ = numbered(name_, attempt);
+        descriptor_ = ::openat(folder_->descriptor(), unfinished_.c_str(),
+                               O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (descriptor_ < 0 && errno != EEXIST) {
             const int error = errno;
             unfinished_.clear();
@@ -62,7 +145,7 @@ WholeFile::WholeFile(const std::string& path)
 WholeFile::~WholeFile()
 {
     if (descriptor_ >= 0) ::close(descriptor_);
-    if (!unfinished_.empty()) ::unlink(unfinished_.c_str());
+    if (!unfinished_.empty()) ::unlinkat(folder_->descriptor(), unfinished_.c_str(), 0);
 }
 
 void WholeFile::fail(int error)
@@ -93,12 +176,34 @@ void WholeFile::append(std::string_view bytes)
     end_ += bytes.size();
 }
 
+void WholeFile::publish_unnamed()
+{
+    const std::string source = "/proc/self/fd/" + std::to_string(descriptor_);
+    const auto link_as = [&](const std::string& name) {
+        return ::linkat(AT_FDCWD, source.c_str(), folder_->descriptor(), name.c_str(), AT_SYMLINK_FOLLOW) ==
+               0;
+    };
+    if (link_as(name_)) return;
+    if (errno != EEXIST) fail(errno);
+    // Linking replaces nothing; renaming does. The name in between lives for two system calls.
+    for (int attempt = 0; unfinished_.empty(); ++attempt) {
+        const std::string name = numbered(name_, attempt);
+        if (link_as(name))
+            unfinished_ = name;
+        else if (errno != EEXIST)
+            fail(errno);
+    }
+}
+
 void WholeFile::commit()
 {
+    if (unfinished_.empty()) publish_unnamed();
     const int descriptor = descriptor_;
     descriptor_ = -1;
     if (::close(descriptor) != 0) fail(errno);
-    if (std::rename(unfinished_.c_str(), path_.c_str()) != 0) fail(errno);
+    if (unfinished_.empty()) return;
+    if (::renameat(folder_->descriptor(), unfinished_.c_str(), folder_->descriptor(), name_.c_str()) != 0)
+        fail(errno);
     unfinished_.clear();
 }
 

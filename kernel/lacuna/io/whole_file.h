@@ -2,18 +2,66 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
 namespace lacuna::io {
 
-/// A file that is there whole or not at all: it is written beside its place, and `commit()` renames it. Whatever
-/// else happens, nothing is left behind and what was there before stays.
+/// A folder that is held open: it stays the same one even if its path comes to mean another.
+class Folder {
+public:
+    /// @throw InvalidInput "io.no_folder"  there is no such folder, or it may not be entered.
+    explicit Folder(const std::string& path);
+    ~Folder();
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    [[nodiscard]] int descriptor() const { return descriptor_; }
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+    /// A folder inside this one.
+    /// @param name  one component of a path; a link is refused.
+    /// @throw InvalidInput "io.no_folder"
+    [[nodiscard]] std::shared_ptr<const Folder> inside(const std::string& name) const;
+
+private:
+    Folder(int descriptor, std::string path) : descriptor_(descriptor), path_(std::move(path)) {}
+
+    int descriptor_ = -1;
+    std::string path_; ///< for messages, absolute
+};
+
+/// Where a file shall be written. A plain path is resolved as the shell does, links included.
+class OutputPath {
+public:
+    OutputPath(std::string path) : path_(std::move(path)) {}        // NOLINT(google-explicit-constructor)
+    OutputPath(const char* path) : OutputPath(std::string(path)) {} // NOLINT(google-explicit-constructor)
+
+    /// A path below a folder that is held open: no part of it may be a link or lead out.
+    /// @throw InvalidInput "io.outside"  the path leads out of the folder, through `..` or a link.
+    static OutputPath below(const std::shared_ptr<const Folder>& folder, const std::string& path);
+
+    /// As the person knows it; its ending says the format.
+    [[nodiscard]] const std::string& text() const { return path_; }
+
+private:
+    friend class WholeFile;
+    std::string path_;
+    std::shared_ptr<const Folder> folder_; ///< null: the path is resolved when the file is opened
+    std::string name_;                     ///< inside the folder
+};
+
+/// A file that is there whole or not at all.
+///
+/// Its bytes go to a file without a name (`O_TMPFILE`), which `commit()` puts in its place. So nothing is left behind
+/// whatever ends the writing, a kill included. On a file system without nameless files it has a name of its own beside
+/// the place, which the destructor removes. A file that was there before stays until then, and its mode is kept.
 class WholeFile {
 public:
     /// @throw InvalidInput  the folder does not exist, or the path is not that of a file.
     /// @throw BackendError  the folder cannot be written to.
-    explicit WholeFile(const std::string& path);
+    explicit WholeFile(const OutputPath& path);
     ~WholeFile();
     WholeFile(const WholeFile&) = delete;
     WholeFile& operator=(const WholeFile&) = delete;
@@ -28,9 +76,14 @@ public:
 
 private:
     [[noreturn]] void fail(int error);
+    void open_unnamed();
+    void open_named();
+    void publish_unnamed();
 
-    std::string path_;       ///< where the file shall be
-    std::string unfinished_; ///< where it is written
+    std::string path_;                     ///< for messages
+    std::shared_ptr<const Folder> folder_; ///< the file is in
+    std::string name_;                     ///< inside the folder
+    std::string unfinished_;               ///< name it is written under; empty: none
     int descriptor_ = -1;
     std::uint64_t end_ = 0;
 };
