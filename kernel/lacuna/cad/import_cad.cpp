@@ -3,6 +3,7 @@
 
 #include <lacuna/cad/detail/cad_facets.h>
 #include <lacuna/cad/detail/gmsh_api.h>
+#include <lacuna/healing/orient_groups.h>
 
 #include <algorithm>
 #include <cctype>
@@ -114,7 +115,7 @@ void keep_options(Session& session)
 
 void import_file(Session& session, const std::string& path)
 {
-    const std::string ending = ending_of(path);
+    const std::string ending = io::ending_of(path);
     check_head(path, ending);
     const bool script = ending == ".geo" || ending == ".geo_unrolled";
     const std::string format = ending == ".brep" ? "brep" : ending.starts_with(".st") ? "step" : "iges";
@@ -320,25 +321,6 @@ topology::Model build_model(const CadWire& wire, Cut cut, const std::shared_ptr<
 
 } // namespace
 
-std::string ending_of(const std::string& path)
-{
-    const std::size_t dot = path.find_last_of('.');
-    const std::size_t slash = path.find_last_of("/\\");
-    if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) return {};
-    std::string ending = path.substr(dot);
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return ending;
-}
-
-bool is_cad_ending(std::string_view ending)
-{
-    for (const std::string_view known :
-         {".step", ".stp", ".iges", ".igs", ".brep", ".geo", ".geo_unrolled"}) {
-        if (ending == known) return true;
-    }
-    return false;
-}
-
 topology::Model import_cad(const std::vector<std::string>& paths, const LoadOptions& options,
                            const RunContext& context)
 {
@@ -372,7 +354,7 @@ topology::Model import_cad(const std::vector<std::string>& paths, const LoadOpti
         Cut cut = cut_all(wire, facets, source->path, context);
         topology::Model model = build_model(wire, std::move(cut), source);
         model.tolerance = options.tolerance > 0 ? options.tolerance : 1e-6 * model.diagonal;
-        orient_groups(model, solids(wire));
+        healing::orient_groups(model, solids(wire));
         return model;
     });
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/io/load_facets.h>
 #include <lacuna/quads/region.h>
 #include <lacuna/topology/model.h>
 
@@ -11,20 +12,14 @@
 
 namespace lacuna::cad {
 
-struct LoadOptions {
-    double tolerance = 0;      ///< gaps below it are sewn [model length]; 0: 1e-6 × the diagonal
-    double feature_angle = 40; ///< where facets are cut into faces [degrees]
-    bool keep_mesh = true;     ///< quads of FE formats stay as they are
-    double scale = 1;          ///< every coordinate times this, > 0 [-]
-};
+using io::LoadOptions;
 
-/// Read files into one model: STEP, IGES, BREP, GEO, STL, OBJ, MSH and what else Gmsh reads as faces.
+/// Read files into one model: STEP, IGES, BREP, GEO, and what io::load_facets() reads.
 ///
 /// CAD faces get facets (chord error and turn bounded by curvature), exact curves and surfaces, and the tags
-/// Gmsh shows for the file; loose faces are sewn; orientation is made consistent. Facets are cut into faces
-/// by healing::split_facets().
+/// Gmsh shows for the file; loose faces are sewn; orientation is made consistent. Gmsh sees CAD files alone.
 /// What then still does not share edges is joined by healing::stitch(); what it left out or apart is in Model::notes.
-/// @throw InvalidInput  a missing, empty or unreadable file, an unknown ending; names the file.
+/// @throw InvalidInput  as io::load_facets(); names the file.
 /// @throw BackendError  Gmsh's own words, with the file.
 topology::Model load(const std::vector<std::string>& paths, const LoadOptions& options = {},
                      const RunContext& context = {});

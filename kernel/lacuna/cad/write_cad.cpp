@@ -185,7 +185,7 @@ std::string bytes_of(const std::string& path)
 {
     std::ifstream file(path, std::ios::binary);
     std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    if (ending_of(path) == ".brep") return bytes;
+    if (io::ending_of(path) == ".brep") return bytes;
     forget_time(bytes);
     constexpr std::string_view kCounted = "'Open CASCADE STEP translator ";
     for (std::size_t at = bytes.find(kCounted); at != std::string::npos; at = bytes.find(kCounted, at + 1))
@@ -200,7 +200,7 @@ std::pair<std::size_t, double> read_back(Session& session, const std::string& fi
     return session.run([&] {
         set_plain_import(session, 1);
         gmsh::vectorpair all;
-        gmsh::model::occ::importShapes(file, all, false, ending_of(file) == ".brep" ? "brep" : "step");
+        gmsh::model::occ::importShapes(file, all, false, io::ending_of(file) == ".brep" ? "brep" : "step");
         const std::string faults = faults_of_model();
         if (!faults.empty())
             throw BackendError("cad.reads_back",
@@ -243,7 +243,7 @@ WrittenCad write_cad(const OpenVolume& volume, const io::OutputPath& path, const
                      const RunContext& context)
 {
     check_options(options);
-    const std::string ending = ending_of(path.text());
+    const std::string ending = io::ending_of(path.text());
     if (ending != ".step" && ending != ".stp" && ending != ".brep") {
         throw InvalidInput("cad.unknown_ending",
                            "cannot write a solid to '" + path.text() + "': the ending \"" + ending +
