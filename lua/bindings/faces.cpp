@@ -202,7 +202,8 @@ void read_faces(lua_State* L, int index, const Where& where, const Box<ModelStat
 
 Vec3 mean_normal(const topology::Model& model, FaceId face)
 {
-    // Of the area: what is left of a sum that cancels, on a skin that goes all the way round, is noise of its facets.
+    // Of the area: what is left of a sum that cancels, on a skin that goes all the way round, is noise of
+    // its facets.
     constexpr double kRounding = 1e-2;
     const Vec3 vector = topology::face_area_vector(model, face);
     return vector.norm() > kRounding * topology::face_area(model, face) ? Vec3(vector.normalized())
