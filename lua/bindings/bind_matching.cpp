@@ -94,6 +94,7 @@ int match(lua_State* L)
         fail(L, "match: the volume is sealed already; match it before close()");
     auto& options = temporary<MatchOptions>(L);
     read_options(L, 2, "match", kMatchOptions, options);
+    RunContext& context = push_context(L);
     guard(L, [&] {
         const Busy busy(state, "match");
         std::optional<matching::Match> before = std::exchange(state.match, std::nullopt);
@@ -102,7 +103,7 @@ int match(lua_State* L)
             return;
         }
         try {
-            match_volume(state, options);
+            match_volume(state, options, context);
         } catch (...) {
             state.match = std::move(before);
             throw;

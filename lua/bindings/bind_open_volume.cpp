@@ -79,19 +79,19 @@ void find_walls(const topology::Model& model, topology::Roles& roles)
                                                  from_source ? roles.target : roles.source);
 }
 
-VolumeState make_volume(const topology::Model& model, RoleArguments& arguments)
+VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, const RunContext& context)
 {
     VolumeState state;
     if (!arguments.roles_named) {
         if (!arguments.faces_named)
             for (std::size_t f = 0; f < model.faces.size(); ++f) arguments.faces.emplace_back(f);
-        topology::RoleCandidate found = topology::find_roles(model, arguments.faces);
+        topology::RoleCandidate found = topology::find_roles(model, arguments.faces, context);
         arguments.roles = std::move(found.roles);
         state.role_reasons = std::move(found.reasons);
     } else if (arguments.auto_walls) {
         find_walls(model, arguments.roles);
     }
-    state.volume = topology::open_volume(model, arguments.roles);
+    state.volume = topology::open_volume(model, arguments.roles, context);
     state.volume.override_class = arguments.override_class;
     state.classification = topology::classify(state.volume);
     return state;
@@ -110,8 +110,9 @@ int open_volume(lua_State* L)
     if (arguments.roles_named && arguments.faces_named)
         fail(L, "open_volume: name either the roles (source, target, walls) or 'faces', whose roles are then "
                 "found; not both");
+    RunContext& context = push_context(L);
     auto& box = new_box<VolumeState>(L);
-    guard(L, [&] { box = std::make_shared<VolumeState>(make_volume(model->model, arguments)); });
+    guard(L, [&] { box = std::make_shared<VolumeState>(make_volume(model->model, arguments, context)); });
     return 1;
 }
 

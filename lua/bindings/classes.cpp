@@ -98,15 +98,15 @@ Busy::Busy(VolumeState& state, const char* method) : state_(state)
     state.busy = method;
 }
 
-void match_volume(VolumeState& state, const matching::MatchOptions& options)
+void match_volume(VolumeState& state, const matching::MatchOptions& options, const RunContext& context)
 {
-    if (!state.match) state.match = matching::match(state.volume, options);
+    if (!state.match) state.match = matching::match(state.volume, options, context);
 }
 
 void close_volume(VolumeState& state, const closure::CloseOptions& options, const RunContext& context)
 {
     if (state.closure) return;
-    if (has_both_ends(state.volume)) match_volume(state);
+    if (has_both_ends(state.volume)) match_volume(state, {}, context);
     topology::OpenVolume sealed = state.volume;
     state.closure = closure::close(sealed, state.match.value_or(matching::Match{}), options, context);
     state.volume = std::move(sealed);

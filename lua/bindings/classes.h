@@ -62,7 +62,7 @@ private:
 };
 
 /// Match the ends unless that is done.
-void match_volume(VolumeState& state, const matching::MatchOptions& options = {});
+void match_volume(VolumeState& state, const matching::MatchOptions& options, const RunContext& context);
 /// Seal the volume unless that is done; as it was before where it fails.
 void close_volume(VolumeState& state, const closure::CloseOptions& options, const RunContext& context);
 

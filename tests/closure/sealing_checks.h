@@ -27,8 +27,8 @@ inline closure::Closure seal(topology::OpenVolume& volume, const closure::CloseO
     return closure::close(volume, ends ? matching::match(volume, match) : matching::Match{}, options);
 }
 
-/// Watertight, told without the kernel's own check: every facet side is met by one other, run the other way, and within a face
-/// the facets' border is exactly the loops'.
+/// Watertight, told without the kernel's own check: every facet side is met by one other, run the other
+/// way, and within a face the facets' border is exactly the loops'.
 inline void check_sealed(const topology::OpenVolume& volume)
 {
     std::map<std::pair<Index, Index>, int> sides;

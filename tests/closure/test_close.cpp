@@ -31,7 +31,8 @@ struct Missing {
     std::size_t walls = 0, corners = 0;
 };
 
-/// How many void faces and edges the paper's algorithms make: a face a missing wall, an edge a corner between two missing walls.
+/// How many void faces and edges the paper's algorithms make: a face a missing wall, an edge a corner
+/// between two missing walls.
 Missing missing(const PrismOptions& options)
 {
     Missing count;
@@ -46,7 +47,8 @@ Missing missing(const PrismOptions& options)
     return count;
 }
 
-/// @param closeness  of the volume to the whole's: void faces are flat or ruled as the walls were, but cut into other facets.
+/// @param closeness  of the volume to the whole's: void faces are flat or ruled as the walls were, but cut
+///         into other facets.
 void check_prism(const PrismOptions& options, VolumeClass value, double closeness = 1e-9)
 {
     const auto prism = test::prism(options);
@@ -340,7 +342,8 @@ TEST_CASE("walls missing from one row of a stack are closed")
                 auto volume = prism.open();
                 const bool touching = (side_bits & (side_bits << 1)) != 0 || (side_bits & 9U) == 9U;
                 if (touching) {
-                    // No corner is free on both ends: what closes it is not told by the paper; sealed or refused by name.
+                    // No corner is free on both ends: what closes it is not told by the paper; sealed or
+                    // refused by name.
                     const std::string code = test::refusal([&] {
                         test::seal(volume);
                         test::check_sealed(volume);

@@ -171,8 +171,8 @@ TEST_CASE("a follower carries source points to target points, rim to rim at both
                 a; // carried twice with the same source and target point given by the fit's own ends
             CAPTURE(bend);
             CAPTURE(twist);
-            CHECK((follower.carry(a, b, 0) - a).norm() < 1e-6);
-            CHECK((follower.carry(a, b, 1) - b).norm() < 1e-6);
+            CHECK((follower.morph(a, b, 0) - a).norm() < 1e-6);
+            CHECK((follower.morph(a, b, 1) - b).norm() < 1e-6);
         }
     }
 }

@@ -555,7 +555,8 @@ TEST_CASE("nodes of a mesh that is kept stay to the bit and get no others betwee
             const std::size_t quads = model.faces[0].given_quads.size() + model.faces[1].given_quads.size();
             const healing::StitchReport report = healing::stitch(model, kTolerance);
             check_whole(model);
-            // Nodes between the kept ones have no place; fewer are filled up where the face has no mesh of its own.
+            // Nodes between the kept ones have no place; fewer are filled up where the face has no mesh of
+            // its own.
             const bool fits = nodes == 3 || (!both && nodes == 1);
             CHECK(report.edges_merged == (fits ? 1 : 0));
             CHECK(report.notes.size() == (fits ? 0U : 1U));
@@ -577,7 +578,8 @@ TEST_CASE(
             CAPTURE(n);
             healing::FacetSoup soup;
             const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1), o(0, 0, 0);
-            // Every side of the cube is divided in a way of its own; in one part, so that all is within a label.
+            // Every side of the cube is divided in a way of its own; in one part, so that all is within a
+            // label.
             std::mt19937 random(static_cast<unsigned>(n));
             add_patch(soup, 1, o, y, x, false);
             add_patch(soup, n, z, x, y, quads);

@@ -37,7 +37,8 @@ struct Plate {
     std::vector<Vec3> corners;
 };
 
-/// @param counts  corners of each loop, the outer one first. @param unlike  how much loops differ from regular ones, 0…1
+/// @param counts  corners of each loop, the outer one first. @param unlike  how much loops differ from
+///         regular ones, 0…1
 Plate plate(const std::vector<int>& counts, double unlike, std::mt19937& dice)
 {
     std::uniform_real_distribution<double> chance(-1, 1);
@@ -93,7 +94,8 @@ Plate plate(const std::vector<int>& counts, double unlike, std::mt19937& dice)
     return result;
 }
 
-/// A plate and its image, as source and target of class I; the target's facets reordered, and its faces first where asked.
+/// A plate and its image, as source and target of class I; the target's facets reordered, and its faces
+/// first where asked.
 OpenVolume pair_of(const Plate& low, const std::function<Vec3(const Vec3&)>& map, bool target_first,
                    unsigned seed)
 {
@@ -178,8 +180,8 @@ TEST_CASE("pairs undo a rigid motion with scale, for loops of 1 to 8 vertices, w
         for (const double unlike : {0.0, 1.0}) {
             for (int trial = 0; trial < 12; ++trial) {
                 const auto low = plate({corners}, unlike, dice);
-                // The twist stays below half a step of a regular loop, and the tilt well below a right angle: beyond,
-                // other pairs are as good.
+                // The twist stays below half a step of a regular loop, and the tilt well below a right
+                // angle: beyond, other pairs are as good.
                 const double twist = 0.9 * chance(dice) * kPi / std::max(corners, 2);
                 const double tilt = 0.35 * kPi * chance(dice);
                 const Vec3 axis = Vec3(chance(dice), chance(dice), 0).normalized();
@@ -258,7 +260,8 @@ TEST_CASE("rotated, tapered, tilted and far loops of prisms are paired along the
                             auto whole = options;
                             whole.drop = nullptr;
                             const auto closed = test::prism(whole);
-                            // Where the whole has an edge from a source corner to a target corner, there the pair belongs.
+                            // Where the whole has an edge from a source corner to a target corner, there
+                            // the pair belongs.
                             std::set<std::pair<std::array<long, 3>, std::array<long, 3>>> sides_of_whole;
                             const auto key = [](const Vec3& p) {
                                 return std::array<long, 3>{std::lround(p.x() * 1e6), std::lround(p.y() * 1e6),
@@ -467,7 +470,8 @@ TEST_CASE("a smooth loop goes where it is turned least, wherever its vertex happ
                 CAPTURE(twist);
                 CAPTURE(seed);
                 CHECK(found.vertices.size() + found.splits.size() == static_cast<std::size_t>(holes) + 1);
-                // With holes to tell the twist it is undone, by itself a circle is not turned at all; to half a facet and a lay's slack.
+                // With holes to tell the twist it is undone, by itself a circle is not turned at all; to
+                // half a facet and a lay's slack.
                 const double turn = holes > 1 ? twist * kPi / 180 : 0;
                 for (const matching::Split& cut : found.splits) {
                     CHECK(cut.on_target);

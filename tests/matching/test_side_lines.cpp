@@ -132,3 +132,42 @@ TEST_CASE("sections of any walls lie on their levels of a straight prism, as man
     }
     MESSAGE(combinations << " sets of walls");
 }
+
+TEST_CASE("a wall that is open at one level and closed at another has no sections in common")
+{
+    // A tube whose wall has a notch at the source: no edge of the notch rises to the target.
+    constexpr int around = 32, rows = 8;
+    healing::FacetSoup soup;
+    const auto add = [&](Index a, Index b, Index c, int label) {
+        soup.triangles.push_back({a, b, c});
+        soup.triangle_label.push_back(label);
+    };
+    for (int j = 0; j <= rows; ++j) {
+        for (int i = 0; i < around; ++i) {
+            const double angle = 2 * std::numbers::pi * i / around;
+            soup.points.emplace_back(std::cos(angle), std::sin(angle), 0.25 * j);
+        }
+    }
+    const auto at = [](int i, int j) { return static_cast<Index>(j * around + i % around); };
+    for (const int end : {0, 1}) {
+        soup.points.emplace_back(0, 0, end == 0 ? 0 : 0.25 * rows);
+        const auto centre = static_cast<Index>(soup.points.size() - 1);
+        for (int i = 0; i < around; ++i) {
+            const Index a = at(i, end * rows), b = at(i + 1, end * rows);
+            add(centre, end == 0 ? b : a, end == 0 ? a : b, end);
+        }
+    }
+    for (int j = 0; j < rows; ++j) {
+        for (int i = 0; i < around; ++i) {
+            if (i < 4 && j < 2) continue;
+            add(at(i, j), at(i + 1, j), at(i + 1, j + 1), 2);
+            add(at(i, j), at(i + 1, j + 1), at(i, j + 1), 2);
+        }
+    }
+    const Model model = healing::split_facets(soup, {.whole_labels = true});
+    REQUIRE(model.faces.size() == 3);
+    const OpenVolume volume = open_volume(model,
+                                          {{FaceId(Index{0})}, {FaceId(Index{1})}, {FaceId(Index{2})}});
+    const auto sections = matching::cut_sections(volume, 10);
+    for (const auto& level : sections.levels) CHECK(level.empty());
+}

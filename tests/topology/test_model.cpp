@@ -20,7 +20,8 @@ using test::PrismOptions;
 
 namespace {
 
-/// Every loop is a closed walk; the walk's directed segments are sides of the face's facets with the face on the left.
+/// Every loop is a closed walk; the walk's directed segments are sides of the face's facets with the face
+/// on the left.
 void check_loops(const Model& model)
 {
     for (const Face& face : model.faces) {
@@ -182,7 +183,8 @@ TEST_CASE("two loops of one face that touch in a vertex are told apart by the fa
 
 TEST_CASE("a hole that touches the outer border in a vertex makes one walk that passes the vertex twice")
 {
-    // A triangle with a triangular hole whose corner is the outer corner 0: two strips that meet in one point.
+    // A triangle with a triangular hole whose corner is the outer corner 0: two strips that meet in one
+    // point.
     const std::vector<Vec3> points{{0, 0, 0}, {6, 0, 0}, {0, 6, 0}, {2, 1, 0}, {1, 2, 0}};
     Model model = by_hand(points, {{{0, 1, 3}, {3, 1, 2}, {3, 2, 4}, {4, 2, 0}}},
                           {{0, 1}, {1, 2}, {2, 0}, {0, 4}, {4, 3}, {3, 0}});

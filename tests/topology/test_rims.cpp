@@ -35,7 +35,8 @@ std::vector<FaceId> all_faces(const Model& model)
     return all;
 }
 
-/// Each rim is a closed walk, and together they use exactly the edges the set uses once, the faces on the left.
+/// Each rim is a closed walk, and together they use exactly the edges the set uses once, the faces on the
+/// left.
 void check_rims(const Model& model, const std::vector<FaceId>& faces)
 {
     std::map<EdgeId, std::vector<bool>> uses;

@@ -3,6 +3,7 @@
 
 #include <lacuna/cad/detail/exact_geometry.h>
 #include <lacuna/cad/detail/gmsh_api.h>
+#include <lacuna/geometry/union_find.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,14 +38,10 @@ double polyline_length(const std::vector<Vec3>& points)
 /// Smallest index of each set of points that are chained by distances within the tolerance.
 std::vector<std::size_t> clusters(const std::vector<CadVertex>& vertices, double tolerance)
 {
-    std::vector<std::size_t> root(vertices.size());
-    std::iota(root.begin(), root.end(), std::size_t{0});
-    const auto find = [&](std::size_t i) {
-        while (root[i] != i) i = root[i] = root[root[i]];
-        return i;
-    };
+    geometry::UnionFind sets(vertices.size());
     // Sorted along x, only neighbours within the tolerance need a look.
-    std::vector<std::size_t> order(root);
+    std::vector<std::size_t> order(vertices.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return std::pair(vertices[a].at.x(), a) < std::pair(vertices[b].at.x(), b);
     });
@@ -52,12 +49,11 @@ std::vector<std::size_t> clusters(const std::vector<CadVertex>& vertices, double
         for (std::size_t k = i + 1; k < order.size(); ++k) {
             if (vertices[order[k]].at.x() - vertices[order[i]].at.x() > tolerance) break;
             if ((vertices[order[k]].at - vertices[order[i]].at).norm() > tolerance) continue;
-            const std::size_t a = find(order[i]);
-            const std::size_t b = find(order[k]);
-            root[std::max(a, b)] = std::min(a, b);
+            sets.unite_least(order[i], order[k]);
         }
     }
-    for (std::size_t i = 0; i < root.size(); ++i) root[i] = find(i);
+    std::vector<std::size_t> root(vertices.size());
+    for (std::size_t i = 0; i < root.size(); ++i) root[i] = sets.find(i);
     return root;
 }
 

@@ -3,13 +3,13 @@
 
 #include <lacuna/cad/detail/edge_shape.h>
 #include <lacuna/geometry/harmonic.h>
+#include <lacuna/geometry/union_find.h>
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 
 namespace lacuna::cad {
@@ -218,12 +218,7 @@ private:
             }
         }
         // Corners of facets that meet at a side off the rim are one.
-        std::vector<std::size_t> root(3 * face.triangles.size());
-        std::iota(root.begin(), root.end(), std::size_t{0});
-        const auto find = [&](std::size_t i) {
-            while (root[i] != i) i = root[i] = root[root[i]];
-            return i;
-        };
+        geometry::UnionFind same(3 * face.triangles.size());
         const auto corner_of = [&](std::size_t t, Index p) {
             const Triangle& corners = face.triangles[t];
             return 3 * t +
@@ -232,12 +227,12 @@ private:
         for (const auto& [side, t] : facet_at) {
             const auto other = facet_at.find({side[1], side[0]});
             if (other == facet_at.end() || rim.contains(side) || rim.contains({side[1], side[0]})) continue;
-            for (const Index p : side) root[find(corner_of(t, p))] = find(corner_of(other->second, p));
+            for (const Index p : side) same.unite(corner_of(other->second, p), corner_of(t, p));
         }
         std::map<std::size_t, Index> number;
         std::vector<Triangle> open(face.triangles.size());
-        for (std::size_t c = 0; c < root.size(); ++c) {
-            const auto [place, fresh] = number.try_emplace(find(c), static_cast<Index>(points.size()));
+        for (std::size_t c = 0; c < 3 * face.triangles.size(); ++c) {
+            const auto [place, fresh] = number.try_emplace(same.find(c), static_cast<Index>(points.size()));
             if (fresh) points.push_back(model.at(face.triangles[c / 3][c % 3]));
             open[c / 3][c % 3] = place->second;
         }

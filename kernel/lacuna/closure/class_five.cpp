@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/point_in_polygon.h>
 
 #include <algorithm>
 #include <array>
@@ -71,7 +72,8 @@ std::vector<Tube> tubes_of(const OpenVolume& volume)
     return tubes;
 }
 
-/// How far a loop's middle is from another loop: along that loop's normal, which is the sweeping direction there.
+/// How far a loop's middle is from another loop: along that loop's normal, which is the sweeping direction
+/// there.
 double distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to)
 {
     const Vec3 normal = geometry::newell_vector(to).stableNormalized();
@@ -102,19 +104,6 @@ void sort_ends(const Model& model, std::vector<Tube>& tubes)
     }
 }
 
-bool inside(const Vec2& p, const std::vector<Vec2>& polygon)
-{
-    bool in = false;
-    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-        const Vec2& a = polygon[i];
-        const Vec2& b = polygon[j];
-        if ((a.y() > p.y()) != (b.y() > p.y()) &&
-            p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
-            in = !in;
-    }
-    return in;
-}
-
 Loop as_end(const Rim& rim)
 {
     Loop loop;
@@ -136,7 +125,7 @@ void face_the_void(OpenVolume& volume, std::vector<Tube>& tubes)
     for (std::size_t i = 1; i < tubes.size(); ++i) {
         std::size_t depth = 0;
         for (std::size_t j = 0; j < tubes.size(); ++j)
-            depth += j != i && inside(flat[i].front(), flat[j]) ? 1 : 0;
+            depth += j != i && geometry::point_in_polygon(flat[i].front(), flat[j]) ? 1 : 0;
         if (depth != 1) {
             throw NotClosed("closure.nested_loops",
                             "the walls " + names(volume.model, tubes[i].walls) +

@@ -26,11 +26,17 @@ void note(Closure& closure, const std::string& algorithm)
     if (std::find(list.begin(), list.end(), algorithm) == list.end()) list.push_back(algorithm);
 }
 
+/// What every way of closing needs.
+struct Tools {
+    const Follower* follower; ///< null: straight
+    const RunContext& context;
+};
+
 void add_face(OpenVolume& volume, Closure& closure, const std::vector<Loop>& loops, Role role,
-              const Follower* follower = nullptr)
+              const Tools& tools)
 {
     const std::string name = "void face " + std::to_string(closure.void_faces.size() + 1);
-    Filling filling = fill(volume, loops, follower, name);
+    VoidFilling filling = fill(volume, loops, tools.follower, name, tools.context);
     note(closure, filling.algorithm);
     closure.void_faces.push_back(add_void_face(volume, std::move(filling), role));
 }
@@ -45,10 +51,10 @@ void turn_target_to_source(OpenVolume& volume, const matching::Match& match)
 }
 
 /// Eq. (2): V = ∪(Fs, Ft) + ∪ Fi + ∪ Fvi, one wall v-TopoFace a free loop.
-void add_void_walls(OpenVolume& volume, const Follower* follower, Closure& closure)
+void add_void_walls(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     for (const Loop& loop : void_loops(volume, closure.void_edges))
-        add_face(volume, closure, {loop}, Role::wall, follower);
+        add_face(volume, closure, {loop}, Role::wall, tools);
     note(closure, "Algorithm 3");
 }
 
@@ -74,22 +80,21 @@ void check_matched(const OpenVolume& volume, const matching::Match& match)
 }
 
 /// Class I has no algorithm of its own in the paper; its walls are those of class II with no wall given.
-void close_class_one_or_two(OpenVolume& volume, matching::Match match, const Follower* follower,
-                            Closure& closure)
+void close_class_one_or_two(OpenVolume& volume, matching::Match match, const Tools& tools, Closure& closure)
 {
     if (closure.value == VolumeClass::II) note(closure, "Algorithm 8");
     turn_target_to_source(volume, match);
     matching::apply_splits(volume, match);
     check_matched(volume, match);
-    closure.void_edges = make_void_edges(volume, match, follower);
+    closure.void_edges = make_void_edges(volume, match, tools.follower);
     note(closure, "Algorithm 2");
-    add_void_walls(volume, follower, closure);
+    add_void_walls(volume, tools, closure);
 }
 
-void close_class_three(OpenVolume& volume, const Follower* follower, Closure& closure)
+void close_class_three(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     note(closure, "Algorithm 9");
-    add_void_walls(volume, follower, closure);
+    add_void_walls(volume, tools, closure);
 }
 
 Loop reversed(const Rim& rim)
@@ -101,7 +106,7 @@ Loop reversed(const Rim& rim)
 }
 
 /// Eq. (3) and (4): the free loops of source and walls are the target's.
-void close_class_four(OpenVolume& volume, Closure& closure)
+void close_class_four(OpenVolume& volume, const RunContext& context, Closure& closure)
 {
     note(closure, "Algorithm 10");
     const Model& model = volume.model;
@@ -130,20 +135,19 @@ void close_class_four(OpenVolume& volume, Closure& closure)
                                                    " free loops for the target; a sweep needs as many on "
                                                    "both ends: check the walls, or name the target");
     }
-    add_face(volume, closure, loops, Role::target);
+    add_face(volume, closure, loops, Role::target, {nullptr, context});
 }
 
 /// Eq. (5) to (8): the free loops, sorted into two subsets, are the source's and the target's.
-void close_class_five(OpenVolume& volume, Closure& closure)
+void close_class_five(OpenVolume& volume, const RunContext& context, Closure& closure)
 {
     note(closure, "Algorithm 11");
     const EndLoops ends = group_loops(volume);
-    add_face(volume, closure, ends.source, Role::source);
-    add_face(volume, closure, ends.target, Role::target);
+    add_face(volume, closure, ends.source, Role::source, {nullptr, context});
+    add_face(volume, closure, ends.target, Role::target, {nullptr, context});
 }
 
-Closure close_as(OpenVolume& volume, const matching::Match& match, VolumeClass value,
-                 const Follower* follower)
+Closure close_as(OpenVolume& volume, const matching::Match& match, VolumeClass value, const Tools& tools)
 {
     Closure closure;
     closure.value = value;
@@ -152,16 +156,16 @@ Closure close_as(OpenVolume& volume, const matching::Match& match, VolumeClass v
         break;
     case VolumeClass::I:
     case VolumeClass::II:
-        close_class_one_or_two(volume, match, follower, closure);
+        close_class_one_or_two(volume, match, tools, closure);
         break;
     case VolumeClass::III:
-        close_class_three(volume, follower, closure);
+        close_class_three(volume, tools, closure);
         break;
     case VolumeClass::IV:
-        close_class_four(volume, closure);
+        close_class_four(volume, tools.context, closure);
         break;
     case VolumeClass::V:
-        close_class_five(volume, closure);
+        close_class_five(volume, tools.context, closure);
         break;
     }
     if (enclosed_volume(volume) < 0) {
@@ -192,11 +196,12 @@ void prove_sealed(const OpenVolume& volume)
 }
 
 /// Seal a volume as one of a class, and prove it.
-Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value, const CloseOptions& options)
+Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value, const CloseOptions& options,
+             const RunContext& context)
 {
     const bool has_walls = value == VolumeClass::II || value == VolumeClass::III;
     std::optional<Follower> follower;
-    if (has_walls && options.edge_shape != EdgeShape::straight) follower.emplace(volume);
+    if (has_walls && options.edge_shape != EdgeShape::straight) follower.emplace(volume, context);
     const bool can_follow = follower && follower->leads();
     const bool follow_at_once = options.edge_shape == EdgeShape::follow;
     if (follow_at_once && !can_follow) {
@@ -205,16 +210,17 @@ Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value
                         "target, and there is none; use \"straight\"");
     }
 
-    // Left to itself, a bent volume is closed bent, and a straight one straight unless that cuts through what is given.
+    // Left to itself, a bent volume is closed bent, and a straight one straight unless that cuts through
+    // what is given.
     const bool bend_first = follow_at_once || (can_follow && follower->leads_astray(volume, match));
     const Follower* const leader = can_follow ? &*follower : nullptr;
     OpenVolume sealed = volume;
-    Closure closure = close_as(sealed, match, value, bend_first ? leader : nullptr);
-    auto crossing = first_crossing(sealed);
+    Closure closure = close_as(sealed, match, value, {bend_first ? leader : nullptr, context});
+    auto crossing = first_crossing(sealed, context);
     if (crossing && can_follow && !follow_at_once) {
         OpenVolume other = volume;
-        Closure otherwise = close_as(other, match, value, bend_first ? nullptr : leader);
-        if (!first_crossing(other)) {
+        Closure otherwise = close_as(other, match, value, {bend_first ? nullptr : leader, context});
+        if (!first_crossing(other, context)) {
             crossing.reset();
             sealed = std::move(other);
             closure = std::move(otherwise);
@@ -241,14 +247,14 @@ Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptio
     check_cancelled(context);
     const VolumeClass whole = classify(volume).value;
     const bool two_ends = whole == VolumeClass::I || whole == VolumeClass::II || whole == VolumeClass::III;
-    if (!two_ends) return seal(volume, match, whole, options);
+    if (!two_ends) return seal(volume, match, whole, options, context);
     OpenVolume lent = volume;
     const std::vector<FaceId> stubs = lend_stubs_to_ends(lent);
-    if (stubs.empty()) return seal(volume, match, whole, options);
+    if (stubs.empty()) return seal(volume, match, whole, options, context);
 
     // Part of a stack is missing: what is open lies between the stubs, and is matched there.
     lent.override_class.reset();
-    Closure closure = seal(lent, matching::match(lent), classify(lent).value, options);
+    Closure closure = seal(lent, matching::match(lent, {}, context), classify(lent).value, options, context);
     closure.value = whole;
     for (const FaceId stub : stubs) lent.role[stub.index()] = Role::wall;
     lent.override_class = volume.override_class;

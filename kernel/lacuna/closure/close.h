@@ -12,9 +12,9 @@ namespace lacuna::closure {
 
 /// How a void edge runs between its two vertices.
 enum class EdgeShape {
-    automatic, ///< straight; bent as its neighbours where a straight one would stray from them or cross the given faces
-    straight, ///< the paper's
-    follow,   ///< as the side edges next to it
+    automatic, ///< straight; `follow` where straight would stray from the walls or cross the given faces
+    straight,  ///< the paper's
+    follow,    ///< as the side edges next to it
 };
 
 struct CloseOptions {
@@ -36,6 +36,7 @@ struct Closure {
 /// @param volume  out: with the void entities added.
 /// @param match   of source and target; not read for classes IV and V, which have no two ends to match.
 /// @throw NotClosed  names the free loop, face or edge that cannot be sealed, and why.
+/// @throw Cancelled
 /// @post  every edge is used twice, in opposite directions, and the volume enclosed is positive.
 Closure close(topology::OpenVolume& volume, const matching::Match& match, const CloseOptions& options = {},
               const RunContext& context = {});

@@ -10,8 +10,11 @@ namespace lacuna::closure {
 
 namespace {
 
+/// Heights at which the walls are cut: as many as a void edge has segments, so that each gets a level of
+/// its own.
 constexpr int kLevels = 64;
 /// How far a straight void edge may run from where the walls lead, of the rims' radius.
+/// A choice, not a measurement.
 constexpr double kAstray = 0.25;
 
 /// Mean distance of a rim's vertices from their middle: of all loops together.
@@ -32,13 +35,14 @@ double radius_of(const topology::OpenVolume& volume, topology::Role end)
 
 } // namespace
 
-Follower::Follower(const topology::OpenVolume& volume)
+Follower::Follower(const topology::OpenVolume& volume, const RunContext& context)
 {
-    matching::Sections sections = matching::cut_sections(volume, kLevels);
+    matching::Sections sections = matching::cut_sections(volume, kLevels, context);
     heights_ = std::move(sections.heights);
     const std::vector<std::vector<Vec3>>& levels = sections.levels;
     if (levels.front().empty()) return;
     for (std::size_t k = 0; k < levels.size(); ++k) {
+        check_cancelled(context);
         from_source_.push_back(
             geometry::fit_affine(levels.front(), levels[k], sections.areas.front(), sections.areas[k]));
         from_target_.push_back(
@@ -46,7 +50,7 @@ Follower::Follower(const topology::OpenVolume& volume)
     }
 }
 
-Vec3 Follower::carry(const Vec3& source, const Vec3& target, double t) const
+Vec3 Follower::morph(const Vec3& source, const Vec3& target, double t) const
 {
     const double at = std::clamp(t, 0.0, 1.0) * kLevels;
     const auto low = static_cast<std::size_t>(std::min(std::floor(at), kLevels - 1.0));
@@ -59,13 +63,7 @@ Vec3 Follower::carry(const Vec3& source, const Vec3& target, double t) const
 bool Follower::leads_astray(const topology::OpenVolume& volume, const matching::Match& match) const
 {
     const topology::Model& model = volume.model;
-    std::vector<bool> on_wall(model.vertices.size(), false);
-    for (const FaceId wall : volume.faces(topology::Role::wall)) {
-        for (const topology::Loop& loop : model[wall].loops) {
-            for (const topology::EdgeUse& use : loop.uses)
-                on_wall[topology::use_from(model, use).index()] = true;
-        }
-    }
+    const std::vector<bool> on_wall = volume.on_wall();
     const double reach = kAstray * std::min(radius_of(volume, topology::Role::source),
                                             radius_of(volume, topology::Role::target));
     for (const auto& [source, target] : match.vertices) {
@@ -73,7 +71,7 @@ bool Follower::leads_astray(const topology::OpenVolume& volume, const matching::
         const Vec3 from = model.at(model[source].point), to = model.at(model[target].point);
         const Vec3 way = (to - from).stableNormalized();
         for (int k = 1; k < kLevels; ++k) {
-            const Vec3 off = carry(from, to, static_cast<double>(k) / kLevels) - from;
+            const Vec3 off = morph(from, to, static_cast<double>(k) / kLevels) - from;
             if ((off - off.dot(way) * way).norm() > reach) return true;
         }
     }

@@ -13,20 +13,21 @@ namespace lacuna::closure {
 
 /// How the given walls carry the source's section up to the target's: what void edges and faces follow.
 ///
-/// The walls are cut at even heights, and an affine map is fitted from the source's section and from the target's to each (as the sweep
-/// itself places the inside of a layer, Roca and Sarrate 2010).
+/// The walls are cut at even heights, and an affine map is fitted from the source's section and from the
+/// target's to each (as the sweep itself places the inside of a layer, Roca and Sarrate 2010).
 class Follower {
 public:
-    explicit Follower(const topology::OpenVolume& volume);
+    explicit Follower(const topology::OpenVolume& volume, const RunContext& context = {});
 
     /// False where no given wall joins source and target: there is nothing to follow.
     [[nodiscard]] bool leads() const { return !from_source_.empty(); }
 
     /// Where the point that starts at `source` and ends at `target` is at height t in [0, 1]. @pre leads()
-    [[nodiscard]] Vec3 carry(const Vec3& source, const Vec3& target, double t) const;
+    [[nodiscard]] Vec3 morph(const Vec3& source, const Vec3& target, double t) const;
 
-    /// True where a straight line between two matched vertices without walls would run further than a quarter of the rims' radius from
-    /// where the walls lead: what it closes would be squeezed on one side. @pre leads()
+    /// True where a straight line between two matched vertices without walls would run further than a
+    /// quarter of the rims' radius from where the walls lead: what it closes would be squeezed on one side.
+    /// @pre leads()
     [[nodiscard]] bool leads_astray(const topology::OpenVolume& volume, const matching::Match& match) const;
 
     /// Height of a model point on a given wall; NaN elsewhere.

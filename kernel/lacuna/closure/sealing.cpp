@@ -21,12 +21,14 @@ int shared_points(const Triangle& a, const Triangle& b)
 
 } // namespace
 
-std::optional<FaceCrossing> first_crossing(const OpenVolume& volume)
+std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunContext& context)
 {
     const Model& model = volume.model;
     std::vector<geometry::FacetTree> trees(model.faces.size());
-    for (std::size_t f = 0; f < model.faces.size(); ++f)
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        check_cancelled(context);
         trees[f] = geometry::FacetTree(model.points, model.faces[f].triangles);
+    }
     const auto corners = [&](const Triangle& t) {
         return std::array<Vec3, 3>{model.at(t[0]), model.at(t[1]), model.at(t[2])};
     };
@@ -35,9 +37,11 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume)
         for (std::size_t f = 0; f < model.faces.size(); ++f) {
             if (f == v || (f < v && model.faces[f].origin == Origin::made_void)) continue;
             const bool clear = trees[v].overlaps(trees[f], [&](Index a, Index b) {
+                check_cancelled(context);
                 const Triangle& mine = model.faces[v].triangles[static_cast<std::size_t>(a)];
                 const Triangle& theirs = model.faces[f].triangles[static_cast<std::size_t>(b)];
-                // Neighbours along a shared side can only fold onto each other, which the enclosed volume shows.
+                // Neighbours along a shared side can only fold onto each other, which the enclosed volume
+                // shows.
                 if (shared_points(mine, theirs) >= 2) return true;
                 return !geometry::triangles_cross(corners(mine), corners(theirs), model.tolerance);
             });

@@ -10,7 +10,7 @@ using namespace topology;
 
 namespace {
 
-/// Segments of a void edge at most: enough for a smooth bend.
+/// Segments of a void edge at most: a bend by 90° turns by less than 1.5° at each.
 constexpr int kMostSegments = 64;
 
 /// Mean spacing of the facet points on the edges at a vertex.
@@ -32,15 +32,7 @@ std::vector<EdgeId> make_void_edges(OpenVolume& volume, const matching::Match& m
                                     const Follower* follower)
 {
     Model& model = volume.model;
-    std::vector<bool> on_wall(model.vertices.size(), false);
-    for (const FaceId wall : volume.faces(Role::wall)) {
-        for (const Loop& loop : model[wall].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                on_wall[model[use.edge].from.index()] = true;
-                on_wall[model[use.edge].to.index()] = true;
-            }
-        }
-    }
+    const std::vector<bool> on_wall = volume.on_wall();
     std::vector<EdgeId> made;
     for (const auto& [source, target] : match.vertices) {
         if (on_wall[source.index()] || on_wall[target.index()]) continue;
@@ -60,7 +52,7 @@ std::vector<EdgeId> make_void_edges(OpenVolume& volume, const matching::Match& m
         edge.points.push_back(model[source].point);
         for (int i = 1; i < segments; ++i) {
             const double f = static_cast<double>(i) / segments;
-            const Vec3 place = follower != nullptr ? follower->carry(from, to, f)
+            const Vec3 place = follower != nullptr ? follower->morph(from, to, f)
                                                    : Vec3((1 - f) * from + f * to);
             edge.points.push_back(static_cast<Index>(model.points.size()));
             model.points.push_back(place);

@@ -115,7 +115,7 @@ private:
     std::map<VertexId, std::vector<EdgeUse>> leaving_;
 };
 
-/// How many branchings ahead a walk looks.
+/// How many branchings ahead a walk looks. A choice, not a measurement.
 constexpr int kLookAhead = 3;
 
 } // namespace

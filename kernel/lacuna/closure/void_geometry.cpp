@@ -31,7 +31,7 @@ std::vector<Index> points_of(const Model& model, const std::vector<EdgeUse>& use
     return points;
 }
 
-std::vector<Vec3> places(const Model& model, const std::vector<Index>& points)
+std::vector<Vec3> positions(const Model& model, const std::vector<Index>& points)
 {
     std::vector<Vec3> result;
     result.reserve(points.size());
@@ -48,10 +48,10 @@ struct Outline {
 
 /// Turn a triangulation of an outline into a filling; `lift` gives the place of an added point.
 template <class Lift>
-Filling filling_of(const Model& model, const Outline& outline, const geometry::Triangulation& flat,
-                   const Lift& lift)
+VoidFilling filling_of(const Model& model, const Outline& outline, const geometry::Triangulation& flat,
+                       const Lift& lift)
 {
-    Filling result;
+    VoidFilling result;
     const auto base = static_cast<Index>(model.points.size());
     const std::size_t rim = outline.flat.size();
     for (std::size_t i = rim; i < flat.points.size(); ++i) result.points.push_back(lift(i));
@@ -78,7 +78,7 @@ NewellOutline newell_outline(const Model& model, const std::vector<Loop>& loops)
 {
     NewellOutline result;
     std::vector<std::vector<Vec3>> rims;
-    for (const Loop& loop : loops) rims.push_back(places(model, points_of(model, loop.uses, true)));
+    for (const Loop& loop : loops) rims.push_back(positions(model, points_of(model, loop.uses, true)));
     result.plane = geometry::newell_plane(rims);
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const std::vector<Index> points = points_of(model, loops[l].uses, true);
@@ -93,10 +93,10 @@ NewellOutline newell_outline(const Model& model, const std::vector<Loop>& loops)
     return result;
 }
 
-Filling fill_on_newell_plane(const Model& model, const NewellOutline& newell)
+VoidFilling fill_on_newell_plane(const Model& model, const NewellOutline& newell, const RunContext& context)
 {
     const Outline& outline = newell.outline;
-    const geometry::Triangulation flat = geometry::triangulate(outline.flat, outline.loops);
+    const geometry::Triangulation flat = geometry::triangulate(outline.flat, outline.loops, {}, context);
     std::vector<double> heights(flat.points.size(), 0);
     if (newell.bulge > model.tolerance && flat.points.size() > outline.flat.size()) {
         std::vector<Vec3> points;
@@ -111,10 +111,10 @@ Filling fill_on_newell_plane(const Model& model, const NewellOutline& newell)
             problem.fixed_values(i, 0) = geometry::height(
                 newell.plane, model.at(outline.model_point[static_cast<std::size_t>(i)]));
         }
-        const Eigen::MatrixXd lifted = geometry::solve_harmonic(problem);
+        const Eigen::MatrixXd lifted = geometry::solve_harmonic(problem, context);
         for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = lifted(static_cast<Eigen::Index>(i), 0);
     }
-    Filling result = filling_of(model, outline, flat, [&](std::size_t i) {
+    VoidFilling result = filling_of(model, outline, flat, [&](std::size_t i) {
         return geometry::from_plane(newell.plane, flat.points[i], heights[i]);
     });
     result.geometry = Geometry::newell;
@@ -137,14 +137,15 @@ PatchSide patch_side(const Model& model, const std::vector<EdgeUse>& uses)
 {
     PatchSide side;
     side.chain = points_of(model, uses, false);
-    side.points = places(model, side.chain);
+    side.points = positions(model, side.chain);
     side.share = geometry::arc_lengths(side.points);
     const double total = side.share.back();
     for (double& s : side.share) s /= total;
     return side;
 }
 
-/// Stand the points of a rising side at their height on the walls, the way the follower counts it; a void edge was made at even heights.
+/// Stand the points of a rising side at their height on the walls, the way the follower counts it; a void
+/// edge was made at even heights.
 void by_height(PatchSide& side, const Follower& follower, bool rising)
 {
     const std::size_t n = side.chain.size();
@@ -157,8 +158,8 @@ void by_height(PatchSide& side, const Follower& follower, bool rising)
     side.share.back() = 1;
 }
 
-/// Facets of a rectangle whose opposite sides have as many points: the grid between them, so that no facet cuts a
-/// corner that the sides do not.
+/// Facets of a rectangle whose opposite sides have as many points: the grid between them, so that no facet
+/// cuts a corner that the sides do not.
 geometry::Triangulation grid_between(const std::array<PatchSide, 4>& side, const Outline& outline,
                                      double width, double height)
 {
@@ -188,8 +189,8 @@ geometry::Triangulation grid_between(const std::array<PatchSide, 4>& side, const
     return grid;
 }
 
-Filling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeUse>>& sides,
-                         const Follower* follower)
+VoidFilling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeUse>>& sides,
+                             const Follower* follower, const RunContext& context)
 {
     std::array<PatchSide, 4> side;
     for (std::size_t i = 0; i < 4; ++i) side[i] = patch_side(model, sides[i]);
@@ -197,8 +198,8 @@ Filling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeU
         by_height(side[1], *follower, true);
         by_height(side[3], *follower, false);
     }
-    // Cut a rectangle that counts the sides' own segments: facets are then as long each way as the sides, which were cut by
-    // their curvature, are that way.
+    // Cut a rectangle that counts the sides' own segments: facets are then as long each way as the sides,
+    // which were cut by their curvature, are that way.
     const auto segments = [&](std::size_t i, std::size_t j) {
         return static_cast<double>(std::max(side[i].chain.size(), side[j].chain.size()) - 1);
     };
@@ -219,20 +220,21 @@ Filling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeU
     const bool even = side[0].chain.size() == side[2].chain.size() &&
                       side[1].chain.size() == side[3].chain.size();
     const geometry::Triangulation flat = even ? grid_between(side, outline, width, height)
-                                              : geometry::triangulate(outline.flat, outline.loops);
+                                              : geometry::triangulate(outline.flat, outline.loops, {},
+                                                                      context);
     const auto backward = [](std::vector<Vec3> points) {
         std::reverse(points.begin(), points.end());
         return points;
     };
     const geometry::SweptPatch patch(side[0].points, side[1].points, backward(side[2].points),
                                      backward(side[3].points));
-    Filling result = filling_of(model, outline, flat, [&](std::size_t i) -> Vec3 {
+    VoidFilling result = filling_of(model, outline, flat, [&](std::size_t i) -> Vec3 {
         const double s = flat.points[i].x() / width, t = flat.points[i].y() / height;
         if (follower == nullptr) return patch(s, t);
         const Vec3 left = side[3].at(1 - t) -
-                          follower->carry(side[0].points.front(), side[2].points.back(), t);
-        const Vec3 right = side[1].at(t) - follower->carry(side[0].points.back(), side[2].points.front(), t);
-        return follower->carry(side[0].at(s), side[2].at(1 - s), t) + (1 - s) * left + s * right;
+                          follower->morph(side[0].points.front(), side[2].points.back(), t);
+        const Vec3 right = side[1].at(t) - follower->morph(side[0].points.back(), side[2].points.front(), t);
+        return follower->morph(side[0].at(s), side[2].at(1 - s), t) + (1 - s) * left + s * right;
     });
     const bool seam = sides[1].size() == sides[3].size() && sides[1].front().edge == sides[3].back().edge;
     result.geometry = follower != nullptr ? Geometry::followed
@@ -260,8 +262,9 @@ std::string crossing_in_words(const Model& model, const std::vector<Loop>& loops
 // --- beyond the paper: least area ---------------------------------------------------------------------
 
 /// A face that folds in its Newell plane and has no four sides: a membrane over its loops.
-Filling fill_with_least_area(const Model& model, const std::vector<Loop>& loops, const std::string& crossing,
-                             const std::string& name)
+VoidFilling fill_with_least_area(const Model& model, const std::vector<Loop>& loops,
+                                 const std::string& crossing, const std::string& name,
+                                 const RunContext& context)
 {
     std::vector<Index> model_point;
     std::vector<Vec3> points;
@@ -276,14 +279,14 @@ Filling fill_with_least_area(const Model& model, const std::vector<Loop>& loops,
     }
     geometry::MinimalArea membrane;
     try {
-        membrane = geometry::minimal_area(points, cycles);
+        membrane = geometry::minimal_area(points, cycles, {}, context);
     } catch (const InvalidInput& error) {
         throw NotClosed("closure.outline_crosses",
                         name + " cannot be laid out in a plane: " + crossing +
                             " cross there; and no surface was found over its loops (" + error.what() +
                             "); give a face for it, or split it by one more wall");
     }
-    Filling result;
+    VoidFilling result;
     const auto base = static_cast<Index>(model.points.size());
     const auto rim = static_cast<Index>(points.size());
     result.points.assign(membrane.points.begin() + rim, membrane.points.end());
@@ -333,28 +336,30 @@ std::vector<std::vector<EdgeUse>> logical_sides(const OpenVolume& volume, const 
     return sides;
 }
 
-Filling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const Follower* follower,
-             const std::string& name)
+VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const Follower* follower,
+                 const std::string& name, const RunContext& context)
 {
+    check_cancelled(context);
     const Model& model = volume.model;
     const NewellOutline newell = newell_outline(model, loops);
     const auto crossing = geometry::find_crossing(newell.outline.flat, newell.outline.loops);
     const bool flat = newell.bulge <= model.tolerance;
     const auto sides = loops.size() == 1 ? logical_sides(volume, loops.front())
                                          : std::vector<std::vector<EdgeUse>>{};
-    Filling result;
+    VoidFilling result;
     if (!sides.empty() && (!flat || crossing)) {
-        result = fill_transfinite(model, sides, follower);
+        result = fill_transfinite(model, sides, follower, context);
     } else if (!crossing) {
-        result = fill_on_newell_plane(model, newell);
+        result = fill_on_newell_plane(model, newell, context);
     } else {
-        result = fill_with_least_area(model, loops, crossing_in_words(model, loops, *crossing), name);
+        result = fill_with_least_area(model, loops, crossing_in_words(model, loops, *crossing), name,
+                                      context);
     }
     result.loops = loops;
     return result;
 }
 
-FaceId add_void_face(OpenVolume& volume, Filling filling, Role role)
+FaceId add_void_face(OpenVolume& volume, VoidFilling filling, Role role)
 {
     Model& model = volume.model;
     Face face;

@@ -10,7 +10,7 @@
 namespace lacuna::closure {
 
 /// Facets for a void face, not yet in the model.
-struct Filling {
+struct VoidFilling {
     std::vector<topology::Loop> loops;
     std::vector<Vec3> points;        ///< new ones; number i stands for model point model.points.size() + i
     std::vector<Triangle> triangles; ///< model points, the loops' side consistent with them
@@ -25,18 +25,20 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 
 /// Facets for the loops of one void face (its outer loop and islands).
 ///
-/// A flat face, and a bent one whose outline does not cross itself in its Newell plane: Algorithm 4, constrained Delaunay
-/// there, interior lifted by the harmonic interpolation of the rim's heights. A bent face with four logical sides: Algorithm 6
-/// (Algorithm 5 where two of them are closed edges), a bilinear Coons patch over arc length. Departure from the paper: a bent four-sided
-/// face is transfinite at once, so that its facets and its mesh are the same surface. What remains, minimal area.
-/// @param follower  null, or what a bent four-sided face follows instead: the source side as the given walls carry it up and the
-///                  target side as they carry it down, blended, and moved to meet the sides.
+/// A flat face, and a bent one whose outline does not cross itself in its Newell plane: Algorithm 4,
+/// constrained Delaunay there, interior lifted by the harmonic interpolation of the rim's heights. A bent
+/// face with four logical sides: Algorithm 6 (Algorithm 5 where two of them are closed edges), a bilinear
+/// Coons patch over arc length. Departure from the paper: a bent four-sided face is transfinite at once, so
+/// that its facets and its mesh are the same surface. What remains, minimal area.
+/// @param follower  null, or what a bent four-sided face follows instead: the source side as the given
+///                  walls carry it up and the target side as they carry it down, blended, and moved to meet
+///                  the sides.
 /// @param name  of the face, for messages.
 /// @throw NotClosed  names the face and the edges that cross.
-Filling fill(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops,
-             const Follower* follower, const std::string& name);
+VoidFilling fill(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops,
+                 const Follower* follower, const std::string& name, const RunContext& context = {});
 
 /// Put a filled face into the volume.
-FaceId add_void_face(topology::OpenVolume& volume, Filling filling, topology::Role role);
+FaceId add_void_face(topology::OpenVolume& volume, VoidFilling filling, topology::Role role);
 
 } // namespace lacuna::closure

@@ -12,6 +12,7 @@ namespace lacuna {
 ///
 /// The ranges depend on `count`, `grain` and the number of threads alone; a body that writes only what
 /// belongs to its own indices gives the same result for any number of threads.
+/// Where the system gives fewer threads than asked for, those there are do the work.
 /// @throw the first exception of a body, after every thread has stopped; Cancelled between ranges.
 void parallel_for(const RunContext& context, std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body);

@@ -8,6 +8,14 @@
 
 namespace lacuna {
 
+namespace {
+
+/// More threads than this are asked for by mistake unless there are as many cores: a choice, not a
+/// measurement.
+constexpr int kMostThreads = 64;
+
+} // namespace
+
 void check_cancelled(const RunContext& context)
 {
     if (context.cancel != nullptr && context.cancel->load(std::memory_order_relaxed)) throw Cancelled();
@@ -15,8 +23,8 @@ void check_cancelled(const RunContext& context)
 
 int thread_count(const RunContext& context)
 {
-    if (context.threads > 0) return context.threads;
-    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    return context.threads > 0 ? std::min(context.threads, std::max(cores, kMostThreads)) : cores;
 }
 
 void log_line(const RunContext& context, std::string_view line)

@@ -23,14 +23,16 @@ struct AffineFit {
 
 /// Least-squares affine fits from one set of points to several others: the set-up is done once.
 ///
-/// Mean |y − (L x + c)|² is minimised, plus |n′ − L n|² for a pair of pseudo-normals where area vectors are given
-/// @cite roca_2010_sweep. A pseudo-normal is n·√|area|, as long as the rim is wide, so that a rotation with a uniform
-/// scale maps one onto the other. It decides what a planar rim leaves open: the map then has full rank, keeps
-/// right-handedness, and neither flattens nor flips what bulges out of the plane.
+/// Mean |y − (L x + c)|² is minimised, plus |n′ − L n|² for a pair of pseudo-normals where area vectors are
+/// given
+/// @cite roca_2010_sweep. A pseudo-normal is n·√|area|, as long as the rim is wide, so that a rotation with
+/// a uniform scale maps one onto the other. It decides what a planar rim leaves open: the map then has full
+/// rank, keeps right-handedness, and neither flattens nor flips what bulges out of the plane.
 ///
-/// A direction in which the points spread less than √ε of their widest is not in the data. It is completed: the third
-/// as the normal of the images of the other two, as long as keeps the shape; the last two by the smallest turn.
-/// Orthogonal factors throughout (no normal equations): the error is of order ε times the spread's condition.
+/// A direction in which the points spread less than √ε of their widest is not in the data. It is completed:
+/// the third as the normal of the images of the other two, as long as keeps the shape; the last two by the
+/// smallest turn. Orthogonal factors throughout (no normal equations): the error is of order ε times the
+/// spread's condition.
 class AffineFitter {
 public:
     /// @param from       referred to, not copied: must outlive the fitter.
@@ -40,9 +42,11 @@ public:
     /// @pre to.size() is that of the points fitted from.
     [[nodiscard]] AffineFit fit(std::span<const Vec3> to, const Vec3& to_area = Vec3::Zero()) const;
 
-    /// Root mean square spread along the three principal directions, widest first; with the pseudo-normal's [model length].
+    /// Root mean square spread along the three principal directions, widest first; with the pseudo-normal's
+    /// [model length].
     [[nodiscard]] const Vec3& spread() const { return spread_; }
-    /// How many spreads it takes, in the direction of p, to reach p from the centre (Mahalanobis); infinite out of the data.
+    /// How many spreads it takes, in the direction of p, to reach p from the centre (Mahalanobis); infinite
+    /// out of the data.
     [[nodiscard]] double reach(const Vec3& p) const;
     /// Directions the data decides, 0…3.
     [[nodiscard]] int rank() const { return rank_; }

@@ -21,6 +21,7 @@ struct Box {
     Vec2 low, high;
 };
 
+/// Segments in a leaf of the tree: boxes are about as dear to test as segments. A choice, not a measurement.
 constexpr std::size_t kLeafSize = 4;
 
 class SegmentTree {

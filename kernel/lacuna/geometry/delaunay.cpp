@@ -45,7 +45,8 @@ DelaunayMesh::DelaunayMesh(std::span<const Vec2> points, const std::vector<Index
     const Vec2 centre = (low + high) / 2;
     double extent = (high - low).maxCoeff();
     if (!(extent > 0)) extent = 1;
-    // Any triangle that holds the box does; a few times its size keeps the first triangles from being slivers.
+    // Any triangle that holds the box does; a few times its size keeps the first triangles from being
+    // slivers.
     points_.push_back(centre + Vec2(-8, -5) * extent);
     points_.push_back(centre + Vec2(8, -5) * extent);
     points_.push_back(centre + Vec2(0, 9) * extent);
@@ -113,7 +114,8 @@ bool DelaunayMesh::find_cavity(const Vec2& p, Index holder, Cavity& cavity)
     cavity.triangles.clear();
     cavity.border.clear();
     ++stamp_now_;
-    // Depth first, sides in counter-clockwise order from the one entered by: so the border comes out in order.
+    // Depth first, sides in counter-clockwise order from the one entered by: so the border comes out in
+    // order.
     auto& pending = cavity.pending;
     pending.clear();
     cavity.triangles.push_back(holder);

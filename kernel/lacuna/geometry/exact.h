@@ -16,7 +16,8 @@ public:
     /// Move each point to the closest point of the surface near its start parameter.
     ///
     /// @param points  in: near the surface; out: on it to rounding [model length].
-    /// @param uv      in: a start parameter for each point (as that of the closest facet); out: the point's own.
+    /// @param uv      in: a start parameter for each point (as that of the closest facet); out: the point's
+    ///         own.
     /// @pre  points.size() == uv.size().
     /// @throw BackendError where the projection does not converge.
     virtual void project(std::span<Vec3> points, std::span<Vec2> uv) const = 0;

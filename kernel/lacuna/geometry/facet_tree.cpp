@@ -259,36 +259,9 @@ bool FacetTree::overlaps(const FacetTree& other, const std::function<bool(Index,
     return true;
 }
 
-FacetTree::RayHit FacetTree::first_along(const Vec3& origin, const Vec3& direction) const
-{
-    RayHit best;
-    if (node_.empty()) return best;
-    const Vec3 inverse = inverse_of(direction);
-    std::array<std::uint32_t, kMaxDepth> stack;
-    std::size_t depth = 0;
-    stack[depth++] = 0;
-    while (depth > 0) {
-        const std::uint32_t index = stack[--depth];
-        const Node& node = node_[index];
-        if (!meets(node.box, origin, inverse, best.t)) continue;
-        if (node.right != 0) {
-            stack[depth++] = node.right;
-            stack[depth++] = index + 1;
-            continue;
-        }
-        for (std::uint32_t i = node.begin; i < node.end; ++i) {
-            const RayHit hit = ray_triangle(corner_[i], origin, direction);
-            if (!std::isfinite(hit.t) || hit.t > best.t) continue;
-            if (hit.t == best.t && id_[i] > best.triangle) continue;
-            best = hit;
-            best.triangle = id_[i];
-        }
-    }
-    return best;
-}
-
-bool FacetTree::all_along(const Vec3& origin, const Vec3& direction,
-                          const std::function<bool(const RayHit&)>& visit) const
+template <class Visit>
+bool FacetTree::along(const Vec3& origin, const Vec3& direction, const double& farthest,
+                      const Visit& visit) const
 {
     if (node_.empty()) return true;
     const Vec3 inverse = inverse_of(direction);
@@ -298,7 +271,7 @@ bool FacetTree::all_along(const Vec3& origin, const Vec3& direction,
     while (depth > 0) {
         const std::uint32_t index = stack[--depth];
         const Node& node = node_[index];
-        if (!meets(node.box, origin, inverse, std::numeric_limits<double>::infinity())) continue;
+        if (!meets(node.box, origin, inverse, farthest)) continue;
         if (node.right != 0) {
             stack[depth++] = node.right;
             stack[depth++] = index + 1;
@@ -312,6 +285,22 @@ bool FacetTree::all_along(const Vec3& origin, const Vec3& direction,
         }
     }
     return true;
+}
+
+FacetTree::RayHit FacetTree::first_along(const Vec3& origin, const Vec3& direction) const
+{
+    RayHit best;
+    along(origin, direction, best.t, [&](const RayHit& hit) {
+        if (hit.t < best.t || (hit.t == best.t && hit.triangle <= best.triangle)) best = hit;
+        return true;
+    });
+    return best;
+}
+
+bool FacetTree::all_along(const Vec3& origin, const Vec3& direction,
+                          const std::function<bool(const RayHit&)>& visit) const
+{
+    return along(origin, direction, std::numeric_limits<double>::infinity(), visit);
 }
 
 double FacetTree::winding_number(const Vec3& p) const

@@ -71,6 +71,11 @@ private:
     std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::span<const Vec3> centre,
                         std::span<const Eigen::AlignedBox3d> box);
 
+    /// Every facet met no further than `farthest`, which `visit` may lessen. @return false if `visit`
+    /// stopped it.
+    template <class Visit>
+    bool along(const Vec3& origin, const Vec3& direction, const double& farthest, const Visit& visit) const;
+
     std::vector<Node> node_;
     std::vector<Index> id_;                   ///< given index of each triangle, in tree order
     std::vector<std::array<Vec3, 3>> corner_; ///< in tree order

@@ -5,6 +5,7 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/predicates.h>
+#include <lacuna/geometry/union_find.h>
 
 #include <lacuna/geometry/detail/flatten_maps.h>
 
@@ -21,6 +22,7 @@ namespace {
 using flat::Facets;
 using flat::Positions;
 
+/// Half the digits of a double: what rounding leaves of a quantity that is squared on the way.
 const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
 
 [[noreturn]] void fail(const std::string& what)
@@ -108,20 +110,11 @@ void sort_longest_first(Facets& facets)
 
 Index count_parts(const Facets& facets)
 {
-    std::vector<Index> parent(facets.points.size());
-    std::iota(parent.begin(), parent.end(), Index{0});
-    const auto root = [&](Index i) {
-        while (parent[index(i)] != i) i = parent[index(i)] = parent[index(parent[index(i)])];
-        return i;
-    };
+    UnionFind sets(facets.points.size());
     auto parts = static_cast<Index>(facets.points.size());
     for (const Triangle& t : facets.triangles)
-        for (std::size_t i = 1; i < 3; ++i) {
-            const Index a = root(t[0]), b = root(t[i]);
-            if (a == b) continue;
-            parent[index(b)] = a;
-            --parts;
-        }
+        for (std::size_t i = 1; i < 3; ++i)
+            if (sets.unite(t[0], t[i])) --parts;
     return parts;
 }
 
@@ -334,7 +327,7 @@ PlanarLocator::PlanarLocator(std::span<const Vec2> points, std::span<const Trian
         bins_of(t, [&](std::size_t b) { listed_[index(next[b]++)] = static_cast<Index>(t); });
 }
 
-PlanarLocator::Place PlanarLocator::in_bins(const Vec2& place) const
+PlanarLocator::FacetPosition PlanarLocator::in_bins(const Vec2& place) const
 {
     const double x = (place.x() - low_.x()) / bin_, y = (place.y() - low_.y()) / bin_;
     if (!(x >= 0 && x < across_ && y >= 0 && y < up_)) return {};
@@ -350,14 +343,14 @@ PlanarLocator::Place PlanarLocator::in_bins(const Vec2& place) const
 
 PlanarLocator::PlanarLocator(const Flattened& flat) : PlanarLocator(flat.position, flat.triangles) {}
 
-PlanarLocator::Place PlanarLocator::locate(const Vec2& place) const
+PlanarLocator::FacetPosition PlanarLocator::locate(const Vec2& place) const
 {
-    if (const Place inside = in_bins(place); inside.triangle >= 0) return inside;
+    if (const FacetPosition inside = in_bins(place); inside.triangle >= 0) return inside;
     const FacetTree::Hit hit = tree_.closest(in_space(place));
     return {hit.triangle, hit.barycentric, hit.triangle >= 0 ? std::sqrt(hit.distance2) : 0.0};
 }
 
-Vec3 lift(const Flattened& flat, std::span<const Vec3> points, const PlanarLocator::Place& place)
+Vec3 lift(const Flattened& flat, std::span<const Vec3> points, const PlanarLocator::FacetPosition& place)
 {
     const Triangle& triangle = flat.triangles[index(place.triangle)];
     // From one corner out, points far from the origin lose no digits.

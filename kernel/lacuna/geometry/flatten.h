@@ -56,28 +56,28 @@ struct Flattened {
 Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triangles,
                   const FlattenOptions& options = {});
 
-/// Finds the triangle over a place of the plane, to lift it back. A few comparisons inside the triangles, O(log triangles)
-/// outside; parallel-safe, allocates nothing; a value of its own.
+/// Finds the triangle over a place of the plane, to lift it back. A few comparisons inside the triangles,
+/// O(log triangles) outside; parallel-safe, allocates nothing; a value of its own.
 class PlanarLocator {
 public:
     PlanarLocator() = default;
     explicit PlanarLocator(const Flattened& flat);
     PlanarLocator(std::span<const Vec2> points, std::span<const Triangle> triangles);
 
-    struct Place {
+    struct FacetPosition {
         Index triangle = -1;             ///< -1 only where there are none
         Vec3 barycentric = Vec3::Zero(); ///< in [0, 1], sum 1
         double distance = 0;             ///< from the triangle; 0 to rounding inside the facets
     };
     /// The triangle at a place; outside all of them the closest place of the closest one.
-    [[nodiscard]] Place locate(const Vec2& place) const;
+    [[nodiscard]] FacetPosition locate(const Vec2& place) const;
 
 private:
     /// Two of the weights of a triangle's corners, which are linear in the place.
     struct Weights {
         Vec2 corner, first, second; ///< first and second weight: these times (place - corner)
     };
-    [[nodiscard]] Place in_bins(const Vec2& place) const;
+    [[nodiscard]] FacetPosition in_bins(const Vec2& place) const;
 
     FacetTree tree_;
     // Square bins over all triangles: bin b may meet triangles listed_[start_[b]...start_[b + 1]).
@@ -90,6 +90,6 @@ private:
 
 /// The point in space at a place of the flat facets; `points` as given to flatten().
 /// @pre place.triangle >= 0
-Vec3 lift(const Flattened& flat, std::span<const Vec3> points, const PlanarLocator::Place& place);
+Vec3 lift(const Flattened& flat, std::span<const Vec3> points, const PlanarLocator::FacetPosition& place);
 
 } // namespace lacuna::geometry

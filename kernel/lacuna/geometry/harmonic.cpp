@@ -2,6 +2,7 @@
 #include <lacuna/geometry/harmonic.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/union_find.h>
 
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 
 namespace lacuna::geometry {
@@ -109,20 +109,15 @@ std::vector<Index> roles(const HarmonicProblem& problem)
 /// @throw BackendError where triangles hang together with no fixed point among them.
 void check_anchored(const HarmonicProblem& problem, std::span<const Index> role)
 {
-    std::vector<Index> parent(problem.points.size());
-    std::iota(parent.begin(), parent.end(), Index{0});
-    const auto root = [&](Index i) {
-        while (parent[index(i)] != i) i = parent[index(i)] = parent[index(parent[index(i)])];
-        return i;
-    };
+    UnionFind parts(problem.points.size());
     for (const Triangle& triangle : problem.triangles) {
-        parent[index(root(triangle[1]))] = root(triangle[0]);
-        parent[index(root(triangle[2]))] = root(triangle[0]);
+        parts.unite(triangle[0], triangle[1]);
+        parts.unite(triangle[0], triangle[2]);
     }
     std::vector<bool> anchored(problem.points.size(), false);
-    for (const Index point : problem.fixed) anchored[index(root(point))] = true;
+    for (const Index point : problem.fixed) anchored[parts.find(point)] = true;
     for (std::size_t i = 0; i < role.size(); ++i)
-        if (role[i] == kFree && !anchored[index(root(static_cast<Index>(i)))])
+        if (role[i] == kFree && !anchored[parts.find(i)])
             throw BackendError("geometry.singular",
                                "harmonic values are not determined: the facets about point " +
                                    std::to_string(i) +
@@ -148,7 +143,7 @@ void normalise(std::vector<Weight>& weights)
 
 } // namespace
 
-Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem)
+Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext& context)
 {
     check(problem);
     const std::vector<Index> role = roles(problem);
@@ -184,8 +179,12 @@ Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem)
     Eigen::SparseMatrix<double> matrix(size, size);
     matrix.setFromTriplets(entries.begin(), entries.end());
 
+    check_cancelled(context);
     Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> solver;
-    solver.compute(matrix);
+    solver.analyzePattern(matrix);
+    check_cancelled(context);
+    solver.factorize(matrix);
+    check_cancelled(context);
     if (solver.info() != Eigen::Success)
         throw BackendError("geometry.singular",
                            "harmonic values cannot be solved for: " + solver.lastErrorMessage() +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
 
 #include <array>
@@ -34,8 +35,9 @@ struct HarmonicProblem {
 ///         bit, those of points no triangle uses are 0.
 /// @throw  InvalidInput "geometry.harmonic_input"  sizes that do not fit, an index that is out of range.
 /// @throw  BackendError "geometry.singular"  points that are joined to no fixed point; names one of them.
+/// @throw  Cancelled  between the steps; not within the factorisation.
 /// @note   Triangles of no area do no harm: weights are kept within what rounding can bear. One sparse
 ///         factorisation and k solves, O(points^1.5) or so; deterministic.
-Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem);
+Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext& context = {});
 
 } // namespace lacuna::geometry

@@ -2,6 +2,7 @@
 #include <lacuna/geometry/minimal_area.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/detail/loop_points.h>
 #include <lacuna/geometry/detail/patch_mesh.h>
 #include <lacuna/geometry/detail/polygon_cover.h>
 #include <lacuna/geometry/newell.h>
@@ -22,16 +23,8 @@ void check_loops(std::span<const Vec3> points, std::span<const std::vector<Index
     std::vector<Index> loop_of(points.size(), -1);
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const std::string name = "loop " + std::to_string(l + 1) + " of " + std::to_string(loops.size());
-        if (loops[l].size() < 3) {
-            throw InvalidInput("geometry.short_loop", name + " has " + std::to_string(loops[l].size()) +
-                                                          " points; a surface needs at least 3");
-        }
+        check_loop_points<Vec3>(points, loops[l], name, "a surface");
         for (const Index p : loops[l]) {
-            if (p < 0 || index(p) >= points.size() || !points[index(p)].allFinite()) {
-                throw InvalidInput("geometry.bad_point", name + " uses point " + std::to_string(p + 1) +
-                                                             " of " + std::to_string(points.size()) +
-                                                             ", which does not exist or is not finite");
-            }
             if (loop_of[index(p)] >= 0) {
                 throw InvalidInput("geometry.loops_touch",
                                    name + " comes to point " + std::to_string(p + 1) + " where loop " +
@@ -244,7 +237,7 @@ std::optional<PatchMesh> shadow_patch(std::span<const Vec3> points, std::span<co
 }
 
 PatchMesh best_patch(std::span<const Vec3> points, std::span<const std::vector<Index>> loops,
-                     const MinimalAreaOptions& options)
+                     const MinimalAreaOptions& options, const RunContext& context)
 {
     std::size_t count = 0;
     for (const std::vector<Index>& loop : loops) count += loop.size();
@@ -257,6 +250,7 @@ PatchMesh best_patch(std::span<const Vec3> points, std::span<const std::vector<I
     CoverCost best_cost;
     const std::size_t trials = joints.empty() ? 1 : options.bridge_trials;
     for (std::size_t trial = 0; trial < trials; ++trial) {
+        check_cancelled(context);
         const JoinedPolygon joined = join_loops(points, loops, joints, trial);
         const Cover cover = cover_polygon(joined.polygon, cover_options);
         if (!cover.found || (best && !(cover.cost < best_cost))) continue;
@@ -275,14 +269,15 @@ PatchMesh best_patch(std::span<const Vec3> points, std::span<const std::vector<I
 } // namespace
 
 MinimalArea minimal_area(std::span<const Vec3> points, std::span<const std::vector<Index>> loops,
-                         const MinimalAreaOptions& options)
+                         const MinimalAreaOptions& options, const RunContext& context)
 {
     check_options(options);
     check_loops(points, loops);
-    PatchMesh patch = best_patch(points, loops, options);
+    PatchMesh patch = best_patch(points, loops, options, context);
     if (options.interior_points) {
-        patch.refine(options.grading, options.max_points);
+        patch.refine(options.grading, options.max_points, context);
         for (int step = 0; step < options.fairing_steps; ++step) {
+            check_cancelled(context);
             patch.relax();
             patch.make_delaunay();
             patch.place_harmonic();

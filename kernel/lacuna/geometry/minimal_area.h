@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
 
 #include <cstddef>
@@ -35,21 +36,22 @@ struct MinimalArea {
 /// Span closed loops in space by a surface of small area: one connected piece with the loops as boundary.
 ///
 /// One loop: the triangulation of least cost over all that use its points alone, by dynamic programming
-/// @cite liepa_2003_holes with sums in place of his maximum. Several loops are joined to one by the shortest
-/// bridges along a minimum spanning tree (Zou, Ju and Carr 2013 do without, at the price of a search over
-/// all ways to part the loops), and sides doubled by that are flipped away.
-/// More points than `exact_limit`: where the loops' shadow on their Newell plane is simple, its Delaunay
-/// triangles; else the joined loop is spanned coarsely first, through points chosen by arc length and turning,
-/// then within each coarse triangle's part of the loop.
-/// Then sides are halved until they have the length the rim asks for, and points placed where the area is
-/// least for the triangles' angles (Pinkall and Polthier 1993), in turn with Delaunay flips.
+/// @cite liepa_2003_holes with sums in place of his maximum. Several loops are joined to one by the
+/// shortest bridges along a minimum spanning tree (Zou, Ju and Carr 2013 do without, at the price of a
+/// search over all ways to part the loops), and sides doubled by that are flipped away. More points than
+/// `exact_limit`: where the loops' shadow on their Newell plane is simple, its Delaunay triangles; else the
+/// joined loop is spanned coarsely first, through points chosen by arc length and turning, then within each
+/// coarse triangle's part of the loop. Then sides are halved until they have the length the rim asks for,
+/// and points placed where the area is least for the triangles' angles (Pinkall and Polthier 1993), in turn
+/// with Delaunay flips.
 ///
 /// @param loops  point numbers in walking order, the surface on the left, the first not repeated; at least 3
 ///               each, no point twice in all.
-/// @throw InvalidInput  such a loop is not given, or the loops cannot be joined to a manifold; names the loop.
+/// @throw InvalidInput  such a loop is not given, or the loops cannot be joined to a manifold; names the
+///         loop. Cancelled.
 /// @note  Nothing keeps the surface from passing through itself where a loop is knotted or crumpled.
 ///        O(exact_limit² · n) for the triangles; deterministic.
 MinimalArea minimal_area(std::span<const Vec3> points, std::span<const std::vector<Index>> loops,
-                         const MinimalAreaOptions& options = {});
+                         const MinimalAreaOptions& options = {}, const RunContext& context = {});
 
 } // namespace lacuna::geometry

@@ -11,8 +11,9 @@ namespace lacuna::geometry {
 
 namespace {
 
-constexpr int kHalvings = 30;
-constexpr double kEnough = 1e-4; ///< share of the promised descent that a step must bring (Armijo)
+constexpr int kHalvings = 30; ///< of a step before it is given up: 2^-30 of it is below what matters
+constexpr double kEnough =
+    1e-4; ///< share of the promised descent that a step must bring (Armijo), the usual value
 
 struct Pair {
     Eigen::VectorXd step, change;

@@ -21,8 +21,8 @@ struct MinimiseOptions {
 /// Value of a function and its gradient at `x`.
 using Function = std::function<double(const Eigen::VectorXd& x, Eigen::VectorXd& gradient)>;
 
-/// Limited-memory BFGS with backtracking (Nocedal and Wright, Algorithm 7.5). Steps stay in the span of the gradients, so
-/// a function whose gradients lie in a subspace is minimised along it.
+/// Limited-memory BFGS with backtracking (Nocedal and Wright, Algorithm 7.5). Steps stay in the span of the
+/// gradients, so a function whose gradients lie in a subspace is minimised along it.
 /// @return the value at the end.
 double minimise(const Function& function, Eigen::VectorXd& x, const MinimiseOptions& options = {});
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/geometry/detail/patch_mesh.h>
 
+#include <lacuna/core/edge_key.h>
+
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
@@ -11,12 +13,6 @@
 
 namespace lacuna::geometry {
 namespace {
-
-std::uint64_t pair_key(Index a, Index b)
-{
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(std::min(a, b))) << 32) |
-           static_cast<std::uint32_t>(std::max(a, b));
-}
 
 // A side is halved above this multiple of the wanted length: both halves are then nearer to it than the
 // whole was (Botsch and Kobbelt 2004).
@@ -73,16 +69,32 @@ double PatchMesh::cotangent(Index triangle, int i) const
     return std::abs(cosine) < bound * sine ? cosine / sine : std::copysign(bound, cosine);
 }
 
+PatchMesh::TrianglePair PatchMesh::pair_at(Index triangle, int side) const
+{
+    const Index other = across(triangle, side);
+    const Index c = corner(triangle, side + 2);
+    const int far = side_towards(other, triangle, c);
+    return {other,
+            corner(triangle, side),
+            corner(triangle, side + 1),
+            c,
+            corner(other, far),
+            across(triangle, (side + 1) % 3),
+            across(triangle, (side + 2) % 3),
+            across(other, (far + 1) % 3),
+            across(other, (far + 2) % 3)};
+}
+
 void PatchMesh::count_side(Index a, Index b, int change)
 {
-    int& count = sides_[pair_key(a, b)];
+    int& count = sides_[edge_key(a, b)];
     count += change;
-    if (count == 0) sides_.erase(pair_key(a, b));
+    if (count == 0) sides_.erase(edge_key(a, b));
 }
 
 std::size_t PatchMesh::joined(Index a, Index b) const
 {
-    const auto found = sides_.find(pair_key(a, b));
+    const auto found = sides_.find(edge_key(a, b));
     return found == sides_.end() ? 0 : static_cast<std::size_t>(found->second);
 }
 
@@ -109,12 +121,7 @@ void PatchMesh::relink(Index triangle, Index before, Index after, Index from)
 ///      a                a
 void PatchMesh::flip(Index triangle, int side)
 {
-    const Index other = across(triangle, side);
-    const Index a = corner(triangle, side), b = corner(triangle, side + 1), c = corner(triangle, side + 2);
-    const int far = side_towards(other, triangle, c);
-    const Index d = corner(other, far);
-    const Index over_ca = across(triangle, (side + 1) % 3), over_ab = across(triangle, (side + 2) % 3);
-    const Index over_bd = across(other, (far + 1) % 3), over_dc = across(other, (far + 2) % 3);
+    const auto [other, a, b, c, d, over_ca, over_ab, over_bd, over_dc] = pair_at(triangle, side);
     relink(over_ca, triangle, other, a);
     relink(over_bd, other, triangle, d);
     triangles_[index(triangle)] = {a, b, d};
@@ -203,12 +210,7 @@ double PatchMesh::wanted_between(Index a, Index b, double grading) const
 ///      a                a
 void PatchMesh::split(Index triangle, int side, double wanted)
 {
-    const Index other = across(triangle, side);
-    const Index a = corner(triangle, side), b = corner(triangle, side + 1), c = corner(triangle, side + 2);
-    const int far = side_towards(other, triangle, c);
-    const Index d = corner(other, far);
-    const Index over_ca = across(triangle, (side + 1) % 3), over_ab = across(triangle, (side + 2) % 3);
-    const Index over_bd = across(other, (far + 1) % 3), over_dc = across(other, (far + 2) % 3);
+    const auto [other, a, b, c, d, over_ca, over_ab, over_bd, over_dc] = pair_at(triangle, side);
     const auto m = static_cast<Index>(points_.size());
     const auto amc = static_cast<Index>(triangles_.size());
     const Index dmb = amc + 1;
@@ -229,11 +231,12 @@ void PatchMesh::split(Index triangle, int side, double wanted)
     for (const Index p : {a, b, c, d}) count_side(p, m, 1);
 }
 
-void PatchMesh::refine(double grading, std::size_t max_points)
+void PatchMesh::refine(double grading, std::size_t max_points, const RunContext& context)
 {
     size_ = rim_sizes();
     const std::size_t limit = points_.size() + max_points;
     while (points_.size() < limit) {
+        check_cancelled(context);
         std::vector<std::pair<double, std::pair<Index, int>>> longest;
         for (Index t = 0; t < static_cast<Index>(triangles_.size()); ++t) {
             for (int side = 0; side < 3; ++side) {

@@ -14,6 +14,7 @@
 namespace lacuna::geometry {
 namespace {
 
+// Largest relative error of one rounded operation.
 constexpr double kRounding = std::numeric_limits<double>::epsilon() / 2;
 // Bounds of the plain evaluation's error, relative to the sum of absolute terms: Shewchuk's "A" bounds.
 constexpr double kOrientBound = (3 + 16 * kRounding) * kRounding;

@@ -11,24 +11,26 @@ namespace lacuna::geometry {
 namespace {
 
 /// A chord shorter than this share of the bottom's and top's length says little about how the patch lies.
+/// A choice, not a measurement.
 constexpr double kShortChord = 0.1;
 /// How far along a side its direction is looked for, as a share of its length.
+/// A choice, not a measurement.
 constexpr double kReach = 0.02;
 
 } // namespace
 
-Vec3 SweptPatch::Side::at(double f) const
+Vec3 SweptPatch::SideCurve::at(double f) const
 {
     return point_at(points, arc, std::clamp(f, 0.0, 1.0) * arc.back());
 }
 
-Vec3 SweptPatch::Side::tangent(double f) const { return at(f + kReach) - at(f - kReach); }
+Vec3 SweptPatch::SideCurve::tangent(double f) const { return at(f + kReach) - at(f - kReach); }
 
 SweptPatch::SweptPatch(std::span<const Vec3> bottom, std::span<const Vec3> right, std::span<const Vec3> top,
                        std::span<const Vec3> left)
 {
     const auto side = [](std::span<const Vec3> points) {
-        return Side{{points.begin(), points.end()}, arc_lengths(points)};
+        return SideCurve{{points.begin(), points.end()}, arc_lengths(points)};
     };
     bottom_ = side(bottom);
     right_ = side(right);

@@ -10,26 +10,28 @@ namespace lacuna::geometry {
 
 /// Transfinite interpolation of four sides that turns with them: for walls that run along a bend.
 ///
-/// A Coons patch adds up displacements in fixed axes, so half a tube along a bent path comes out squeezed where the path
-/// has turned away from both ends. Here what the bottom and top deviate from their chords is carried in a frame that
-/// follows the chord between left and right and the way the sides lead:
-///   x(s, t) = (1−s) left(t) + s right(t) + size(t) F(t) [(1−t) b(s) + t e(s)],
-/// b and e the deviations of bottom and top in the frames F(0) and F(1), over their lengths. All four sides are met; where the
-/// frame does not turn and the lengths agree it is the Coons patch.
+/// A Coons patch adds up displacements in fixed axes, so half a tube along a bent path comes out squeezed
+/// where the path has turned away from both ends. Here what the bottom and top deviate from their chords is
+/// carried in a frame that follows the chord between left and right and the way the sides lead: x(s, t) =
+/// (1−s) left(t) + s right(t) + size(t) F(t) [(1−t) b(s) + t e(s)], b and e the deviations of bottom and
+/// top in the frames F(0) and F(1), over their lengths. All four sides are met; where the frame does not
+/// turn and the lengths agree it is the Coons patch.
 class SweptPatch {
 public:
-    /// Sides as polylines: bottom and top from left to right, left and right from bottom to top, corners shared.
+    /// Sides as polylines: bottom and top from left to right, left and right from bottom to top, corners
+    /// shared.
     SweptPatch(std::span<const Vec3> bottom, std::span<const Vec3> right, std::span<const Vec3> top,
                std::span<const Vec3> left);
 
     /// The point at shares of the sides' lengths, both in [0, 1].
     [[nodiscard]] Vec3 operator()(double s, double t) const;
 
-    /// False where left and right run so close together that no chord gives a frame (a seam): a plain Coons patch then.
+    /// False where left and right run so close together that no chord gives a frame (a seam): a plain Coons
+    /// patch then.
     [[nodiscard]] bool turns() const { return turns_; }
 
 private:
-    struct Side {
+    struct SideCurve {
         std::vector<Vec3> points;
         std::vector<double> arc;
         [[nodiscard]] Vec3 at(double f) const;
@@ -37,7 +39,7 @@ private:
     };
     [[nodiscard]] Eigen::Matrix3d frame(double t) const;
 
-    Side bottom_, right_, top_, left_;
+    SideCurve bottom_, right_, top_, left_;
     Eigen::Matrix3d first_, last_;
     bool turns_ = true;
 };

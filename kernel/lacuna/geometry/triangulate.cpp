@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/delaunay.h>
+#include <lacuna/geometry/detail/loop_points.h>
 #include <lacuna/geometry/predicates.h>
 
 #include <algorithm>
@@ -26,17 +27,7 @@ void check_loops(std::span<const Vec2> points, std::span<const std::vector<Index
         throw InvalidInput("geometry.no_loop", "there is no loop to triangulate; give at least one");
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const std::string name = loop_name(l, loops.size());
-        if (loops[l].size() < 3) {
-            throw InvalidInput("geometry.short_loop", name + " has " + std::to_string(loops[l].size()) +
-                                                          " points; a region needs at least 3");
-        }
-        for (const Index p : loops[l]) {
-            if (p < 0 || index(p) >= points.size() || !points[index(p)].allFinite()) {
-                throw InvalidInput("geometry.bad_point", name + " uses point " + std::to_string(p + 1) +
-                                                             " of " + std::to_string(points.size()) +
-                                                             ", which does not exist or is not finite");
-            }
-        }
+        check_loop_points<Vec2>(points, loops[l], name, "a region");
         const Vec2& a = points[index(loops[l][0])];
         const auto differs = [&](Index p) { return points[index(p)] != a; };
         const auto other = std::find_if(loops[l].begin(), loops[l].end(), differs);
@@ -87,7 +78,8 @@ void check_single_region(const std::vector<Index>& around)
 
 // --- adding points ----------------------------------------------------------------------------------
 
-// Circumradius over side: 1/√3 where equilateral. A right triangle with legs of the wanted length still passes.
+// Circumradius over side: 1/√3 where equilateral. A right triangle with legs of the wanted length still
+// passes.
 constexpr double kEquilateral = 1 / std::numbers::sqrt3;
 constexpr double kTooLarge = 1 / std::numbers::sqrt2;
 // The least ratio for which adding circumcentres is known to end with graded triangles (Ruppert 1995).
@@ -107,12 +99,13 @@ public:
         state_.resize(mesh_.triangles().size());
     }
 
-    void run()
+    void run(const RunContext& context)
     {
         for (std::size_t t = 0; t < mesh_.triangles().size(); ++t) judge(static_cast<Index>(t));
         for (std::size_t t = 0; t < mesh_.triangles().size(); ++t) enqueue(static_cast<Index>(t));
         const auto limit = mesh_.points().size() + options_.max_points;
         while (!queue_.empty() && mesh_.points().size() < limit) {
+            check_cancelled(context);
             const Waiting next = queue_.top();
             queue_.pop();
             State& state = state_[index(next.triangle)];
@@ -333,7 +326,7 @@ Triangulation take_inside(const DelaunayMesh& mesh)
 } // namespace
 
 Triangulation triangulate(std::span<const Vec2> points, std::span<const std::vector<Index>> loops,
-                          const TriangulateOptions& options)
+                          const TriangulateOptions& options, const RunContext& context)
 {
     if (!(options.grading >= 0)) {
         throw InvalidInput("geometry.bad_grading",
@@ -348,7 +341,7 @@ Triangulation triangulate(std::span<const Vec2> points, std::span<const std::vec
     }
     const std::vector<Index> depth = mesh.mark_inside();
     if (options.single_region) check_single_region(nesting(mesh, depth, loops));
-    if (options.interior_points) Refinement(mesh, loops, options).run();
+    if (options.interior_points) Refinement(mesh, loops, options).run(context);
     return take_inside(mesh);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
 
 #include <cstddef>
@@ -43,10 +44,10 @@ struct TriangulateOptions {
 /// @param loops  point numbers in walking order, the first not repeated; at least 3 each, no point twice.
 ///               Points in no loop are handed through and not used.
 /// @throw InvalidInput  a loop of fewer than 3 points or all in line, a point that does not exist or is not
-///                      finite, loops that cross or touch; names the loops, counted from 1.
+///                      finite, loops that cross or touch; names the loops, counted from 1. Cancelled.
 /// @note  Deterministic; orientation and circle tests are exact. O(n log n) in practice.
 Triangulation triangulate(std::span<const Vec2> points, std::span<const std::vector<Index>> loops,
-                          const TriangulateOptions& options = {});
+                          const TriangulateOptions& options = {}, const RunContext& context = {});
 
 /// Two segments that may not meet but do; segment k of a loop runs from its point k to the next.
 struct LoopCrossing {
@@ -56,7 +57,8 @@ struct LoopCrossing {
 /// The first pair of segments (by loop, then segment) that cross, touch without being neighbours, overlap,
 /// or come within `tolerance` of each other; nothing where the loops are clean.
 ///
-/// @param tolerance  0: exact. Segments should be longer than it: those next but one to a shorter one are near.
+/// @param tolerance  0: exact. Segments should be longer than it: those next but one to a shorter one are
+///         near.
 /// @note  O(n log n) for segments that do not crowd.
 std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points,
                                           std::span<const std::vector<Index>> loops, double tolerance = 0);

@@ -11,8 +11,8 @@ namespace lacuna::healing {
 
 namespace {
 
-/// Places of a face, with the parameters of its surface there: corners and centres of its facets, on its exact
-/// surface where it has one.
+/// Places of a face, with the parameters of its surface there: corners and centres of its facets, on its
+/// exact surface where it has one.
 struct Samples {
     std::vector<Vec3> points;
     double sagitta = 0; ///< how far facets are from the surface

@@ -26,7 +26,8 @@ EdgeTrack::EdgeTrack(const topology::Model& model, EdgeId id)
             points.push_back(points_[i]);
             params_.push_back(edge.params[i]);
             if (i == middles.size()) break;
-            // Half a side's own sagitta is a quarter of the side's, were the curve a circle; this leaves room.
+            // Half a side's own sagitta is a quarter of the side's, were the curve a circle; this leaves
+            // room.
             sagitta_ = std::max(sagitta_, (middles[i] - (points_[i] + points_[i + 1]) / 2).norm());
             points.push_back(middles[i]);
             params_.push_back(middle_params[i]);
@@ -36,10 +37,10 @@ EdgeTrack::EdgeTrack(const topology::Model& model, EdgeId id)
     for (std::size_t i = 0; i + 1 < points_.size(); ++i) length_ += (points_[i + 1] - points_[i]).norm();
 }
 
-EdgeTrack::Place EdgeTrack::on_segment(const Vec3& p, std::size_t i) const
+EdgeTrack::EdgePosition EdgeTrack::on_segment(const Vec3& p, std::size_t i) const
 {
     const double f = topology::fraction_along(p, points_[i], points_[i + 1]);
-    Place place;
+    EdgePosition place;
     place.s = (static_cast<double>(i) + f) / per_side_;
     if (curve_) place.param = params_[i] + f * (params_[i + 1] - params_[i]);
     place.distance = (points_[i] + f * (points_[i + 1] - points_[i]) - p).norm();
@@ -47,10 +48,10 @@ EdgeTrack::Place EdgeTrack::on_segment(const Vec3& p, std::size_t i) const
 }
 
 /// Gauss-Newton along the curve for the places within reach, all at once; the tangent by differences.
-void EdgeTrack::refine(std::span<const Vec3> points, std::span<Place> places, double reach) const
+void EdgeTrack::refine(std::span<const Vec3> points, std::span<EdgePosition> places, double reach) const
 {
     if (!curve_) return;
-    constexpr int kSteps = 8;
+    constexpr int kSteps = 8; // at most; a choice, not a measurement
     constexpr double kDifference = 1e-4; // of a side: the tangent's error is then that squared
     std::vector<std::size_t> active;
     for (std::size_t i = 0; i < places.size(); ++i)
@@ -104,13 +105,13 @@ void EdgeTrack::refine(std::span<const Vec3> points, std::span<Place> places, do
     }
 }
 
-std::vector<EdgeTrack::Place> EdgeTrack::locate(std::span<const Vec3> points, double tolerance) const
+std::vector<EdgeTrack::EdgePosition> EdgeTrack::locate(std::span<const Vec3> points, double tolerance) const
 {
-    std::vector<Place> places(points.size());
+    std::vector<EdgePosition> places(points.size());
     for (std::size_t q = 0; q < points.size(); ++q) {
         places[q].distance = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
-            const Place place = on_segment(points[q], i);
+            const EdgePosition place = on_segment(points[q], i);
             if (place.distance < places[q].distance) places[q] = place;
         }
     }
@@ -118,11 +119,11 @@ std::vector<EdgeTrack::Place> EdgeTrack::locate(std::span<const Vec3> points, do
     return places;
 }
 
-std::optional<std::vector<EdgeTrack::Place>> EdgeTrack::follow(std::span<const Vec3> points,
-                                                               double tolerance) const
+std::optional<std::vector<EdgeTrack::EdgePosition>> EdgeTrack::follow(std::span<const Vec3> points,
+                                                                      double tolerance) const
 {
     const double reach = tolerance + sagitta_;
-    std::vector<Place> places(points.size());
+    std::vector<EdgePosition> places(points.size());
     std::size_t from = 0;
     double least = 0;
     Vec3 before = points_.front();
@@ -133,7 +134,7 @@ std::optional<std::vector<EdgeTrack::Place>> EdgeTrack::follow(std::span<const V
         places[q].distance = std::numeric_limits<double>::infinity();
         std::size_t best = from;
         for (std::size_t i = from; i + 1 < points_.size() && window >= 0; ++i) {
-            Place place = on_segment(points[q], i);
+            EdgePosition place = on_segment(points[q], i);
             if (place.distance < places[q].distance) {
                 places[q] = place;
                 best = i;
@@ -145,7 +146,7 @@ std::optional<std::vector<EdgeTrack::Place>> EdgeTrack::follow(std::span<const V
         before = points[q];
     }
     refine(points, places, reach);
-    for (Place& place : places) {
+    for (EdgePosition& place : places) {
         if (place.distance > tolerance) return std::nullopt;
         least = place.s = std::max(place.s, least);
     }
@@ -155,9 +156,9 @@ std::optional<std::vector<EdgeTrack::Place>> EdgeTrack::follow(std::span<const V
 double greatest_gap(const EdgeTrack& a, const EdgeTrack& b, double tolerance)
 {
     double gap = 0;
-    for (const EdgeTrack::Place& place : b.locate(a.samples(), tolerance))
+    for (const EdgeTrack::EdgePosition& place : b.locate(a.samples(), tolerance))
         gap = std::max(gap, place.distance);
-    for (const EdgeTrack::Place& place : a.locate(b.samples(), tolerance))
+    for (const EdgeTrack::EdgePosition& place : a.locate(b.samples(), tolerance))
         gap = std::max(gap, place.distance);
     return gap;
 }

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -68,7 +67,6 @@ LooseModel::LooseModel(topology::Model model)
       inside_(model_.points.size(), false)
 {
     for (std::size_t v = 0; v < vertex_joined_.size(); ++v) vertex_joined_[v] = VertexId(v);
-    std::iota(joined_.begin(), joined_.end(), Index{0});
     for (const topology::Edge& edge : model_.edges) next_edge_tag_ = std::max(next_edge_tag_, edge.tag + 1);
     const auto uses = edge_uses(model_);
     for (std::size_t e = 0; e < uses.size(); ++e)
@@ -94,13 +92,7 @@ std::vector<std::vector<EdgeId>> LooseModel::edges_of_faces() const
     return edges;
 }
 
-Index LooseModel::stays_as(Index p)
-{
-    Index root = p;
-    while (joined_[index(root)] != root) root = joined_[index(root)];
-    while (joined_[index(p)] != root) p = std::exchange(joined_[index(p)], root);
-    return root;
-}
+Index LooseModel::stays_as(Index p) { return static_cast<Index>(joined_.find(p)); }
 
 void LooseModel::join(Index gone, Index stays)
 {
@@ -111,7 +103,7 @@ void LooseModel::join(Index gone, Index stays)
         model_.points[index(stays)] = model_.points[index(gone)];
         kept_[index(stays)] = true;
     }
-    joined_[index(gone)] = stays;
+    joined_.unite(stays, gone);
     touched_[index(stays)] = true;
 }
 
@@ -268,7 +260,7 @@ void LooseModel::part_shortcuts()
             if (count < 2) continue;
             middles.add(side.first, side.second, {static_cast<Index>(model_.points.size())});
             model_.points.push_back((model_.at(side.first) + model_.at(side.second)) / 2);
-            joined_.push_back(static_cast<Index>(joined_.size()));
+            joined_.add();
             kept_.push_back(false);
             touched_.push_back(true);
             inside_.push_back(true);

@@ -3,7 +3,8 @@
 #include <lacuna/healing/split_facets.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/healing/detail/mend_facets.h>
+#include <lacuna/healing/detail/repeated_cells.h>
+#include <lacuna/healing/detail/t_junctions.h>
 #include <lacuna/healing/detail/weld.h>
 
 #include <algorithm>
@@ -156,7 +157,8 @@ void close_tees(Facets& facets)
 {
     std::vector<bool> whole(facets.count());
     for (std::size_t f = 0; f < whole.size(); ++f) whole[f] = facets.quad[f] >= 0;
-    const std::vector<FacetPiece> pieces = cut_at_tees(facets.points, facets.corner, whole, facets.tolerance);
+    const std::vector<FacetPiece> pieces = cut_at_t_junctions(facets.points, facets.corner, whole,
+                                                              facets.tolerance);
     if (pieces.empty()) return;
     const std::vector<int> label = std::move(facets.label);
     const std::vector<Index> quad = std::move(facets.quad);

@@ -27,10 +27,10 @@ struct FacetSoup {
 };
 
 /// Cut facets into faces: by label first, then wherever they turn by more than the feature angle. Edges are
-/// the chains between two faces or along a border; vertices are where three faces meet, where a border turns
-/// by more than the feature angle, or, on a closed chain that has none, its first point.
-/// Tags count from 1 in the order faces are met, each kind of entity by itself. First, facets are cut at points
-/// on the inside of their free sides (T-junctions), and of facets listed twice in a label one stays, with a note.
+/// the chains between two faces or along a border; vertices are where three faces meet, where a border
+/// turns by more than the feature angle, or, on a closed chain that has none, its first point. Tags count
+/// from 1 in the order faces are met, each kind of entity by itself. First, facets are cut at points on the
+/// inside of their free sides (T-junctions), and of facets listed twice in a label one stays, with a note.
 /// @throw InvalidInput  no facets; an edge of three or more facets inside one label.
 topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options = {});
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// stitch(): vertices join, short edges collapse, T-junctions are split, edges that lie on each other merge with
-// all their points, and what is left over twice goes. Each step collects first and changes the model then, so
-// that the order of entities decides nothing but who keeps its tag.
+// stitch(): vertices join, short edges collapse, T-junctions are split, edges that lie on each other merge
+// with all their points, and what is left over twice goes. Each step collects first and changes the model
+// then, so that the order of entities decides nothing but who keeps its tag.
 #include <lacuna/healing/stitch.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/union_find.h>
 #include <lacuna/healing/detail/edge_track.h>
 #include <lacuna/healing/detail/loose_model.h>
 #include <lacuna/healing/detail/surplus_faces.h>
@@ -44,7 +45,7 @@ private:
     /// A vertex on the inside of an edge.
     struct Stop {
         VertexId vertex;
-        EdgeTrack::Place place;
+        EdgeTrack::EdgePosition place;
         std::size_t node =
             0; ///< the point of the edge it becomes one with; 0: none, it gets a place of its own
     };
@@ -54,7 +55,7 @@ private:
         Index point = -1;
     };
     /// An edge that becomes another, and the nodes its points become.
-    struct Follower {
+    struct MergedEdge {
         EdgeId edge;
         std::vector<std::size_t> nodes;
     };
@@ -63,7 +64,7 @@ private:
         EdgeId first; ///< lends shape and tag
         std::vector<Node> nodes;
         std::vector<std::size_t> order; ///< of the nodes along the edge
-        std::vector<Follower> followers;
+        std::vector<MergedEdge> merged;
         bool keeps_mesh = false;
     };
 
@@ -78,7 +79,8 @@ private:
     void merge_edges();
     std::vector<Bundle> bundles_of(std::vector<EdgeId> group);
     bool try_add(Bundle& bundle, EdgeId e);
-    bool add_nodes(Bundle& bundle, EdgeId e, bool reversed, const std::vector<EdgeTrack::Place>& places);
+    bool add_nodes(Bundle& bundle, EdgeId e, bool reversed,
+                   const std::vector<EdgeTrack::EdgePosition>& places);
 
     const topology::Model& model() const { return loose_.model(); }
     std::string edge_name(EdgeId e) const { return "edge " + std::to_string(model()[e].tag); }
@@ -95,7 +97,7 @@ private:
     std::map<EdgeId, std::optional<EdgeTrack>> tracks_; ///< of edges as they are now
 };
 
-// --- vertices and short edges ---------------------------------------------------------------------------------
+// --- vertices and short edges ------------------------------------------------------------------------------
 
 void Stitcher::join_vertices()
 {
@@ -105,25 +107,19 @@ void Stitcher::join_vertices()
         at.push_back(model().at(vertex.point));
         dots.push_back({at.back(), at.back()});
     }
-    std::vector<std::size_t> root(at.size());
-    std::iota(root.begin(), root.end(), std::size_t{0});
-    const auto find = [&](std::size_t v) {
-        while (root[v] != v) v = root[v] = root[root[v]];
-        return v;
-    };
+    geometry::UnionFind near(at.size());
     for (const topology::NearSegment& pair : topology::near_segments(at, dots, tolerance_)) {
         if ((at[index(pair.point)] - at[index(pair.segment)]).norm() > tolerance_) continue;
-        const std::size_t a = find(index(pair.point));
-        const std::size_t b = find(index(pair.segment));
-        root[std::max(a, b)] = std::min(a, b);
+        near.unite_least(index(pair.point), index(pair.segment));
     }
     double furthest = 0;
     std::size_t far = 0;
-    for (std::size_t v = 0; v < root.size(); ++v) {
-        if (find(v) == v) continue;
-        loose_.join(VertexId(v), VertexId(find(v)));
+    for (std::size_t v = 0; v < at.size(); ++v) {
+        const std::size_t stays = near.find(v);
+        if (stays == v) continue;
+        loose_.join(VertexId(v), VertexId(stays));
         ++report_.vertices_merged;
-        const double moved = (at[v] - at[find(v)]).norm();
+        const double moved = (at[v] - at[stays]).norm();
         if (moved <= furthest) continue;
         furthest = moved;
         far = v;
@@ -176,7 +172,7 @@ void Stitcher::settle_points()
     tracks_.clear();
 }
 
-// --- T-junctions ----------------------------------------------------------------------------------------------
+// --- T-junctions -------------------------------------------------------------------------------------------
 
 void Stitcher::split_at_vertices()
 {
@@ -267,7 +263,7 @@ std::map<EdgeId, std::vector<Stitcher::Stop>> Stitcher::find_stops()
     for (const auto& [e, on_edge] : close) {
         std::vector<Vec3> points;
         for (const VertexId v : on_edge) points.push_back(model().at(model()[v].point));
-        const std::vector<EdgeTrack::Place> places = track(e).locate(points, tolerance_);
+        const std::vector<EdgeTrack::EdgePosition> places = track(e).locate(points, tolerance_);
         std::size_t i = 0;
         for (const VertexId v : on_edge) {
             if (places[i].distance <= tolerance_) stops[e].push_back({v, places[i]});
@@ -373,7 +369,7 @@ void Stitcher::insert_stops(EdgeId e, const std::vector<Stop>& stops, std::optio
     ++report_.edges_split;
 }
 
-// --- edges that lie on each other -----------------------------------------------------------------------------
+// --- edges that lie on each other --------------------------------------------------------------------------
 
 void Stitcher::merge_edges()
 {
@@ -386,16 +382,16 @@ void Stitcher::merge_edges()
     for (auto& [ends, group] : groups) {
         if (group.size() < 2) continue;
         for (Bundle& bundle : bundles_of(std::move(group)))
-            if (!bundle.followers.empty()) bundles.push_back(std::move(bundle));
+            if (!bundle.merged.empty()) bundles.push_back(std::move(bundle));
     }
     if (bundles.empty()) return;
 
     // First the sides that get points, by the points as they were; joined ones go by what they become.
-    struct Side {
+    struct FilledSide {
         Index from, to;
         std::vector<Index> between;
     };
-    std::vector<Side> filled;
+    std::vector<FilledSide> filled;
     std::vector<EdgeId> edges;
     for (const Bundle& bundle : bundles) {
         std::vector<std::size_t> position(bundle.nodes.size());
@@ -403,7 +399,7 @@ void Stitcher::merge_edges()
         const auto fill = [&](EdgeId e, const std::vector<std::size_t>& nodes) {
             edges.push_back(e);
             for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-                Side side{bundle.nodes[nodes[i]].point, bundle.nodes[nodes[i + 1]].point, {}};
+                FilledSide side{bundle.nodes[nodes[i]].point, bundle.nodes[nodes[i + 1]].point, {}};
                 for (std::size_t k = position[nodes[i]] + 1; k < position[nodes[i + 1]]; ++k)
                     side.between.push_back(bundle.nodes[bundle.order[k]].point);
                 if (!side.between.empty()) filled.push_back(std::move(side));
@@ -412,7 +408,7 @@ void Stitcher::merge_edges()
         std::vector<std::size_t> own(model()[bundle.first].points.size());
         std::iota(own.begin(), own.end(), std::size_t{0});
         fill(bundle.first, own);
-        for (const Follower& follower : bundle.followers) fill(follower.edge, follower.nodes);
+        for (const MergedEdge& merged : bundle.merged) fill(merged.edge, merged.nodes);
         topology::Edge& edge = loose_.edge(bundle.first);
         edge.points.clear();
         const bool exact = !edge.params.empty();
@@ -424,12 +420,12 @@ void Stitcher::merge_edges()
     }
     settle_points();
     topology::SidePoints sides;
-    for (Side& side : filled) sides.add(side.from, side.to, std::move(side.between));
+    for (FilledSide& side : filled) sides.add(side.from, side.to, std::move(side.between));
     loose_.cut(sides, edges);
     for (const Bundle& bundle : bundles) {
-        for (const Follower& follower : bundle.followers) {
-            if (loose_.is_gone(follower.edge)) continue;
-            loose_.merge(follower.edge, bundle.first);
+        for (const MergedEdge& merged : bundle.merged) {
+            if (loose_.is_gone(merged.edge)) continue;
+            loose_.merge(merged.edge, bundle.first);
             ++report_.edges_merged;
         }
     }
@@ -474,7 +470,7 @@ bool Stitcher::try_add(Bundle& bundle, EdgeId e)
         }
         const auto places = along.follow(samples, tolerance_);
         if (!places || !own.follow(samples_along, tolerance_)) continue;
-        std::vector<EdgeTrack::Place> at_nodes;
+        std::vector<EdgeTrack::EdgePosition> at_nodes;
         const std::size_t stride = own.exact() ? 2 : 1;
         for (std::size_t i = 0; i < places->size(); i += stride) at_nodes.push_back((*places)[i]);
         return add_nodes(bundle, e, reversed, at_nodes);
@@ -483,7 +479,8 @@ bool Stitcher::try_add(Bundle& bundle, EdgeId e)
 }
 
 /// Let each point of the edge become a node of the bundle, or a new one where none is near.
-bool Stitcher::add_nodes(Bundle& bundle, EdgeId e, bool reversed, const std::vector<EdgeTrack::Place>& places)
+bool Stitcher::add_nodes(Bundle& bundle, EdgeId e, bool reversed,
+                         const std::vector<EdgeTrack::EdgePosition>& places)
 {
     std::vector<Index> points = model()[e].points;
     if (reversed) std::reverse(points.begin(), points.end());
@@ -533,7 +530,7 @@ bool Stitcher::add_nodes(Bundle& bundle, EdgeId e, bool reversed, const std::vec
     bundle.nodes = std::move(nodes);
     bundle.order = std::move(order);
     bundle.keeps_mesh = bundle.keeps_mesh || keeps_mesh;
-    bundle.followers.push_back({e, std::move(become)});
+    bundle.merged.push_back({e, std::move(become)});
     return true;
 }
 

@@ -29,8 +29,9 @@ struct StitchReport {
 ///
 /// - Vertices closer than the tolerance, in a chain too, become one. An edge no longer than the tolerance
 ///   becomes its vertex.
-/// - A vertex on the inside of an edge splits it (a T-junction), where the edge, or an edge at the vertex, has
-///   one face alone; no seam. A closed polyline with a vertex of no meaning begins at the one found instead.
+/// - A vertex on the inside of an edge splits it (a T-junction), where the edge, or an edge at the vertex,
+///   has one face alone; no seam. A closed polyline with a vertex of no meaning begins at the one found
+///   instead.
 /// - Edges with the same ends that stay within the tolerance of each other, by their exact curves where they
 ///   have them, become one. It has the points of all, and so have the facets on all its sides; points a
 ///   quarter of a side apart on an exact curve become one. Edges further apart stay, with a note where
@@ -39,11 +40,13 @@ struct StitchReport {
 ///   both, as where two solids touch.
 ///
 /// What stays keeps its tag; the parts of a split edge after the first count on. Nodes of given quads stay
-/// where they are and get no others between them. Where the facets joined would be no surface, the model stays as it was, with a note.
+/// where they are and get no others between them. Where the facets joined would be no surface, the model
+/// stays as it was, with a note.
 ///
 /// @param tolerance  [model length], > 0.
 /// @pre   build_loops() has run, or can.
-/// @post  loops are those of build_loops(); where gaps are well below the tolerance, a second call changes nothing.
+/// @post  loops are those of build_loops(); where gaps are well below the tolerance, a second call changes
+///         nothing.
 /// @note  O(n log n) in points; deterministic.
 StitchReport stitch(topology::Model& model, double tolerance);
 

@@ -73,7 +73,8 @@ std::vector<Index> weld_equal(std::span<const Vec3> points)
     return result;
 }
 
-// Cells this many tolerances wide: most points then need to look into few neighbours, and few points share one.
+// Cells this many tolerances wide: most points then need to look into few neighbours, and few points share
+// one.
 constexpr double kCellWidth = 8;
 
 } // namespace
@@ -88,7 +89,8 @@ std::vector<Index> weld(std::span<const Vec3> points, double tolerance)
         low = low.cwiseMin(p);
         high = high.cwiseMax(p);
     }
-    // A tolerance below what the coordinates resolve would overflow the cells' numbers; such cells may be wider.
+    // A tolerance below what the coordinates resolve would overflow the cells' numbers; such cells may be
+    // wider.
     const double width = std::max(kCellWidth * tolerance, (high - low).maxCoeff() * std::ldexp(1.0, -52));
     CellTable table(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {

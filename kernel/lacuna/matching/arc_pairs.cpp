@@ -20,7 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Corners further apart than this share of a side are nearer to another place than to each other.
 constexpr double kFarCorner = 0.5;
 /// Vertices nearer than this share of the side beside them are paired, rather than a piece that short cut
-/// off.
+/// off. A choice, not a measurement.
 constexpr double kNear = 0.25;
 
 double share(double x)
@@ -37,9 +37,9 @@ double round_distance(double a, double b)
 
 /// A map of the circle that takes the target's shares to the source's: piecewise linear between pairs, a turn
 /// without them.
-class Stretch {
+class ShareMap {
 public:
-    Stretch(double offset, bool backward, const std::vector<std::pair<double, double>>& fixed)
+    ShareMap(double offset, bool backward, const std::vector<std::pair<double, double>>& fixed)
         : sign_(backward ? -1 : 1), offset_(offset)
     {
         for (const auto& [s, t] : fixed) knots_.emplace_back(s, turned(t));
@@ -131,7 +131,7 @@ public:
           partner_(source.vertices.size(), kNone),
           taken_(target.vertices.size(), kNone)
     {
-        stretch();
+        fit_shares();
     }
 
     void pair(VertexId s, VertexId t)
@@ -145,15 +145,15 @@ public:
     }
 
     /// The places of the target by the pairs there are.
-    void stretch()
+    void fit_shares()
     {
         std::vector<std::pair<double, double>> knots;
         for (std::size_t i = 0; i < partner_.size(); ++i) {
             if (partner_[i] != kNone) knots.emplace_back(source_.at[i], target_.at[partner_[i]]);
         }
-        stretch_.emplace(offset_, backward_, knots);
+        shares_.emplace(offset_, backward_, knots);
         place_.clear();
-        for (const double t : target_.at) place_.push_back(stretch_->to_source(t));
+        for (const double t : target_.at) place_.push_back(shares_->to_source(t));
     }
 
     void pair_corners()
@@ -169,7 +169,7 @@ public:
                                                  : share(source_.at[knots[(k + 1) % knots.size()]] - from);
             pair_corners(from, run, false);
         }
-        stretch();
+        fit_shares();
     }
 
     void pair_near()
@@ -188,7 +188,7 @@ public:
         for (const auto& [distance, i, j] : near) {
             if (partner_[i] == kNone && taken_[j] == kNone) pair(i, j);
         }
-        stretch();
+        fit_shares();
     }
 
     ArcPairs result() const
@@ -216,7 +216,7 @@ private:
         taken_[j] = i;
     }
 
-    [[nodiscard]] double to_target(std::size_t i) const { return stretch_->to_target(source_.at[i]); }
+    [[nodiscard]] double to_target(std::size_t i) const { return shares_->to_target(source_.at[i]); }
 
     static bool wants(const ArcLoop& loop, const std::vector<std::size_t>& partner, std::size_t i)
     {
@@ -292,7 +292,7 @@ private:
     double most_twist_;
     std::vector<std::size_t> partner_; ///< target of each source vertex
     std::vector<std::size_t> taken_;   ///< source of each target vertex
-    std::optional<Stretch> stretch_;
+    std::optional<ShareMap> shares_;
     std::vector<double> place_; ///< share of the source of each target vertex
 };
 
@@ -303,7 +303,7 @@ ArcPairs pair_by_arc(const ArcLoop& source, const ArcLoop& target, double offset
 {
     Pairing pairing(source, target, offset, backward, most_twist);
     for (const auto& [s, t] : hard) pairing.pair(s, t);
-    pairing.stretch();
+    pairing.fit_shares();
     pairing.pair_corners();
     pairing.pair_near();
     return pairing.result();

@@ -40,9 +40,10 @@ double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geo
            relative(a.area.norm() * fit.scale * fit.scale, b.area.norm()) + counts;
 }
 
-/// The arrangement that a lay of the anchor leads to; nothing where no complete one is cheaper than `limit`.
+/// The arrangement that an alignment of the anchor leads to; nothing where no complete one is cheaper than
+/// `limit`.
 std::optional<Arrangement> arrangement_of(const Problem& problem, std::size_t anchor, std::size_t t,
-                                          const Lay& lay, double reach, double limit)
+                                          const Alignment& alignment, double reach, double limit)
 {
     const std::size_t n = problem.source.size();
     const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
@@ -51,22 +52,25 @@ std::optional<Arrangement> arrangement_of(const Problem& problem, std::size_t an
         for (std::size_t j = 0; j < n; ++j) {
             const bool fixed = (i == anchor) != (j == t);
             cost(at(i), at(j)) = fixed ? std::numeric_limits<double>::infinity()
-                                       : loop_cost(problem, i, j, lay.fit, reach);
+                                       : loop_cost(problem, i, j, alignment.fit, reach);
         }
     }
-    // However the loops are paired, each costs its least: most lays are out before they are assigned.
-    if (!(lay.score + cost.rowwise().minCoeff().sum() / static_cast<double>(n) < limit)) return std::nullopt;
-    Arrangement result{assign(cost), static_cast<int>(anchor), lay, {}, lay.score};
+    // However the loops are paired, each costs its least: most alignments are out before they are assigned.
+    if (!(alignment.score + cost.rowwise().minCoeff().sum() / static_cast<double>(n) < limit))
+        return std::nullopt;
+    Arrangement result{assign(cost), static_cast<int>(anchor), alignment, {}, alignment.score};
     for (std::size_t i = 0; i < n; ++i) {
         if (result.target[i] < 0) return std::nullopt;
         result.score += cost(at(i), result.target[i]) / static_cast<double>(n);
-        result.lay.score += misfit(problem, i, static_cast<std::size_t>(result.target[i]), lay.fit, reach) /
-                            static_cast<double>(n);
+        result.alignment.score += misfit(problem, i, static_cast<std::size_t>(result.target[i]),
+                                         alignment.fit, reach) /
+                                  static_cast<double>(n);
     }
     return result.score < limit ? std::optional(result) : std::nullopt;
 }
 
-/// Keep the two best arrangements with different pairs, and of the lays of each the two best that differ.
+/// Keep the two best arrangements with different pairs, and of the alignments of each the two best that
+/// differ.
 void keep(const Problem& problem, Arrangement candidate, std::vector<Arrangement>& best)
 {
     const auto same = std::find_if(
@@ -76,13 +80,14 @@ void keep(const Problem& problem, Arrangement candidate, std::vector<Arrangement
     } else {
         const auto s = static_cast<std::size_t>(candidate.anchor);
         const auto t = static_cast<std::size_t>(candidate.target[s]);
-        std::vector<Lay> others{candidate.lay, same->lay};
+        std::vector<Alignment> others{candidate.alignment, same->alignment};
         if (same->next) others.push_back(*same->next);
         if (candidate.score < same->score) std::swap(*same, candidate);
         same->next.reset();
-        for (const Lay& lay : others) {
-            if (differ(problem, s, t, lay, same->lay) && (!same->next || lay.score < same->next->score))
-                same->next = lay;
+        for (const Alignment& alignment : others) {
+            if (differ(problem, s, t, alignment, same->alignment) &&
+                (!same->next || alignment.score < same->next->score))
+                same->next = alignment;
         }
     }
     std::stable_sort(best.begin(), best.end(),
@@ -106,11 +111,12 @@ std::vector<Arrangement> arrange(const Problem& problem)
     for (std::size_t t = 0; t < n; ++t) {
         if (problem.forced[anchor] >= 0 && problem.forced[anchor] != static_cast<int>(t)) continue;
         for (const bool with_scale : {false, true}) {
-            for (const Lay& lay : lays(problem, anchor, t, with_scale)) {
+            for (const Alignment& alignment : alignments_of(problem, anchor, t, with_scale)) {
+                check_cancelled(problem.context);
                 // With loops to spare for a second arrangement nothing worse than it matters.
                 const double limit = n > 2 && best.size() > 1 ? best.back().score
                                                               : std::numeric_limits<double>::infinity();
-                auto found = arrangement_of(problem, anchor, t, lay, reach, limit);
+                auto found = arrangement_of(problem, anchor, t, alignment, reach, limit);
                 if (found) keep(problem, std::move(*found), best);
             }
         }

@@ -11,9 +11,9 @@ using namespace topology;
 
 namespace {
 
-/// A bend of a walk that a node must keep [degrees].
+/// A bend of a walk that a node must keep [degrees]. A choice, not a measurement.
 constexpr double kCornerAngle = 15;
-/// How much more than its facets next to it a corner turns.
+/// How much more than its facets next to it a corner turns. A choice, not a measurement.
 constexpr double kOverSmooth = 1.5;
 
 double turn(const Vec3& in, const Vec3& out)

@@ -19,14 +19,15 @@ using namespace topology;
 namespace {
 
 /// Points between two side lines that a section is sampled at, and round a closed section without any.
+/// Choices, not measurements: an affine fit needs four points, the rest evens out facets.
 constexpr int kSamplesBetween = 8;
 constexpr int kSamplesRound = 48;
-/// How close to the rims the first and the last section are cut.
+/// How close to the rims the first and the last section are cut: no facet is crossed at a corner there.
 constexpr double kRim = 1e-12;
 
-using Side = std::pair<Index, Index>;
+using FacetSide = std::pair<Index, Index>;
 
-Side side(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
+FacetSide side(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// A level line over the facets of one wall part.
 struct LevelLine {
@@ -60,19 +61,19 @@ std::vector<Vec3> ways_up(const OpenVolume& volume, const std::vector<double>& h
 /// The only level line at height t; nothing where there are several or none.
 std::optional<LevelLine> level_line(const Model& model, const std::vector<Triangle>& triangles,
                                     const std::vector<double>& heights, double t, const std::vector<Vec3>& up,
-                                    const std::map<Side, std::size_t>& on_line)
+                                    const std::map<FacetSide, std::size_t>& on_line)
 {
     const auto above = [&](Index p) { return heights[static_cast<std::size_t>(p)] >= t; };
-    const auto crossing = [&](const Side& at, const std::vector<Vec3>& of) {
+    const auto crossing = [&](const FacetSide& at, const std::vector<Vec3>& of) {
         const auto a = static_cast<std::size_t>(at.first), b = static_cast<std::size_t>(at.second);
         const double f = (t - heights[a]) / (heights[b] - heights[a]);
         return Vec3((1 - f) * of[a] + f * of[b]);
     };
-    std::map<Side, Side> next;
-    std::map<Side, bool> entered;
+    std::map<FacetSide, FacetSide> next;
+    std::map<FacetSide, bool> entered;
     LevelLine line;
     for (const Triangle& triangle : triangles) {
-        Side from{-1, -1}, to{-1, -1};
+        FacetSide from{-1, -1}, to{-1, -1};
         for (std::size_t i = 0; i < 3; ++i) {
             const Index a = triangle[i], b = triangle[(i + 1) % 3];
             if (std::isnan(heights[static_cast<std::size_t>(a)])) return std::nullopt;
@@ -87,7 +88,7 @@ std::optional<LevelLine> level_line(const Model& model, const std::vector<Triang
     }
     if (next.empty()) return std::nullopt;
     line.closed = true;
-    Side start = next.begin()->first;
+    FacetSide start = next.begin()->first;
     for (const auto& [from, to] : next) {
         if (!entered.contains(from)) {
             start = from;
@@ -97,7 +98,7 @@ std::optional<LevelLine> level_line(const Model& model, const std::vector<Triang
         if (on_line.contains(from)) start = from;
     }
     std::size_t steps = 0;
-    for (Side at = start;; ++steps) {
+    for (FacetSide at = start;; ++steps) {
         if (const auto found = on_line.find(at); found != on_line.end())
             line.anchors.emplace_back(line.points.size(), found->second);
         line.points.push_back(crossing(at, model.points));
@@ -180,11 +181,12 @@ struct PartSections {
     std::vector<Vec3> areas;
 };
 
-/// The area of a section, along the way up whichever side of the wall the void is on, so that those of several parts add up.
+/// The area of a section, along the way up whichever side of the wall the void is on, so that those of
+/// several parts add up.
 ///
-/// A section that does not close says little of the void beside it; a straight one leaves open how it is turned.
-/// The way up the wall says the rest: two points off the wall and an area are added, as large as a round section's
-/// that is as long as the gap.
+/// A section that does not close says little of the void beside it; a straight one leaves open how it is
+/// turned. The way up the wall says the rest: two points off the wall and an area are added, as large as a
+/// round section's that is as long as the gap.
 Vec3 complete(const LevelLine& line, std::vector<Vec3>& section)
 {
     const Vec3 area = geometry::newell_vector(section);
@@ -201,7 +203,8 @@ Vec3 complete(const LevelLine& line, std::vector<Vec3>& section)
 /// Sections of one wall part; empty when some level is not one line like the others.
 PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& part,
                          const std::vector<double>& heights, const std::vector<Vec3>& up,
-                         const std::map<Side, std::size_t>& on_line, int count)
+                         const std::map<FacetSide, std::size_t>& on_line, int count,
+                         const RunContext& context)
 {
     std::vector<Triangle> triangles;
     for (const FaceId face : part) {
@@ -211,16 +214,19 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
     PartSections result;
     std::vector<std::vector<Vec3>>& sections = result.points;
     std::vector<std::size_t> anchors;
+    bool closed = false;
     for (int k = 0; k <= count; ++k) {
+        check_cancelled(context);
         const double t = std::clamp(static_cast<double>(k) / count, kRim, 1 - kRim);
         std::optional<LevelLine> line = level_line(volume.model, triangles, heights, t, up, on_line);
         if (!line) return {};
         start_at_first_anchor(*line);
         if (k == 0) anchors = anchor_lines(*line);
         if (anchor_lines(*line) != anchors) return {};
+        if (k == 0) closed = line->closed;
+        if (line->closed != closed) return {};
         sections.push_back(sampled(*line));
-        if (line->closed && line->anchors.empty() && k > 0)
-            align(sections.back(), sections[sections.size() - 2]);
+        if (closed && anchors.empty() && k > 0) align(sections.back(), sections[sections.size() - 2]);
         result.areas.push_back(complete(*line, sections.back()));
         if (sections.back().size() != sections.front().size()) return {};
     }
@@ -229,15 +235,15 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
 
 } // namespace
 
-Sections cut_sections(const OpenVolume& volume, int count)
+Sections cut_sections(const OpenVolume& volume, int count, const RunContext& context)
 {
     const Model& model = volume.model;
     Sections result;
-    const std::vector<SideLine> lines = side_lines(volume);
-    result.heights = wall_heights(volume, lines);
+    const std::vector<SideLine> lines = side_lines(volume, context);
+    result.heights = wall_heights(volume, lines, context);
     const std::vector<Vec3> up = ways_up(volume, result.heights);
     result.levels.resize(static_cast<std::size_t>(count) + 1);
-    std::map<Side, std::size_t> on_line;
+    std::map<FacetSide, std::size_t> on_line;
     for (std::size_t l = 0; l < lines.size(); ++l) {
         for (const EdgeUse& use : lines[l].uses) {
             const std::vector<Index>& points = model[use.edge].points;
@@ -245,7 +251,7 @@ Sections cut_sections(const OpenVolume& volume, int count)
         }
     }
     for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
-        const auto sections = sections_of(volume, part, result.heights, up, on_line, count);
+        const auto sections = sections_of(volume, part, result.heights, up, on_line, count, context);
         if (result.areas.empty()) result.areas.assign(result.levels.size(), Vec3::Zero());
         for (std::size_t k = 0; k < sections.points.size(); ++k) {
             result.areas[k] += sections.areas[k];

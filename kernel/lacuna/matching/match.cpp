@@ -20,17 +20,18 @@ using namespace topology;
 namespace {
 
 /// Confidence below which the second best is named beside the best: it fits within a quarter as well.
+/// A choice, not a measurement.
 constexpr double kUnsure = 0.25;
 
-/// Where a loop could as well be laid another way, say which two there are: the recipe can choose.
-void note_candidates(const Problem& problem, std::size_t s, std::size_t t, const Lay& best, const Lay& second,
-                     Match& match)
+/// Where another alignment of a loop fits about as well, say which two there are: the recipe can choose.
+void note_candidates(const Problem& problem, std::size_t s, std::size_t t, const Alignment& best,
+                     const Alignment& second, Match& match)
 {
     const Model& model = problem.volume.model;
-    const auto start_on = [&](const Lay& lay) {
+    const auto start_on = [&](const Alignment& alignment) {
         if (problem.paired_by_length(s, t))
-            return std::to_string(std::lround(lay.offset * 100)) + "% of the target loop's length";
-        return "vertex " + std::to_string(model[problem.target[t].vertices[lay.shift]].tag);
+            return std::to_string(std::lround(alignment.offset * 100)) + "% of the target loop's length";
+        return "vertex " + std::to_string(model[problem.target[t].vertices[alignment.shift]].tag);
     };
     match.notes.push_back("source loop " + std::to_string(s + 1) + ": vertex " +
                           std::to_string(model[problem.source[s].vertices.front()].tag) + " was laid on " +
@@ -46,10 +47,10 @@ void add(PointPairs& known, const PointPairs& more)
     known.to.insert(known.to.end(), more.to.begin(), more.to.end());
 }
 
-/// Lays every loop, and pairs vertices by it.
-class Laying {
+/// Aligns every loop, and pairs vertices by that.
+class LoopAligner {
 public:
-    Laying(const Problem& problem, Match& match)
+    LoopAligner(const Problem& problem, Match& match)
         : problem_(problem), match_(match), chosen_(problem.source.size())
     {
     }
@@ -59,9 +60,9 @@ public:
         const std::size_t n = chosen_.size();
         const auto anchor = static_cast<std::size_t>(arrangement.anchor);
         backward_ = problem_.backward;
-        lay(anchor, &arrangement);
+        align(anchor, &arrangement);
         for (std::size_t s = 0; s < n; ++s) {
-            if (s != anchor) lay(s, nullptr);
+            if (s != anchor) align(s, nullptr);
         }
         for (std::size_t s = 0; s < n; ++s) slide(s);
         for (std::size_t s = 0; s < n; ++s) {
@@ -79,21 +80,21 @@ private:
     }
 
     /// @param arrangement  null for loops other than its anchor
-    void lay(std::size_t s, const Arrangement* arrangement)
+    void align(std::size_t s, const Arrangement* arrangement)
     {
         const std::size_t t = target(s);
         const std::vector<int>& flips = problem_.options.flip;
         const bool flip = std::find(flips.begin(), flips.end(), static_cast<int>(s)) != flips.end();
-        std::vector<Lay> found;
+        std::vector<Alignment> found;
         if (arrangement != nullptr) {
-            found = {arrangement->lay};
+            found = {arrangement->alignment};
             if (arrangement->next) found.push_back(*arrangement->next);
         }
         if (flip || arrangement == nullptr) {
             Problem local = problem_;
             local.backward = backward_;
-            if (flip) local.backward = !(backward_ ? *backward_ : arrangement->lay.backward);
-            found = lays(local, s, t, true, known_);
+            if (flip) local.backward = !(backward_ ? *backward_ : arrangement->alignment.backward);
+            found = alignments_of(local, s, t, true, known_);
         }
         if (found.empty()) {
             throw NotClosed("matching.vertices_contradict",
@@ -102,7 +103,7 @@ private:
                                 " keeps the vertex pairs that the walls or the recipe fix" +
                                 fixed_in_words(s) + "; check match{ vertices = … }");
         }
-        const Lay& best = chosen_[s] = found.front();
+        const Alignment& best = chosen_[s] = found.front();
         // A loop turned round by hand says nothing of how the others run.
         if (!backward_) backward_ = flip ? !best.backward : best.backward;
         match_.loops[s].flipped = !best.backward;
@@ -110,12 +111,12 @@ private:
         add(known_, samples(problem_, s, t, best));
     }
 
-    /// How sure a lay is, against the next one. One hard pair settles all of a loop.
-    void rate(std::size_t s, const std::vector<Lay>& found)
+    /// How sure an alignment is, against the next one. One hard pair settles all of a loop.
+    void rate(std::size_t s, const std::vector<Alignment>& found)
     {
         const std::size_t t = target(s);
-        const Lay& best = found.front();
-        const auto second = std::find_if(found.begin(), found.end(), [&](const Lay& other) {
+        const Alignment& best = found.front();
+        const auto second = std::find_if(found.begin(), found.end(), [&](const Alignment& other) {
             return differ(problem_, s, t, best, other);
         });
         if (second == found.end() || problem_.has_hard(s)) return;
@@ -150,10 +151,12 @@ private:
     {
         const std::vector<VertexId>& source = problem_.source[s].vertices;
         const std::vector<VertexId>& target_vertices = problem_.target[target(s)].vertices;
-        const Lay& lay = chosen_[s];
+        const Alignment& alignment = chosen_[s];
         const std::size_t k = source.size();
         for (std::size_t i = 0; i < k; ++i)
-            add_pair(source[i], target_vertices[(lay.backward ? lay.shift + k - i : lay.shift + i) % k]);
+            add_pair(
+                source[i],
+                target_vertices[(alignment.backward ? alignment.shift + k - i : alignment.shift + i) % k]);
     }
 
     void pair_by_length(std::size_t s)
@@ -235,8 +238,8 @@ private:
 
     const Problem& problem_;
     Match& match_;
-    std::vector<Lay> chosen_;
-    PointPairs known_; ///< of the loops laid so far
+    std::vector<Alignment> chosen_;
+    PointPairs known_; ///< of the loops aligned so far
     std::optional<bool> backward_;
 };
 
@@ -250,7 +253,7 @@ void by_nearest(const Problem& problem, Match& match)
                        std::vector<bool>(problem.source.size(), false),
                        problem.backward};
     for (const int s : problem.options.flip) input.turned[static_cast<std::size_t>(s)] = true;
-    NearestMatch found = match_nearest(problem.volume.model, input);
+    NearestMatch found = match_nearest(problem.volume.model, input, problem.context);
     match.loops = std::move(found.loops);
     match.vertices = std::move(found.vertices);
     match.confidence = found.confidence;
@@ -273,7 +276,7 @@ std::string loops_in_words(std::size_t count)
 
 } // namespace
 
-Match match(const OpenVolume& volume, const MatchOptions& options)
+Match match(const OpenVolume& volume, const MatchOptions& options, const RunContext& context)
 {
     const Model& model = volume.model;
     Match result;
@@ -293,7 +296,7 @@ Match match(const OpenVolume& volume, const MatchOptions& options)
                             "; a sweep needs as many on both ends: check the roles, or leave out the faces "
                             "that close a loop");
     }
-    Problem problem = problem_of(volume, options, result);
+    Problem problem = problem_of(volume, options, result, context);
     if (options.method == Method::nearest) {
         by_nearest(problem, result);
         return result;
@@ -317,7 +320,7 @@ Match match(const OpenVolume& volume, const MatchOptions& options)
                                    " fits about as well; choose with match{ loops = … }");
         }
     }
-    Laying(problem, result).run(found.front());
+    LoopAligner(problem, result).run(found.front());
     return result;
 }
 

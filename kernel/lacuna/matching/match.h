@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <string>
@@ -59,7 +60,9 @@ struct Match {
 /// that only says where a smooth run was cut may stay alone.
 /// @throw InvalidInput   a forced part that contradicts the faces.
 /// @throw NotClosed      loops that differ in number; forced parts that contradict each other; names them.
-Match match(const topology::OpenVolume& volume, const MatchOptions& options = {});
+/// @throw Cancelled
+Match match(const topology::OpenVolume& volume, const MatchOptions& options = {},
+            const RunContext& context = {});
 
 /// Make the splits a match wants, by topology::split_edge(): its pairs and loops are whole then, and no
 /// splits are left. A place on an edge with a wall is passed over, with a note.

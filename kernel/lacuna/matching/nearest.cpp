@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Step 7: matches within this many standard deviations of the mean are no outliers, and this share of them
-/// must be none.
+/// must be none. Both are the paper's.
 constexpr double kDeviations = 2;
 constexpr double kShare = 0.5;
 
@@ -59,8 +59,9 @@ Ends ends_of(const Model& model, const std::vector<Rim>& loops)
 
 class Nearest {
 public:
-    Nearest(const Model& model, const NearestInput& input)
+    Nearest(const Model& model, const NearestInput& input, const RunContext& context)
         : model_(model),
+          context_(context),
           input_(input),
           source_(ends_of(model, input.source_loops)),
           target_(ends_of(model, input.target_loops)),
@@ -75,6 +76,7 @@ public:
                 fixed_[s] = static_cast<std::size_t>(found - target_.vertex.begin());
         }
         for (std::size_t s = 0; s < fixed_.size(); ++s) {
+            check_cancelled(context);
             nearest_to_source_.push_back(
                 nearest(source_.at[s], target_, [&](std::size_t t) { return may(s, t); }));
         }
@@ -86,13 +88,13 @@ public:
         match_loops();
         validate();
         find_direction();
-        for (std::size_t l = 0; l + 1 < source_.first.size(); ++l) lay(l);
+        for (std::size_t l = 0; l + 1 < source_.first.size(); ++l) align(l);
         result_.confidence = std::min(result_.confidence, clearness());
         return std::move(result_);
     }
 
 private:
-    /// One way to lay a loop on another: source place i on target place (shift ± i).
+    /// One alignment of a loop with another: source place i on target place (shift ± i).
     struct Way {
         std::size_t shift = 0;
         bool backward = true;
@@ -132,7 +134,7 @@ private:
     void match_loops();
     void validate();
     void find_direction();
-    void lay(std::size_t l);
+    void align(std::size_t l);
     static Way best_of(const std::vector<Way>& list);
     [[nodiscard]] std::vector<Way> ways(std::size_t l, std::size_t m) const;
     [[nodiscard]] double clearness() const;
@@ -142,6 +144,7 @@ private:
     [[nodiscard]] std::string tag(VertexId v) const { return std::to_string(model_[v].tag); }
 
     const Model& model_;
+    const RunContext& context_;
     const NearestInput& input_;
     Ends source_, target_;
     std::vector<std::size_t> partner_;           ///< target of each source vertex
@@ -190,6 +193,7 @@ void Nearest::match_loops()
     loop_.assign(n, kNone);
     std::vector<std::size_t> claimed(n, kNone);
     for (std::size_t l = 0; l < n; ++l) {
+        check_cancelled(context_);
         std::vector<std::size_t> votes(n, 0);
         for (std::size_t s = source_.first[l]; s < source_.first[l + 1]; ++s) {
             if (partner_[s] != kNone) ++votes[target_.loop[partner_[s]]];
@@ -259,6 +263,7 @@ std::vector<Nearest::Way> Nearest::ways(std::size_t l, std::size_t m) const
     std::vector<Way> result;
     for (const bool backward : {true, false}) {
         for (std::size_t shift = 0; shift < n; ++shift) {
+            check_cancelled(context_);
             Way way{shift, backward, 0, 0};
             bool keeps = true;
             for (std::size_t i = 0; i < n; ++i) {
@@ -305,7 +310,7 @@ void Nearest::find_direction()
 }
 
 /// Lay a loop the way its matches agree on: those given up and those left over follow the others.
-void Nearest::lay(std::size_t l)
+void Nearest::align(std::size_t l)
 {
     const std::size_t m = loop_[l], n = source_.count(l);
     std::vector<Way> found = ways(l, m);
@@ -397,9 +402,9 @@ void Nearest::refuse_loop(std::size_t l, const std::string& why) const
 
 } // namespace
 
-NearestMatch match_nearest(const Model& model, const NearestInput& input)
+NearestMatch match_nearest(const Model& model, const NearestInput& input, const RunContext& context)
 {
-    return Nearest(model, input).run();
+    return Nearest(model, input, context).run();
 }
 
 } // namespace lacuna::matching

@@ -40,7 +40,7 @@ void read_walls(Problem& problem)
 {
     const OpenVolume& volume = problem.volume;
     const Model& model = volume.model;
-    for (const SideLine& line : side_lines(volume)) {
+    for (const SideLine& line : side_lines(volume, problem.context)) {
         problem.hard[line.source] = problem.walls[line.source] = line.target;
         force(problem, loop_with(problem.source, line.source), loop_with(problem.target, line.target),
               "by its walls");
@@ -140,15 +140,11 @@ bool Problem::has_hard(std::size_t s) const
     return std::any_of(vertices.begin(), vertices.end(), [&](VertexId v) { return hard.contains(v); });
 }
 
-Problem problem_of(const OpenVolume& volume, const MatchOptions& options, const Match& match)
+Problem problem_of(const OpenVolume& volume, const MatchOptions& options, const Match& match,
+                   const RunContext& context)
 {
-    Problem problem{volume, options, {}, {}, {}, {}, {}, {}, {}, {}};
-    problem.on_wall.assign(volume.model.vertices.size(), false);
-    for (const FaceId wall : volume.faces(Role::wall)) {
-        for (const Loop& loop : volume.model[wall].loops) {
-            for (const EdgeUse& use : loop.uses) problem.on_wall[use_from(volume.model, use).index()] = true;
-        }
-    }
+    Problem problem{volume, options, context, {}, {}, {}, {}, {}, {}, {}, {}};
+    problem.on_wall = volume.on_wall();
     for (const Rim& rim : match.source_loops) problem.source.push_back(shape_of(volume.model, rim));
     for (const Rim& rim : match.target_loops) problem.target.push_back(shape_of(volume.model, rim));
     problem.forced.assign(problem.source.size(), -1);

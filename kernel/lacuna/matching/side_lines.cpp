@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Below this climb an edge runs along the wall more than up it (60° from the steepest way).
+/// A choice, not a measurement.
 constexpr double kLevel = 0.5;
 
 std::vector<Index> rim_points(const Model& model, const std::vector<FaceId>& faces)
@@ -132,7 +133,8 @@ std::map<Index, double> heights_along(const Model& model, const std::vector<Side
 
 } // namespace
 
-std::vector<double> wall_heights(const OpenVolume& volume, const std::vector<SideLine>& lines)
+std::vector<double> wall_heights(const OpenVolume& volume, const std::vector<SideLine>& lines,
+                                 const RunContext& context)
 {
     const Model& model = volume.model;
     std::vector<double> heights(model.points.size(), kNaN);
@@ -168,7 +170,7 @@ std::vector<double> wall_heights(const OpenVolume& volume, const std::vector<Sid
         problem.triangles = triangles;
         problem.fixed_values = Eigen::Map<const Eigen::MatrixXd>(values.data(),
                                                                  static_cast<Eigen::Index>(values.size()), 1);
-        const Eigen::MatrixXd solution = geometry::solve_harmonic(problem);
+        const Eigen::MatrixXd solution = geometry::solve_harmonic(problem, context);
         for (const Index p : used) heights[static_cast<std::size_t>(p)] = solution(p, 0);
     }
     return heights;
@@ -216,10 +218,10 @@ double climb(const Model& model, EdgeId edge, const std::vector<double>& heights
     return most > 0 ? rise / most : kNaN;
 }
 
-std::vector<SideLine> side_lines(const OpenVolume& volume)
+std::vector<SideLine> side_lines(const OpenVolume& volume, const RunContext& context)
 {
     const Model& model = volume.model;
-    const Rises graph = rises(volume, wall_heights(volume));
+    const Rises graph = rises(volume, wall_heights(volume, {}, context));
     const auto rim_vertices = [&](Role role) {
         std::set<VertexId> vertices;
         for (const Rim& rim : rims(model, volume.faces(role))) {
@@ -235,6 +237,7 @@ std::vector<SideLine> side_lines(const OpenVolume& volume)
     while (!waiting.empty()) {
         std::optional<Path> best;
         for (auto it = waiting.begin(); it != waiting.end();) {
+            check_cancelled(context);
             std::optional<Path> path = climb_from(*it, graph, targets, taken, model);
             if (!path) {
                 it = waiting.erase(it);

@@ -1,250 +1,214 @@
 // SPDX-License-Identifier: MIT
+//
+// Every reading gives all faces to source, target and walls, so readings differ by which patches are ends
+// alone. What the others need (angles, areas, Euler numbers, who is whose neighbour) is counted once a
+// patch; a reading adds up its parts.
 #include <lacuna/topology/auto_roles.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/topology/detail/patches.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numbers>
-#include <numeric>
+#include <limits>
 #include <optional>
-#include <set>
 
 namespace lacuna::topology {
 
 namespace {
 
-/// Faces that meet at less than this are one patch: a skin cut in pieces, not an end and a wall [degrees].
-constexpr double kSmooth = 30;
-/// A reading has to be better than the next by this much to be taken without asking.
+/// A reading has to cost less than the next by this much to be taken without asking. A choice, not a
+/// measurement.
 constexpr double kClear = 0.15;
-/// Costs of an end that is not flat, and of having fewer ends than faces could give.
+/// Costs of an end that is not flat, and of fewer ends than faces could give. Choices: a flat pair of ends
+/// is taken before one end, and that before none; a bent end loses to any flat one.
 constexpr double kBent = 1.0;
 constexpr double kOneEnd = 0.1;
 constexpr double kNoEnd = 0.2;
+/// As many readings are listed where several are about as likely: what a person reads in a message.
+constexpr std::size_t kMostListed = 8;
 
-struct Patch {
-    std::vector<FaceId> faces;
-    std::vector<Rim> rims;
-    std::set<VertexId> rim_vertices;
-    Vec3 normal = Vec3::Zero(); ///< unit mean
-    Vec3 centre = Vec3::Zero();
-    double area = 0;
-    double flatness = 0; ///< length of the summed area vector over the area: 1 for a plane
+/// And as many faces of each role: a choice as well.
+constexpr std::size_t kMostFaces = 12;
+
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+EdgeUse opposite(EdgeUse use) { return {use.edge, !use.reversed}; }
+
+std::size_t number_of(EdgeUse use) { return 2 * use.edge.index() + (use.reversed ? 1 : 0); }
+
+/// The patches that are ends; `kNone` for an end that is missing.
+struct Reading {
+    std::size_t source = kNone, target = kNone;
+    double cost = 0;
 };
 
-/// Mean angle between two faces along an edge they share [degrees]; 0 where they run on smoothly.
-double angle_across(const Model& model, EdgeId edge, const std::vector<FaceUse>& uses)
-{
-    const std::vector<Index>& points = model[edge].points;
-    double sum = 0;
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-        std::vector<Vec3> normals;
-        for (const FaceUse& use : uses) {
-            for (const Triangle& t : model[use.face].triangles) {
-                const bool a = std::find(t.begin(), t.end(), points[i]) != t.end();
-                const bool b = std::find(t.begin(), t.end(), points[i + 1]) != t.end();
-                if (!a || !b) continue;
-                normals.push_back((model.at(t[1]) - model.at(t[0]))
-                                      .cross(model.at(t[2]) - model.at(t[0]))
-                                      .stableNormalized());
-                break;
-            }
-        }
-        if (normals.size() == 2)
-            sum += std::atan2(normals[0].cross(normals[1]).norm(), normals[0].dot(normals[1]));
-    }
-    return sum / static_cast<double>(points.size() - 1) * 180 / std::numbers::pi;
-}
-
-std::vector<Patch> patches_of(const Model& model, const std::vector<std::vector<FaceUse>>& uses)
-{
-    std::vector<std::size_t> root(model.faces.size());
-    std::iota(root.begin(), root.end(), std::size_t{0});
-    const auto find = [&](std::size_t f) {
-        while (root[f] != f) f = root[f];
-        return f;
-    };
-    for (std::size_t e = 0; e < uses.size(); ++e) {
-        if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
-        if (angle_across(model, EdgeId(e), uses[e]) < kSmooth) {
-            const std::size_t a = find(uses[e][0].face.index()), b = find(uses[e][1].face.index());
-            root[std::max(a, b)] = std::min(a, b);
-        }
-    }
-    std::map<std::size_t, Patch> by_root;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) by_root[find(f)].faces.emplace_back(f);
-    std::vector<Patch> patches;
-    for (auto& [key, patch] : by_root) {
-        Vec3 sum = Vec3::Zero();
-        for (const FaceId face : patch.faces) {
-            const double area = face_area(model, face);
-            patch.area += area;
-            patch.centre += area * face_centroid(model, face);
-            sum += face_area_vector(model, face);
-        }
-        patch.centre /= patch.area;
-        patch.flatness = sum.norm() / patch.area;
-        patch.normal = sum.stableNormalized();
-        patch.rims = rims(model, patch.faces);
-        for (const Rim& rim : patch.rims) {
-            for (const EdgeUse& use : rim.uses) patch.rim_vertices.insert(use_from(model, use));
-        }
-        patches.push_back(std::move(patch));
-    }
-    return patches;
-}
-
-/// Number of the patch's rim that holds an edge; -1 for none.
-int rim_with(const Patch& patch, EdgeId edge)
-{
-    for (std::size_t r = 0; r < patch.rims.size(); ++r) {
-        for (const EdgeUse& use : patch.rims[r].uses) {
-            if (use.edge == edge) return static_cast<int>(r);
-        }
-    }
-    return -1;
-}
-
-class Reader {
+/// Sets over a range of numbers that are emptied in no time.
+class Marks {
 public:
-    explicit Reader(const Model& model)
-        : model_(model), uses_(edge_uses(model)), patches_(patches_of(model, uses_))
+    explicit Marks(std::size_t count) : mark_(count, 0) {}
+    void clear() { ++now_; }
+    [[nodiscard]] bool has(std::size_t i) const { return mark_[i] == now_; }
+    /// @return true where `i` was not in the set.
+    bool add(std::size_t i)
     {
-    }
-
-    std::vector<RoleCandidate> all()
-    {
-        std::vector<RoleCandidate> found;
-        const auto keep = [&](std::optional<RoleCandidate> candidate) {
-            if (candidate) found.push_back(std::move(*candidate));
-        };
-        keep(no_end());
-        for (std::size_t a = 0; a < patches_.size(); ++a) {
-            keep(one_end(a));
-            for (std::size_t b = a + 1; b < patches_.size(); ++b) keep(two_ends(a, b));
-        }
-        std::stable_sort(found.begin(), found.end(),
-                         [](const RoleCandidate& x, const RoleCandidate& y) { return x.cost < y.cost; });
-        return found;
+        if (has(i)) return false;
+        mark_[i] = now_;
+        return true;
     }
 
 private:
-    [[nodiscard]] std::vector<FaceId> others(std::size_t a, std::size_t b) const
+    std::vector<std::size_t> mark_;
+    std::size_t now_ = 1;
+};
+
+/// The walls of one reading that hang together.
+struct WallPart {
+    long euler = 0;
+    std::size_t rims = 0;
+    std::size_t source_rim = kNone, target_rim = kNone; ///< the rim of the end that it touches
+    bool several = false;                               ///< it touches several rims of an end
+};
+
+class Readings {
+public:
+    Readings(const Model& model, const RunContext& context)
+        : model_(model),
+          context_(context),
+          uses_(edge_uses(model)),
+          patches_(smooth_patches(model, uses_, context)),
+          patch_of_use_(2 * model.edges.size(), kNone),
+          next_(2 * model.edges.size()),
+          patches_at_(model.vertices.size()),
+          part_of_(patches_.size()),
+          vertex_seen_(model.vertices.size()),
+          edge_seen_(model.edges.size()),
+          use_seen_(2 * model.edges.size())
     {
-        std::vector<FaceId> faces;
-        for (std::size_t p = 0; p < patches_.size(); ++p) {
-            if (p != a && p != b)
-                faces.insert(faces.end(), patches_[p].faces.begin(), patches_[p].faces.end());
+        for (std::size_t p = 0; p < patches_.size(); ++p) index_patch(p);
+        for (std::size_t u = 0; u < patch_of_use_.size(); ++u) {
+            if (patch_of_use_[u] != kNone && patch_of_use_[u ^ 1] == kNone)
+                free_.push_back({EdgeId(u / 2), u % 2 == 1});
         }
-        return faces;
     }
 
-    [[nodiscard]] std::set<int> rims_touched(const Patch& patch, const std::vector<FaceId>& part) const
+    /// Readings that are not ruled out by their ends alone, the cheapest first.
+    [[nodiscard]] std::vector<Reading> by_cost()
     {
-        std::set<int> touched;
-        for (const FaceId face : part) {
+        std::vector<Reading> found;
+        if (const auto cost = cost_of_no_end()) found.push_back({kNone, kNone, *cost});
+        for (std::size_t a = 0; a < patches_.size(); ++a) {
+            check_cancelled(context_);
+            if (stands_alone(a)) found.push_back({a, kNone, kOneEnd + bend(patches_[a]) + patches_[a].slant});
+            vertex_seen_.clear();
+            for (const VertexId v : patches_[a].vertices) vertex_seen_.add(v.index());
+            for (std::size_t b = a + 1; b < patches_.size(); ++b) {
+                if (are_apart(a, b)) found.push_back({a, b, cost_of_two_ends(patches_[a], patches_[b])});
+            }
+        }
+        std::stable_sort(found.begin(), found.end(),
+                         [](const Reading& x, const Reading& y) { return x.cost < y.cost; });
+        return found;
+    }
+
+    /// Whether the walls of a reading join its ends, or lead from its end to free loops. Near linear in the
+    /// edges of patches.
+    [[nodiscard]] bool holds(const Reading& reading)
+    {
+        check_cancelled(context_);
+        if (reading.source == kNone) return true; // found out with its cost
+        const std::vector<WallPart> parts = wall_parts(reading);
+        const SmoothPatch& source = patches_[reading.source];
+        std::vector<std::size_t> served(source.rims.size(), kNone);
+        for (const WallPart& part : parts) {
+            if (part.several || part.source_rim == kNone) return false;
+            std::size_t& now = served[part.source_rim];
+            if (reading.target == kNone) {
+                if (now != kNone || part.rims != 2 || part.euler != 0) return false;
+                now = 0;
+                continue;
+            }
+            // Walls with a tunnel through them are no ring, whatever is done about what is missing.
+            if (part.euler != 2 - static_cast<long>(part.rims) || part.target_rim == kNone) return false;
+            if (now != kNone && now != part.target_rim) return false;
+            now = part.target_rim;
+        }
+        return true;
+    }
+
+    /// A reading in full. @pre holds()
+    [[nodiscard]] RoleCandidate candidate(const Reading& reading) const
+    {
+        RoleCandidate result;
+        result.cost = reading.cost;
+        for (std::size_t p = 0; p < patches_.size(); ++p) {
+            std::vector<FaceId>& list = p == reading.source   ? result.roles.source
+                                        : p == reading.target ? result.roles.target
+                                                              : result.roles.walls;
+            list.insert(list.end(), patches_[p].faces.begin(), patches_[p].faces.end());
+        }
+        result.value = class_of(reading);
+        result.reasons = reasons(reading, result.roles);
+        return result;
+    }
+
+private:
+    void index_patch(std::size_t p)
+    {
+        for (const FaceId face : patches_[p].faces) {
             for (const Loop& loop : model_[face].loops) {
-                for (const EdgeUse& use : loop.uses) {
-                    if (const int rim = rim_with(patch, use.edge); rim >= 0) touched.insert(rim);
+                for (std::size_t i = 0; i < loop.uses.size(); ++i) {
+                    patch_of_use_[number_of(loop.uses[i])] = p;
+                    next_[number_of(loop.uses[i])] = loop.uses[(i + 1) % loop.uses.size()];
                 }
             }
         }
-        return touched;
+        for (const VertexId v : patches_[p].vertices) patches_at_[v.index()].push_back(p);
     }
 
-    /// Mean departure from a right angle between an end and its walls, as a share of a right angle.
-    [[nodiscard]] double slant(const Patch& end) const
-    {
-        double sum = 0, length = 0;
-        for (const Rim& rim : end.rims) {
-            for (const EdgeUse& use : rim.uses) {
-                if (uses_[use.edge.index()].size() != 2) continue;
-                const double l = edge_length(model_, use.edge);
-                sum += l * std::abs(angle_across(model_, use.edge, uses_[use.edge.index()]) - 90) / 90;
-                length += l;
-            }
-        }
-        return length > 0 ? sum / length : 0;
-    }
+    // --- what ends alone say ------------------------------------------------------------------------
 
-    [[nodiscard]] static double bend(const Patch& end)
+    [[nodiscard]] static double bend(const SmoothPatch& end)
     {
+        // Four times: a patch that bends by 90° has a flatness of 0.90 and costs 0.4, one by 180° all.
         return kBent * std::min(1.0, 4 * (1 - end.flatness));
     }
 
-    [[nodiscard]] std::string names(const std::vector<FaceId>& faces) const
+    /// Whether a patch has neighbours on its whole rim.
+    [[nodiscard]] bool stands_alone(std::size_t p) const
     {
-        std::string text;
-        for (const FaceId face : faces) text += (text.empty() ? "" : ", ") + name_of(model_, face);
-        return text;
+        const std::vector<Rim>& all = patches_[p].rims;
+        return !all.empty() && std::all_of(all.begin(), all.end(), [&](const Rim& rim) {
+            return std::all_of(rim.uses.begin(), rim.uses.end(),
+                               [&](const EdgeUse& use) { return uses_[use.edge.index()].size() == 2; });
+        });
     }
 
-    [[nodiscard]] std::optional<RoleCandidate> two_ends(std::size_t a, std::size_t b) const
+    /// Whether two patches have as many rims and no vertex in common. @pre the vertices of `a` are marked.
+    [[nodiscard]] bool are_apart(std::size_t a, std::size_t b) const
     {
-        const Patch& s = patches_[a];
-        const Patch& t = patches_[b];
-        if (s.rims.empty() || s.rims.size() != t.rims.size()) return std::nullopt;
-        for (const VertexId v : s.rim_vertices) {
-            if (t.rim_vertices.contains(v)) return std::nullopt;
-        }
-        RoleCandidate candidate;
-        candidate.roles = {s.faces, t.faces, others(a, b)};
-        std::map<int, int> joined;
-        for (const std::vector<FaceId>& part : connected_parts(model_, candidate.roles.walls)) {
-            // Walls with a tunnel through them are no ring, whatever is done about what is missing.
-            if (euler_number(model_, part) != 2 - static_cast<long>(rims(model_, part).size()))
-                return std::nullopt;
-            const std::set<int> on_s = rims_touched(s, part), on_t = rims_touched(t, part);
-            if (on_s.size() != 1 || on_t.size() != 1) return std::nullopt;
-            const auto [found, fresh] = joined.try_emplace(*on_s.begin(), *on_t.begin());
-            if (!fresh && found->second != *on_t.begin()) return std::nullopt;
-        }
+        const SmoothPatch &s = patches_[a], &t = patches_[b];
+        return !s.rims.empty() && s.rims.size() == t.rims.size() &&
+               std::none_of(t.vertices.begin(), t.vertices.end(),
+                            [&](VertexId v) { return vertex_seen_.has(v.index()); });
+    }
+
+    [[nodiscard]] static double cost_of_two_ends(const SmoothPatch& s, const SmoothPatch& t)
+    {
         // Ends of one sweep face each other: the way between them leaves both.
         const Vec3 way = (t.centre - s.centre).stableNormalized();
         const double facing =
             1 - (std::abs(way.dot(s.normal)) * s.flatness + std::abs(way.dot(t.normal)) * t.flatness) / 2;
         const double unlike = std::abs(std::log(s.area / t.area)) / 4;
-        candidate.cost = bend(s) + bend(t) + (slant(s) + slant(t)) / 2 + facing / 2 + unlike;
-        candidate.reasons = {
-            "two ends, " + names(s.faces) + " and " + names(t.faces) + ", with " +
-                std::to_string(s.rims.size()) + (s.rims.size() == 1 ? " loop each" : " loops each") +
-                " and no vertex in common",
-            candidate.roles.walls.empty() ? "no faces between them"
-                                          : "every other face joins a loop of one to a loop of the other"};
-        return finished(std::move(candidate));
+        return bend(s) + bend(t) + (s.slant + t.slant) / 2 + facing / 2 + unlike;
     }
 
-    [[nodiscard]] std::optional<RoleCandidate> one_end(std::size_t a) const
+    /// What it costs to read all faces as walls; nothing unless they are tubes that can be capped.
+    [[nodiscard]] std::optional<double> cost_of_no_end() const
     {
-        const Patch& s = patches_[a];
-        if (s.rims.empty()) return std::nullopt;
-        for (const Rim& rim : s.rims) {
-            for (const EdgeUse& use : rim.uses) {
-                if (uses_[use.edge.index()].size() != 2) return std::nullopt;
-            }
-        }
-        RoleCandidate candidate;
-        candidate.roles = {s.faces, {}, others(a, a)};
-        std::set<int> served;
-        for (const std::vector<FaceId>& part : connected_parts(model_, candidate.roles.walls)) {
-            const std::set<int> on_s = rims_touched(s, part);
-            if (on_s.size() != 1 || !served.insert(*on_s.begin()).second) return std::nullopt;
-            if (rims(model_, part).size() != 2 || euler_number(model_, part) != 0) return std::nullopt;
-        }
-        candidate.cost = kOneEnd + bend(s) + slant(s);
-        candidate.reasons = {names(s.faces) + " has walls on its whole rim, and each ring of walls ends in "
-                                              "one free loop: the target is missing"};
-        return finished(std::move(candidate));
-    }
-
-    [[nodiscard]] std::optional<RoleCandidate> no_end() const
-    {
-        RoleCandidate candidate;
-        candidate.roles.walls = others(patches_.size(), patches_.size());
         double cost = 0;
-        const auto parts = connected_parts(model_, candidate.roles.walls);
+        const auto parts = connected_parts(model_, all_faces());
+        if (parts.empty()) return std::nullopt;
         for (const std::vector<FaceId>& part : parts) {
             const std::vector<Rim> open = rims(model_, part);
             if (open.size() != 2 || euler_number(model_, part) != 0) return std::nullopt;
@@ -252,15 +216,11 @@ private:
             if (!cap) return std::nullopt;
             cost += *cap;
         }
-        candidate.cost = kNoEnd + cost / static_cast<double>(parts.size());
-        candidate.reasons = {"all faces form " + std::to_string(parts.size()) +
-                             (parts.size() == 1 ? " tube" : " tubes") +
-                             " with a free loop at either side: source and target are missing"};
-        return finished(std::move(candidate));
+        return kNoEnd + cost / static_cast<double>(parts.size());
     }
 
-    /// How unlikely two free loops are as missing ends; nothing where they cannot be: one inside the other in one plane, or a cap that would
-    /// only run on the face next to it.
+    /// How unlikely two free loops are as missing ends; nothing where they cannot be: one inside the other
+    /// in one plane, or a cap that would only run on the face next to it.
     [[nodiscard]] std::optional<double> cap_cost(const Rim& first, const Rim& second) const
     {
         double cost = 0;
@@ -299,20 +259,158 @@ private:
         return cost;
     }
 
-    [[nodiscard]] std::optional<RoleCandidate> finished(RoleCandidate candidate) const
+    // --- what the walls between them say ------------------------------------------------------------
+
+    [[nodiscard]] std::vector<FaceId> all_faces() const
     {
-        try {
-            const Classification found = classify(open_volume(model_, candidate.roles));
-            candidate.value = found.value;
-        } catch (const InvalidInput&) {
-            return std::nullopt;
+        std::vector<FaceId> faces;
+        for (const SmoothPatch& patch : patches_)
+            faces.insert(faces.end(), patch.faces.begin(), patch.faces.end());
+        return faces;
+    }
+
+    /// Whether a wall of the reading in `part_of_` uses an edge this way.
+    [[nodiscard]] bool on_wall(EdgeUse use) const
+    {
+        const std::size_t patch = patch_of_use_[number_of(use)];
+        return patch != kNone && part_of_[patch] != kNone;
+    }
+
+    [[nodiscard]] std::vector<WallPart> wall_parts(const Reading& reading)
+    {
+        constexpr std::size_t unseen = kNone - 1;
+        std::fill(part_of_.begin(), part_of_.end(), unseen);
+        part_of_[reading.source] = kNone;
+        if (reading.target != kNone) part_of_[reading.target] = kNone;
+        std::vector<WallPart> parts;
+        for (std::size_t start = 0; start < patches_.size(); ++start) {
+            if (part_of_[start] != unseen) continue;
+            part_of_[start] = parts.size();
+            parts.push_back({flood(start, unseen), 0, kNone, kNone, false});
         }
-        return candidate;
+        use_seen_.clear();
+        for (const EdgeUse use : free_) count_rim(use, parts);
+        touch(reading.source, &WallPart::source_rim, parts);
+        if (reading.target != kNone) touch(reading.target, &WallPart::target_rim, parts);
+        return parts;
+    }
+
+    /// Give every patch that hangs together with `start` its part. @return the Euler number of the part.
+    long flood(std::size_t start, std::size_t unseen)
+    {
+        vertex_seen_.clear();
+        edge_seen_.clear();
+        std::vector<std::size_t> front{start};
+        long euler = 0;
+        for (std::size_t i = 0; i < front.size(); ++i) {
+            const SmoothPatch& patch = patches_[front[i]];
+            euler += patch.inner_euler;
+            for (const VertexId v : patch.vertices) euler += vertex_seen_.add(v.index()) ? 1 : 0;
+            for (const EdgeId e : patch.edges) {
+                if (!edge_seen_.add(e.index())) continue;
+                --euler;
+                for (const std::size_t use : {2 * e.index(), 2 * e.index() + 1}) {
+                    const std::size_t other = patch_of_use_[use];
+                    if (other == kNone || part_of_[other] != unseen) continue;
+                    part_of_[other] = part_of_[start];
+                    front.push_back(other);
+                }
+            }
+        }
+        return euler;
+    }
+
+    /// Count the rim that a wall's use is on, unless it was counted: as `rims()` walks it.
+    void count_rim(EdgeUse use, std::vector<WallPart>& parts)
+    {
+        if (!on_wall(use) || on_wall(opposite(use)) || use_seen_.has(number_of(use))) return;
+        ++parts[part_of_[patch_of_use_[number_of(use)]]].rims;
+        while (use_seen_.add(number_of(use))) {
+            use = next_[number_of(use)];
+            for (std::size_t turns = 0; on_wall(opposite(use)) && turns <= next_.size(); ++turns)
+                use = next_[number_of(opposite(use))];
+        }
+    }
+
+    /// Note which rims of an end the parts touch, and count the rims that they have there.
+    void touch(std::size_t end, std::size_t WallPart::*rim, std::vector<WallPart>& parts)
+    {
+        const std::vector<Rim>& all = patches_[end].rims;
+        for (std::size_t r = 0; r < all.size(); ++r) {
+            for (const EdgeUse& use : all[r].uses) {
+                if (!on_wall(opposite(use))) continue;
+                count_rim(opposite(use), parts);
+                WallPart& part = parts[part_of_[patch_of_use_[number_of(opposite(use))]]];
+                part.several = part.several || (part.*rim != kNone && part.*rim != r);
+                part.*rim = r;
+            }
+        }
+    }
+
+    // --- what to tell of it -------------------------------------------------------------------------
+
+    /// Whether every vertex on the rim of an end is on a wall.
+    [[nodiscard]] bool walled_in(std::size_t end, const Reading& reading) const
+    {
+        for (const Rim& rim : patches_[end].rims) {
+            for (const EdgeUse& use : rim.uses) {
+                const auto& at = patches_at_[use_from(model_, use).index()];
+                if (std::all_of(at.begin(), at.end(),
+                                [&](std::size_t p) { return p == reading.source || p == reading.target; }))
+                    return false;
+            }
+        }
+        return true;
+    }
+
+    /// The class that `classify()` finds.
+    [[nodiscard]] VolumeClass class_of(const Reading& reading) const
+    {
+        if (free_.empty()) return VolumeClass::closed;
+        if (reading.source == kNone) return VolumeClass::V;
+        if (reading.target == kNone) return VolumeClass::IV;
+        if (patches_.size() == 2) return VolumeClass::I;
+        const bool both_bare = !walled_in(reading.source, reading) && !walled_in(reading.target, reading);
+        return both_bare ? VolumeClass::II : VolumeClass::III;
+    }
+
+    [[nodiscard]] std::string names(const std::vector<FaceId>& faces) const
+    {
+        std::string text;
+        for (const FaceId face : faces) text += (text.empty() ? "" : ", ") + name_of(model_, face);
+        return text;
+    }
+
+    [[nodiscard]] std::vector<std::string> reasons(const Reading& reading, const Roles& roles) const
+    {
+        if (reading.source == kNone) {
+            const std::size_t tubes = connected_parts(model_, roles.walls).size();
+            return {"all faces form " + std::to_string(tubes) + (tubes == 1 ? " tube" : " tubes") +
+                    " with a free loop at either side: source and target are missing"};
+        }
+        if (reading.target == kNone) {
+            return {names(roles.source) +
+                    " has walls on its whole rim, and each ring of walls ends in one free "
+                    "loop: the target is missing"};
+        }
+        const std::size_t loops = patches_[reading.source].rims.size();
+        return {"two ends, " + names(roles.source) + " and " + names(roles.target) + ", with " +
+                    std::to_string(loops) + (loops == 1 ? " loop each" : " loops each") +
+                    " and no vertex in common",
+                roles.walls.empty() ? "no faces between them"
+                                    : "every other face joins a loop of one to a loop of the other"};
     }
 
     const Model& model_;
+    const RunContext& context_;
     std::vector<std::vector<FaceUse>> uses_;
-    std::vector<Patch> patches_;
+    std::vector<SmoothPatch> patches_;
+    std::vector<std::size_t> patch_of_use_;            ///< `kNone` for a use that no face makes
+    std::vector<EdgeUse> next_;                        ///< of each use in its face's loop
+    std::vector<std::vector<std::size_t>> patches_at_; ///< of each vertex
+    std::vector<EdgeUse> free_;                        ///< uses whose edge has no other
+    std::vector<std::size_t> part_of_; ///< of each patch in the reading at hand; `kNone`: an end
+    Marks vertex_seen_, edge_seen_, use_seen_;
 };
 
 std::string in_words(const Model& model, const RoleCandidate& candidate)
@@ -320,7 +418,7 @@ std::string in_words(const Model& model, const RoleCandidate& candidate)
     const auto list = [&](std::string_view role, const std::vector<FaceId>& faces) {
         std::string text;
         for (std::size_t i = 0; i < faces.size(); ++i) {
-            if (i == 12) {
+            if (i == kMostFaces) {
                 text += ", …";
                 break;
             }
@@ -332,14 +430,20 @@ std::string in_words(const Model& model, const RoleCandidate& candidate)
            list("target", candidate.roles.target) + list("walls", candidate.roles.walls);
 }
 
-} // namespace
-
-std::vector<RoleCandidate> role_candidates(const Model& model, const std::vector<FaceId>& faces)
+/// The readings that hold and cost less than the cheapest and `margin`, at most `most`; the cheapest first.
+std::vector<RoleCandidate> read(const Model& model, const std::vector<FaceId>& faces, double margin,
+                                std::size_t most, const RunContext& context)
 {
     Model part = extract(model, faces);
+    check_cancelled(context);
     orient_consistently(part);
-    std::vector<RoleCandidate> candidates = Reader(part).all();
-    for (RoleCandidate& candidate : candidates) {
+    Readings readings(part, context);
+    std::vector<RoleCandidate> candidates;
+    for (const Reading& reading : readings.by_cost()) {
+        if (candidates.size() == most) break;
+        if (!candidates.empty() && !(reading.cost - candidates.front().cost < margin)) break;
+        if (!readings.holds(reading)) continue;
+        RoleCandidate& candidate = candidates.emplace_back(readings.candidate(reading));
         for (std::vector<FaceId>* list :
              {&candidate.roles.source, &candidate.roles.target, &candidate.roles.walls}) {
             for (FaceId& face : *list) face = faces[face.index()];
@@ -348,9 +452,17 @@ std::vector<RoleCandidate> role_candidates(const Model& model, const std::vector
     return candidates;
 }
 
-RoleCandidate find_roles(const Model& model, const std::vector<FaceId>& faces)
+} // namespace
+
+std::vector<RoleCandidate> role_candidates(const Model& model, const std::vector<FaceId>& faces,
+                                           const RunContext& context)
 {
-    std::vector<RoleCandidate> candidates = role_candidates(model, faces);
+    return read(model, faces, std::numeric_limits<double>::infinity(), kNone, context);
+}
+
+RoleCandidate find_roles(const Model& model, const std::vector<FaceId>& faces, const RunContext& context)
+{
+    std::vector<RoleCandidate> candidates = read(model, faces, kClear, kMostListed + 1, context);
     if (candidates.empty()) {
         std::string tags;
         for (const FaceId face : faces) tags += (tags.empty() ? "" : ", ") + std::to_string(model[face].tag);
@@ -359,12 +471,11 @@ RoleCandidate find_roles(const Model& model, const std::vector<FaceId>& faces)
                                " as source, target and walls of one sweep was found; name the roles: "
                                "open_volume{ source = …, target = …, walls = … }");
     }
-    if (candidates.size() > 1 && candidates[1].cost - candidates[0].cost < kClear) {
+    if (candidates.size() > 1) {
         std::string text;
-        for (std::size_t i = 0; i < candidates.size() && candidates[i].cost - candidates[0].cost < kClear;
-             ++i) {
+        for (std::size_t i = 0; i < std::min(candidates.size(), kMostListed); ++i)
             text += "\n  " + in_words(model, candidates[i]);
-        }
+        if (candidates.size() > kMostListed) text += "\n  …";
         throw InvalidInput(
             "topology.roles_ambiguous",
             "the faces can be read in several ways about as likely; name the roles of one of them:" + text);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/model.h>
 
+#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -12,19 +13,14 @@ namespace lacuna::topology {
 
 namespace {
 
-std::uint64_t directed(Index a, Index b)
-{
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32) | static_cast<std::uint32_t>(b);
-}
-
 /// Where a directed mesh segment lies on an edge.
-struct Place {
+struct SegmentOnEdge {
     EdgeId edge;
     std::size_t segment = 0;
     bool reversed = false;
 };
 
-using SegmentMap = std::unordered_map<std::uint64_t, Place>;
+using SegmentMap = std::unordered_map<std::uint64_t, SegmentOnEdge>;
 
 SegmentMap segments_of_edges(const Model& model)
 {
@@ -32,8 +28,8 @@ SegmentMap segments_of_edges(const Model& model)
     for (std::size_t e = 0; e < model.edges.size(); ++e) {
         const std::vector<Index>& points = model.edges[e].points;
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-            map.try_emplace(directed(points[i], points[i + 1]), Place{EdgeId(e), i, false});
-            map.try_emplace(directed(points[i + 1], points[i]), Place{EdgeId(e), i, true});
+            map.try_emplace(directed_key(points[i], points[i + 1]), SegmentOnEdge{EdgeId(e), i, false});
+            map.try_emplace(directed_key(points[i + 1], points[i]), SegmentOnEdge{EdgeId(e), i, true});
         }
     }
     return map;
@@ -47,7 +43,7 @@ public:
     {
         for (std::size_t t = 0; t < face.triangles.size(); ++t) {
             for (std::size_t i = 0; i < 3; ++i) {
-                const auto [found, fresh] = half_.try_emplace(directed(from(3 * t + i), to(3 * t + i)),
+                const auto [found, fresh] = half_.try_emplace(directed_key(from(3 * t + i), to(3 * t + i)),
                                                               3 * t + i);
                 if (!fresh) {
                     throw InvalidInput("topology.not_manifold",
@@ -66,8 +62,8 @@ public:
     /// A half that belongs to the face's border: nothing beyond it, or a seam to cut along.
     [[nodiscard]] bool on_border(std::size_t half) const
     {
-        return segments_.contains(directed(from(half), to(half))) ||
-               !half_.contains(directed(to(half), from(half)));
+        return segments_.contains(directed_key(from(half), to(half))) ||
+               !half_.contains(directed_key(to(half), from(half)));
     }
 
     /// The border half that follows, found by turning through the fan of facets round the half's end.
@@ -75,7 +71,7 @@ public:
     {
         std::size_t next = half - half % 3 + (half + 1) % 3;
         for (std::size_t turns = 0; !on_border(next); ++turns) {
-            const std::size_t across = half_.at(directed(to(next), from(next)));
+            const std::size_t across = half_.at(directed_key(to(next), from(next)));
             next = across - across % 3 + (across + 1) % 3;
             if (turns > size()) {
                 throw InvalidInput("topology.not_manifold",
@@ -86,9 +82,9 @@ public:
         return next;
     }
 
-    [[nodiscard]] const Place& on_edge(std::size_t half) const
+    [[nodiscard]] const SegmentOnEdge& on_edge(std::size_t half) const
     {
-        const auto found = segments_.find(directed(from(half), to(half)));
+        const auto found = segments_.find(directed_key(from(half), to(half)));
         if (found == segments_.end()) {
             throw InvalidInput("topology.loose_border",
                                "the border of " + name() + " leaves its edges at the point " +
@@ -100,7 +96,7 @@ public:
     /// True when the half starts at an end of its edge.
     [[nodiscard]] bool starts_use(std::size_t half) const
     {
-        const Place& on = on_edge(half);
+        const SegmentOnEdge& on = on_edge(half);
         const std::size_t last = model_[on.edge].points.size() - 2;
         return on.segment == (on.reversed ? last : 0);
     }
@@ -140,7 +136,7 @@ std::vector<Loop> loops_of(const Model& model, const Face& face, const SegmentMa
         Loop loop;
         for (std::size_t half = start; !seen[half]; half = halves.next_on_border(half)) {
             seen[half] = true;
-            const Place& on = halves.on_edge(half);
+            const SegmentOnEdge& on = halves.on_edge(half);
             if (halves.starts_use(half)) loop.uses.push_back({on.edge, on.reversed});
         }
         loops.push_back(std::move(loop));
@@ -314,7 +310,8 @@ void orient_consistently(Model& model)
                     }
                     const FaceId other = both[0].face == face ? both[1].face : both[0].face;
                     if (other == face) continue;
-                    // The uses were listed before any flip: read the neighbour's from its loops as they are now.
+                    // The uses were listed before any flip: read the neighbour's from its loops as they are
+                    // now.
                     bool agrees = true;
                     for (const Loop& theirs : model[other].loops) {
                         for (const EdgeUse& their : theirs.uses) {

@@ -70,7 +70,8 @@ struct Face {
     std::vector<Loop> loops; ///< derived from the triangles by build_loops(); the longest first
 };
 
-/// Faces, edges and vertices over one array of points. A value: copies are independent, exact geometry is shared.
+/// Faces, edges and vertices over one array of points. A value: copies are independent, exact geometry is
+/// shared.
 struct Model {
     std::vector<Vec3> points;
     std::vector<Vertex> vertices;
@@ -114,7 +115,8 @@ void build_loops(Model& model);
 
 /// Flip faces until neighbours agree along shared edges; one flood per connected part, started at its
 /// first face. A connected part that encloses a volume is turned outward.
-/// @throw InvalidInput  a part that cannot be oriented (a Möbius band), or an edge of three faces; names them.
+/// @throw InvalidInput  a part that cannot be oriented (a Möbius band), or an edge of three faces; names
+///         them.
 void orient_consistently(Model& model);
 
 } // namespace lacuna::topology

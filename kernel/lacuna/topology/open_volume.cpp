@@ -22,15 +22,7 @@ std::string_view word(Role role)
 std::vector<VertexId> wall_free(const OpenVolume& volume, Role end)
 {
     const Model& model = volume.model;
-    std::vector<bool> on_wall(model.vertices.size(), false);
-    for (const FaceId wall : volume.faces(Role::wall)) {
-        for (const Loop& loop : model[wall].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                on_wall[model[use.edge].from.index()] = true;
-                on_wall[model[use.edge].to.index()] = true;
-            }
-        }
-    }
+    const std::vector<bool> on_wall = volume.on_wall();
     std::vector<VertexId> result;
     std::set<VertexId> seen;
     for (const Rim& rim : rims(model, volume.faces(end))) {
@@ -234,7 +226,18 @@ std::vector<FaceId> OpenVolume::faces(Role wanted) const
     return result;
 }
 
-OpenVolume open_volume(const Model& model, const Roles& roles)
+std::vector<bool> OpenVolume::on_wall() const
+{
+    std::vector<bool> result(model.vertices.size(), false);
+    for (const FaceId wall : faces(Role::wall)) {
+        for (const Loop& loop : model[wall].loops) {
+            for (const EdgeUse& use : loop.uses) result[use_from(model, use).index()] = true;
+        }
+    }
+    return result;
+}
+
+OpenVolume open_volume(const Model& model, const Roles& roles, const RunContext& context)
 {
     std::vector<FaceId> faces;
     OpenVolume volume;
@@ -262,12 +265,16 @@ OpenVolume open_volume(const Model& model, const Roles& roles)
     if (faces.empty()) {
         throw InvalidInput("topology.no_faces", "the volume has no faces; name a source, a target or walls");
     }
+    check_cancelled(context);
     volume.model = extract(model, faces);
+    check_cancelled(context);
     orient_consistently(volume.model);
+    check_cancelled(context);
     check_walls_touch(volume);
     check_ends_apart(volume);
     if (roles.source.empty() && !roles.target.empty()) {
-        // Class IV turned round: the end that is there is swept from, and the names change back when the mesh is made.
+        // Class IV turned round: the end that is there is swept from, and the names change back when the
+        // mesh is made.
         for (Role& role : volume.role) role = role == Role::target ? Role::source : role;
         volume.turned_round = true;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/topology/model.h>
 
 #include <optional>
@@ -34,16 +35,20 @@ struct OpenVolume {
     bool turned_round = false; ///< a target was given and no source: the two have changed places
 
     [[nodiscard]] std::vector<FaceId> faces(Role wanted) const;
+    /// Of each vertex of the model, whether it is on a wall.
+    [[nodiscard]] std::vector<bool> on_wall() const;
 };
 
 /// Take the faces named out of `model` and make them a volume.
 /// @throw InvalidInput  a face in two roles or named twice, no face at all, faces that cannot be oriented.
-OpenVolume open_volume(const Model& model, const Roles& roles);
+///         Cancelled.
+OpenVolume open_volume(const Model& model, const Roles& roles, const RunContext& context = {});
 
 /// A model of the faces named alone, in that order, with the edges, vertices and points they use.
 Model extract(const Model& model, const std::vector<FaceId>& faces);
 
-/// Every face that can be reached from the rim of `source` over shared edges, and is neither source nor target.
+/// Every face that can be reached from the rim of `source` over shared edges, and is neither source nor
+/// target.
 std::vector<FaceId> faces_reachable_from(const Model& model, const std::vector<FaceId>& source,
                                          const std::vector<FaceId>& target);
 
@@ -59,13 +64,15 @@ std::vector<std::vector<FaceUse>> edge_uses(const Model& model);
 /// The faces named, as parts that hang together by shared edges; in order of their first face.
 std::vector<std::vector<FaceId>> connected_parts(const Model& model, const std::vector<FaceId>& faces);
 
-/// V − E + F of the faces' facets: 0 for a tube, 1 for a disc; 2 less the number of rims for anything without handles.
+/// V − E + F of the faces' facets: 0 for a tube, 1 for a disc; 2 less the number of rims for anything
+/// without handles.
 long euler_number(const Model& model, const std::vector<FaceId>& faces);
 
 /// Turn faces over.
 void flip_faces(Model& model, const std::vector<FaceId>& faces);
 
-/// What the facets contribute to the volume enclosed, positive outward; a volume only for a closed skin [model length³].
+/// What the facets contribute to the volume enclosed, positive outward; a volume only for a closed skin
+/// [model length³].
 double volume_integral(const Model& model, const std::vector<FaceId>& faces);
 
 /// A closed walk along the border of a set of faces, the faces on its left.

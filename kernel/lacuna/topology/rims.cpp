@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/open_volume.h>
 
-#include <lacuna/core/error.h>
+#include <lacuna/core/edge_key.h>
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 namespace lacuna::topology {
 
 namespace {
 
 /// Where a use stands in its face's loops.
-struct UsePlace {
+struct UsePosition {
     FaceId face;
     std::size_t loop = 0, position = 0;
 };
@@ -30,7 +29,7 @@ EdgeUse opposite(EdgeUse use) { return {use.edge, !use.reversed}; }
 
 std::vector<Rim> rims(const Model& model, const std::vector<FaceId>& faces)
 {
-    std::map<EdgeUse, UsePlace> places;
+    std::map<EdgeUse, UsePosition> places;
     for (const FaceId face : faces) {
         const std::vector<Loop>& loops = model[face].loops;
         for (std::size_t l = 0; l < loops.size(); ++l) {
@@ -38,7 +37,7 @@ std::vector<Rim> rims(const Model& model, const std::vector<FaceId>& faces)
         }
     }
     const auto next_in_face = [&](EdgeUse use) {
-        const UsePlace& at = places.at(use);
+        const UsePosition& at = places.at(use);
         const std::vector<EdgeUse>& uses = model[at.face].loops[at.loop].uses;
         return uses[(at.position + 1) % uses.size()];
     };
@@ -67,19 +66,22 @@ std::vector<Rim> rims(const Model& model, const std::vector<FaceId>& faces)
 
 long euler_number(const Model& model, const std::vector<FaceId>& faces)
 {
-    std::set<Index> points;
-    std::set<std::pair<Index, Index>> sides;
-    long triangles = 0;
+    std::vector<Index> points;
+    std::vector<std::uint64_t> sides;
     for (const FaceId face : faces) {
         for (const Triangle& t : model[face].triangles) {
-            ++triangles;
             for (std::size_t i = 0; i < 3; ++i) {
-                points.insert(t[i]);
-                sides.emplace(std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3]));
+                points.push_back(t[i]);
+                sides.push_back(edge_key(t[i], t[(i + 1) % 3]));
             }
         }
     }
-    return static_cast<long>(points.size()) - static_cast<long>(sides.size()) + triangles;
+    const auto triangles = static_cast<long>(sides.size() / 3);
+    const auto distinct = [](auto& list) {
+        std::sort(list.begin(), list.end());
+        return static_cast<long>(std::unique(list.begin(), list.end()) - list.begin());
+    };
+    return distinct(points) - distinct(sides) + triangles;
 }
 
 std::vector<EdgeId> free_edges(const OpenVolume& volume)

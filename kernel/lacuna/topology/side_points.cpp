@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/side_points.h>
 
+#include <lacuna/core/edge_key.h>
 #include <lacuna/geometry/facet_tree.h>
 
 #include <algorithm>
@@ -9,13 +10,6 @@
 namespace lacuna::topology {
 
 namespace {
-
-std::uint64_t key_of(Index a, Index b)
-{
-    const auto [low, high] = std::minmax(a, b);
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(low)) << 32) |
-           static_cast<std::uint32_t>(high);
-}
 
 /// Cut along side `k` and, in what comes of it, along the sides after it.
 void cut(std::span<const Vec3> points, const ParamFacet& facet, std::array<bool, 3> whole,
@@ -54,12 +48,12 @@ void SidePoints::add(Index a, Index b, std::vector<Index> between)
 {
     if (between.empty()) return;
     if (a > b) std::reverse(between.begin(), between.end());
-    between_.try_emplace(key_of(a, b), std::move(between));
+    between_.try_emplace(edge_key(a, b), std::move(between));
 }
 
 std::vector<Index> SidePoints::on(Index a, Index b) const
 {
-    const auto found = between_.find(key_of(a, b));
+    const auto found = between_.find(edge_key(a, b));
     if (found == between_.end()) return {};
     std::vector<Index> points = found->second;
     if (a > b) std::reverse(points.begin(), points.end());

@@ -28,8 +28,9 @@ struct ParamFacet {
     std::array<Vec2, 3> uv{Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
 };
 
-/// The facets a facet becomes, fans from the corner opposite each side that has points; the facet itself where
-/// none has. Parameters of new corners lie on the side between its ends', as far along as the points do.
+/// The facets a facet becomes, fans from the corner opposite each side that has points; the facet itself
+/// where none has. Parameters of new corners lie on the side between its ends', as far along as the points
+/// do.
 /// @pre  no point to be put on a side is a corner of the facet.
 std::vector<ParamFacet> cut_at_sides(std::span<const Vec3> points, const ParamFacet& facet,
                                      const SidePoints& sides);
@@ -43,7 +44,8 @@ struct NearSegment {
     Index segment = -1; ///< in the list asked about
 };
 
-/// Every pair of a point and a segment whose bounding boxes come within `reach`, ordered by segment, then point.
+/// Every pair of a point and a segment whose bounding boxes come within `reach`, ordered by segment, then
+/// point.
 /// @param segments  their end points.
 /// @note  O(n log n) where few are close.
 std::vector<NearSegment> near_segments(std::span<const Vec3> points,

@@ -14,9 +14,11 @@ struct EndLoops {
 
 /// Steps 3 to 6 of the paper's Algorithm 11: sort the free loops into two subsets a sweeping distance apart.
 ///
-/// Each connected part of the walls is a tube with a loop at either end. The largest tube says where the ends are; every other
-/// tube's loops go to the ends they are nearer to. Tubes that lie inside another are turned over, so that their wall faces the void.
-/// @throw NotClosed  a part with one loop or more than two, a tube that is as near to either end, tubes side by side; names the walls.
+/// Each connected part of the walls is a tube with a loop at either end. The largest tube says where the
+/// ends are; every other tube's loops go to the ends they are nearer to. Tubes that lie inside another are
+/// turned over, so that their wall faces the void.
+/// @throw NotClosed  a part with one loop or more than two, a tube that is as near to either end, tubes
+///         side by side; names the walls.
 EndLoops group_loops(topology::OpenVolume& volume);
 
 } // namespace lacuna::closure

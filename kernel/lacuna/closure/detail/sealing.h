@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <optional>
@@ -11,8 +12,8 @@ namespace lacuna::closure {
 /// A void face and another face (void or given) whose facets cross.
 using FaceCrossing = std::pair<FaceId, FaceId>;
 
-/// The first facet of a void face that crosses another face; nothing when none does. Facets that only touch along the
-/// points they share do not cross.
-std::optional<FaceCrossing> first_crossing(const topology::OpenVolume& volume);
+/// The first facet of a void face that crosses another face; nothing when none does. Facets that only touch
+/// along the points they share do not cross.
+std::optional<FaceCrossing> first_crossing(const topology::OpenVolume& volume, const RunContext& context);
 
 } // namespace lacuna::closure

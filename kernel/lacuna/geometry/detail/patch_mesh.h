@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
 
 #include <cstddef>
@@ -24,13 +25,13 @@ public:
     /// @return false where that cannot be.
     bool resolve_doubled();
 
-    /// Flip inner sides whose opposite angles sum to more than π, where that neither doubles a side nor folds.
-    /// Every flip raises the least angles; ends after few rounds.
+    /// Flip inner sides whose opposite angles sum to more than π, where that neither doubles a side nor
+    /// folds. Every flip raises the least angles; ends after few rounds.
     void make_delaunay();
 
     /// Halve inner sides until all have the length wanted at their points: the mean length of the boundary
     /// sides there, growing inward by `grading`. Sides are flipped and points evened out in between.
-    void refine(double grading, std::size_t max_points);
+    void refine(double grading, std::size_t max_points, const RunContext& context);
 
     /// Move inner points towards the middle of their neighbours along the surface, where their triangles
     /// become no worse for it.
@@ -53,6 +54,12 @@ private:
     {
         return next_[static_cast<std::size_t>(triangle)][static_cast<std::size_t>(side)];
     }
+    /// A triangle a-b-c with side b → c, the triangle d-c-b across that, and what lies over the four other
+    /// sides.
+    struct TrianglePair {
+        Index other, a, b, c, d, over_ca, over_ab, over_bd, over_dc;
+    };
+    [[nodiscard]] TrianglePair pair_at(Index triangle, int side) const;
     [[nodiscard]] int side_towards(Index triangle, Index neighbour, Index from) const;
     [[nodiscard]] Vec3 area_vector(const Triangle& triangle) const;
     [[nodiscard]] double cotangent(Index triangle, int i) const;

@@ -16,17 +16,17 @@ public:
     EdgeTrack(const topology::Model& model, EdgeId edge);
 
     /// A place of the edge.
-    struct Place {
+    struct EdgePosition {
         double s = 0;        ///< place on the polyline: 2.25 is a quarter of the way from point 2 to point 3
         double param = 0;    ///< of the curve; 0 without one
         double distance = 0; ///< of the point asked about [model length]
     };
     /// The place closest to each point, wherever it is.
-    [[nodiscard]] std::vector<Place> locate(std::span<const Vec3> points, double tolerance) const;
-    /// The place close to each point, the points being met in order: each search goes on from the last place, so
-    /// that `s` never falls. Nothing where a point is further than `tolerance`.
-    [[nodiscard]] std::optional<std::vector<Place>> follow(std::span<const Vec3> points,
-                                                           double tolerance) const;
+    [[nodiscard]] std::vector<EdgePosition> locate(std::span<const Vec3> points, double tolerance) const;
+    /// The place close to each point, the points being met in order: each search goes on from the last
+    /// place, so that `s` never falls. Nothing where a point is further than `tolerance`.
+    [[nodiscard]] std::optional<std::vector<EdgePosition>> follow(std::span<const Vec3> points,
+                                                                  double tolerance) const;
 
     /// The polyline; with a curve, with a point of it in the middle of every side too.
     [[nodiscard]] const std::vector<Vec3>& samples() const { return points_; }
@@ -36,8 +36,8 @@ public:
     [[nodiscard]] bool exact() const { return curve_ != nullptr; }
 
 private:
-    Place on_segment(const Vec3& p, std::size_t segment) const;
-    void refine(std::span<const Vec3> points, std::span<Place> places, double reach) const;
+    EdgePosition on_segment(const Vec3& p, std::size_t segment) const;
+    void refine(std::span<const Vec3> points, std::span<EdgePosition> places, double reach) const;
 
     std::vector<Vec3> points_;
     std::vector<double> params_; ///< of the samples; empty without a curve

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/geometry/union_find.h>
 #include <lacuna/topology/model.h>
 #include <lacuna/topology/side_points.h>
 
@@ -9,8 +10,8 @@
 
 namespace lacuna::healing {
 
-/// A model while it is being stitched: entities go, points join and sides of facets get points, so that at any
-/// time edges, the faces that use them and facets agree; loops do not, until `settled()`.
+/// A model while it is being stitched: entities go, points join and sides of facets get points, so that at
+/// any time edges, the faces that use them and facets agree; loops do not, until `settled()`.
 class LooseModel {
 public:
     /// @pre the model's loops are set.
@@ -69,7 +70,7 @@ private:
     std::vector<bool> edge_gone_, face_gone_;
     std::vector<std::vector<FaceId>> users_;
     std::vector<VertexId> vertex_joined_; ///< what each vertex is to be
-    std::vector<Index> joined_;           ///< what each point is to be
+    geometry::UnionFind joined_;          ///< points, by the one that each is to be
     std::vector<bool> kept_;              ///< points that are nodes of given quads
     std::vector<bool> touched_;           ///< points whose surface parameters are to be found anew
     std::vector<bool> inside_;            ///< points put inside faces, which may move onto the surface

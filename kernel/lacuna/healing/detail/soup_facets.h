@@ -9,7 +9,7 @@
 
 namespace lacuna::healing {
 
-/// What is left of a soup once it is mended: quads as two facets each.
+/// What is left of a soup once it is welded and cut: quads as two facets each.
 struct Facets {
     std::vector<Vec3> points;
     std::vector<Triangle> corner;
@@ -25,8 +25,8 @@ struct Facets {
 /// Area times unit normal of a facet.
 Vec3 area_vector(const std::vector<Vec3>& points, const Triangle& facet);
 
-/// Weld the points of a soup, leave out what shrank and what a label lists twice, and cut facets where points lie on their
-/// free sides. Halves of quads are not cut.
+/// Weld the points of a soup, leave out what shrank and what a label lists twice, and cut facets where
+/// points lie on their free sides. Halves of quads are not cut.
 /// @param tolerance  points closer than this are one [model length]; 0: 1e-6 × the diagonal.
 /// @throw InvalidInput  no facets, or ones that use points that are not there or not finite.
 Facets facets_of(const FacetSoup& soup, double tolerance);

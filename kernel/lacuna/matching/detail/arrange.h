@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/matching/detail/lays.h>
+#include <lacuna/matching/detail/alignment.h>
 
 #include <limits>
 #include <optional>
@@ -9,17 +9,17 @@
 
 namespace lacuna::matching {
 
-/// Source loops on target loops, all led by how one of them, the anchor, is laid.
+/// Source loops on target loops, all led by how one of them, the anchor, is aligned.
 struct Arrangement {
     std::vector<int> target; ///< of each source loop
     int anchor = 0;
-    Lay lay;                 ///< of the anchor; its score counts where the other loops land
-    std::optional<Lay> next; ///< the second best with the same pairs
+    Alignment alignment;           ///< of the anchor; its score counts where the other loops land
+    std::optional<Alignment> next; ///< the second best with the same pairs
     double score = std::numeric_limits<double>::infinity();
 };
 
-/// Pair the loops: lay one source loop on each target loop it may go to, in every way, and see how the others
-/// fall.
+/// Pair the loops: align one source loop with each target loop it may go to, in every way, and see how the
+/// others fall.
 /// @return the two best arrangements with different pairs, best first.
 std::vector<Arrangement> arrange(const Problem& problem);
 

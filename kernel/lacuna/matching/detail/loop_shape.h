@@ -9,7 +9,8 @@
 
 namespace lacuna::matching {
 
-/// Points that stand for a loop in a fit.
+/// Points that stand for a loop in a fit. A choice, not a measurement: a start is slid to its place
+/// afterwards.
 inline constexpr std::size_t kSamples = 64;
 
 /// A loop as matching sees it.

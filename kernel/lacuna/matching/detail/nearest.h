@@ -23,7 +23,8 @@ struct NearestInput {
 struct NearestMatch {
     std::vector<LoopPair> loops;
     std::vector<std::pair<VertexId, VertexId>> vertices; ///< source loop by source loop in walking order
-    /// 1 − mean distance / mean distance to the second nearest; no more than the share of vertices that agree.
+    /// 1 − mean distance / mean distance to the second nearest; no more than the share of vertices that
+    /// agree.
     double confidence = 1;
     std::vector<std::string> notes;
 };
@@ -38,6 +39,7 @@ struct NearestMatch {
 /// vertices of their loop agree on, which must be half of them.
 /// @throw NotClosed  loops with unlike numbers of edges; loops or vertices for which distances give no
 ///         one-to-one map that keeps the order along the loops; names them.
-NearestMatch match_nearest(const topology::Model& model, const NearestInput& input);
+NearestMatch match_nearest(const topology::Model& model, const NearestInput& input,
+                           const RunContext& context);
 
 } // namespace lacuna::matching

@@ -15,6 +15,7 @@ namespace lacuna::matching {
 struct Problem {
     const topology::OpenVolume& volume;
     const MatchOptions& options;
+    const RunContext& context;
     std::vector<LoopShape> source, target;
     std::map<VertexId, VertexId> walls; ///< source vertex → target vertex, joined by walls
     std::map<VertexId, VertexId> hard;  ///< those, and the recipe's
@@ -33,6 +34,7 @@ struct Problem {
 
 /// @param match  its loops are set.
 /// @throw InvalidInput, NotClosed  a recipe, or walls, that contradict each other; names tags and loops.
-Problem problem_of(const topology::OpenVolume& volume, const MatchOptions& options, const Match& match);
+Problem problem_of(const topology::OpenVolume& volume, const MatchOptions& options, const Match& match,
+                   const RunContext& context);
 
 } // namespace lacuna::matching

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/matching/detail/lays.h>
+#include <lacuna/matching/detail/alignment.h>
 
 #include <Eigen/Geometry>
 
@@ -14,14 +14,14 @@ namespace lacuna::matching {
 namespace {
 
 /// What a turn of 180° counts in a score, against a residual as large as the loop: small, so that it only
-/// decides between fits that are about as good.
+/// decides between fits that are about as good. A choice, not a measurement.
 constexpr double kTurnWeight = 0.1;
 /// Steps of a golden section: to a millionth of a sample.
 constexpr int kSections = 30;
 
 using Hard = std::map<VertexId, VertexId>;
 
-/// True when the hard pairs of two loops with as many vertices allow the lay.
+/// True when the hard pairs of two loops with as many vertices allow the alignment.
 bool allowed(const Hard& hard, const LoopShape& source, const LoopShape& target, std::size_t shift,
              bool backward)
 {
@@ -40,7 +40,7 @@ double turn_of(const Eigen::Matrix3d& rotation)
     return std::abs(Eigen::AngleAxisd(rotation).angle()) / std::numbers::pi;
 }
 
-/// How much two loops, run as a lay has it, look opposite ways along the line between them, 0…1: a plain
+/// How much two aligned loops look opposite ways along the line between them, 0…1: a plain
 /// sweep goes into both alike.
 double overturned(const LoopShape& source, const LoopShape& target, bool backward)
 {
@@ -50,19 +50,21 @@ double overturned(const LoopShape& source, const LoopShape& target, bool backwar
     return low * high < 0 ? std::min(std::abs(low), std::abs(high)) : 0;
 }
 
-/// Fit and score of a lay whose target samples are given.
-void rate(Lay& lay, const LoopShape& source, const LoopShape& target, const std::vector<Vec3>& from,
-          std::vector<Vec3> to, const PointPairs& known, bool with_scale)
+/// Fit and score of an alignment whose target samples are given.
+void rate(Alignment& alignment, const LoopShape& source, const LoopShape& target,
+          const std::vector<Vec3>& from, std::vector<Vec3> to, const PointPairs& known, bool with_scale)
 {
     to.insert(to.end(), known.to.begin(), known.to.end());
-    lay.fit = geometry::fit_rigid(from, to, with_scale);
-    lay.score = lay.fit.rms / std::max(source.length, target.length) +
-                kTurnWeight * (turn_of(lay.fit.rotation) + overturned(source, target, lay.backward));
+    alignment.fit = geometry::fit_rigid(from, to, with_scale);
+    alignment.score = alignment.fit.rms / std::max(source.length, target.length) +
+                      kTurnWeight *
+                          (turn_of(alignment.fit.rotation) + overturned(source, target, alignment.backward));
 }
 
-std::vector<Lay> sorted(std::vector<Lay> list)
+std::vector<Alignment> sorted(std::vector<Alignment> list)
 {
-    std::stable_sort(list.begin(), list.end(), [](const Lay& x, const Lay& y) { return x.score < y.score; });
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Alignment& x, const Alignment& y) { return x.score < y.score; });
     return list;
 }
 
@@ -72,52 +74,56 @@ std::vector<Vec3> with(std::vector<Vec3> points, const std::vector<Vec3>& more)
     return points;
 }
 
-std::vector<Lay> lays_by_vertices(const Problem& problem, const Hard& hard, const LoopShape& source,
-                                  const LoopShape& target, bool with_scale, const PointPairs& known)
+std::vector<Alignment> alignments_by_vertices(const Problem& problem, const Hard& hard,
+                                              const LoopShape& source, const LoopShape& target,
+                                              bool with_scale, const PointPairs& known)
 {
     const std::vector<Vec3> from = with(edge_samples(source, 0, false), known.from);
-    std::vector<Lay> result;
+    std::vector<Alignment> result;
     for (const bool backward : {true, false}) {
         if (problem.backward && *problem.backward != backward) continue;
         for (std::size_t shift = 0; shift < target.vertices.size(); ++shift) {
+            check_cancelled(problem.context);
             if (!allowed(hard, source, target, shift, backward)) continue;
-            Lay& lay = result.emplace_back(Lay{shift, 0, backward, 0, {}});
-            rate(lay, source, target, from, edge_samples(target, shift, backward), known, with_scale);
+            Alignment& alignment = result.emplace_back(Alignment{shift, 0, backward, 0, {}});
+            rate(alignment, source, target, from, edge_samples(target, shift, backward), known, with_scale);
         }
     }
     return sorted(std::move(result));
 }
 
-std::vector<Lay> lays_by_length(const Problem& problem, const LoopShape& source, const LoopShape& target,
-                                bool with_scale, const PointPairs& known)
+std::vector<Alignment> alignments_by_length(const Problem& problem, const LoopShape& source,
+                                            const LoopShape& target, bool with_scale, const PointPairs& known)
 {
     const std::vector<Vec3> from = with(even_samples(source, 0, false), known.from);
-    std::vector<Lay> result;
+    std::vector<Alignment> result;
     for (const bool backward : {true, false}) {
         if (problem.backward && *problem.backward != backward) continue;
         for (std::size_t shift = 0; shift < kSamples; ++shift) {
-            Lay& lay = result.emplace_back(
-                Lay{shift, static_cast<double>(shift) / kSamples, backward, 0, {}});
-            rate(lay, source, target, from, even_samples(target, target.length * lay.offset, backward), known,
-                 with_scale);
+            check_cancelled(problem.context);
+            Alignment& alignment = result.emplace_back(
+                Alignment{shift, static_cast<double>(shift) / kSamples, backward, 0, {}});
+            rate(alignment, source, target, from,
+                 even_samples(target, target.length * alignment.offset, backward), known, with_scale);
         }
     }
     return sorted(std::move(result));
 }
 
-Lay slid(const LoopShape& source, const LoopShape& target, const Lay& lay, const PointPairs& known)
+Alignment slid(const LoopShape& source, const LoopShape& target, const Alignment& alignment,
+               const PointPairs& known)
 {
     const std::vector<Vec3> from = with(even_samples(source, 0, false), known.from);
     const auto at = [&](double offset) {
-        Lay moved = lay;
+        Alignment moved = alignment;
         moved.offset = offset - std::floor(offset);
-        rate(moved, source, target, from, even_samples(target, target.length * moved.offset, lay.backward),
-             known, true);
+        rate(moved, source, target, from,
+             even_samples(target, target.length * moved.offset, alignment.backward), known, true);
         return moved;
     };
     const double golden = (std::sqrt(5.0) - 1) / 2, step = 1.0 / kSamples;
-    double low = lay.offset - step, high = lay.offset + step;
-    Lay a = at(high - golden * (high - low)), b = at(low + golden * (high - low));
+    double low = alignment.offset - step, high = alignment.offset + step;
+    Alignment a = at(high - golden * (high - low)), b = at(low + golden * (high - low));
     for (int i = 0; i < kSections; ++i) {
         if (a.score <= b.score) {
             high = low + golden * (high - low);
@@ -129,15 +135,16 @@ Lay slid(const LoopShape& source, const LoopShape& target, const Lay& lay, const
             b = at(low + golden * (high - low));
         }
     }
-    const Lay& best = a.score <= b.score ? a : b;
+    const Alignment& best = a.score <= b.score ? a : b;
     // A fit that the place on the facets alone decides is no better: stay with the even one.
-    const Lay start = at(lay.offset);
+    const Alignment start = at(alignment.offset);
     return best.score < start.score ? best : start;
 }
 
-/// How much the vertex pairs of a lay are turned against one by length, in the mean, as a share of the loop.
-double mean_twist(const LoopShape& source, const LoopShape& target, const Lay& by_vertices,
-                  const Lay& by_length)
+/// How much the vertex pairs of an alignment are turned against one by length, in the mean, as a share of
+/// the loop.
+double mean_twist(const LoopShape& source, const LoopShape& target, const Alignment& by_vertices,
+                  const Alignment& by_length)
 {
     const std::size_t n = source.vertices.size();
     const double sign = by_length.backward ? -1 : 1;
@@ -163,49 +170,55 @@ bool goes_by_length(const Problem& problem, std::size_t s, std::size_t t)
     const auto low = corners(source), high = corners(target);
     const auto all = static_cast<std::ptrdiff_t>(n);
     if (problem.hard.empty() && low == all && high == all) return false;
-    const std::vector<Lay> found = lays_by_vertices(problem, problem.hard, source, target, true, {});
+    const std::vector<Alignment> found = alignments_by_vertices(problem, problem.hard, source, target, true,
+                                                                {});
     // Pairs that only the recipe asks for are no reason to cut edges: they are refused.
-    if (found.empty()) return lays_by_vertices(problem, problem.walls, source, target, true, {}).empty();
+    if (found.empty())
+        return alignments_by_vertices(problem, problem.walls, source, target, true, {}).empty();
     if (low == all && high == all) return false;
     std::ptrdiff_t unlike = 0, met = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        const Lay& lay = found.front();
-        const std::size_t j = (lay.backward ? lay.shift + n - i : lay.shift + i) % n;
+        const Alignment& alignment = found.front();
+        const std::size_t j = (alignment.backward ? alignment.shift + n - i : alignment.shift + i) % n;
         unlike += source.corner[i] != target.corner[j] ? 1 : 0;
         met += source.corner[i] && target.corner[j] ? 1 : 0;
     }
     if (unlike > std::abs(low - high)) return true;
     if (met > 0 || problem.has_hard(s)) return false;
-    const Lay straight = slid(source, target, lays_by_length(problem, source, target, true, {}).front(), {});
+    const Alignment straight = slid(source, target,
+                                    alignments_by_length(problem, source, target, true, {}).front(), {});
     return straight.backward != found.front().backward ||
            mean_twist(source, target, found.front(), straight) > kMostTwist;
 }
 
 } // namespace
 
-std::vector<Lay> lays(const Problem& problem, std::size_t s, std::size_t t, bool with_scale,
-                      const PointPairs& known)
+std::vector<Alignment> alignments_of(const Problem& problem, std::size_t s, std::size_t t, bool with_scale,
+                                     const PointPairs& known)
 {
     if (problem.paired_by_length(s, t))
-        return lays_by_length(problem, problem.source[s], problem.target[t], with_scale, known);
-    return lays_by_vertices(problem, problem.hard, problem.source[s], problem.target[t], with_scale, known);
+        return alignments_by_length(problem, problem.source[s], problem.target[t], with_scale, known);
+    return alignments_by_vertices(problem, problem.hard, problem.source[s], problem.target[t], with_scale,
+                                  known);
 }
 
-Lay refined(const Problem& problem, std::size_t s, std::size_t t, const Lay& lay, const PointPairs& known)
+Alignment refined(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment,
+                  const PointPairs& known)
 {
-    return slid(problem.source[s], problem.target[t], lay, known);
+    return slid(problem.source[s], problem.target[t], alignment, known);
 }
 
-PointPairs samples(const Problem& problem, std::size_t s, std::size_t t, const Lay& lay)
+PointPairs samples(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment)
 {
     const LoopShape& source = problem.source[s];
     const LoopShape& target = problem.target[t];
     if (!problem.paired_by_length(s, t))
-        return {edge_samples(source, 0, false), edge_samples(target, lay.shift, lay.backward)};
-    return {even_samples(source, 0, false), even_samples(target, target.length * lay.offset, lay.backward)};
+        return {edge_samples(source, 0, false), edge_samples(target, alignment.shift, alignment.backward)};
+    return {even_samples(source, 0, false),
+            even_samples(target, target.length * alignment.offset, alignment.backward)};
 }
 
-bool differ(const Problem& problem, std::size_t s, std::size_t t, const Lay& a, const Lay& b)
+bool differ(const Problem& problem, std::size_t s, std::size_t t, const Alignment& a, const Alignment& b)
 {
     if (a.backward != b.backward || !problem.paired_by_length(s, t))
         return a.backward != b.backward || a.shift != b.shift;

@@ -13,8 +13,8 @@ namespace lacuna::matching {
 /// round wall that is ruled so is 1 − cos(π/32), half a hundredth, narrower.
 inline constexpr double kMostTwist = 1.0 / 32;
 
-/// One way to lay a source loop on a target loop.
-struct Lay {
+/// One way a source loop lies on a target loop.
+struct Alignment {
     std::size_t shift =
         0; ///< target vertex that the source's first vertex meets; of loops paired by length the sample
     double offset =
@@ -29,19 +29,20 @@ struct PointPairs {
     std::vector<Vec3> from, to;
 };
 
-/// Every lay of source loop s on target loop t that hard pairs and direction allow, best first. Pairs matched
-/// already take part in the fit.
-std::vector<Lay> lays(const Problem& problem, std::size_t s, std::size_t t, bool with_scale,
-                      const PointPairs& known = {});
+/// Every alignment of source loop s on target loop t that hard pairs and direction allow, best first. Pairs
+/// matched already take part in the fit.
+std::vector<Alignment> alignments_of(const Problem& problem, std::size_t s, std::size_t t, bool with_scale,
+                                     const PointPairs& known = {});
 
-/// Slide a lay of loops paired by length to where it fits best between its neighbours.
-Lay refined(const Problem& problem, std::size_t s, std::size_t t, const Lay& lay, const PointPairs& known);
+/// Slide an alignment of loops paired by length to where it fits best between its neighbours.
+Alignment refined(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment,
+                  const PointPairs& known);
 
-/// Corresponding points of two loops, as a lay has it.
-PointPairs samples(const Problem& problem, std::size_t s, std::size_t t, const Lay& lay);
+/// Corresponding points of two loops, as an alignment has it.
+PointPairs samples(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment);
 
-/// True where two lays are not the same but for a little sliding along a smooth loop.
-bool differ(const Problem& problem, std::size_t s, std::size_t t, const Lay& a, const Lay& b);
+/// Whether two alignments are not the same but for a little sliding along a smooth loop.
+bool differ(const Problem& problem, std::size_t s, std::size_t t, const Alignment& a, const Alignment& b);
 
 /// Say of each two loops whether their vertices tell how they lie on each other, or lengths have to.
 ///

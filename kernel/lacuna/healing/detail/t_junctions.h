@@ -20,12 +20,7 @@ struct FacetPiece {
 /// @param whole  facets that must not be cut, as halves of quads that are kept.
 /// @return the facets in their order, pieces in the place of what was cut; nothing where none was.
 /// @note O(n) and, in the sides of one facet alone, O(n log n).
-std::vector<FacetPiece> cut_at_tees(std::span<const Vec3> points, std::span<const Triangle> facets,
-                                    const std::vector<bool>& whole, double tolerance);
-
-/// Which cells have the corners of an earlier one of the same label, in any order.
-/// @param labels one a cell, or none at all.
-std::vector<bool> repeated_cells(std::span<const Triangle> cells, std::span<const int> labels);
-std::vector<bool> repeated_cells(std::span<const Quad> cells, std::span<const int> labels);
+std::vector<FacetPiece> cut_at_t_junctions(std::span<const Vec3> points, std::span<const Triangle> facets,
+                                           const std::vector<bool>& whole, double tolerance);
 
 } // namespace lacuna::healing

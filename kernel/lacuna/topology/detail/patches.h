@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <vector>
+
+namespace lacuna::topology {
+
+/// Faces that meet smoothly, as one: what can be an end of a sweep.
+struct SmoothPatch {
+    std::vector<FaceId> faces; ///< in the model's order
+    std::vector<Rim> rims;
+    std::vector<VertexId> vertices; ///< of the faces' loops, each once
+    std::vector<EdgeId> edges;      ///< of the faces' loops, each once
+    long inner_euler = 0;           ///< Euler number without the points and sides that lie on `edges`
+    Vec3 normal = Vec3::Zero();     ///< unit mean
+    Vec3 centre = Vec3::Zero();
+    double area = 0;
+    double flatness = 0; ///< length of the summed area vector over the area: 1 for a plane
+    double slant = 0;    ///< mean departure from a right angle to its neighbours, as a share of a right angle
+};
+
+/// The patches of all faces of a model, in the order of their first faces. Near linear in the number of
+/// facets.
+/// @pre  the model is oriented.
+/// @throw Cancelled
+std::vector<SmoothPatch> smooth_patches(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
+                                        const RunContext& context);
+
+} // namespace lacuna::topology

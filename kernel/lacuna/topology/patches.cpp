@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/topology/detail/patches.h>
+
+#include <lacuna/core/edge_key.h>
+#include <lacuna/geometry/union_find.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <unordered_map>
+
+namespace lacuna::topology {
+
+namespace {
+
+/// Faces that meet at less than this are one patch: a skin cut in pieces, not an end and a wall [degrees].
+/// A choice, not a measurement: a chamfer of 45° still parts two patches.
+constexpr double kSmooth = 30;
+
+/// The facets beside the segments of edges: one for each face at a segment.
+class FacetsAtEdges {
+public:
+    FacetsAtEdges(const Model& model, const RunContext& context) : model_(model)
+    {
+        for (const Edge& edge : model.edges) {
+            for (std::size_t i = 0; i + 1 < edge.points.size(); ++i)
+                beside_[edge_key(edge.points[i], edge.points[i + 1])];
+        }
+        for (std::size_t f = 0; f < model.faces.size(); ++f) {
+            check_cancelled(context);
+            for (const Triangle& t : model.faces[f].triangles) {
+                for (std::size_t i = 0; i < 3; ++i) {
+                    const auto found = beside_.find(edge_key(t[i], t[(i + 1) % 3]));
+                    if (found != beside_.end()) add(found->second, FaceId(f), t);
+                }
+            }
+        }
+    }
+
+    /// Mean angle between two faces along an edge they share [degrees]; 0 where they run on smoothly.
+    [[nodiscard]] double angle_across(EdgeId edge, const std::vector<FaceUse>& uses) const
+    {
+        const std::vector<Index>& points = model_[edge].points;
+        double sum = 0;
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            const std::vector<Beside>& facets = beside_.at(edge_key(points[i], points[i + 1]));
+            std::vector<Vec3> normals;
+            for (const FaceUse& use : uses) {
+                const auto found = std::find_if(facets.begin(), facets.end(),
+                                                [&](const Beside& b) { return b.face == use.face; });
+                if (found != facets.end()) normals.push_back(normal_of(found->facet));
+            }
+            if (normals.size() == 2)
+                sum += std::atan2(normals[0].cross(normals[1]).norm(), normals[0].dot(normals[1]));
+        }
+        return sum / static_cast<double>(points.size() - 1) * 180 / std::numbers::pi;
+    }
+
+private:
+    struct Beside {
+        FaceId face;
+        Triangle facet;
+    };
+
+    /// Of each face its first facet at the segment.
+    static void add(std::vector<Beside>& facets, FaceId face, const Triangle& facet)
+    {
+        if (facets.empty() || facets.back().face != face) facets.push_back({face, facet});
+    }
+
+    [[nodiscard]] Vec3 normal_of(const Triangle& t) const
+    {
+        return (model_.at(t[1]) - model_.at(t[0]))
+            .cross(model_.at(t[2]) - model_.at(t[0]))
+            .stableNormalized();
+    }
+
+    const Model& model_;
+    std::unordered_map<std::uint64_t, std::vector<Beside>> beside_; ///< by the segment
+};
+
+template <class Id>
+void sort_once(std::vector<Id>& ids)
+{
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+void measure(const Model& model, SmoothPatch& patch)
+{
+    Vec3 sum = Vec3::Zero();
+    for (const FaceId face : patch.faces) {
+        const double area = face_area(model, face);
+        patch.area += area;
+        patch.centre += area * face_centroid(model, face);
+        sum += face_area_vector(model, face);
+        for (const Loop& loop : model[face].loops) {
+            for (const EdgeUse& use : loop.uses) {
+                patch.edges.push_back(use.edge);
+                patch.vertices.push_back(use_from(model, use));
+            }
+        }
+    }
+    patch.centre /= patch.area;
+    patch.flatness = sum.norm() / patch.area;
+    patch.normal = sum.stableNormalized();
+    patch.rims = rims(model, patch.faces);
+    sort_once(patch.edges);
+    sort_once(patch.vertices);
+    // An edge between its vertices has one side more than it has points.
+    patch.inner_euler = euler_number(model, patch.faces) - static_cast<long>(patch.vertices.size()) +
+                        static_cast<long>(patch.edges.size());
+}
+
+} // namespace
+
+std::vector<SmoothPatch> smooth_patches(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
+                                        const RunContext& context)
+{
+    const FacetsAtEdges facets(model, context);
+    std::vector<double> angle(uses.size(), 0);
+    geometry::UnionFind smooth(model.faces.size());
+    for (std::size_t e = 0; e < uses.size(); ++e) {
+        if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
+        check_cancelled(context);
+        angle[e] = facets.angle_across(EdgeId(e), uses[e]);
+        if (angle[e] < kSmooth) smooth.unite_least(uses[e][0].face.index(), uses[e][1].face.index());
+    }
+    std::map<std::size_t, SmoothPatch> by_root;
+    for (std::size_t f = 0; f < model.faces.size(); ++f) by_root[smooth.find(f)].faces.emplace_back(f);
+    std::vector<SmoothPatch> patches;
+    for (auto& [root, patch] : by_root) {
+        check_cancelled(context);
+        measure(model, patch);
+        double sum = 0, length = 0;
+        for (const Rim& rim : patch.rims) {
+            for (const EdgeUse& use : rim.uses) {
+                if (uses[use.edge.index()].size() != 2) continue;
+                const double l = edge_length(model, use.edge);
+                sum += l * std::abs(angle[use.edge.index()] - 90) / 90;
+                length += l;
+            }
+        }
+        patch.slant = length > 0 ? sum / length : 0;
+        patches.push_back(std::move(patch));
+    }
+    return patches;
+}
+
+} // namespace lacuna::topology
