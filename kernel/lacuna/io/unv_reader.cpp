@@ -13,8 +13,8 @@ namespace {
 constexpr std::string_view kMark = "-1"; ///< begins and ends a dataset
 constexpr int kElement = 8;              ///< what an entity of a group must be to count
 
-/// Datasets of groups: how many numbers each entity has (type, tag, and in the later ones node and component),
-/// and which number of the header counts them.
+/// Datasets of groups: how many numbers each entity has (type, tag, and in the later ones node and
+/// component), and which number of the header counts them.
 struct GroupDataset {
     int number;
     std::size_t values, count_at;
@@ -24,8 +24,8 @@ constexpr GroupDataset kGroupDatasets[] = {{752, 2, 5},  {2417, 2, 6}, {2429, 2,
                                            {2452, 4, 7}, {2467, 4, 7}, {2477, 4, 7}};
 
 /// Corners and order of a face by its descriptor; corners 0: a solid, -1: neither.
-/// Plane stress 41-46, plane strain 51-56, plate 61-66, membrane 71-76, axisymmetric 81-86 and shell 91-96 count alike:
-/// triangles linear, quadratic and cubic, then quadrilaterals.
+/// Plane stress 41-46, plane strain 51-56, plate 61-66, membrane 71-76, axisymmetric 81-86 and shell 91-96
+/// count alike: triangles linear, quadratic and cubic, then quadrilaterals.
 struct FaceKind {
     int corners, order;
 };

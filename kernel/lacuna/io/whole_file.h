@@ -7,8 +7,8 @@
 
 namespace lacuna::io {
 
-/// A file that is there whole or not at all: it is written beside its place, and `commit()` renames it. Whatever
-/// else happens, nothing is left behind and what was there before stays.
+/// A file that is there whole or not at all: it is written beside its place, and `commit()` renames it.
+/// Whatever else happens, nothing is left behind and what was there before stays.
 class WholeFile {
 public:
     /// @throw InvalidInput  the folder does not exist, or the path is not that of a file.
