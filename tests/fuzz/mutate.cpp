@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Mutates samples and hands them to a harness: bytes flipped, numbers replaced, pieces dropped, doubled, swapped and
-// cut, two samples joined. The seed decides everything. Memory and time of every run are bounded.
+// Mutates samples and hands them to a harness: bytes flipped, numbers replaced, pieces dropped, doubled,
+// swapped and cut, two samples joined. The seed decides everything. Memory and time of every run are bounded.
 #include "support/facet_files.h"
 
 #include <algorithm>

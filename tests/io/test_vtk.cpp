@@ -53,7 +53,8 @@ struct Expected {
     }
 };
 
-/// Places of the appended arrays of a .vtu, and that each is as long as it says and ends where the next begins.
+/// Places of the appended arrays of a .vtu, and that each is as long as it says and ends where the next
+/// begins.
 std::vector<std::size_t> array_places(const std::string& bytes)
 {
     const std::size_t data = bytes.find("<AppendedData encoding=\"raw\">\n_") + 31;

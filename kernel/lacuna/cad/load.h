@@ -18,7 +18,8 @@ using io::LoadOptions;
 ///
 /// CAD faces get facets (chord error and turn bounded by curvature), exact curves and surfaces, and the tags
 /// Gmsh shows for the file; loose faces are sewn; orientation is made consistent. Gmsh sees CAD files alone.
-/// What then still does not share edges is joined by healing::stitch(); what it left out or apart is in Model::notes.
+/// What then still does not share edges is joined by healing::stitch(); what it left out or apart is in
+/// Model::notes.
 /// @throw InvalidInput  as io::load_facets(); names the file.
 /// @throw BackendError  Gmsh's own words, with the file.
 topology::Model load(const std::vector<std::string>& paths, const LoadOptions& options = {},

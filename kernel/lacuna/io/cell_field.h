@@ -10,14 +10,15 @@
 
 namespace lacuna::io {
 
-/// A number for every hexahedron, by its number: its quality, say. In files a quad of the skin carries the number of
-/// the cell it belongs to, as readers want a value for every cell they meet.
+/// A number for every hexahedron, by its number: its quality, say. In files a quad of the skin carries the
+/// number of the cell it belongs to, as readers want a value for every cell they meet.
 struct CellField {
     std::string name; ///< no quotes, no line ends
     std::vector<double> values;
 };
 
-/// @throw InvalidInput  a field has not a value for every hexahedron, or no name that can be written, or another's.
+/// @throw InvalidInput  a field has not a value for every hexahedron, or no name that can be written,
+///                      or another's.
 void check_fields(const mesh::HexMesh& mesh, const std::vector<CellField>& fields);
 
 /// The cell every quad of the skin belongs to, by number of the quad as in `mesh::skin_quad()`.

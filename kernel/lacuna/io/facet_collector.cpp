@@ -116,8 +116,9 @@ void FacetCollector::sort_by_label(bool by_tag)
     healing::FacetSoup& soup = file_.soup;
     std::vector<std::size_t> order(file_.label_tag.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return file_.label_tag[a] < file_.label_tag[b]; });
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return by_tag && file_.label_tag[a] < file_.label_tag[b];
+    });
     std::vector<int> rank(order.size()), tags;
     std::vector<std::string> names;
     for (std::size_t r = 0; r < order.size(); ++r) {

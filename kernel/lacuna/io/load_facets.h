@@ -25,18 +25,19 @@ struct FacetFile {
 /// |---|---|---|
 /// | .stl | text with several solids; binary | a solid, counted |
 /// | .obj | points and polygons; more than four corners are split | an `o` or `g` line, counted |
-/// | .msh | 2.x and 4.1, text and binary | a surface entity, named as its first named physical group |
-/// | .unv | nodes 15, 781, 2411; elements 71, 780, 2412; groups 752, 2417, 2429 to 2477 | a group, else a property |
-/// | .bdf .nas .dat | Nastran bulk data: free, small and large field; INCLUDE in the file's folder | a property |
+/// | .msh | 2.x, 4.0 and 4.1, text and binary | a surface entity, by its first named physical group |
+/// | .unv | nodes 15, 781, 2411; elements 71, 780, 2412; groups 752 to 2477 | a group, else a property |
+/// | .bdf .nas .dat | Nastran bulk data: free, small, large fields; INCLUDE beside it | a property |
 /// | .vtk | legacy 1 to 5.1, text and binary: polygons, strips, cells | all one |
 /// | .vtu | text, base64 and appended; not compressed | all one |
 /// | .mesh | Medit, text | a reference number |
 ///
-/// Higher-order faces give their corners. Nothing is guessed: what is not understood is an error. Solids and other
-/// cells are counted in the notes.
-/// @throw InvalidInput  "io.no_file", "io.not_a_file", "io.empty_file", "io.unknown_ending", "io.unreadable" (names
-///                      the line or byte, what was expected and found), "io.no_faces".
-/// @note  Linear time but for sorting sparse node numbers; memory at most 20 times the file's size, itself included.
+/// Higher-order faces give their corners. Nothing is guessed: what is not understood is an error. Solids and
+/// other cells are counted in the notes.
+/// @throw InvalidInput  "io.no_file", "io.not_a_file", "io.empty_file", "io.unknown_ending", "io.no_faces",
+///                      "io.unreadable" (names the line or byte, what was expected and what was found).
+/// @note  Linear time but for sorting sparse node numbers and cutting polygons that are not convex; memory at
+///        most 20 times the file's size, the file itself included.
 FacetFile read_facets(const std::string& path);
 /// The same of bytes in memory. @param name  stands for the path: its ending, its folder, in messages.
 FacetFile read_facets(const std::string& name, std::string_view bytes);
@@ -57,9 +58,9 @@ struct OtherFormats {
         import;
 };
 
-/// Read files into one model. Facets are cut into faces by healing::split_facets(); a face that is all of a label has
-/// the label's tag, the others count on from the highest; tags of later files go on from those of the first.
-/// Faces that do not share edges are joined by healing::stitch().
+/// Read files into one model. Facets are cut into faces by healing::split_facets(); a face that is all of a
+/// label has the label's tag, the others count on from the highest; tags of later files go on from those of
+/// the first. Faces that do not share edges are joined by healing::stitch().
 /// @param others  formats beside those of read_facets().
 /// @throw InvalidInput  as read_facets(), or an option out of range: "io.scale", "io.tolerance".
 topology::Model load_facets(const std::vector<std::string>& paths, const LoadOptions& options = {},

@@ -7,9 +7,9 @@
 
 #include <cstring>
 
-// The format: https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format. All nodes form one block of the volume and
-// are numbered from 1 as in the mesh. Elements are numbered from 1, the skin's quads patch after patch, then the
-// hexahedra.
+// The format: https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format. All nodes form one block of the volume
+// and are numbered from 1 as in the mesh. Elements are numbered from 1, the skin's quads patch after patch,
+// then the hexahedra.
 
 namespace lacuna::io {
 namespace {
@@ -359,8 +359,8 @@ std::vector<Section> binary_22(const mesh::HexMesh& mesh, const MshContent& cont
 
 // ---- Fields of cells, alike in both versions
 
-/// Section of one field: the skin's quads with the value of their cell, then the hexahedra. Gmsh and meshio both read
-/// values by number of element; meshio takes a field only where every element has one.
+/// Section of one field: the skin's quads with the value of their cell, then the hexahedra. Gmsh and meshio
+/// both read values by number of element; meshio takes a field only where every element has one.
 void add_field(std::vector<Section>& sections, const MshContent& content,
                const std::vector<std::uint32_t>& skin_cells, const CellField& field, bool binary)
 {

@@ -118,8 +118,9 @@ private:
 
     int text_int()
     {
-        const auto value = parse_integer<int>(cursor_.word("a number"));
-        if (!value) cursor_.fail("expected a small whole number");
+        const std::string_view word = cursor_.word("a number");
+        const auto value = parse_integer<int>(word);
+        if (!value) cursor_.fail("expected a small whole number, found " + shown(word));
         return *value;
     }
 

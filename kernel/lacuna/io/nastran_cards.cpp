@@ -206,11 +206,14 @@ void Deck::read_line(const Cursor& cursor, std::string_view line)
             cursor.fail("expected the second half of a card of large fields, which begins with *");
     } else {
         end_card();
-        if (std::isalpha(static_cast<unsigned char>(first[0])) == 0)
+        const std::string_view name = std::string_view(first).substr(0, first.find('*'));
+        const auto fits = [](unsigned char c) { return std::isalnum(c) != 0; };
+        if (std::isalpha(static_cast<unsigned char>(first[0])) == 0 || name.size() > kField ||
+            !std::ranges::all_of(name, fits))
             cursor.fail("expected the name of a bulk data card, found " + shown(first));
         open_ = true;
         card_.place = {&cursor, cursor.last()};
-        card_.name = upper(std::string_view(first).substr(0, std::min(first.find('*'), kField)));
+        card_.name = upper(name);
     }
     marker_ = std::move(fields.back());
     if (wanted_(card_.name))

@@ -13,8 +13,8 @@ namespace {
 constexpr std::string_view kMark = "-1"; ///< begins and ends a dataset
 constexpr int kElement = 8;              ///< what an entity of a group must be to count
 
-/// Datasets of groups: how many numbers each entity has (type, tag, and in the later ones node and component),
-/// and which number of the header counts them.
+/// Datasets of groups: how many numbers each entity has (type, tag, and in the later ones node and
+/// component), and which number of the header counts them.
 struct GroupDataset {
     int number;
     std::size_t values, count_at;
@@ -24,8 +24,8 @@ constexpr GroupDataset kGroupDatasets[] = {{752, 2, 5},  {2417, 2, 6}, {2429, 2,
                                            {2452, 4, 7}, {2467, 4, 7}, {2477, 4, 7}};
 
 /// Corners and order of a face by its descriptor; corners 0: a solid, -1: neither.
-/// Plane stress 41-46, plane strain 51-56, plate 61-66, membrane 71-76, axisymmetric 81-86 and shell 91-96 count alike:
-/// triangles linear, quadratic and cubic, then quadrilaterals.
+/// Plane stress 41-46, plane strain 51-56, plate 61-66, membrane 71-76, axisymmetric 81-86 and shell 91-96
+/// count alike: triangles linear, quadratic and cubic, then quadrilaterals.
 struct FaceKind {
     int corners, order;
 };
@@ -69,7 +69,7 @@ private:
     {
         const auto group = std::ranges::find(kGroupDatasets, dataset, &GroupDataset::number);
         if (dataset == 15)
-            while (next_line()) read_node(numbers_[0], 4);
+            while (next_line()) read_node(whole(0), 4);
         else if (dataset == 781 || dataset == 2411)
             while (next_line()) read_node_of_two_lines();
         else if (dataset == 71 || dataset == 780 || dataset == 2412)
@@ -126,23 +126,22 @@ private:
 
     void read_node_of_two_lines()
     {
-        const std::string_view tag = numbers_[0];
+        const Index tag = whole(0);
         expect_line("a node's coordinates");
         read_node(tag, 0);
     }
 
     /// @param first  which number of the line is x.
-    void read_node(std::string_view tag, std::size_t first)
+    void read_node(Index tag, std::size_t first)
     {
         expect_numbers(first + 3, "a node");
-        const auto number = parse_integer<Index>(tag);
-        if (!number || *number < 0) cursor_.fail("expected the tag of a node, found " + shown(tag));
+        if (tag < 0) cursor_.fail("expected the tag of a node, found " + std::to_string(tag));
         if (into_.points().size() >= static_cast<std::size_t>(std::numeric_limits<Index>::max()))
             cursor_.fail("too many nodes");
         Vec3 p;
         for (std::size_t k = 0; k < 3; ++k)
             p[static_cast<Index>(k)] = cursor_.real_of(numbers_[first + k], Exponents::fortran);
-        tags_.add(static_cast<std::uint64_t>(*number));
+        tags_.add(static_cast<std::uint64_t>(tag));
         into_.points().push_back(p);
     }
 

@@ -133,8 +133,7 @@ private:
     {
         while (!(text = trimmed(text)).empty()) {
             const std::size_t equals = text.find('=');
-            if (equals == std::string_view::npos)
-                cursor_.fail("expected an attribute, found " + shown(text));
+            if (equals == std::string_view::npos) cursor_.fail("expected an attribute, found " + shown(text));
             const std::string_view key = trimmed(text.substr(0, equals));
             text = trimmed(text.substr(equals + 1));
             const std::size_t end = text.empty() || (text[0] != '"' && text[0] != '\'')

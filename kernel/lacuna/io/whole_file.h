@@ -54,9 +54,10 @@ private:
 
 /// A file that is there whole or not at all.
 ///
-/// Its bytes go to a file without a name (`O_TMPFILE`), which `commit()` puts in its place. So nothing is left behind
-/// whatever ends the writing, a kill included. On a file system without nameless files it has a name of its own beside
-/// the place, which the destructor removes. A file that was there before stays until then, and its mode is kept.
+/// Its bytes go to a file without a name (`O_TMPFILE`), which `commit()` puts in its place. So nothing is
+/// left behind whatever ends the writing, a kill included. On a file system without nameless files it has a
+/// name of its own beside the place, which the destructor removes. A file that was there before stays until
+/// then, and its mode is kept.
 class WholeFile {
 public:
     /// @throw InvalidInput  the folder does not exist, or the path is not that of a file.

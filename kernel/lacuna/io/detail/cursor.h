@@ -19,7 +19,7 @@ enum class Coding { text, little, big };
 /// Whether `1.5D+3` and `1.5+3` are numbers too.
 enum class Exponents { plain, fortran };
 
-/// The finite number that is all of `text`, the same in every locale; what is too small to be told from 0 is 0.
+/// The finite number that is all of `text`, the same in every locale; a number too small for a double is 0.
 std::optional<double> parse_real(std::string_view text, Exponents exponents = Exponents::plain);
 
 /// The whole number that is all of `text`, where it fits.
@@ -51,11 +51,11 @@ inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 std::string_view trimmed(std::string_view text);
 /// Whether two words are the same but for capitals.
 bool same_word(std::string_view a, std::string_view b);
-/// Text from a file as a message may show it: in quotes, its first 40 characters, what cannot be printed as '?'.
+/// Text from a file as a message may show it: in quotes, 40 characters at most, what is not printable as '?'.
 std::string shown(std::string_view text);
 
-/// Reads lines, words and values, and never beyond the end. Messages name the file and the line, in binary parts
-/// the byte, of what was read last.
+/// Reads lines, words and values, and never beyond the end. Messages name the file and the line, in binary
+/// parts the byte, of what was read last.
 class Cursor {
 public:
     Cursor(std::string path, std::string_view data);

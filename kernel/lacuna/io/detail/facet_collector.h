@@ -18,7 +18,8 @@ public:
 
     /// A new label.
     int add_label(int tag, std::string_view name);
-    /// The label of this tag, new where it is the first time. @param group  of two numberings in one file the second.
+    /// The label of this tag, new where it is the first time. @param group  of two numberings in one file the
+    /// second.
     int label_of(int tag, std::string_view name = {}, bool group = false);
     /// Add a face of three corners or more; more than four are split into triangles.
     /// @throw InvalidInput  fewer corners, a point that is not there, a polygon that crosses itself.
@@ -27,8 +28,8 @@ public:
     void pass_over(const std::string& what, std::size_t count = 1);
     void pass_over_solid(const std::string& what, std::size_t count = 1);
 
-    /// Put the faces in the order of their labels, these in the order of their tags or as they came, and number the
-    /// points as they are met; unused points go.
+    /// Put the faces in the order of their labels, these in the order of their tags or as they came, and
+    /// number the points as they are met; unused points go.
     void sort_by_label(bool by_tag = true);
     /// What was gathered. @throw InvalidInput "io.no_faces", "io.unreadable" (a point too far away)
     FacetFile take(const std::string& path);

@@ -42,8 +42,8 @@ struct Card {
 
 /// The cards of a deck and of the files it includes, which lie in its folder or below.
 ///
-/// A deck without BEGIN BULK is bulk data from its first line. Free, small and large fields, tabs, capitals or not,
-/// continuations that follow their card.
+/// A deck without BEGIN BULK is bulk data from its first line. Free, small and large fields, tabs, capitals
+/// or not, continuations that follow their card.
 class Deck {
 public:
     explicit Deck(Cursor& cursor);
