@@ -177,4 +177,26 @@ TEST_CASE("the host's cancel flag stops kernel work, and a cleared one lets it g
     CHECK(error_of(L, chunk) == "");
 }
 
+TEST_CASE("finding roles, matching and closing stop on the host's cancel flag")
+{
+    std::atomic<bool> cancel{false};
+    Host lent;
+    lent.cancel = &cancel;
+    State L;
+    set_host(L, &lent);
+    luaL_requiref(L, "lacuna", luaopen_lacuna, 1);
+    lua_settop(L, 0);
+    REQUIRE(error_of(L, "m = lacuna.synthetic.prism { sides = 4, drop = 'walls' }\n"
+                        "roles = { source = 'source', target = 'target' }\n"
+                        "v = m:open_volume(roles)") == "");
+    const char* const calls[] = {"m:open_volume(roles)", "m:open_volume()", "v:match()", "v:close()"};
+    for (const char* const chunk : calls) {
+        CAPTURE(chunk);
+        cancel = true;
+        CHECK(error_of(L, chunk).find("[core.cancelled]") != std::string::npos);
+        cancel = false;
+        CHECK(error_of(L, chunk) == "");
+    }
+}
+
 } // namespace lacuna::lua
