@@ -1,31 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "plane_domains.h"
 
+#include "dice.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 namespace lacuna::test {
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-/// Numbers that are the same on every machine, which the standard's distributions are not.
-class Dice {
-public:
-    explicit Dice(std::uint32_t seed) : engine_(seed) {}
-    /// In [0, 1).
-    double unit() { return static_cast<double>(engine_() >> 5) / static_cast<double>(1U << 27); }
-    double between(double low, double high) { return low + (high - low) * unit(); }
-    /// Low to high, each power as likely as the next.
-    double log_between(double low, double high) { return low * std::pow(high / low, unit()); }
-    bool chance(double share) { return unit() < share; }
-
-private:
-    std::mt19937 engine_;
-};
 
 /// Angles of a loop's nodes, growing; neighbouring gaps may be up to a hundred times as wide as others.
 std::vector<double> angles(Dice& dice, int count, double jump)

@@ -2,7 +2,6 @@
 #include <lacuna/geometry/transfinite.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/polyline.h>
 
 #include <limits>
 #include <string>
@@ -12,9 +11,12 @@ namespace lacuna::geometry {
 namespace {
 
 /// Position of each point of a side in [0, 1].
-std::vector<double> parameters(std::span<const Vec3> side, bool by_arc_length)
+template <class Point>
+std::vector<double> parameters(std::span<const Point> side, bool by_arc_length)
 {
-    std::vector<double> result = arc_lengths(side);
+    std::vector<double> result(side.size(), 0.0);
+    for (std::size_t i = 1; by_arc_length && i < side.size(); ++i)
+        result[i] = result[i - 1] + (side[i] - side[i - 1]).norm();
     const double total = result.back();
     const auto last = static_cast<double>(side.size() - 1);
     for (std::size_t i = 0; i < side.size(); ++i)
@@ -32,8 +34,9 @@ Vec2 crossing(double s0, double s1, double t0, double t1)
     return {(s0 + t0 * ds) / determinant, (t0 + s0 * dt) / determinant};
 }
 
-void check_sides(std::span<const Vec3> bottom, std::span<const Vec3> right, std::span<const Vec3> top,
-                 std::span<const Vec3> left)
+template <class Point>
+void check_sides(std::span<const Point> bottom, std::span<const Point> right, std::span<const Point> top,
+                 std::span<const Point> left)
 {
     const auto fail = [](const std::string& what) {
         throw InvalidInput("geometry.transfinite_sides", "a transfinite grid cannot be laid: " + what);
@@ -50,10 +53,10 @@ void check_sides(std::span<const Vec3> bottom, std::span<const Vec3> right, std:
     if (top.back() != right.back()) fail("the top and the right side do not end in the same point");
 }
 
-} // namespace
-
-std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3> right,
-                              std::span<const Vec3> top, std::span<const Vec3> left,
+/// `transfinite()`, in the plane or in space.
+template <class Point>
+std::vector<Point> coons_grid(std::span<const Point> bottom, std::span<const Point> right,
+                              std::span<const Point> top, std::span<const Point> left,
                               const TransfiniteOptions& options)
 {
     check_sides(bottom, right, top, left);
@@ -63,7 +66,7 @@ std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3
     const std::vector<double> t_left = parameters(left, options.by_arc_length);
     const std::vector<double> t_right = parameters(right, options.by_arc_length);
 
-    std::vector<Vec3> grid((n + 1) * (m + 1));
+    std::vector<Point> grid((n + 1) * (m + 1));
     for (std::size_t i = 0; i <= n; ++i) {
         grid[i] = bottom[i];
         grid[m * (n + 1) + i] = top[i];
@@ -73,19 +76,35 @@ std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3
         grid[j * (n + 1) + n] = right[j];
     }
     // Seen from one corner, sides far from the origin lose no digits to it.
-    const Vec3 c0 = bottom.front();
-    const Vec3 c1 = bottom.back() - c0, c2 = top.back() - c0, c3 = top.front() - c0;
+    const Point c0 = bottom.front();
+    const Point c1 = bottom.back() - c0, c2 = top.back() - c0, c3 = top.front() - c0;
     for (std::size_t j = 1; j < m; ++j) {
         for (std::size_t i = 1; i < n; ++i) {
             const Vec2 st = crossing(s_bottom[i], s_top[i], t_left[j], t_right[j]);
             const double s = st.x(), t = st.y();
-            const Vec3 across = (1 - t) * (bottom[i] - c0) + t * (top[i] - c0);
-            const Vec3 along = (1 - s) * (left[j] - c0) + s * (right[j] - c0);
-            const Vec3 corners = s * (1 - t) * c1 + s * t * c2 + (1 - s) * t * c3;
+            const Point across = (1 - t) * (bottom[i] - c0) + t * (top[i] - c0);
+            const Point along = (1 - s) * (left[j] - c0) + s * (right[j] - c0);
+            const Point corners = s * (1 - t) * c1 + s * t * c2 + (1 - s) * t * c3;
             grid[j * (n + 1) + i] = c0 + across + along - corners;
         }
     }
     return grid;
+}
+
+} // namespace
+
+std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3> right,
+                              std::span<const Vec3> top, std::span<const Vec3> left,
+                              const TransfiniteOptions& options)
+{
+    return coons_grid(bottom, right, top, left, options);
+}
+
+std::vector<Vec2> transfinite(std::span<const Vec2> bottom, std::span<const Vec2> right,
+                              std::span<const Vec2> top, std::span<const Vec2> left,
+                              const TransfiniteOptions& options)
+{
+    return coons_grid(bottom, right, top, left, options);
 }
 
 } // namespace lacuna::geometry

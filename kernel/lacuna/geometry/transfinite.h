@@ -15,7 +15,7 @@ struct TransfiniteOptions {
     bool by_arc_length = true;
 };
 
-/// Grid of points spanned by four sides in space: bilinear Coons interpolation.
+/// Grid of points spanned by four sides in space or in the plane: bilinear Coons interpolation.
 ///
 ///         top ─▶
 ///      3 ─────── 2        Bottom and top run from left to right, n + 1 points each; left and right
@@ -38,6 +38,9 @@ struct TransfiniteOptions {
 ///         fewer than two, or neighbouring sides do not meet in the same point.
 std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3> right,
                               std::span<const Vec3> top, std::span<const Vec3> left,
+                              const TransfiniteOptions& options = {});
+std::vector<Vec2> transfinite(std::span<const Vec2> bottom, std::span<const Vec2> right,
+                              std::span<const Vec2> top, std::span<const Vec2> left,
                               const TransfiniteOptions& options = {});
 
 } // namespace lacuna::geometry

@@ -2,7 +2,7 @@
 #include <lacuna/quads/detail/pave_cut.h>
 
 #include <lacuna/geometry/predicates.h>
-#include <lacuna/quads/detail/pave_patch.h>
+#include <lacuna/quads/detail/patch_template.h>
 
 #include <limits>
 #include <span>
@@ -247,17 +247,16 @@ private:
         }
         if (angle_to < kCornerBelow) add(span);
         if (count < 3 || count > 5) return 0.3;
-        std::array<std::size_t, 5> side{};
+        SideCounts sides{{}, count};
         for (std::size_t k = 0; k < count; ++k)
-            side[k] = (k + 1 < count ? corner[k + 1] : corner[0] + whole) - corner[k];
+            sides.side[k] = static_cast<int>((k + 1 < count ? corner[k + 1] : corner[0] + whole) - corner[k]);
+        const auto& side = sides.side;
         if (count == 4) {
-            const auto gap = [&](std::size_t a, std::size_t b) {
-                return static_cast<double>(std::max(side[a], side[b]) - std::min(side[a], side[b]));
-            };
-            const double off = gap(0, 2) + gap(1, 3);
+            const double off = std::abs(side[0] - side[2]) + std::abs(side[1] - side[3]);
             return off == 0 ? 0 : 0.1 + std::min(0.4, off / 20);
         }
-        return can_fill(std::span(side).first(count)) ? 0.1 : 0.4;
+        std::array<int, kMostSides> feet{};
+        return spoke_feet(sides, false, feet) ? 0.1 : 0.4;
     }
 
     /// Try the places next to the ends.

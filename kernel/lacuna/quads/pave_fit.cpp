@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_fit.h>
 
+#include <lacuna/geometry/transfinite.h>
+#include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/detail/pave_patch.h>
 
 #include <array>
@@ -28,17 +30,9 @@ double judge_block(const Draft& draft, const std::array<Sampled, 4>& side,
 {
     const std::size_t n = side[0].points.size() - 1, m = side[1].points.size() - 1;
     const auto& [b, r, t, l] = side;
-    std::vector<Vec2> grid((n + 1) * (m + 1));
-    for (std::size_t j = 0; j <= m; ++j) {
-        for (std::size_t i = 0; i <= n; ++i) {
-            const double u = static_cast<double>(i) / static_cast<double>(n);
-            const double v = static_cast<double>(j) / static_cast<double>(m);
-            grid[j * (n + 1) + i] = (1 - v) * b.points[i] + v * t.points[i] + (1 - u) * l.points[j] +
-                                    u * r.points[j] -
-                                    ((1 - u) * (1 - v) * b.points[0] + u * (1 - v) * b.points[n] +
-                                     u * v * t.points[n] + (1 - u) * v * t.points[0]);
-        }
-    }
+    // Samples are spaced alike by number, so that they count for as many quads each.
+    const std::vector<Vec2> grid = geometry::transfinite(b.points, r.points, t.points, l.points,
+                                                         {.by_arc_length = false});
     double worst = 1, stray = 0, weight = 0;
     for (std::size_t j = 0; j < m; ++j) {
         for (std::size_t i = 0; i < n; ++i) {
@@ -78,21 +72,13 @@ Sampled reversed(Sampled side)
     return side;
 }
 
-std::vector<std::size_t> side_lengths(std::size_t n, const std::vector<std::size_t>& corners)
-{
-    std::vector<std::size_t> edges;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const std::size_t to = corners[(i + 1) % corners.size()];
-        edges.push_back((to + n - corners[i] - 1) % n + 1);
-    }
-    return edges;
-}
-
 double judge_four(const Draft& draft, const Cycle& cycle, const std::vector<double>& angles,
                   const std::vector<std::size_t>& corners)
 {
-    const std::vector<std::size_t> edges = side_lengths(cycle.size(), corners);
-    if (!can_fill(edges)) return -1;
+    if (!can_fill(draft, cycle, corners)) return -1;
+    const SideCounts counts = side_counts(cycle.size(), corners);
+    std::array<std::size_t, 4> edges{};
+    for (std::size_t i = 0; i < 4; ++i) edges[i] = static_cast<std::size_t>(counts.side[i]);
     const std::size_t n = std::min({kSamples, edges[0], edges[2]}),
                       m = std::min({kSamples, edges[1], edges[3]});
     const std::array<Sampled, 4> side{sample(draft, cycle, corners[0], edges[0], n),
@@ -113,31 +99,34 @@ double judge_four(const Draft& draft, const Cycle& cycle, const std::vector<doub
 /// A patch of 3 or 5 sides, by the blocks at its corners.
 double judge_star(const Draft& draft, const Cycle& cycle, const std::vector<std::size_t>& corners)
 {
-    const std::vector<std::size_t> edges = side_lengths(cycle.size(), corners);
-    if (!can_fill(edges)) return -1;
-    const std::vector<std::size_t> foot = star_feet(edges);
+    const SideCounts counts = side_counts(cycle.size(), corners);
+    std::array<int, kMostSides> feet{};
+    if (!spoke_feet(counts, false, feet)) return -1;
     const std::size_t n = corners.size(), size = cycle.size();
+    const auto foot = [&](std::size_t i) { return static_cast<std::size_t>(feet[i]); };
     std::vector<Vec2> at;
     Vec2 centre = Vec2::Zero();
     for (std::size_t i = 0; i < n; ++i) {
-        at.push_back(draft.at(cycle[(corners[i] + foot[i]) % size]));
+        at.push_back(draft.at(cycle[(corners[i] + foot(i)) % size]));
         centre += at.back() / static_cast<double>(n);
     }
     const auto straight = [&](const Vec2& from, std::size_t count, std::size_t cells) {
         Sampled line{{}, static_cast<double>(count)};
-        for (std::size_t k = 0; k <= cells; ++k)
+        for (std::size_t k = 0; k < cells; ++k)
             line.points.push_back(from +
                                   static_cast<double>(k) / static_cast<double>(cells) * (centre - from));
+        line.points.push_back(centre);
         return line;
     };
     double quality = 1;
     for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t before = (i + n - 1) % n, rest = edges[before] - foot[before];
-        const std::size_t a = std::min(kSamples / 2, foot[i]), b = std::min(kSamples / 2, rest);
+        const std::size_t before = (i + n - 1) % n,
+                          rest = static_cast<std::size_t>(counts.side[before]) - foot(before);
+        const std::size_t a = std::min(kSamples / 2, foot(i)), b = std::min(kSamples / 2, rest);
         const std::array<Sampled, 4> side{
-            sample(draft, cycle, corners[i], foot[i], a), straight(at[i], rest, b),
-            straight(at[before], foot[i], a),
-            reversed(sample(draft, cycle, (corners[before] + foot[before]) % size, rest, b))};
+            sample(draft, cycle, corners[i], foot(i), a), straight(at[i], rest, b),
+            straight(at[before], foot(i), a),
+            reversed(sample(draft, cycle, (corners[before] + foot(before)) % size, rest, b))};
         quality = std::min(quality, judge_block(draft, side, {}));
     }
     return quality;
