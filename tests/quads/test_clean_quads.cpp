@@ -39,8 +39,8 @@ std::vector<Vec2> outline(const std::vector<int>& sides, std::vector<std::size_t
     return loop;
 }
 
-std::vector<quads::TemplateMesh> fillings(const std::vector<Vec2>& loop, const std::vector<std::size_t>& corners,
-                                     std::size_t most)
+std::vector<quads::TemplateMesh> fillings(const std::vector<Vec2>& loop,
+                                          const std::vector<std::size_t>& corners, std::size_t most)
 {
     std::vector<quads::TemplateMesh> made;
     for (const quads::TemplateCut& cut : quads::find_cuts(loop, corners, most))

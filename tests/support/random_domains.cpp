@@ -3,6 +3,8 @@
 
 #include "dice.h"
 
+#include <lacuna/geometry/predicates.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -71,10 +73,8 @@ double clearance(const std::vector<std::vector<Vec2>>& loops, const Vec2& p)
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const Vec2 &a = loop[i], &b = loop[(i + 1) % loop.size()];
             nearest = std::min(nearest, distance(p, a, b));
-            if ((a.y() > p.y()) != (b.y() > p.y()) &&
-                p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-                in = !in;
         }
+        if (geometry::lies_inside(loop, p)) in = !in;
     }
     return in ? nearest : -nearest;
 }

@@ -37,19 +37,11 @@ double area_of(const std::vector<Vec2>& points, const std::vector<Index>& loop)
     return twice / 2;
 }
 
-/// Is a node inside a loop? By the sides a ray from it to the right meets.
-bool lies_within(const std::vector<Vec2>& points, const std::vector<Index>& loop, Index node)
+std::vector<Vec2> polygon_of(const PlanarRegion& region, std::size_t loop)
 {
-    const Vec2& p = points[static_cast<std::size_t>(node)];
-    bool within = false;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Vec2 &a = points[static_cast<std::size_t>(loop[i])],
-                   &b = points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
-        if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-        const bool above = geometry::orient2d(a, b, p) > 0;
-        if (above == (b.y() > a.y())) within = !within;
-    }
-    return within;
+    std::vector<Vec2> polygon;
+    for (const Index p : region.loops[loop]) polygon.push_back(region.points[index(p)]);
+    return polygon;
 }
 
 void check_region(const PlanarRegion& region)
@@ -82,11 +74,12 @@ void check_region(const PlanarRegion& region)
                                                      " of a region to be paved cross or touch near " +
                                                      place_of(region.points[node]));
     }
+    const std::vector<Vec2> outline = polygon_of(region, 0);
     for (std::size_t l = 0; l < region.loops.size(); ++l) {
         const auto& loop = region.loops[l];
         const bool outer = l == 0;
         if ((area_of(region.points, loop) > 0) == outer &&
-            (outer || lies_within(region.points, region.loops[0], loop.front())))
+            (outer || geometry::lies_inside(outline, region.points[index(loop.front())])))
             continue;
         throw InvalidInput(
             "surface.pave_loops",
@@ -175,15 +168,14 @@ bool is_good_grid(const Attempt& attempt, const PlanarRegion& region)
 }
 
 /// Rows of their own height are laid first and stay as they are; what is inside them is a region by itself.
-PlanarQuads pave_inside_rows(const PlanarRegion& region, const PaveOptions& options,
-                             const RunContext& context)
+Paved pave_inside_rows(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
 {
     Draft draft{region.points, {}, region.points.size(), size_with_boundary(region), flat_below(region)};
     std::vector<Cycle> loops = region.loops;
     std::vector<bool> wanted(loops.size(), true);
     int laid = 0;
     std::string missing;
-    for (int r = 0; r < std::max(options.rows, 1); ++r) {
+    for (int r = 0; r < options.exact_rows; ++r) {
         const std::vector<bool> had = wanted;
         const int now = lay_rows(draft, loops, wanted, region.row_height, RowKind::exact);
         for (std::size_t l = 0; l < loops.size(); ++l) {
@@ -205,8 +197,8 @@ PlanarQuads pave_inside_rows(const PlanarRegion& region, const PaveOptions& opti
         }
     }
     PaveOptions inside = options;
-    inside.rows = -1;
-    const PlanarQuads filling = pave(core, inside, context);
+    inside.exact_rows = 0;
+    auto [filling, report] = pave(core, inside, context);
     PlanarQuads mesh{std::move(draft.points), std::move(draft.quads), filling.how};
     for (std::size_t p = own.size(); p < filling.points.size(); ++p) {
         own.push_back(static_cast<Index>(mesh.points.size()));
@@ -219,16 +211,22 @@ PlanarQuads pave_inside_rows(const PlanarRegion& region, const PaveOptions& opti
     mesh.how += " inside " + std::to_string(laid) +
                 (laid == 1 ? " row of its own height" : " rows of their own height") + missing;
     drop_loose_points(mesh, region.points.size());
-    if (options.report) options.report->rows += laid;
-    return mesh;
+    report.rows += laid;
+    return {std::move(mesh), std::move(report)};
 }
 
 } // namespace
 
-PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
+Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
 {
     check_region(region);
-    if (region.row_height && options.rows != 0) return pave_inside_rows(region, options, context);
+    if (options.exact_rows < 0 || (options.exact_rows > 0 && !region.row_height)) {
+        throw InvalidInput("surface.pave_rows", std::to_string(options.exact_rows) +
+                                                    " rows of their own height are asked for, of a region " +
+                                                    (region.row_height ? "with" : "without") +
+                                                    " a row height; give a height and 0 rows or more");
+    }
+    if (options.exact_rows > 0) return pave_inside_rows(region, options, context);
     // Below this many quads it costs little to pave with and without rows and keep the better.
     constexpr std::size_t kFew = 4000;
     // And so many in all with every taste.
@@ -251,12 +249,9 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
             log_line(context, "quads fold near " + place_of(made.where) + ": paving differently");
         consider(std::move(made));
     };
-    if (options.grids && options.rows < 0) consider(try_submap(region, false, context));
-    if (is_good_grid(best, region)) {
-        if (options.report) *options.report = best.report;
-        return std::move(best.mesh);
-    }
-    const auto is_few = [&] { return options.rows < 0 && best.mesh.quads.size() <= kFew; };
+    if (options.grids) consider(try_submap(region, false, context));
+    if (is_good_grid(best, region)) return {std::move(best.mesh), std::move(best.report)};
+    const auto is_few = [&] { return best.mesh.quads.size() <= kFew; };
     attempt(RowStyle::by_shape);
     if (best.worst <= flat) attempt(RowStyle::buffer);
     for (const RowStyle style : {RowStyle::none, RowStyle::thin}) {
@@ -290,8 +285,7 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
     best.mesh.how = best.report.used;
     if (best.report.refilled > 0)
         best.mesh.how += ", " + std::to_string(best.report.refilled) + " places by split triangles";
-    if (options.report) *options.report = best.report;
-    return std::move(best.mesh);
+    return {std::move(best.mesh), std::move(best.report)};
 }
 
 } // namespace lacuna::quads

@@ -82,15 +82,14 @@ void open_folds(Attempt& attempt, const PlanarRegion& region, const Draft& draft
 }
 
 /// Rows from the loops, the rest cut and filled.
-void lay_and_fill(Attempt& attempt, Draft& draft, const PlanarRegion& region, const PaveOptions& options,
-                  RowStyle style, const RunContext& context)
+void lay_and_fill(Attempt& attempt, Draft& draft, const PlanarRegion& region, RowStyle style,
+                  const RunContext& context)
 {
     std::vector<Cycle> loops = region.loops;
-    if (style == RowStyle::by_shape && options.rows < 0 && is_patch(draft, loops))
-        style = RowStyle::one_patch;
+    if (style == RowStyle::by_shape && is_patch(draft, loops)) style = RowStyle::one_patch;
     std::vector<int> rows;
     for (std::size_t l = 0; l < loops.size(); ++l) {
-        const int own = options.rows < 0 ? rows_for(draft, loops[l], l == 0) : options.rows;
+        const int own = rows_for(draft, loops[l], l == 0);
         rows.push_back(style == RowStyle::none || style == RowStyle::one_patch ? 0
                        : style == RowStyle::buffer                             ? 1
                                                                                : own);
@@ -157,7 +156,7 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
         attempt.report.used = "paired";
         if (attempt.mesh.quads.empty()) return attempt;
     } else {
-        lay_and_fill(attempt, draft, region, options, style, context);
+        lay_and_fill(attempt, draft, region, style, context);
     }
     if (!sides_match(attempt.mesh.quads)) return attempt;
     if (style != RowStyle::split_triangles) open_corners(attempt.mesh, region);

@@ -59,10 +59,10 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options)
                                    " boundary nodes enclose folds or overlaps; use quads = \"auto\"");
         };
     }
-    const int rows = asks_rows(options) ? std::max(options.rows, 1) : -1;
+    const int rows = asks_rows(options) ? std::max(options.rows, 1) : 0;
     const bool grids = options.quads != Quads::paved;
     return [rows, grids](const quads::PlanarRegion& region, const RunContext& context) {
-        return quads::pave(region, {.rows = rows, .grids = grids}, context);
+        return quads::pave(region, {.exact_rows = rows, .grids = grids}, context).mesh;
     };
 }
 
