@@ -2,9 +2,10 @@
 /// One mesh of one domain by one mesher, measured: a JSON line. against_gmsh.py beside this runs it.
 ///
 /// usage: bench_pave DOMAIN QUADS MESHER [PICTURE]
-///   DOMAIN   disc plate gear L comb aerofoil, "saddle plan", saddle: a curved face, or FILE:FACE for a plane face of a
-///            CAD file
-///   MESHER   lacuna, gmsh-8-3, gmsh-6-3, gmsh-6-s; each of Gmsh's with "+clean" and "+smooth" after it, to see what they do
+///   DOMAIN   disc plate gear L comb aerofoil, "saddle plan", saddle: a curved face, or FILE:FACE for a plane
+///            face of a CAD file
+///   MESHER lacuna, gmsh-8-3, gmsh-6-3, gmsh-6-s; each of Gmsh's with "+clean" and "+smooth" after it, to see
+///            what they do
 ///   PICTURE  file for points and quads as text; of a curved face its plan
 
 #include "gmsh_quads.h"

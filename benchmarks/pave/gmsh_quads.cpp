@@ -37,8 +37,8 @@ public:
 
 double seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// The outline with as many sides on each curve as the region has; free curves are drawn as lines of two sides, which Gmsh
-/// may halve. Of a mesh that is to be cut in four, every other node.
+/// The outline with as many sides on each curve as the region has; free curves are drawn as lines of two
+/// sides, which Gmsh may halve. Of a mesh that is to be cut in four, every other node.
 int draw(const test::PlaneDomain& domain, const test::SeededDomain& seeded, int every)
 {
     std::vector<int> wires;

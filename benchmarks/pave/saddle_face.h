@@ -42,8 +42,8 @@ SurfaceQuads gmsh_quads(const SeededFace& seeded, const GmshWay& way);
 
 /// How good quads over a face are, by the measures of `measure_plane()` taken in space.
 ///
-/// Corners are measured between their sides, their sign is that of the face's own normal. The row's height is taken across
-/// the boundary side in the plane of the quad's corner normals.
+/// Corners are measured between their sides, their sign is that of the face's own normal. The row's height is
+/// taken across the boundary side in the plane of the quad's corner normals.
 struct SurfaceQuality {
     quads::PlaneQuality quads;
     double off_surface = 0; ///< largest distance of an inner node from the exact surface [model length]

@@ -16,12 +16,12 @@ using namespace lacuna;
 
 namespace {
 
-/// No quad may be flatter than this, unless the flattest triangle over the same nodes is as flat: where sides all
-/// but touch there are none but needles.
+/// No quad may be flatter than this, unless the flattest triangle over the same nodes is as flat: where sides
+/// all but touch there are none but needles.
 constexpr double kFlat = 0.02, kOfTriangles = 0.2;
 
-/// A sweep of loops of up to 400 edges, as many as LACUNA_RANDOM_DOMAINS says from LACUNA_RANDOM_FIRST on; else 40 of
-/// smaller ones, which take seconds.
+/// A sweep of loops of up to 400 edges, as many as LACUNA_RANDOM_DOMAINS says from LACUNA_RANDOM_FIRST on;
+/// else 40 of smaller ones, which take seconds.
 struct Sweep {
     std::uint32_t first = 0, count = 40;
     int most_edges = 32;

@@ -122,7 +122,8 @@ PlaneDomain aerofoil()
             {}};
 }
 
-/// Plan of z = (x² - y²) / 2 over a patch with four cubic sides; sizes shrink in plan where the face is steep.
+/// Plan of z = (x² - y²) / 2 over a patch with four cubic sides; sizes shrink in plan where the face is
+/// steep.
 PlaneDomain saddle_plan()
 {
     const std::array<Vec2, 4> corner{Vec2(-1, -1), Vec2(1.1, -0.9), Vec2(1, 1.1), Vec2(-0.9, 0.9)};

@@ -33,8 +33,8 @@ struct SeededDomain {
     double size = 0;                     ///< where the relative size is 1 [length]
 };
 
-/// disc, plate with five holes, gear with bore, L, comb, aerofoil channel, and the plan of a B-spline saddle with sizes
-/// corrected for its slope.
+/// disc, plate with five holes, gear with bore, L, comb, aerofoil channel, and the plan of a B-spline saddle
+/// with sizes corrected for its slope.
 std::vector<PlaneDomain> plane_domains();
 /// The one of that name.
 PlaneDomain plane_domain(const std::string& name);
@@ -50,8 +50,8 @@ struct RandomDomain {
     std::string words;    ///< how it was made
 };
 
-/// A region made from a seed: 1 to 8 loops of 4 to `most_edges` edges, round, star-like or spiked, holes that nearly touch, edges
-/// up to a hundred times as long as others of the same loop; a few are broken on purpose.
+/// A region made from a seed: 1 to 8 loops of 4 to `most_edges` edges, round, star-like or spiked, holes that
+/// nearly touch, edges up to a hundred times as long as others of the same loop; a few are broken on purpose.
 RandomDomain random_domain(std::uint32_t seed, int most_edges = 400);
 
 } // namespace lacuna::test

@@ -104,7 +104,8 @@ void add_holes(Dice& dice, int holes, int most, std::vector<std::vector<Vec2>>& 
     }
 }
 
-/// No size, the same everywhere, or one that grows across the domain; never more than some ten thousand quads.
+/// No size, the same everywhere, or one that grows across the domain; never more than some ten thousand
+/// quads.
 std::function<double(const Vec2&)> size_for(Dice& dice, double finest,
                                             const std::vector<std::vector<Vec2>>& loops, std::string& words)
 {

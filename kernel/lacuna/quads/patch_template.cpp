@@ -17,6 +17,21 @@ Chain reversed(Chain chain)
     return chain;
 }
 
+Chain part(const Chain& chain, std::size_t from, std::size_t to)
+{
+    return {chain.begin() + static_cast<std::ptrdiff_t>(from),
+            chain.begin() + static_cast<std::ptrdiff_t>(to) + 1};
+}
+Chain rest(const Chain& chain, std::size_t from) { return part(chain, from, chain.size() - 1); }
+
+/// Bottom and top from left to right, left and right from bottom to top.
+struct FourSides {
+    Chain bottom, right, top, left;
+};
+
+/// The middle of a row of at least two edges; never an end of it.
+std::size_t middle_of(std::size_t edges) { return std::clamp<std::size_t>((edges + 1) / 2, 1, edges - 1); }
+
 class TemplateFiller {
 public:
     explicit TemplateFiller(std::span<const Vec2> loop) : loop_(loop.size())
@@ -28,11 +43,11 @@ public:
         quads_.reserve(most);
     }
 
-    /// @pre  the sides need no cut
+    /// @pre  `can_fill()`, or the sides end in a cut of `find_cuts()`
     void fill(const std::vector<Chain>& sides, bool ends_in_cut)
     {
         if (sides.size() == 4)
-            grid(sides[0], sides[1], reversed(sides[2]), reversed(sides[3]));
+            fill_four({sides[0], sides[1], reversed(sides[2]), reversed(sides[3])});
         else
             star(sides, ends_in_cut);
     }
@@ -103,6 +118,115 @@ private:
         }
     }
 
+    /// Four sides whose numbers of edges may differ.
+    void fill_four(FourSides s)
+    {
+        const std::size_t first_quad = quads_.size();
+        bool mirrored = false;
+        if (s.bottom.size() < s.top.size()) {
+            s = {s.top, reversed(s.right), s.bottom, reversed(s.left)};
+            mirrored = !mirrored;
+        }
+        if (s.right.size() < s.left.size()) {
+            s = {reversed(s.bottom), s.left, reversed(s.top), s.right};
+            mirrored = !mirrored;
+        }
+        if (s.bottom.size() - s.top.size() < s.right.size() - s.left.size()) {
+            s = {reversed(s.right), reversed(s.bottom), reversed(s.left), reversed(s.top)};
+            mirrored = !mirrored;
+        }
+        const std::size_t more = s.bottom.size() - s.top.size(), less = s.right.size() - s.left.size();
+        if (more == 0)
+            grid(s.bottom, s.right, s.top, s.left);
+        else if (more == less)
+            turn_columns(s, more);
+        else
+            turn_both_ways(s, (more - less) / 2);
+        if (!mirrored) return;
+        for (std::size_t q = first_quad; q < quads_.size(); ++q) std::swap(quads_[q][1], quads_[q][3]);
+    }
+
+    /// Some columns leave to the left and the others to the right, with a line between them.
+    void turn_both_ways(const FourSides& s, std::size_t to_left)
+    {
+        const std::size_t edges = s.left.size() - 1 - to_left;
+        const std::size_t top = (s.top.size() - 1) / 2, bottom = top + to_left;
+        Chain line;
+        {
+            const PatchPoints points = points_of(s);
+            const auto patch = points.patch();
+            line = chain(patch, {patch.bottom(bottom), 0}, {patch.top(top), 1}, s.bottom[bottom], s.top[top],
+                         edges);
+        }
+        fill_four({part(s.bottom, 0, bottom), line, part(s.top, 0, top), s.left});
+        fill_four({rest(s.bottom, bottom), s.right, rest(s.top, top), line});
+    }
+
+    /// k columns come up from the bottom and leave to the right, around one node of three quads and one of
+    /// five.
+    ///
+    ///    +------+-----------+
+    ///    |      |           |     bottom = x + k + x1, top = x + x1
+    ///    |      5-----------+     left = y + y1, right = y + k + y1
+    ///    |      |\          |
+    ///    |      | \ k       |     The line from 5 to 3 has k edges.
+    ///    +------5  3--------+
+    ///    |      |k |        |
+    ///    +------+--+--------+
+    void turn_columns(const FourSides& s, std::size_t k)
+    {
+        const std::size_t c = s.top.size() - 1, d = s.left.size() - 1;
+        const std::size_t x = middle_of(c), y = middle_of(d);
+        const PatchPoints points = points_of(s);
+        const auto patch = points.patch();
+        const Vec2 at5 = (patch.crossing(x, x, y, y + k) + patch.crossing(x, x, y, y)) / 2;
+        const Vec2 at3 = patch.crossing(x + k, x, y, y);
+        const Index five = add(patch(at5)), three = add(patch(at3));
+        const Chain down5 = chain(patch, {patch.bottom(x), 0}, at5, s.bottom[x], five, y);
+        const Chain down3 = chain(patch, {patch.bottom(x + k), 0}, at3, s.bottom[x + k], three, y);
+        const Chain west = chain(patch, {0, patch.left(y)}, at5, s.left[y], five, x);
+        const Chain north = chain(patch, at5, {patch.top(x), 1}, five, s.top[x], d - y);
+        const Chain slant = chain(patch, at5, at3, five, three, k);
+        const Chain east3 = chain(patch, at3, {1, patch.right(y)}, three, s.right[y], c - x);
+        const Chain east5 = chain(patch, at5, {1, patch.right(y + k)}, five, s.right[y + k], c - x);
+        grid(part(s.bottom, 0, x), down5, west, part(s.left, 0, y));
+        grid(part(s.bottom, x, x + k), down3, slant, down5);
+        grid(rest(s.bottom, x + k), part(s.right, 0, y), east3, down3);
+        grid(east3, part(s.right, y, y + k), east5, reversed(slant));
+        grid(west, north, part(s.top, 0, x), rest(s.left, y));
+        grid(east5, rest(s.right, y + k), rest(s.top, x), north);
+    }
+
+    /// A chain of new points between two positions of the unit square.
+    Chain chain(const geometry::CoonsPatch<Vec2>& patch, const Vec2& from, const Vec2& to, Index first,
+                Index last, std::size_t edges)
+    {
+        Chain points{first};
+        for (std::size_t i = 1; i < edges; ++i) {
+            const double f = static_cast<double>(i) / static_cast<double>(edges);
+            points.push_back(add(patch((1 - f) * from + f * to)));
+        }
+        points.push_back(last);
+        return points;
+    }
+
+    /// The points of four sides, copied: those of the mesh move while it grows.
+    struct PatchPoints {
+        std::vector<Vec2> bottom, right, top, left;
+        [[nodiscard]] geometry::CoonsPatch<Vec2> patch() const { return {bottom, right, top, left}; }
+    };
+    [[nodiscard]] PatchPoints points_of(const FourSides& s) const
+    {
+        return {points_of(s.bottom), points_of(s.right), points_of(s.top), points_of(s.left)};
+    }
+    [[nodiscard]] std::vector<Vec2> points_of(const Chain& chain) const
+    {
+        std::vector<Vec2> points;
+        points.reserve(chain.size());
+        for (const Index p : chain) points.push_back(at(p));
+        return points;
+    }
+
     /// left--top-->     bottom and top run alike, so do left and right
     void grid(const Chain& bottom, const Chain& right, const Chain& top, const Chain& left)
     {
@@ -110,14 +234,8 @@ private:
         if (m == 0 || n == 0) return;
         const auto first = static_cast<Index>(points_.size());
         if (m > 1 && n > 1) {
-            const auto side = [&](const Chain& chain) {
-                std::vector<Vec2> points;
-                points.reserve(chain.size());
-                for (const Index p : chain) points.push_back(at(p));
-                return points;
-            };
-            const std::vector<Vec2> nodes = geometry::transfinite(side(bottom), side(right), side(top),
-                                                                  side(left));
+            const std::vector<Vec2> nodes = geometry::transfinite(points_of(bottom), points_of(right),
+                                                                  points_of(top), points_of(left));
             for (std::size_t j = 1; j < n; ++j) {
                 for (std::size_t i = 1; i < m; ++i) points_.push_back(nodes[j * (m + 1) + i]);
             }

@@ -20,9 +20,9 @@ struct PaveReport {
 
 /// Options of `pave()`.
 struct PaveOptions {
-    /// Rows to lay along every loop first, as high as `PlanarRegion::row_height` says. They stay as they are laid; a
-    /// loop without room for one goes without, which `PlanarQuads::how` tells. All others are laid as the region's
-    /// shape needs, and are free to move.
+    /// Rows to lay along every loop first, as high as `PlanarRegion::row_height` says. They stay as they are
+    /// laid; a loop without room for one goes without, which `PlanarQuads::how` tells. All others are laid as
+    /// the region's shape needs, and are free to move.
     int exact_rows = 0;
     bool grids = true;  ///< a region of right angles may be filled by the grid it encloses
     bool clean = true;  ///< improve irregular nodes
@@ -35,27 +35,29 @@ struct Paved {
     PaveReport report;
 };
 
-/// Fill a region of the plane with quads by paving: rows laid inward from the loops, the rest cut in two along the
-/// best line, again and again, until templates can fill the parts (CSALF-Q).
+/// Fill a region of the plane with quads by paving: rows laid inward from the loops, the rest cut in two
+/// along the best line, again and again, until templates can fill the parts (CSALF-Q).
 ///
 /// 1. A region of right angles is submapped (`submap()`). Where that grid is good, it is the result.
 /// 2. Rows are laid along loops that turn without corners and have room for them.
-/// 3. A cut is straight. It meets the outline at right angles where it can, its nodes are spaced as the size asks, and
-///    its number of edges leaves even parts whose sides agree. A part that is a good patch of 3 to 5 sides is filled
-///    with grids that meet in one or two irregular nodes.
-/// 4. Boundary corners that lack a quad get one. Folded quads are opened, or removed and their cavity remeshed
-///    (`paving::refill_folds()`). Irregular nodes are paired off, nodes smoothed, row heights corrected.
+/// 3. A cut is straight. It meets the outline at right angles where it can, its nodes are spaced as the size
+///    asks, and its number of edges leaves even parts whose sides agree. A part that is a good patch of 3 to
+///    5 sides is filled with grids that meet in one or two irregular nodes.
+/// 4. Boundary corners that lack a quad get one. Folded quads are opened, or removed and their cavity
+///    remeshed (`paving::refill_folds()`). Irregular nodes are paired off, nodes smoothed, row heights
+///    corrected.
 ///
-/// Up to 4000 quads are made several times, with and without rows and by several weightings of the cuts, and the best
-/// by measure is kept. Boundary nodes are kept, in order, bit for bit. The quads are counter-clockwise and convex.
-/// Flat ones are left only where the boundary's sides are long for the gap between them, which the log says.
+/// Up to 4000 quads are made several times, with and without rows and by several weightings of the cuts, and
+/// the best by measure is kept. Boundary nodes are kept, in order, bit for bit. The quads are
+/// counter-clockwise and convex. Flat ones are left only where the boundary's sides are long for the gap
+/// between them, which the log says.
 ///
-/// @throw InvalidInput "surface.pave_loops"   a loop that is too short, repeats a node, crosses another or lies
-///                                            outside the first.
+/// @throw InvalidInput "surface.pave_loops"   a loop that is too short, repeats a node, crosses another or
+///                                            lies outside the first.
 /// @throw InvalidInput "surface.pave_parity"  an odd number of boundary sides.
 /// @throw InvalidInput "surface.pave_rows"    exact rows below 0, or of a region without a row height.
-/// @throw NotSweepable "surface.pave"         no valid quads were found; names the place. Not seen for regions that
-///                                            pass the checks above.
+/// @throw NotSweepable "surface.pave"         no valid quads were found; names the place. Not seen for
+///                                            regions that pass the checks above.
 /// @note  Deterministic. Near linear in the number of quads.
 Paved pave(const PlanarRegion& region, const PaveOptions& options = {}, const RunContext& context = {});
 

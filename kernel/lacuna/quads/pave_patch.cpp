@@ -6,47 +6,39 @@
 namespace lacuna::quads::paving {
 namespace {
 
-std::vector<Vec2> points_of(const Draft& draft, const Cycle& cycle)
+std::vector<Vec2> points_of(const PartialMesh& partial, const Cycle& cycle)
 {
     std::vector<Vec2> points;
     points.reserve(cycle.size());
-    for (const Index p : cycle) points.push_back(draft.at(p));
+    for (const Index p : cycle) points.push_back(partial.at(p));
     return points;
 }
 
 } // namespace
 
-bool can_fill(const Draft& draft, const Cycle& cycle, std::span<const std::size_t> corners)
+bool fill_patch(PartialMesh& partial, const Cycle& cycle, std::span<const std::size_t> corners)
 {
-    if (fewest_irregular(cycle.size(), corners) < 2) return true; // no cut is needed, wherever the points lie
-    return corners.size() == 4 && !find_cuts(points_of(draft, cycle), corners, 1).empty();
-}
-
-bool fill_patch(Draft& draft, const Cycle& cycle, std::span<const std::size_t> corners)
-{
-    const std::vector<Vec2> loop = points_of(draft, cycle);
-    const std::vector<TemplateCut> cuts = find_cuts(loop, corners, 1);
-    if (cuts.empty()) return false;
-    const TemplateMesh filling = fill_template(loop, corners, cuts.front());
+    if (!can_fill(side_counts(cycle.size(), corners))) return false;
+    const TemplateMesh filling = fill_template(points_of(partial, cycle), corners);
     Cycle own = cycle;
-    for (const Vec2& p : filling.inner) own.push_back(draft.add(p));
+    for (const Vec2& p : filling.inner) own.push_back(partial.add(p));
     const auto n = static_cast<Index>(cycle.size());
     for (const Quad& quad : filling.quads) {
         for (std::size_t k = 0; k < 4; ++k) {
             const auto [a, b] = std::minmax(quad[k], quad[(k + 1) % 4]);
             // A side across the patch between nodes that were there before.
-            if (b < n && b - a > 1 && b - a < n - 1) draft.link(cycle[index(a)], cycle[index(b)]);
+            if (b < n && b - a > 1 && b - a < n - 1) partial.link(cycle[index(a)], cycle[index(b)]);
         }
-        draft.quads.push_back(
+        partial.quads.push_back(
             {own[index(quad[0])], own[index(quad[1])], own[index(quad[2])], own[index(quad[3])]});
     }
     return true;
 }
 
-void fill_small(Draft& draft, const Cycle& c)
+void fill_small(PartialMesh& partial, const Cycle& c)
 {
     if (c.size() == 4) {
-        draft.quads.push_back({c[0], c[1], c[2], c[3]});
+        partial.quads.push_back({c[0], c[1], c[2], c[3]});
         return;
     }
     std::vector<Quad> best;
@@ -54,15 +46,15 @@ void fill_small(Draft& draft, const Cycle& c)
     for (std::size_t i = 0; i < 3; ++i) {
         const Quad one{c[i], c[i + 1], c[i + 2], c[i + 3]};
         const Quad two{c[i + 3], c[(i + 4) % 6], c[(i + 5) % 6], c[i]};
-        const double worst = std::min(least_sine(draft, one), least_sine(draft, two));
-        if (worst <= best_worst || one[0] == one[3] || draft.linked(one[0], one[3])) continue;
+        const double worst = std::min(least_sine(partial, one), least_sine(partial, two));
+        if (worst <= best_worst || one[0] == one[3] || partial.linked(one[0], one[3])) continue;
         best_worst = worst;
         best = {one, two};
     }
     // Three quads about a node in the middle, where two would be flat.
     Vec2 middle = Vec2::Zero();
-    for (const Index p : c) middle += draft.at(p) / 6;
-    const Index centre = draft.add(middle);
+    for (const Index p : c) middle += partial.at(p) / 6;
+    const Index centre = partial.add(middle);
     bool used = false;
     for (std::size_t i = 0; i < 2; ++i) {
         std::vector<Quad> three;
@@ -70,7 +62,7 @@ void fill_small(Draft& draft, const Cycle& c)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t at = i + 2 * k;
             three.push_back({c[at % 6], c[(at + 1) % 6], c[(at + 2) % 6], centre});
-            worst = std::min(worst, least_sine(draft, three.back()));
+            worst = std::min(worst, least_sine(partial, three.back()));
         }
         // A third quad must be worth it.
         if (!best.empty() && worst <= best_worst + 0.3) continue;
@@ -79,10 +71,10 @@ void fill_small(Draft& draft, const Cycle& c)
         used = true;
     }
     if (!used) {
-        draft.points.pop_back();
-        draft.link(best.front()[0], best.front()[3]);
+        partial.points.pop_back();
+        partial.link(best.front()[0], best.front()[3]);
     }
-    draft.quads.insert(draft.quads.end(), best.begin(), best.end());
+    partial.quads.insert(partial.quads.end(), best.begin(), best.end());
 }
 
 } // namespace lacuna::quads::paving

@@ -9,10 +9,11 @@ namespace lacuna::quads {
 
 namespace {
 
-/// Cuts that slant more than this are left out: 0 is square to the outline, 1 along it. A choice, not a measurement.
+/// Cuts that slant more than this are left out: 0 is square to the outline, 1 along it. A choice, not a
+/// measurement.
 constexpr double kMostSlant = 0.7;
-/// So are those with fewer or more edges than these shares of what their length has room for, so that no quad along
-/// a cut is stretched by much more than 1.6. A choice, not a measurement.
+/// So are those with fewer or more edges than these shares of what their length has room for, so that no quad
+/// along a cut is stretched by much more than 1.6. A choice, not a measurement.
 constexpr double kFewestEdges = 0.6, kMostEdges = 1.6;
 
 /// Twice what `spoke_feet()` finds for side i: every second side's length, added and subtracted in turn.
@@ -41,12 +42,12 @@ struct EdgeRange {
     int low, high;
 };
 
-/// The numbers of edges a cut between two sides of a patch may have, so that both parts are filled without another
-/// cut.
+/// The numbers of edges a cut between two sides of a patch may have, so that both parts are filled without
+/// another cut.
 ///
-/// The cut starts `a` edges along the first side and ends `b` edges along the second. What `spoke_feet()` asks of
-/// either part is linear in a, b and the cut's edges, each with a factor of 1 or -1: a lower or upper bound on the
-/// cut's edges.
+/// The cut starts `a` edges along the first side and ends `b` edges along the second. What `spoke_feet()`
+/// asks of either part is linear in a, b and the cut's edges, each with a factor of 1 or -1: a lower or upper
+/// bound on the cut's edges.
 class EdgeBounds {
 public:
     EdgeBounds(const SideCounts& counts, std::size_t side, std::size_t between)
@@ -94,8 +95,8 @@ private:
     };
 
     /// @param part    a part whose last side is the cut.
-    /// @param with_a  the side that changes with a; `with_b` the one that changes with b. The part's first side gets
-    ///                shorter, any other longer.
+    /// @param with_a  the side that changes with a; `with_b` the one that changes with b. The part's first
+    ///                side gets shorter, any other longer.
     void add(const SideCounts& part, std::size_t with_a, std::size_t with_b)
     {
         const auto change = [&](std::size_t of, std::size_t i) {
@@ -179,6 +180,21 @@ bool spoke_feet(const SideCounts& counts, bool ends_in_cut, std::array<int, kMos
         foot[i] = twice / 2;
     }
     return true;
+}
+
+bool can_fill(const SideCounts& counts)
+{
+    if (counts.count != 4) return needs_no_cut(counts);
+    // How many columns turn, each way, must leave a row and a column beside each irregular node.
+    const int more = std::abs(counts.side[0] - counts.side[2]),
+              less = std::abs(counts.side[1] - counts.side[3]);
+    const int across = std::min(counts.side[0], counts.side[2]),
+              along = std::min(counts.side[1], counts.side[3]);
+    if ((more + less) % 2 != 0) return false;
+    if (more == 0 && less == 0) return true;
+    if (more == less) return across >= 2 && along >= 2;
+    const int top = more > less ? across : along, rows = more > less ? along : across;
+    return top >= 4 && rows - (std::max(more, less) - std::min(more, less)) / 2 >= 2;
 }
 
 std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const std::size_t> corners,
