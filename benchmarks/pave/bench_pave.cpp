@@ -50,7 +50,7 @@ bench::GmshQuads make(const test::PlaneDomain& domain, const test::SeededDomain&
         RunContext context;
         context.threads = 1;
         const double start = seconds();
-        made.mesh = quads::pave(seeded.region, {}, context);
+        made.mesh = quads::pave(seeded.region, {}, context).mesh;
         made.seconds = seconds() - start;
         return made;
     }

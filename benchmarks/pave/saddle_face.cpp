@@ -159,7 +159,9 @@ SurfaceQuads lacuna_quads(const SeededFace& seeded)
     const double start = seconds();
     surface::FaceQuads made = surface::fill_face(
         seeded.model, seeded.face, seeded.rim, seeded.loops, {[&](const Vec3&) { return seeded.size; }},
-        [](const quads::PlanarRegion& region, const RunContext& c) { return quads::pave(region, {}, c); },
+        [](const quads::PlanarRegion& region, const RunContext& c) {
+            return quads::pave(region, {}, c).mesh;
+        },
         context);
     return {std::move(made.points), std::move(made.quads), 0, seconds() - start};
 }

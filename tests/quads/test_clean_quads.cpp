@@ -4,7 +4,7 @@
 #include "support/quad_meshers.h"
 
 #include <lacuna/quads/clean_quads.h>
-#include <lacuna/quads/detail/patch_patterns.h>
+#include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/measure_plane.h>
 #include <lacuna/quads/smooth_plane.h>
 
@@ -39,18 +39,18 @@ std::vector<Vec2> outline(const std::vector<int>& sides, std::vector<std::size_t
     return loop;
 }
 
-std::vector<quads::Filling> fillings(const std::vector<Vec2>& loop, const std::vector<std::size_t>& corners,
-                                     std::size_t most)
+std::vector<quads::TemplateMesh> fillings(const std::vector<Vec2>& loop,
+                                          const std::vector<std::size_t>& corners, std::size_t most)
 {
-    std::vector<quads::Filling> made;
-    for (const quads::Cut& cut : quads::find_cuts(loop, corners, most))
-        made.push_back(quads::fill(loop, corners, cut));
+    std::vector<quads::TemplateMesh> made;
+    for (const quads::TemplateCut& cut : quads::find_cuts(loop, corners, most))
+        made.push_back(quads::fill_template(loop, corners, cut));
     return made;
 }
 
 /// A filling uses every side of its loop once, others twice, and has one quad at a corner, two elsewhere on the loop.
 void check_filling(const std::vector<Vec2>& loop, const std::vector<std::size_t>& corners,
-                   const quads::Filling& filling)
+                   const quads::TemplateMesh& filling)
 {
     quads::PlanarQuads mesh{loop, filling.quads};
     mesh.points.insert(mesh.points.end(), filling.inner.begin(), filling.inner.end());
@@ -88,7 +88,7 @@ TEST_CASE("patches of three to six sides are filled with as few irregular points
             const std::vector<Vec2> loop = outline(sides, corners);
             const auto found = fillings(loop, corners, 3);
             const int promised = quads::fewest_irregular(loop.size(), corners);
-            for (const quads::Filling& filling : found) {
+            for (const quads::TemplateMesh& filling : found) {
                 check_filling(loop, corners, filling);
                 CHECK(filling.irregular <= promised); // two may come together in one
                 ++filled;
@@ -160,7 +160,7 @@ TEST_CASE("a patch is cut in each way once, the straightest and squarest first")
         std::set<std::array<std::size_t, 3>> seen;
         for (std::size_t i = 0; i < cuts.size(); ++i) {
             const auto [from, to] = std::minmax(cuts[i].from, cuts[i].to);
-            CHECK(seen.insert({from, to, static_cast<std::size_t>(cuts[i].pieces)}).second);
+            CHECK(seen.insert({from, to, static_cast<std::size_t>(cuts[i].edges)}).second);
             if (i > 0) CHECK(cuts[i - 1].fault <= cuts[i].fault);
         }
     }

@@ -161,9 +161,9 @@ PlanarRegion random_region(std::uint32_t seed)
     return region;
 }
 
-quads::PlaneQuality check_paved(const PlanarRegion& region, const quads::PaveOptions& options = {})
+quads::PlaneQuality check_paved(const PlanarRegion& region)
 {
-    const quads::PlanarQuads mesh = quads::pave(region, options);
+    const quads::PlanarQuads mesh = quads::pave(region).mesh;
     CHECK(quads::find_fault(mesh, region) == "");
     return quads::measure_plane(mesh, region);
 }
@@ -221,13 +221,14 @@ TEST_CASE("a four-sided region of equal opposite counts is a grid, however it is
         for (Vec2& p : outline) p.y() += bend * std::sin(kPi * p.x() / 2);
         add_polygon(region, outline, 1);
         CAPTURE(bend);
-        quads::PaveReport report;
-        const quads::PlaneQuality quality = check_paved(region, {.report = &report});
+        const quads::Paved paved = quads::pave(region);
+        CHECK(quads::find_fault(paved.mesh, region) == "");
+        const quads::PlaneQuality quality = quads::measure_plane(paved.mesh, region);
         if (bend < 0.5) {
             CHECK(quality.irregular == 0);
             CHECK(quality.quads == 200);
         }
-        if (bend == 0) CHECK(report.used == "mapped");
+        if (bend == 0) CHECK(paved.report.used == "mapped");
     }
 }
 
@@ -293,7 +294,7 @@ TEST_CASE("random regions are filled with valid quads")
 TEST_CASE("boundary nodes come back bit for bit, and the same region gives the same quads")
 {
     for (const PlanarRegion& region : {disc(0.1), plate(0.1), gear(7, 0.1)}) {
-        const quads::PlanarQuads once = quads::pave(region), again = quads::pave(region);
+        const quads::PlanarQuads once = quads::pave(region).mesh, again = quads::pave(region).mesh;
         CHECK(once.points == again.points);
         CHECK(once.quads == again.quads);
         REQUIRE(once.points.size() >= region.points.size());
@@ -308,7 +309,7 @@ TEST_CASE("rows are as high as asked")
     for (const double height : {0.05, 0.08, 0.12}) {
         CAPTURE(height);
         region.row_height = [height](const Vec2&) { return height; };
-        const quads::PlanarQuads mesh = quads::pave(region, {.rows = 2});
+        const quads::PlanarQuads mesh = quads::pave(region, {.exact_rows = 2}).mesh;
         CHECK(quads::find_fault(mesh, region) == "");
         const auto on_rim = [&](Index p) { return static_cast<std::size_t>(p) < region.points.size(); };
         std::size_t spokes = 0;
@@ -342,8 +343,7 @@ TEST_CASE("rows of a height of their own go round corners and holes")
 {
     for (PlanarRegion region : {plate(0.1), gear(7, 0.05)}) {
         region.row_height = [](const Vec2&) { return 0.02; };
-        quads::PaveReport report;
-        const quads::PlanarQuads mesh = quads::pave(region, {.rows = 2, .report = &report});
+        const auto [mesh, report] = quads::pave(region, {.exact_rows = 2});
         CHECK(quads::find_fault(mesh, region) == "");
         CHECK(report.rows >= static_cast<int>(region.loops.size()));
     }
@@ -353,7 +353,7 @@ TEST_CASE("where rows of a height of their own have no room, that is told")
 {
     PlanarRegion region = disc(0.1);
     region.row_height = [](const Vec2&) { return 0.3; };
-    const quads::PlanarQuads mesh = quads::pave(region, {.rows = 6});
+    const quads::PlanarQuads mesh = quads::pave(region, {.exact_rows = 6}).mesh;
     CHECK(quads::find_fault(mesh, region) == "");
     CHECK(mesh.how.find("no room for row") != std::string::npos);
 }
@@ -384,4 +384,7 @@ TEST_CASE("what cannot be paved is refused in words")
         CHECK(code_of(holed) == "surface.pave_loops");
     }
     CHECK(code_of({}) == "surface.pave_loops");
+    const PlanarRegion flat = disc(0.1);
+    CHECK_THROWS_AS(quads::pave(flat, {.exact_rows = 1}), InvalidInput);
+    CHECK_THROWS_AS(quads::pave(flat, {.exact_rows = -1}), InvalidInput);
 }

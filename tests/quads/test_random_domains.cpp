@@ -16,12 +16,12 @@ using namespace lacuna;
 
 namespace {
 
-/// No quad may be flatter than this, unless the flattest triangle over the same nodes is as flat: where sides all
-/// but touch there are none but needles.
+/// No quad may be flatter than this, unless the flattest triangle over the same nodes is as flat: where sides
+/// all but touch there are none but needles.
 constexpr double kFlat = 0.02, kOfTriangles = 0.2;
 
-/// A sweep of loops of up to 400 edges, as many as LACUNA_RANDOM_DOMAINS says from LACUNA_RANDOM_FIRST on; else 40 of
-/// smaller ones, which take seconds.
+/// A sweep of loops of up to 400 edges, as many as LACUNA_RANDOM_DOMAINS says from LACUNA_RANDOM_FIRST on;
+/// else 40 of smaller ones, which take seconds.
 struct Sweep {
     std::uint32_t first = 0, count = 40;
     int most_edges = 32;
@@ -122,7 +122,7 @@ TEST_CASE("every random domain that can be filled is filled with valid quads; th
             ++refused;
             continue;
         }
-        const quads::PlanarQuads mesh = quads::pave(made.region);
+        const quads::PlanarQuads mesh = quads::pave(made.region).mesh;
         const std::string fault = quads::find_fault(mesh, made.region);
         CHECK_MESSAGE(fault.empty(), "domain " << seed << ": " << fault);
         const double least = quads::measure_plane(mesh, made.region).min_scaled_jacobian;
@@ -143,7 +143,7 @@ TEST_CASE("the same random domain gives the same quads")
         const test::RandomDomain made = test::random_domain(seed, 24);
         if (!reason_to_refuse(made.region).empty()) continue;
         CAPTURE(seed);
-        const quads::PlanarQuads once = quads::pave(made.region), again = quads::pave(made.region);
+        const quads::PlanarQuads once = quads::pave(made.region).mesh, again = quads::pave(made.region).mesh;
         CHECK(once.quads == again.quads);
         CHECK(once.points == again.points);
     }

@@ -89,7 +89,7 @@ TEST_CASE("a polygon of squares is filled with those squares, whichever way it i
         CHECK(irregular(*mesh, region) == 0);
         CHECK(quads::find_fault(*mesh, region).empty());
         CHECK(quads::measure_plane(*mesh, region).min_scaled_jacobian > 0.999);
-        CHECK(quads::pave(region).how == mesh->how);
+        CHECK(quads::pave(region).mesh.how == mesh->how);
     }
 }
 

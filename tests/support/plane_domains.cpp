@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "plane_domains.h"
 
+#include <lacuna/geometry/predicates.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -166,16 +168,10 @@ std::vector<Vec2> fine(const PlaneCurve& curve)
 
 bool inside(const std::vector<std::vector<Vec2>>& loops, const Vec2& p)
 {
-    bool in = false;
-    for (const auto& loop : loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec2 &a = loop[i], &b = loop[(i + 1) % loop.size()];
-            if ((a.y() > p.y()) != (b.y() > p.y()) &&
-                p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-                in = !in;
-        }
-    }
-    return in;
+    return std::count_if(loops.begin(), loops.end(),
+                         [&](const auto& loop) { return geometry::lies_inside(loop, p); }) %
+               2 !=
+           0;
 }
 
 /// The integral of 1 / size² over a domain.

@@ -1,31 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "plane_domains.h"
 
+#include "dice.h"
+
+#include <lacuna/geometry/predicates.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 namespace lacuna::test {
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-/// Numbers that are the same on every machine, which the standard's distributions are not.
-class Dice {
-public:
-    explicit Dice(std::uint32_t seed) : engine_(seed) {}
-    /// In [0, 1).
-    double unit() { return static_cast<double>(engine_() >> 5) / static_cast<double>(1U << 27); }
-    double between(double low, double high) { return low + (high - low) * unit(); }
-    /// Low to high, each power as likely as the next.
-    double log_between(double low, double high) { return low * std::pow(high / low, unit()); }
-    bool chance(double share) { return unit() < share; }
-
-private:
-    std::mt19937 engine_;
-};
 
 /// Angles of a loop's nodes, growing; neighbouring gaps may be up to a hundred times as wide as others.
 std::vector<double> angles(Dice& dice, int count, double jump)
@@ -85,10 +73,8 @@ double clearance(const std::vector<std::vector<Vec2>>& loops, const Vec2& p)
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const Vec2 &a = loop[i], &b = loop[(i + 1) % loop.size()];
             nearest = std::min(nearest, distance(p, a, b));
-            if ((a.y() > p.y()) != (b.y() > p.y()) &&
-                p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-                in = !in;
         }
+        if (geometry::lies_inside(loop, p)) in = !in;
     }
     return in ? nearest : -nearest;
 }

@@ -131,7 +131,7 @@ Filled fill(const Disc& disc, double size)
         }
     }
     const auto paver = [](const quads::PlanarRegion& region, const RunContext& c) {
-        return quads::pave(region, {}, c);
+        return quads::pave(region, {}, c).mesh;
     };
     filled.quads = fill_face(disc.model, FaceId(0), filled.rim, loops, {[&](const Vec3&) { return size; }},
                              paver);

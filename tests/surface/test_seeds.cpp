@@ -202,7 +202,7 @@ TEST_CASE("counts of faces of right angles are made to agree, so that their grid
         }
         const surface::SourceMesh mesh = surface::mesh_source(
             volume, links, seeds, {even}, [](const quads::PlanarRegion& region, const RunContext& context) {
-                return quads::pave(region, {}, context);
+                return quads::pave(region, {}, context).mesh;
             });
         REQUIRE(mesh.notes.size() == 1);
         CHECK(mesh.notes.front().find("submapped") != std::string::npos);

@@ -190,4 +190,16 @@ double incircle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d)
     return incircle_exact(a, b, c, d);
 }
 
+bool lies_inside(std::span<const Vec2> polygon, const Vec2& p)
+{
+    bool inside = false;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+        const bool above = orient2d(a, b, p) > 0;
+        if (above == (b.y() > a.y())) inside = !inside;
+    }
+    return inside;
+}
+
 } // namespace lacuna::geometry

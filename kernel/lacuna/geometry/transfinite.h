@@ -15,7 +15,38 @@ struct TransfiniteOptions {
     bool by_arc_length = true;
 };
 
-/// Grid of points spanned by four sides in space: bilinear Coons interpolation.
+/// The map of `transfinite()` from the unit square, in the plane (`Vec2`) or in space (`Vec3`).
+template <class Point>
+class CoonsPatch {
+public:
+    /// @param bottom, right, top, left as `transfinite()` takes them; kept by reference. Opposite sides may
+    ///                                  differ in number of points.
+    CoonsPatch(std::span<const Point> bottom, std::span<const Point> right, std::span<const Point> top,
+               std::span<const Point> left, const TransfiniteOptions& options = {});
+
+    /// The running length along a side at one of its points, scaled to [0, 1].
+    [[nodiscard]] double bottom(std::size_t i) const { return bottom_.at[i]; }
+    [[nodiscard]] double right(std::size_t j) const { return right_.at[j]; }
+    [[nodiscard]] double top(std::size_t k) const { return top_.at[k]; }
+    [[nodiscard]] double left(std::size_t l) const { return left_.at[l]; }
+    /// Where in the unit square the line from bottom point i to top point k crosses that from left point l to
+    /// right point j.
+    [[nodiscard]] Vec2 crossing(std::size_t i, std::size_t k, std::size_t l, std::size_t j) const;
+    /// The Coons formula at (s, t), given the four points on the sides.
+    [[nodiscard]] Point blend(const Vec2& st, const Point& bottom, const Point& right, const Point& top,
+                              const Point& left) const;
+    /// The point at (s, t); sides are taken as straight between their points.
+    [[nodiscard]] Point operator()(const Vec2& st) const;
+
+private:
+    struct PatchSide {
+        std::span<const Point> points;
+        std::vector<double> at; ///< running length, scaled to [0, 1]
+    };
+    PatchSide bottom_, right_, top_, left_;
+};
+
+/// Grid of points spanned by four sides in space or in the plane: bilinear Coons interpolation.
 ///
 ///         top ─▶
 ///      3 ─────── 2        Bottom and top run from left to right, n + 1 points each; left and right
@@ -38,6 +69,9 @@ struct TransfiniteOptions {
 ///         fewer than two, or neighbouring sides do not meet in the same point.
 std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3> right,
                               std::span<const Vec3> top, std::span<const Vec3> left,
+                              const TransfiniteOptions& options = {});
+std::vector<Vec2> transfinite(std::span<const Vec2> bottom, std::span<const Vec2> right,
+                              std::span<const Vec2> top, std::span<const Vec2> left,
                               const TransfiniteOptions& options = {});
 
 } // namespace lacuna::geometry

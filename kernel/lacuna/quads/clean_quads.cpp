@@ -73,15 +73,15 @@ bool Cleaner::fill_anew(const Patch& patch, CleanReport& report)
     if (!tried_.insert(key).second) return false;
     loop_.clear();
     for (const Index p : patch.loop) loop_.push_back(mesh_.at(p));
-    const std::vector<Cut> cuts = find_cuts(loop_, patch.corners, care_.fillings);
+    const std::vector<TemplateCut> cuts = find_cuts(loop_, patch.corners, care_.fillings);
     if (cuts.empty()) return false;
     const std::vector<Index>& around = grower_.rings(kRings);
     trial_.set_patch(patch, around);
-    for (const Cut& cut : cuts) {
+    for (const TemplateCut& cut : cuts) {
         const std::uint64_t filled = key + mixed(cut.from) +
-                                     mixed((cut.to << 32) + static_cast<std::size_t>(cut.pieces));
+                                     mixed((cut.to << 32) + static_cast<std::size_t>(cut.edges));
         if (poor_.contains(filled)) continue;
-        const Filling filling = fill(loop_, patch.corners, cut);
+        const TemplateMesh filling = fill_template(loop_, patch.corners, cut);
         budget_ -= static_cast<long>(filling.quads.size() + around.size());
         ++report.tried;
         const Verdict verdict = trial_.run(filling, care_.sweeps, care_.hopeless);

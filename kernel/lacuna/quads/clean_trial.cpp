@@ -44,7 +44,7 @@ void Trial::set_patch(const Patch& patch, std::span<const Index> around)
     }
 }
 
-Verdict Trial::run(const Filling& filling, int sweeps, double hopeless)
+Verdict Trial::run(const TemplateMesh& filling, int sweeps, double hopeless)
 {
     const double allowed = loss_ + kLossForgiven * (patch_->irregular - filling.irregular);
     if (!settles(filling, sweeps, hopeless * allowed)) return Verdict::hopeless;
@@ -64,7 +64,7 @@ bool Trial::exceeds(std::size_t filled, double most) const
 }
 
 /// Smooth a filling's own points, in `inner_` thereafter. @return false where it is not worth more
-bool Trial::settles(const Filling& filling, int sweeps, double most)
+bool Trial::settles(const TemplateMesh& filling, int sweeps, double most)
 {
     // The smoothing lets no quad become worse than the worst there is: that around goes with the filling.
     points_.clear();
@@ -118,7 +118,7 @@ void Trial::number_points()
 }
 
 /// Smooth a filling with what is around. @return whether it is good
-bool Trial::fits(const Filling& filling, double allowed)
+bool Trial::fits(const TemplateMesh& filling, double allowed)
 {
     points_.clear();
     quads_.clear();
@@ -150,7 +150,7 @@ bool Trial::fits(const Filling& filling, double allowed)
     return true;
 }
 
-void Trial::put_in(const Filling& filling)
+void Trial::put_in(const TemplateMesh& filling)
 {
     for (const Index p : moving_) mesh_.move(p, points_[static_cast<std::size_t>(number_[p])]);
     std::vector<Index> made;

@@ -4,15 +4,11 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/predicates.h>
 #include <lacuna/geometry/triangulate.h>
-#include <lacuna/quads/detail/pave_attempt.h>
+#include <lacuna/quads/detail/pave_choice.h>
 #include <lacuna/quads/detail/pave_repair.h>
 #include <lacuna/quads/detail/pave_rows.h>
 #include <lacuna/quads/detail/pave_size.h>
-#include <lacuna/quads/detail/pave_true_rows.h>
-#include <lacuna/quads/measure_plane.h>
-#include <lacuna/quads/submap.h>
 
-#include <array>
 #include <sstream>
 
 namespace lacuna::quads {
@@ -20,36 +16,18 @@ namespace {
 
 using namespace paving;
 
-std::string place_of(const Vec2& p)
+std::string position_text(const Vec2& p)
 {
     std::ostringstream text;
     text << "(" << p.x() << ", " << p.y() << ")";
     return text.str();
 }
 
-double area_of(const std::vector<Vec2>& points, const std::vector<Index>& loop)
+std::vector<Vec2> polygon_of(const PlanarRegion& region, std::size_t loop)
 {
-    double twice = 0;
-    const Vec2& origin = points[static_cast<std::size_t>(loop.front())];
-    for (std::size_t i = 0; i < loop.size(); ++i)
-        twice += cross(points[static_cast<std::size_t>(loop[i])] - origin,
-                       points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])] - origin);
-    return twice / 2;
-}
-
-/// Is a node inside a loop? By the sides a ray from it to the right meets.
-bool lies_within(const std::vector<Vec2>& points, const std::vector<Index>& loop, Index node)
-{
-    const Vec2& p = points[static_cast<std::size_t>(node)];
-    bool within = false;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Vec2 &a = points[static_cast<std::size_t>(loop[i])],
-                   &b = points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
-        if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-        const bool above = geometry::orient2d(a, b, p) > 0;
-        if (above == (b.y() > a.y())) within = !within;
-    }
-    return within;
+    std::vector<Vec2> polygon;
+    for (const Index p : region.loops[loop]) polygon.push_back(region.points[index(p)]);
+    return polygon;
 }
 
 void check_region(const PlanarRegion& region)
@@ -80,13 +58,15 @@ void check_region(const PlanarRegion& region)
         throw InvalidInput("surface.pave_loops", "loops " + std::to_string(crossing->loop_a + 1) + " and " +
                                                      std::to_string(crossing->loop_b + 1) +
                                                      " of a region to be paved cross or touch near " +
-                                                     place_of(region.points[node]));
+                                                     position_text(region.points[node]));
     }
+    const PartialMesh given{region.points, {}, region.points.size(), {}};
+    const std::vector<Vec2> outline = polygon_of(region, 0);
     for (std::size_t l = 0; l < region.loops.size(); ++l) {
         const auto& loop = region.loops[l];
         const bool outer = l == 0;
-        if ((area_of(region.points, loop) > 0) == outer &&
-            (outer || lies_within(region.points, region.loops[0], loop.front())))
+        if ((twice_area(given, loop) > 0) == outer &&
+            (outer || geometry::lies_inside(outline, region.points[index(loop.front())])))
             continue;
         throw InvalidInput(
             "surface.pave_loops",
@@ -105,87 +85,18 @@ void check_region(const PlanarRegion& region)
     }
 }
 
-/// Below what sine a quad counts as folded: no sweep bears a flatter one, unless the given corners are that
-/// sharp.
-double flat_below(const PlanarRegion& region)
+/// Lay rows of their own height, which stay as they are, and pave what is inside them as a region by itself.
+Paved pave_inside_rows(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
 {
-    constexpr double kFlat = 0.02, kShare = 0.3;
-    double sharpest = 1;
-    for (const auto& loop : region.loops) {
-        for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
-            const auto at = [&](std::size_t k) {
-                return region.points[static_cast<std::size_t>(loop[k % n])];
-            };
-            const double angle = turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i));
-            if (angle < kRightAngle) sharpest = std::min(sharpest, std::sin(angle));
-        }
-    }
-    return std::min(kFlat, kShare * sharpest);
-}
-
-/// Other tastes, for regions so small that paving them again costs little. Chosen one after the other from forty so
-/// that the best of all is best on average over made-up discs, boxes, Ls and polygons with up to four holes.
-constexpr std::array<Taste, 7> kTastes{{
-    {.corners = 0.5, .length = 0.5, .mismatch = 0.75, .bent = 0.375, .most_patch = 0.85},
-    {.corners = 0.5, .added = 0.5, .length = 0.75, .mismatch = 0.75, .bent = 0.675},
-    {.corners = 1.35, .added = 1.35, .mismatch = 0.5, .bent = 0.25, .least_patch = 0.5},
-    {.added = 0.5, .length = 0.5, .most_patch = 0.85},
-    {.added = 0.5, .length = 0.75, .mismatch = 0.75, .bent = 1, .least_patch = 0.5},
-    {.added = 0.5, .length = 1.35, .mismatch = 1.35, .bent = 0.375, .most_patch = 0.85},
-    {.added = 1.35, .mismatch = 2, .bent = 1},
-}};
-
-/// How good quads are, to choose between two ways; higher is better. A mean of shapes, sizes, rows and the
-/// worst quad, less what is irregular. The worst quad counts double up to kGood, for a sweep repeats it and makes
-/// it worse, and a little up to kBest. How many irregular nodes there must be hangs on the outline, not on the number of
-/// quads: of few quads their share says nothing.
-double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
-{
-    constexpr double kGood = 0.6, kBest = 0.85, kFewNodes = 1500;
-    const PlaneQuality quality = measure_plane(mesh, region);
-    const double least = quality.min_scaled_jacobian;
-    const double irregular = static_cast<double>(quality.irregular) /
-                             std::max(static_cast<double>(quality.interior), kFewNodes);
-    return quality.mean_scaled_jacobian + 2 * std::min(least, kGood) +
-           (std::clamp(least, kGood, kBest) - kGood) / 2 + quality.size_share() / 2 +
-           quality.row_share() / 2 - 2 * irregular;
-}
-
-/// The grid of a region of right angles, as an attempt like others.
-Attempt try_submap(const PlanarRegion& region, bool round_loops, const RunContext& context)
-{
-    Attempt attempt;
-    auto mesh = submap(region, round_loops, context);
-    if (!mesh) return attempt;
-    attempt.mesh = std::move(*mesh);
-    attempt.report.used = attempt.mesh.how;
-    attempt.report.mapped = 1;
-    true_rows(attempt.mesh, region, size_with_boundary(region));
-    judge(attempt);
-    return attempt;
-}
-
-/// Is a grid so good that nothing else need be tried?
-bool is_good_grid(const Attempt& attempt, const PlanarRegion& region)
-{
-    constexpr double kGood = 0.6, kOfSize = 0.95;
-    if (attempt.worst < kGood) return false;
-    const PlaneQuality quality = measure_plane(attempt.mesh, region);
-    return quality.min_scaled_jacobian > kGood && quality.size_share() > kOfSize;
-}
-
-/// Rows of their own height are laid first and stay as they are; what is inside them is a region by itself.
-PlanarQuads pave_inside_rows(const PlanarRegion& region, const PaveOptions& options,
-                             const RunContext& context)
-{
-    Draft draft{region.points, {}, region.points.size(), size_with_boundary(region), flat_below(region)};
+    PartialMesh partial{
+        region.points, {}, region.points.size(), size_with_boundary(region), flat_below(region)};
     std::vector<Cycle> loops = region.loops;
     std::vector<bool> wanted(loops.size(), true);
     int laid = 0;
     std::string missing;
-    for (int r = 0; r < std::max(options.rows, 1); ++r) {
+    for (int r = 0; r < options.exact_rows; ++r) {
         const std::vector<bool> had = wanted;
-        const int now = lay_rows(draft, loops, wanted, region.row_height, RowKind::exact);
+        const int now = lay_rows(partial, loops, wanted, region.row_height, RowKind::exact);
         for (std::size_t l = 0; l < loops.size(); ++l) {
             if (had[l] && !wanted[l])
                 missing += ", no room for row " + std::to_string(r + 1) + " along loop " +
@@ -200,14 +111,14 @@ PlanarQuads pave_inside_rows(const PlanarRegion& region, const PaveOptions& opti
         core.loops.emplace_back();
         for (const Index p : loop) {
             core.loops.back().push_back(static_cast<Index>(own.size()));
-            core.points.push_back(draft.at(p));
+            core.points.push_back(partial.at(p));
             own.push_back(p);
         }
     }
     PaveOptions inside = options;
-    inside.rows = -1;
-    const PlanarQuads filling = pave(core, inside, context);
-    PlanarQuads mesh{std::move(draft.points), std::move(draft.quads), filling.how};
+    inside.exact_rows = 0;
+    auto [filling, report] = pave(core, inside, context);
+    PlanarQuads mesh{std::move(partial.points), std::move(partial.quads), filling.how};
     for (std::size_t p = own.size(); p < filling.points.size(); ++p) {
         own.push_back(static_cast<Index>(mesh.points.size()));
         mesh.points.push_back(filling.points[p]);
@@ -219,79 +130,45 @@ PlanarQuads pave_inside_rows(const PlanarRegion& region, const PaveOptions& opti
     mesh.how += " inside " + std::to_string(laid) +
                 (laid == 1 ? " row of its own height" : " rows of their own height") + missing;
     drop_loose_points(mesh, region.points.size());
-    if (options.report) options.report->rows += laid;
-    return mesh;
+    report.rows += laid;
+    return {std::move(mesh), std::move(report)};
 }
 
 } // namespace
 
-PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
+Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
 {
     check_region(region);
-    if (region.row_height && options.rows != 0) return pave_inside_rows(region, options, context);
-    // Below this many quads it costs little to pave with and without rows and keep the better.
-    constexpr std::size_t kFew = 4000;
-    // And so many in all with every taste.
-    constexpr std::size_t kMostMade = 30'000, kMostMadePoor = 6000;
-    const double flat = flat_below(region);
-    Attempt best;
-    double best_score = -2;
-    std::size_t made_in_all = 0;
-    const auto consider = [&](Attempt made) {
-        made_in_all += made.mesh.quads.size();
-        if (made.worst > 0 && !find_fault(made.mesh, region).empty()) made.worst = -1;
-        const double score = made.worst > flat ? score_of(made.mesh, region) : made.worst;
-        if (score <= best_score) return;
-        best_score = score;
-        best = std::move(made);
-    };
-    const auto attempt = [&](RowStyle style, const Taste& taste = {}) {
-        Attempt made = try_pave(region, options, style, taste, flat, context);
-        if (made.worst <= flat)
-            log_line(context, "quads fold near " + place_of(made.where) + ": paving differently");
-        consider(std::move(made));
-    };
-    if (options.grids && options.rows < 0) consider(try_submap(region, false, context));
-    if (is_good_grid(best, region)) {
-        if (options.report) *options.report = best.report;
-        return std::move(best.mesh);
+    if (options.exact_rows < 0 || (options.exact_rows > 0 && !region.row_height)) {
+        throw InvalidInput("surface.pave_rows", std::to_string(options.exact_rows) +
+                                                    " rows of their own height are asked for, of a region " +
+                                                    (region.row_height ? "with" : "without") +
+                                                    " a row height; give a height and 0 rows or more");
     }
-    const auto is_few = [&] { return options.rows < 0 && best.mesh.quads.size() <= kFew; };
-    attempt(RowStyle::by_shape);
-    if (best.worst <= flat) attempt(RowStyle::buffer);
-    for (const RowStyle style : {RowStyle::none, RowStyle::thin}) {
-        if (best.worst <= 0 || is_few()) attempt(style);
+    if (options.exact_rows > 0) return pave_inside_rows(region, options, context);
+    AttemptChooser chooser(region, options, context);
+    chooser.try_default_weights();
+    if (!chooser.is_done()) {
+        chooser.try_all_weights();
+        chooser.try_triangles();
     }
-    if (options.grids && is_few()) consider(try_submap(region, true, context));
-    // A worst quad poorer than this is the outline's doing more than the cuts'.
-    constexpr double kPoor = 0.5, kGoodEnough = 3.3; // of 3.325
-    for (const Taste& taste : kTastes) {
-        const std::size_t most = best.worst > kPoor ? kMostMade : kMostMadePoor;
-        if (best.worst > flat && is_few() && made_in_all < most && best_score < kGoodEnough)
-            attempt(best.style, taste);
-    }
-    // It is worth another way where that costs little.
-    for (const RowStyle style : {RowStyle::halved_triangles, RowStyle::paired_triangles}) {
-        if (best.worst <= 0 || (is_few() && best.worst < kPoor)) attempt(style);
-    }
-    if (best.worst <= flat) attempt(RowStyle::split_triangles);
+    Attempt best = chooser.take_best();
     if (best.worst <= 0) {
         throw NotSweepable("surface.pave", "no valid quads were found for a region of " +
                                                std::to_string(region.points.size()) +
-                                               " boundary nodes: near " + place_of(best.where) +
+                                               " boundary nodes: near " + position_text(best.where) +
                                                " they fold; try a smaller size there, or quads = \"gmsh\"");
     }
     // Between sides that all but touch, or in spikes, there are none but flat ones.
-    if (best.worst <= flat) {
-        log_line(context, "the flattest quad, near " + place_of(best.where) + ", has a scaled Jacobian of " +
-                              std::to_string(best.worst) +
+    if (best.worst <= chooser.flat()) {
+        log_line(context, "the flattest quad, near " + position_text(best.where) +
+                              ", has a scaled Jacobian of " + std::to_string(best.worst) +
                               ": the boundary's sides are long for the gap there");
     }
     best.mesh.how = best.report.used;
     if (best.report.refilled > 0)
         best.mesh.how += ", " + std::to_string(best.report.refilled) + " places by split triangles";
-    if (options.report) *options.report = best.report;
-    return std::move(best.mesh);
+    return {std::move(best.mesh), std::move(best.report)};
 }
 
 } // namespace lacuna::quads

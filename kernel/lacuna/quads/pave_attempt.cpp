@@ -18,20 +18,20 @@ namespace lacuna::quads::paving {
 namespace {
 
 /// Is the region one good patch as it is?
-bool is_patch(const Draft& draft, const std::vector<Cycle>& loops)
+bool is_patch(const PartialMesh& partial, const std::vector<Cycle>& loops)
 {
     constexpr double kGood = 0.8;
     if (loops.size() > 1 || loops.front().size() < 8) return false;
-    const Fit fit = fit_patch(draft, loops.front(), angles_of(draft, loops.front()));
+    const PatchFit fit = fit_patch(partial, loops.front(), angles_of(partial, loops.front()));
     return fit.quality > kGood;
 }
 
 /// Rows a loop is worth. A round outer loop gets four nodes of three quads where its rows end; with rows for
 /// about a fiftieth of its length they lie where a square of the same number of nodes has its corners. Round
 /// a hole every row is one more of stretched quads.
-int rows_for(const Draft& draft, const Cycle& loop, bool outer)
+int rows_for(const PartialMesh& partial, const Cycle& loop, bool outer)
 {
-    if (!needs_row(draft, loop)) return 0;
+    if (!needs_row(partial, loop)) return 0;
     constexpr std::size_t kNodesARow = 60;
     return outer ? 1 + static_cast<int>(loop.size() / kNodesARow) : 1;
 }
@@ -52,45 +52,44 @@ bool sides_match(const std::vector<Quad>& quads)
 }
 
 /// Open what is folded: by moving nodes, with more of them, and what does not open is filled anew.
-void open_folds(Attempt& attempt, const PlanarRegion& region, const Draft& draft, const PaveOptions& options,
+void open_folds(Attempt& attempt, const PlanarRegion& region, const PartialMesh& partial, const PaveOptions& options,
                 const RunContext& context)
 {
     constexpr int kLoosenings = 1;
     for (int round = 0; round <= kLoosenings; ++round) {
         Attempt tried = attempt;
-        if (round > 0) loosen_folds(tried.mesh, draft.flat);
-        ease_folds(tried.mesh, draft.fixed);
+        if (round > 0) loosen_folds(tried.mesh, partial.flat);
+        ease_folds(tried.mesh, partial.fixed);
         judge(tried);
-        if (tried.worst <= draft.flat && round == 0 && options.clean) {
-            clean_quads(tried.mesh, draft.fixed, {.size = draft.size}, context);
-            ease_folds(tried.mesh, draft.fixed);
+        if (tried.worst <= partial.flat && round == 0 && options.clean) {
+            clean_quads(tried.mesh, partial.fixed, {.size = partial.size}, context);
+            ease_folds(tried.mesh, partial.fixed);
             judge(tried);
         }
-        if (tried.worst <= draft.flat) {
+        if (tried.worst <= partial.flat) {
             // What opens here is smoothed with the rest later.
-            smooth_plane(tried.mesh.points, tried.mesh.quads, draft.fixed,
-                         {.size = draft.size, .sweeps = 0, .repairs = 0}, context);
+            smooth_plane(tried.mesh.points, tried.mesh.quads, partial.fixed,
+                         {.size = partial.size, .sweeps = 0, .repairs = 0}, context);
             judge(tried);
         }
         const bool better = round == 0 || tried.worst > attempt.worst;
         if (better) attempt = std::move(tried);
-        if (!better || attempt.worst > draft.flat) break;
+        if (!better || attempt.worst > partial.flat) break;
     }
     if (attempt.worst > 0) return;
-    attempt.report.refilled = refill_folds(attempt.mesh, region, 0, draft.size);
+    attempt.report.refilled = refill_folds(attempt.mesh, region, 0, partial.size);
     judge(attempt);
 }
 
 /// Rows from the loops, the rest cut and filled.
-void lay_and_fill(Attempt& attempt, Draft& draft, const PlanarRegion& region, const PaveOptions& options,
-                  RowStyle style, const RunContext& context)
+void lay_and_fill(Attempt& attempt, PartialMesh& partial, const PlanarRegion& region, RowStyle style,
+                  const RunContext& context)
 {
     std::vector<Cycle> loops = region.loops;
-    if (style == RowStyle::by_shape && options.rows < 0 && is_patch(draft, loops))
-        style = RowStyle::one_patch;
+    if (style == RowStyle::by_shape && is_patch(partial, loops)) style = RowStyle::one_patch;
     std::vector<int> rows;
     for (std::size_t l = 0; l < loops.size(); ++l) {
-        const int own = options.rows < 0 ? rows_for(draft, loops[l], l == 0) : options.rows;
+        const int own = rows_for(partial, loops[l], l == 0);
         rows.push_back(style == RowStyle::none || style == RowStyle::one_patch ? 0
                        : style == RowStyle::buffer                             ? 1
                                                                                : own);
@@ -102,19 +101,19 @@ void lay_and_fill(Attempt& attempt, Draft& draft, const PlanarRegion& region, co
         std::vector<bool> wanted;
         for (const int own : rows) wanted.push_back(own > r);
         if (std::none_of(wanted.begin(), wanted.end(), [](bool w) { return w; })) break;
-        attempt.report.rows += lay_rows(draft, loops, wanted, draft.size, kind);
+        attempt.report.rows += lay_rows(partial, loops, wanted, partial.size, kind);
         for (std::size_t l = 0; l < loops.size(); ++l) {
             if (!wanted[l]) rows[l] = 0;
         }
     }
-    const CoreCount count = fill_core(draft, loops, style == RowStyle::one_patch, context);
+    const CoreCount count = fill_core(partial, loops, style == RowStyle::one_patch, context);
     attempt.report.mapped = count.patches;
     attempt.report.cuts = count.cuts;
     attempt.report.templates = count.templates;
     attempt.report.used = count.cuts == 0 && count.patches == 1 && attempt.report.rows == 0 ? "mapped"
                                                                                             : "paved";
-    attempt.mesh = {draft.points, draft.quads};
-    drop_loose_points(attempt.mesh, draft.fixed);
+    attempt.mesh = {partial.points, partial.quads};
+    drop_loose_points(attempt.mesh, partial.fixed);
 }
 
 /// The way of triangles a style means, if any.
@@ -146,28 +145,28 @@ void judge(Attempt& attempt)
     }
 }
 
-Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style, const Taste& taste,
+Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style, const CutWeights& weights,
                  double flat, const RunContext& context)
 {
     Attempt attempt;
     attempt.style = style;
-    Draft draft{region.points, {}, region.points.size(), size_with_boundary(region), flat, {}, taste};
+    PartialMesh partial{region.points, {}, region.points.size(), size_with_boundary(region), flat, {}, weights};
     if (const std::optional<TriangleWay> way = triangle_way(style)) {
         attempt.mesh = quads_of_triangles(region, *way);
         attempt.report.used = "paired";
         if (attempt.mesh.quads.empty()) return attempt;
     } else {
-        lay_and_fill(attempt, draft, region, options, style, context);
+        lay_and_fill(attempt, partial, region, style, context);
     }
     if (!sides_match(attempt.mesh.quads)) return attempt;
     if (style != RowStyle::split_triangles) open_corners(attempt.mesh, region);
     judge(attempt);
-    if (options.smooth) open_folds(attempt, region, draft, options, context);
+    if (options.smooth) open_folds(attempt, region, partial, options, context);
     if (attempt.worst <= 0) return attempt;
-    if (options.clean) clean_quads(attempt.mesh, draft.fixed, {.size = draft.size}, context);
+    if (options.clean) clean_quads(attempt.mesh, partial.fixed, {.size = partial.size}, context);
     if (options.smooth) {
-        smooth_plane(attempt.mesh.points, attempt.mesh.quads, draft.fixed, {.size = draft.size}, context);
-        true_rows(attempt.mesh, region, draft.size);
+        smooth_plane(attempt.mesh.points, attempt.mesh.quads, partial.fixed, {.size = partial.size}, context);
+        true_rows(attempt.mesh, region, partial.size);
     }
     judge(attempt);
     return attempt;

@@ -11,33 +11,35 @@
 namespace lacuna::quads::paving {
 namespace {
 
-struct Box {
+struct LoopBox {
     Vec2 low, high;
 
-    Box(const Draft& draft, const Cycle& loop) : low(draft.at(loop.front())), high(low)
+    LoopBox(const PartialMesh& partial, const Cycle& loop) : low(partial.at(loop.front())), high(low)
     {
         for (const Index p : loop) {
-            low = low.cwiseMin(draft.at(p));
-            high = high.cwiseMax(draft.at(p));
+            low = low.cwiseMin(partial.at(p));
+            high = high.cwiseMax(partial.at(p));
         }
     }
-    [[nodiscard]] double gap(const Box& other) const
+    [[nodiscard]] double gap(const LoopBox& other) const
     {
         return (other.low - high).cwiseMax(low - other.high).cwiseMax(0).norm();
     }
 };
 
-/// The best bridge between any two loops. Those found are remembered, for only one loop changes at a time, and pairs farther
-/// apart than the best are not looked at: no bridge costs less than its length.
+/// Finds the best bridge between any two loops. Bridges found before are remembered, for only one loop
+/// changes at a time. Pairs farther apart than the best bridge are not looked at, for no bridge costs less
+/// than its length.
 class BridgeFinder {
 public:
-    BridgeFinder(const Draft& draft, const std::vector<Cycle>& loops) : draft_(draft), loops_(loops)
+    BridgeFinder(const PartialMesh& partial, const std::vector<Cycle>& loops)
+        : partial_(partial), loops_(loops)
     {
-        for (const Cycle& loop : loops) box_.emplace_back(draft, loop);
+        for (const Cycle& loop : loops) box_.emplace_back(partial, loop);
         known_.resize(loops.size() * loops.size());
     }
 
-    [[nodiscard]] std::optional<Bridge> find()
+    [[nodiscard]] std::optional<LoopBridge> find()
     {
         std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
         for (std::size_t a = 0; a < loops_.size(); ++a) {
@@ -46,20 +48,20 @@ public:
             }
         }
         std::sort(pairs.begin(), pairs.end());
-        std::optional<Bridge> best;
+        std::optional<LoopBridge> best;
         for (const auto& [gap, a, b] : pairs) {
             if (best && gap > best->cost) break;
             Known& known = known_[a * loops_.size() + b];
-            if (!known.looked) known = {best_bridge(draft_, loops_, a, b), true};
+            if (!known.looked) known = {best_bridge(partial_, loops_, a, b), true};
             if (!known.bridge) continue;
-            const Bridge& bridge = *known.bridge;
+            const LoopBridge& bridge = *known.bridge;
             if (!best || std::tie(bridge.cost, a, b) < std::tie(best->cost, best->loop_a, best->loop_b))
                 best = bridge;
         }
         return best;
     }
 
-    /// Loop a has taken in loop b, which is empty now, by a line between two nodes.
+    /// Tell that loop a has taken in loop b, which is empty now, by a line between two nodes.
     void joined(std::size_t a, std::size_t b, Index from, Index to)
     {
         box_[a].low = box_[a].low.cwiseMin(box_[b].low);
@@ -75,37 +77,37 @@ public:
 
 private:
     struct Known {
-        std::optional<Bridge> bridge;
+        std::optional<LoopBridge> bridge;
         bool looked = false;
     };
 
-    /// Does a bridge cross or touch a line between two nodes?
-    [[nodiscard]] bool meets(const Bridge& bridge, Index from, Index to) const
+    /// Whether a bridge crosses or touches a line between two nodes.
+    [[nodiscard]] bool meets(const LoopBridge& bridge, Index from, Index to) const
     {
-        const Vec2 &a = draft_.at(loops_[bridge.loop_a][bridge.cut.from]),
-                   &b = draft_.at(loops_[bridge.loop_b][bridge.cut.to]), &c = draft_.at(from),
-                   &d = draft_.at(to);
+        const Vec2 &a = partial_.at(loops_[bridge.loop_a][bridge.cut.from]),
+                   &b = partial_.at(loops_[bridge.loop_b][bridge.cut.to]), &c = partial_.at(from),
+                   &d = partial_.at(to);
         const auto apart = [](double u, double v) { return (u > 0 && v > 0) || (u < 0 && v < 0); };
         return !apart(geometry::orient2d(a, b, c), geometry::orient2d(a, b, d)) &&
                !apart(geometry::orient2d(c, d, a), geometry::orient2d(c, d, b));
     }
 
-    const Draft& draft_;
+    const PartialMesh& partial_;
     const std::vector<Cycle>& loops_;
-    std::vector<Box> box_;
+    std::vector<LoopBox> box_;
     std::vector<Known> known_;
 };
 
-/// One loop of all, the nearest joined first.
-Cycle join_all(Draft& draft, std::vector<Cycle> loops)
+/// Join all loops to one, the nearest first.
+Cycle join_all(PartialMesh& partial, std::vector<Cycle> loops)
 {
-    BridgeFinder finder(draft, loops);
+    BridgeFinder finder(partial, loops);
     for (std::size_t left = loops.size(); left > 1; --left) {
-        std::optional<Bridge> best = finder.find();
-        if (!best) best = blind_bridge(draft, loops);
+        std::optional<LoopBridge> best = finder.find();
+        if (!best) best = blind_bridge(partial, loops);
         const Index from = loops[best->loop_a][best->cut.from], to = loops[best->loop_b][best->cut.to];
-        const Cycle line = nodes_along(draft, from, to, best->cut.edges);
-        if (best->cut.edges == 1) draft.link(line.front(), line.back());
+        const Cycle line = nodes_along(partial, from, to, best->cut.edges);
+        if (best->cut.edges == 1) partial.link(line.front(), line.back());
         loops[best->loop_a] = join(loops[best->loop_a], loops[best->loop_b], best->cut, line);
         loops[best->loop_b].clear();
         finder.joined(best->loop_a, best->loop_b, from, to);
@@ -113,46 +115,48 @@ Cycle join_all(Draft& draft, std::vector<Cycle> loops)
     return std::move(loops.front());
 }
 
-/// From what quality on a part of so many nodes is filled as it is. A cut costs irregular nodes, whatever the
-/// size of the part; a poor patch costs in every quad.
-double good_patch(const Taste& taste, std::size_t nodes)
+/// The quality from which a part of so many nodes is filled without a cut. A cut costs irregular nodes
+/// whatever the size of the part; a poor patch costs in every quad.
+double good_patch(const CutWeights& weights, std::size_t nodes)
 {
+    // It rises by kSlope with each doubling of the outline above kFrom nodes; choices, not measurements.
     constexpr double kSlope = 0.2, kFrom = 32;
-    return std::clamp(taste.least_patch + kSlope * std::log2(static_cast<double>(nodes) / kFrom),
-                      taste.least_patch, taste.most_patch);
+    return std::clamp(weights.least_patch + kSlope * std::log2(static_cast<double>(nodes) / kFrom),
+                      weights.least_patch, weights.most_patch);
 }
 
 } // namespace
 
-CoreCount fill_core(Draft& draft, const std::vector<Cycle>& loops, bool one_patch, const RunContext& context)
+CoreCount fill_core(PartialMesh& partial, const std::vector<Cycle>& loops, bool one_patch,
+                    const RunContext& context)
 {
     CoreCount count;
     for (const Cycle& loop : loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i) draft.link(loop[i], loop[(i + 1) % loop.size()]);
+        for (std::size_t i = 0; i < loop.size(); ++i) partial.link(loop[i], loop[(i + 1) % loop.size()]);
     }
-    std::vector<Cycle> parts{join_all(draft, loops)};
+    std::vector<Cycle> parts{join_all(partial, loops)};
     while (!parts.empty()) {
         check_cancelled(context);
         const Cycle cycle = std::move(parts.back());
         parts.pop_back();
         if (cycle.size() < 4) continue;
         if (cycle.size() <= 6) {
-            fill_small(draft, cycle);
+            fill_small(partial, cycle);
             ++count.templates;
             continue;
         }
-        const std::vector<double> angles = angles_of(draft, cycle);
-        const Fit fit = fit_patch(draft, cycle, angles);
+        const std::vector<double> angles = angles_of(partial, cycle);
+        const PatchFit fit = fit_patch(partial, cycle, angles);
         std::optional<Cut> cut;
-        if (!one_patch && fit.quality < good_patch(draft.taste, cycle.size()))
-            cut = best_cut(draft, cycle, angles);
-        if (!cut && fit.quality > 0 && fill_patch(draft, cycle, fit.corners)) {
+        if (!one_patch && fit.quality < good_patch(partial.weights, cycle.size()))
+            cut = best_cut(partial, cycle, angles);
+        if (!cut && fit.quality > 0 && fill_patch(partial, cycle, fit.corners)) {
             ++count.patches;
             continue;
         }
-        if (!cut) cut = blind_cut(draft, cycle);
-        const Cycle line = nodes_along(draft, cycle[cut->from], cycle[cut->to], cut->edges);
-        if (cut->edges == 1) draft.link(line.front(), line.back());
+        if (!cut) cut = blind_cut(partial, cycle);
+        const Cycle line = nodes_along(partial, cycle[cut->from], cycle[cut->to], cut->edges);
+        if (cut->edges == 1) partial.link(line.front(), line.back());
         auto [one, two] = divide(cycle, *cut, line);
         ++count.cuts;
         parts.push_back(std::move(two));

@@ -2,7 +2,7 @@
 #include <lacuna/quads/detail/pave_cut.h>
 
 #include <lacuna/geometry/predicates.h>
-#include <lacuna/quads/detail/pave_patch.h>
+#include <lacuna/quads/detail/patch_template.h>
 
 #include <limits>
 #include <span>
@@ -12,34 +12,33 @@ namespace {
 
 using geometry::orient2d;
 
-constexpr double kCornerBelow = 0.75 * std::numbers::pi;
-constexpr double kBentAbove = 1.25 * std::numbers::pi;
-constexpr double kLeastAngle = kRightAngle / 6; ///< a line closer to the outline makes a sliver
+constexpr double kLeastAngle = kRightAngle /
+                               6; ///< 15°: a line closer to the outline makes a sliver; a choice
 
-/// How far an angle is from the nearest multiple of a right angle, in half right angles; squared.
+/// How far an angle is from the nearest multiple of a right angle, in half right angles, squared.
 double angle_cost(double angle)
 {
     const double off = (angle - quads_in(angle) * kRightAngle) / (kRightAngle / 2);
     return off * off;
 }
 
-/// What a line costs that divides an angle: 0 where both parts suit whole quads and no quad is added.
-double end_cost(double whole, double part, const Taste& taste)
+/// The cost of a line that divides an angle: 0 where both parts suit whole quads and no quad is added.
+double end_cost(double whole, double part, const CutWeights& weights)
 {
     const double rest = whole - part;
     const int added = quads_in(part) + quads_in(rest) - quads_in(whole);
-    return taste.corners * ((angle_cost(part) + angle_cost(rest)) / 2 + taste.added * std::abs(added));
+    return weights.corners * ((angle_cost(part) + angle_cost(rest)) / 2 + weights.added * std::abs(added));
 }
 
-/// Is the open segment from a to b free of the loop's sides?
-bool is_clear(const Draft& draft, const Cycle& cycle, Index a, Index b)
+/// Whether the open segment from a to b is free of the loop's sides.
+bool is_clear(const PartialMesh& partial, const Cycle& cycle, Index a, Index b)
 {
-    const Vec2 &pa = draft.at(a), &pb = draft.at(b);
+    const Vec2 &pa = partial.at(a), &pb = partial.at(b);
     const Vec2 low = pa.cwiseMin(pb), high = pa.cwiseMax(pb);
     const std::size_t n = cycle.size();
     for (std::size_t k = 0; k < n; ++k) {
         const Index c = cycle[k], d = cycle[k + 1 == n ? 0 : k + 1];
-        const Vec2 &pc = draft.at(c), &pd = draft.at(d);
+        const Vec2 &pc = partial.at(c), &pd = partial.at(d);
         if (std::max(pc.x(), pd.x()) < low.x() || std::min(pc.x(), pd.x()) > high.x() ||
             std::max(pc.y(), pd.y()) < low.y() || std::min(pc.y(), pd.y()) > high.y())
             continue;
@@ -61,15 +60,15 @@ bool is_clear(const Draft& draft, const Cycle& cycle, Index a, Index b)
     return true;
 }
 
-/// Does the line keep a share of its edge length from all nodes it passes by?
-bool keeps_away(const Draft& draft, const Cycle& cycle, Index a, Index b, double least)
+/// Whether the line keeps a distance from all nodes that it passes.
+bool keeps_away(const PartialMesh& partial, const Cycle& cycle, Index a, Index b, double least)
 {
-    const Vec2 pa = draft.at(a), along = draft.at(b) - pa;
+    const Vec2 pa = partial.at(a), along = partial.at(b) - pa;
     const double length = along.norm();
-    const Vec2 low = pa.cwiseMin(draft.at(b)) - Vec2::Constant(least);
-    const Vec2 high = pa.cwiseMax(draft.at(b)) + Vec2::Constant(least);
+    const Vec2 low = pa.cwiseMin(partial.at(b)) - Vec2::Constant(least);
+    const Vec2 high = pa.cwiseMax(partial.at(b)) + Vec2::Constant(least);
     for (const Index p : cycle) {
-        const Vec2& x = draft.at(p);
+        const Vec2& x = partial.at(p);
         if (x.x() < low.x() || x.y() < low.y() || x.x() > high.x() || x.y() > high.y()) continue;
         const double at = (x - pa).dot(along) / length;
         if (at > least && at < length - least && std::abs(cross(along, x - pa)) < least * length)
@@ -78,17 +77,17 @@ bool keeps_away(const Draft& draft, const Cycle& cycle, Index a, Index b, double
     return true;
 }
 
-double local_size(const Draft& draft, const Vec2& a, const Vec2& b)
+double local_size(const PartialMesh& partial, const Vec2& a, const Vec2& b)
 {
     // Edges go as the mean of one over the size.
-    return 3 / (1 / draft.size(a) + 1 / draft.size((a + b) / 2) + 1 / draft.size(b));
+    return 3 / (1 / partial.size(a) + 1 / partial.size((a + b) / 2) + 1 / partial.size(b));
 }
 
-/// Everything about a loop that judging a line needs.
+/// Finds the best line across a loop.
 class CutFinder {
 public:
-    CutFinder(const Draft& draft, const Cycle& cycle, const std::vector<double>& angles)
-        : draft_(draft), cycle_(cycle), angles_(angles), n_(cycle.size())
+    CutFinder(const PartialMesh& partial, const Cycle& cycle, const std::vector<double>& angles)
+        : partial_(partial), cycle_(cycle), angles_(angles), n_(cycle.size())
     {
         arc_.assign(n_ + 1, 0);
         heading_.resize(n_);
@@ -97,7 +96,7 @@ public:
             const Vec2 side = at(i + 1) - at(i);
             arc_[i + 1] = arc_[i] + side.norm();
             heading_[i] = std::atan2(side.y(), side.x());
-            pace_[i] = 1 / draft.size(at(i));
+            pace_[i] = 1 / partial.size(at(i));
             if (angles[i] < kCornerBelow) corners_.push_back(i);
         }
     }
@@ -105,7 +104,8 @@ public:
     std::optional<Cut> find()
     {
         const std::vector<std::size_t> places = candidates();
-        // A line nearly as long as what it cuts off is seldom good: looked at only where there is no other.
+        // A line nearly as long as what it cuts off is seldom good, so it is tried only where there is no
+        // other. The bound saves time; it is a choice, not a measurement.
         constexpr double kShort = 0.85;
         auto cut = find_among(places, kShort);
         return cut ? cut : find_among(places, std::numeric_limits<double>::infinity());
@@ -128,7 +128,8 @@ private:
             return std::tie(a.cost, a.cut.from, a.cut.to) > std::tie(b.cost, b.cut.from, b.cut.to);
         };
         std::make_heap(choices.begin(), choices.end(), later);
-        constexpr double kAway = 0.5; // of the line's edges
+        // Nodes nearer than half an edge of the line would make a quad of half the size; a choice.
+        constexpr double kAway = 0.5;
         std::optional<Choice> near_miss;
         for (auto end = choices.end(); end != choices.begin(); --end) {
             std::pop_heap(choices.begin(), end, later);
@@ -145,19 +146,20 @@ private:
         double cost = 0;
     };
 
-    [[nodiscard]] const Vec2& at(std::size_t i) const { return draft_.at(cycle_[i % n_]); }
+    [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
 
     [[nodiscard]] bool is_free(const Choice& c, double away) const
     {
         const Index a = cycle_[c.cut.from], b = cycle_[c.cut.to];
-        const double edge = (draft_.at(b) - draft_.at(a)).norm() / static_cast<double>(c.cut.edges);
-        return is_clear(draft_, cycle_, a, b) && (away == 0 || keeps_away(draft_, cycle_, a, b, away * edge));
+        const double edge = (partial_.at(b) - partial_.at(a)).norm() / static_cast<double>(c.cut.edges);
+        return is_clear(partial_, cycle_, a, b) &&
+               (away == 0 || keeps_away(partial_, cycle_, a, b, away * edge));
     }
 
     [[nodiscard]] std::vector<std::size_t> candidates()
     {
-        constexpr std::size_t kSpread = 32;   ///< places tried evenly along the outline
-        constexpr std::size_t kFeatures = 64; ///< and where it bends
+        constexpr std::size_t kSpread = 32; ///< nodes tried evenly along the outline, for the time; a choice
+        constexpr std::size_t kFeatures = 64; ///< and nodes where it turns inward, for the time; a choice
         std::vector<std::size_t> bent;
         for (std::size_t i = 0; i < n_; ++i) {
             if (angles_[i] > kBentAbove) bent.push_back(i);
@@ -183,7 +185,7 @@ private:
         if (part_j < kLeastAngle || part_j > angles_[j] - kLeastAngle) return std::nullopt;
         const double length = along.norm();
         // Edges go as the mean of one over the size.
-        const double wanted = length * (pace_[i] + 1 / draft_.size((at(i) + at(j)) / 2) + pace_[j]) / 3;
+        const double wanted = length * (pace_[i] + 1 / partial_.size((at(i) + at(j)) / 2) + pace_[j]) / 3;
         const std::size_t between = j - i, rest = n_ - between;
         auto edges = static_cast<std::size_t>(std::max(1L, std::lround(wanted)));
         edges = std::min(edges, n_);
@@ -195,20 +197,20 @@ private:
         if (edges == 0 || edges >= n_ || edges >= std::min(between, rest) || edges + between < 4 ||
             edges + rest < 4)
             return std::nullopt;
-        if (edges == 1 && draft_.linked(cycle_[i], cycle_[j])) return std::nullopt;
+        if (edges == 1 && partial_.linked(cycle_[i], cycle_[j])) return std::nullopt;
         const double arc = arc_[j] - arc_[i];
         Choice choice{{i, j, edges}, 0};
-        const Taste& taste = draft_.taste;
-        choice.cost = end_cost(angles_[i], part_i, taste) * ease(i) +
-                      end_cost(angles_[j], part_j, taste) * ease(j) +
-                      taste.length * length / std::min(arc, arc_[n_] - arc);
+        const CutWeights& weights = partial_.weights;
+        choice.cost = end_cost(angles_[i], part_i, weights) * firmness(i) +
+                      end_cost(angles_[j], part_j, weights) * firmness(j) +
+                      weights.length * length / std::min(arc, arc_[n_] - arc);
         const double ratio = std::abs(std::log2(static_cast<double>(edges) / wanted));
-        choice.cost += ratio * ratio / 2 + taste.mismatch * mismatch(choice.cut, part_i, part_j);
-        for (const std::size_t end : {i, j}) choice.cost -= angles_[end] > kBentAbove ? taste.bent : 0.0;
+        choice.cost += ratio * ratio / 2 + weights.mismatch * mismatch(choice.cut, part_i, part_j);
+        for (const std::size_t end : {i, j}) choice.cost -= angles_[end] > kBentAbove ? weights.bent : 0.0;
         return choice;
     }
 
-    /// A turn of -2π to 4π as one of 0 to 2π.
+    /// An angle from -2π to 4π as one from 0 to 2π.
     static double whole_turn(double angle)
     {
         constexpr double kTurn = 2 * std::numbers::pi;
@@ -216,17 +218,18 @@ private:
         return angle < kTurn ? angle : angle - kTurn;
     }
 
-    /// Inner nodes move, so that angles at them matter less.
-    [[nodiscard]] double ease(std::size_t i) const { return draft_.is_fixed(cycle_[i]) ? 1 : 0.6; }
+    /// How much the angles at an end count: less where it is an inner node, which moves later. A choice.
+    [[nodiscard]] double firmness(std::size_t i) const { return partial_.is_fixed(cycle_[i]) ? 1 : 0.6; }
 
-    /// How badly the sides of both parts would agree.
+    /// How badly the sides of both parts would agree in number.
     [[nodiscard]] double mismatch(const Cut& cut, double part_i, double part_j) const
     {
         return part_mismatch(cut.from, cut.to, cut.edges, part_i, angles_[cut.to] - part_j) +
                part_mismatch(cut.to, cut.from, cut.edges, part_j, angles_[cut.from] - part_i);
     }
 
-    /// The part along the outline from one end of the line to the other.
+    /// The part along the outline from one end of the line to the other. The costs are choices: least for
+    /// grids, then for patches with one irregular node, for others more.
     [[nodiscard]] double part_mismatch(std::size_t from, std::size_t to, std::size_t edges, double angle_from,
                                        double angle_to) const
     {
@@ -247,20 +250,19 @@ private:
         }
         if (angle_to < kCornerBelow) add(span);
         if (count < 3 || count > 5) return 0.3;
-        std::array<std::size_t, 5> side{};
+        SideCounts sides{{}, count};
         for (std::size_t k = 0; k < count; ++k)
-            side[k] = (k + 1 < count ? corner[k + 1] : corner[0] + whole) - corner[k];
+            sides.side[k] = static_cast<int>((k + 1 < count ? corner[k + 1] : corner[0] + whole) - corner[k]);
+        const auto& side = sides.side;
         if (count == 4) {
-            const auto gap = [&](std::size_t a, std::size_t b) {
-                return static_cast<double>(std::max(side[a], side[b]) - std::min(side[a], side[b]));
-            };
-            const double off = gap(0, 2) + gap(1, 3);
+            const double off = std::abs(side[0] - side[2]) + std::abs(side[1] - side[3]);
             return off == 0 ? 0 : 0.1 + std::min(0.4, off / 20);
         }
-        return can_fill(std::span(side).first(count)) ? 0.1 : 0.4;
+        std::array<int, kMostSides> feet{};
+        return spoke_feet(sides, false, feet) ? 0.1 : 0.4;
     }
 
-    /// Try the places next to the ends.
+    /// Try the nodes next to the ends, in smaller and smaller steps.
     [[nodiscard]] Choice refine(Choice best, double away) const
     {
         for (std::size_t step = stride_; step > 0; step /= 2) {
@@ -278,7 +280,7 @@ private:
                 }
             }
         }
-        // Counts agree at single places: every one near either end is looked at.
+        // Numbers of edges agree for single nodes alone, so every node near either end is tried.
         const Choice start = best;
         for (std::size_t k = 0; k <= 2 * stride_; ++k) {
             for (const bool first : {true, false}) {
@@ -293,7 +295,7 @@ private:
         return best;
     }
 
-    const Draft& draft_;
+    const PartialMesh& partial_;
     const Cycle& cycle_;
     const std::vector<double>& angles_;
     std::size_t n_;
@@ -304,10 +306,10 @@ private:
     std::size_t stride_ = 1;
 };
 
-/// Every how many places of a loop a bridge is tried from.
+/// A bridge is tried from every so many nodes of a loop.
 std::size_t stride_of(std::size_t n)
 {
-    constexpr std::size_t kMost = 48;
+    constexpr std::size_t kMost = 48; // nodes of a loop tried, for the time; a choice, not a measurement
     return std::max<std::size_t>(1, n / kMost);
 }
 
@@ -320,50 +322,50 @@ std::vector<std::size_t> spread(std::size_t n)
 
 } // namespace
 
-std::optional<Cut> best_cut(const Draft& draft, const Cycle& cycle, const std::vector<double>& angles)
+std::optional<Cut> best_cut(const PartialMesh& partial, const Cycle& cycle, const std::vector<double>& angles)
 {
-    return CutFinder(draft, cycle, angles).find();
+    return CutFinder(partial, cycle, angles).find();
 }
 
-std::optional<Bridge> best_bridge(const Draft& draft, const std::vector<Cycle>& loops, std::size_t a,
-                                  std::size_t b)
+std::optional<LoopBridge> best_bridge(const PartialMesh& partial, const std::vector<Cycle>& loops,
+                                      std::size_t a, std::size_t b)
 {
     const Cycle &one = loops[a], &two = loops[b];
-    const auto judge = [&](std::size_t i, std::size_t j) -> std::optional<Bridge> {
-        const Vec2 &p = draft.at(one[i]), &q = draft.at(two[j]);
-        const double angle_i = inner_angle(draft, one, i);
-        const double part_i = turn_between(draft.at(one[(i + 1) % one.size()]) - p, q - p);
+    const auto judge = [&](std::size_t i, std::size_t j) -> std::optional<LoopBridge> {
+        const Vec2 &p = partial.at(one[i]), &q = partial.at(two[j]);
+        const double angle_i = inner_angle(partial, one, i);
+        const double part_i = turn_between(partial.at(one[(i + 1) % one.size()]) - p, q - p);
         if (part_i >= angle_i) return std::nullopt;
-        const double angle_j = inner_angle(draft, two, j);
-        const double part_j = turn_between(draft.at(two[(j + 1) % two.size()]) - q, p - q);
+        const double angle_j = inner_angle(partial, two, j);
+        const double part_j = turn_between(partial.at(two[(j + 1) % two.size()]) - q, p - q);
         if (part_j >= angle_j) return std::nullopt;
         const double length = (q - p).norm();
-        Bridge bridge{a, b, {i, j, 1}, 0};
-        bridge.cost = length * (1 + 0.3 * (end_cost(angle_i, part_i, draft.taste) +
-                                           end_cost(angle_j, part_j, draft.taste)));
-        const double wanted = length / local_size(draft, p, q);
+        LoopBridge bridge{a, b, {i, j, 1}, 0};
+        bridge.cost = length * (1 + 0.3 * (end_cost(angle_i, part_i, partial.weights) +
+                                           end_cost(angle_j, part_j, partial.weights)));
+        const double wanted = length / local_size(partial, p, q);
         bridge.cut.edges = static_cast<std::size_t>(std::max(1L, std::lround(wanted)));
         return bridge;
     };
-    const auto is_free = [&](const Bridge& bridge) {
+    const auto is_free = [&](const LoopBridge& bridge) {
         const Index p = one[bridge.cut.from], q = two[bridge.cut.to];
         return p != q && std::all_of(loops.begin(), loops.end(),
-                                     [&](const Cycle& loop) { return is_clear(draft, loop, p, q); });
+                                     [&](const Cycle& loop) { return is_clear(partial, loop, p, q); });
     };
-    std::vector<Bridge> choices;
+    std::vector<LoopBridge> choices;
     for (const std::size_t i : spread(one.size())) {
         for (const std::size_t j : spread(two.size())) {
             if (const auto bridge = judge(i, j)) choices.push_back(*bridge);
         }
     }
-    std::sort(choices.begin(), choices.end(), [](const Bridge& x, const Bridge& y) {
+    std::sort(choices.begin(), choices.end(), [](const LoopBridge& x, const LoopBridge& y) {
         return std::tie(x.cost, x.cut.from, x.cut.to) < std::tie(y.cost, y.cut.from, y.cut.to);
     });
     const auto found = std::find_if(choices.begin(), choices.end(), is_free);
     if (found == choices.end()) return std::nullopt;
-    // The places between those tried.
+    // The nodes between those tried.
     const std::size_t n = one.size(), m = two.size(), reach_n = stride_of(n), reach_m = stride_of(m);
-    Bridge best = *found;
+    LoopBridge best = *found;
     for (std::size_t di = 0; di <= 2 * reach_n; ++di) {
         for (std::size_t dj = 0; dj <= 2 * reach_m; ++dj) {
             const auto bridge = judge((found->cut.from + n + di - reach_n) % n,
@@ -374,17 +376,17 @@ std::optional<Bridge> best_bridge(const Draft& draft, const std::vector<Cycle>& 
     return best;
 }
 
-Bridge blind_bridge(const Draft& draft, const std::vector<Cycle>& loops)
+LoopBridge blind_bridge(const PartialMesh& partial, const std::vector<Cycle>& loops)
 {
-    Bridge best;
+    LoopBridge best;
     best.cost = std::numeric_limits<double>::infinity();
     for (std::size_t b = 1; b < loops.size(); ++b) {
         for (const std::size_t i : spread(loops[0].size())) {
             for (const std::size_t j : spread(loops[b].size())) {
-                const Vec2 &p = draft.at(loops[0][i]), &q = draft.at(loops[b][j]);
+                const Vec2 &p = partial.at(loops[0][i]), &q = partial.at(loops[b][j]);
                 const double length = (q - p).norm();
                 if (length >= best.cost) continue;
-                const double edges = length / local_size(draft, p, q);
+                const double edges = length / local_size(partial, p, q);
                 best = {0, b, {i, j, static_cast<std::size_t>(std::max(2L, std::lround(edges)))}, length};
             }
         }
@@ -392,32 +394,31 @@ Bridge blind_bridge(const Draft& draft, const std::vector<Cycle>& loops)
     return best;
 }
 
-Cut blind_cut(const Draft& draft, const Cycle& cycle)
+Cut blind_cut(const PartialMesh& partial, const Cycle& cycle)
 {
-    // A quad's worth is cut off where it is best shaped.
     const std::size_t n = cycle.size();
     Cut best;
     double best_quality = -3;
     for (std::size_t i = 0; i < n; ++i) {
         const std::size_t j = (i + 3) % n;
-        const double quality = least_sine(draft,
+        const double quality = least_sine(partial,
                                           {cycle[i], cycle[(i + 1) % n], cycle[(i + 2) % n], cycle[j]});
-        if (quality <= best_quality || cycle[i] == cycle[j] || draft.linked(cycle[i], cycle[j])) continue;
+        if (quality <= best_quality || cycle[i] == cycle[j] || partial.linked(cycle[i], cycle[j])) continue;
         best_quality = quality;
         best = {std::min(i, j), std::max(i, j), 1};
     }
     return best;
 }
 
-Cycle nodes_along(Draft& draft, Index from, Index to, std::size_t edges)
+Cycle nodes_along(PartialMesh& partial, Index from, Index to, std::size_t edges)
 {
-    // By even steps of ∫ ds / size, sampled.
-    const Vec2 a = draft.at(from), b = draft.at(to);
+    // At even steps of the integral of 1 / size along the line, sampled.
+    const Vec2 a = partial.at(from), b = partial.at(to);
     const std::size_t samples = std::max<std::size_t>(2 * edges, 16);
     std::vector<double> sum(samples + 1, 0);
     for (std::size_t k = 0; k < samples; ++k) {
         const double f = (static_cast<double>(k) + 0.5) / static_cast<double>(samples);
-        sum[k + 1] = sum[k] + 1 / draft.size((1 - f) * a + f * b);
+        sum[k + 1] = sum[k] + 1 / partial.size((1 - f) * a + f * b);
     }
     Cycle line{from};
     std::size_t k = 0;
@@ -426,7 +427,7 @@ Cycle nodes_along(Draft& draft, Index from, Index to, std::size_t edges)
         while (sum[k + 1] < goal) ++k;
         const double f = (static_cast<double>(k) + (goal - sum[k]) / (sum[k + 1] - sum[k])) /
                          static_cast<double>(samples);
-        line.push_back(draft.add((1 - f) * a + f * b));
+        line.push_back(partial.add((1 - f) * a + f * b));
     }
     line.push_back(to);
     return line;

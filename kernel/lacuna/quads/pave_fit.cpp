@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_fit.h>
 
+#include <lacuna/geometry/transfinite.h>
+#include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/detail/pave_patch.h>
 
 #include <array>
@@ -9,36 +11,26 @@
 namespace lacuna::quads::paving {
 namespace {
 
-constexpr double kCornerBelow = 0.75 * std::numbers::pi; ///< half way from a right angle to a straight one
-constexpr double kBentAbove = 1.25 *
-                              std::numbers::pi; ///< half way from a straight angle to a corner of three
-
-/// A side sampled at even numbers of edges.
+/// A side of a block, sampled at even steps along its edges.
 struct Sampled {
     std::vector<Vec2> points;
     double edges = 0; ///< how many edges of the mesh the whole side has
 };
 
-constexpr std::size_t kSamples = 6; ///< cells along a side of a patch that is judged
+constexpr std::size_t kSamples = 6; ///< sample cells along a side of a patch, for the time; a choice
 
-/// @param virtual_corner  true where the corner of the patch is not one of the outline, but an inner node
-/// that will move: the cell there says nothing.
-double judge_block(const Draft& draft, const std::array<Sampled, 4>& side,
+/// The quality of a block of a patch: its worst sample cell's least sine, less where cells miss the size
+/// asked.
+/// @param virtual_corner  true where the corner of the patch is not one of the outline but an inner node that
+///                        will move, so that the cell there says nothing.
+double judge_block(const PartialMesh& partial, const std::array<Sampled, 4>& side,
                    const std::array<bool, 4>& virtual_corner)
 {
     const std::size_t n = side[0].points.size() - 1, m = side[1].points.size() - 1;
     const auto& [b, r, t, l] = side;
-    std::vector<Vec2> grid((n + 1) * (m + 1));
-    for (std::size_t j = 0; j <= m; ++j) {
-        for (std::size_t i = 0; i <= n; ++i) {
-            const double u = static_cast<double>(i) / static_cast<double>(n);
-            const double v = static_cast<double>(j) / static_cast<double>(m);
-            grid[j * (n + 1) + i] = (1 - v) * b.points[i] + v * t.points[i] + (1 - u) * l.points[j] +
-                                    u * r.points[j] -
-                                    ((1 - u) * (1 - v) * b.points[0] + u * (1 - v) * b.points[n] +
-                                     u * v * t.points[n] + (1 - u) * v * t.points[0]);
-        }
-    }
+    // Samples are spaced alike by number, so that they count for as many quads each.
+    const std::vector<Vec2> grid = geometry::transfinite(b.points, r.points, t.points, l.points,
+                                                         {.by_arc_length = false});
     double worst = 1, stray = 0, weight = 0;
     for (std::size_t j = 0; j < m; ++j) {
         for (std::size_t i = 0; i < n; ++i) {
@@ -49,7 +41,7 @@ double judge_block(const Draft& draft, const std::array<Sampled, 4>& side,
             bool skip = false;
             for (std::size_t k = 0; k < 4; ++k) skip = skip || (corner[k] && virtual_corner[k]);
             if (!skip || (n == 1 && m == 1)) worst = std::min(worst, least_sine(p0, p1, p2, p3));
-            const double size = draft.size((p0 + p1 + p2 + p3) / 4);
+            const double size = partial.size((p0 + p1 + p2 + p3) / 4);
             const double across = std::max(b.edges, t.edges) / static_cast<double>(n);
             const double along = std::max(l.edges, r.edges) / static_cast<double>(m);
             const double w = ((p1 - p0).norm() + (p2 - p3).norm()) / 2 / across / size;
@@ -64,11 +56,12 @@ double judge_block(const Draft& draft, const std::array<Sampled, 4>& side,
     return worst > 0 ? worst / (1 + stray / weight) : worst;
 }
 
-Sampled sample(const Draft& draft, const Cycle& cycle, std::size_t from, std::size_t edges, std::size_t cells)
+Sampled sample(const PartialMesh& partial, const Cycle& cycle, std::size_t from, std::size_t edges,
+               std::size_t cells)
 {
     Sampled side{{}, static_cast<double>(edges)};
     for (std::size_t k = 0; k <= cells; ++k)
-        side.points.push_back(draft.at(cycle[(from + k * edges / cells) % cycle.size()]));
+        side.points.push_back(partial.at(cycle[(from + k * edges / cells) % cycle.size()]));
     return side;
 }
 
@@ -78,79 +71,74 @@ Sampled reversed(Sampled side)
     return side;
 }
 
-std::vector<std::size_t> side_lengths(std::size_t n, const std::vector<std::size_t>& corners)
-{
-    std::vector<std::size_t> edges;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const std::size_t to = corners[(i + 1) % corners.size()];
-        edges.push_back((to + n - corners[i] - 1) % n + 1);
-    }
-    return edges;
-}
-
-double judge_four(const Draft& draft, const Cycle& cycle, const std::vector<double>& angles,
+double judge_four(const PartialMesh& partial, const Cycle& cycle, const std::vector<double>& angles,
                   const std::vector<std::size_t>& corners)
 {
-    const std::vector<std::size_t> edges = side_lengths(cycle.size(), corners);
-    if (!can_fill(edges)) return -1;
+    const SideCounts counts = side_counts(cycle.size(), corners);
+    if (!can_fill(counts)) return -1;
+    std::array<std::size_t, 4> edges{};
+    for (std::size_t i = 0; i < 4; ++i) edges[i] = static_cast<std::size_t>(counts.side[i]);
     const std::size_t n = std::min({kSamples, edges[0], edges[2]}),
                       m = std::min({kSamples, edges[1], edges[3]});
-    const std::array<Sampled, 4> side{sample(draft, cycle, corners[0], edges[0], n),
-                                      sample(draft, cycle, corners[1], edges[1], m),
-                                      reversed(sample(draft, cycle, corners[2], edges[2], n)),
-                                      reversed(sample(draft, cycle, corners[3], edges[3], m))};
+    const std::array<Sampled, 4> side{sample(partial, cycle, corners[0], edges[0], n),
+                                      sample(partial, cycle, corners[1], edges[1], m),
+                                      reversed(sample(partial, cycle, corners[2], edges[2], n)),
+                                      reversed(sample(partial, cycle, corners[3], edges[3], m))};
     std::array<bool, 4> is_virtual{};
     for (std::size_t k = 0; k < 4; ++k)
-        is_virtual[k] = angles[corners[k]] > kCornerBelow && !draft.is_fixed(cycle[corners[k]]);
-    const double quality = judge_block(draft, side, is_virtual);
-    // Columns that turn away bend the grid: by how much of it they are.
+        is_virtual[k] = angles[corners[k]] > kCornerBelow && !partial.is_fixed(cycle[corners[k]]);
+    const double quality = judge_block(partial, side, is_virtual);
+    // Columns that turn off to a neighbouring side bend the grid, the more of them the worse.
     const auto excess = [](std::size_t a, std::size_t c) {
         return static_cast<double>(std::max(a, c) - std::min(a, c)) / static_cast<double>(std::max(a, c));
     };
     return quality * (1 - std::max(excess(edges[0], edges[2]), excess(edges[1], edges[3])));
 }
 
-/// A patch of 3 or 5 sides, by the blocks at its corners.
-double judge_star(const Draft& draft, const Cycle& cycle, const std::vector<std::size_t>& corners)
+/// The quality of a patch of 3 or 5 sides: that of the worst of the blocks at its corners.
+double judge_star(const PartialMesh& partial, const Cycle& cycle, const std::vector<std::size_t>& corners)
 {
-    const std::vector<std::size_t> edges = side_lengths(cycle.size(), corners);
-    if (!can_fill(edges)) return -1;
-    const std::vector<std::size_t> foot = star_feet(edges);
+    const SideCounts counts = side_counts(cycle.size(), corners);
+    std::array<int, kMostSides> feet{};
+    if (!spoke_feet(counts, false, feet)) return -1;
     const std::size_t n = corners.size(), size = cycle.size();
+    const auto foot = [&](std::size_t i) { return static_cast<std::size_t>(feet[i]); };
     std::vector<Vec2> at;
     Vec2 centre = Vec2::Zero();
     for (std::size_t i = 0; i < n; ++i) {
-        at.push_back(draft.at(cycle[(corners[i] + foot[i]) % size]));
+        at.push_back(partial.at(cycle[(corners[i] + foot(i)) % size]));
         centre += at.back() / static_cast<double>(n);
     }
     const auto straight = [&](const Vec2& from, std::size_t count, std::size_t cells) {
         Sampled line{{}, static_cast<double>(count)};
-        for (std::size_t k = 0; k <= cells; ++k)
+        for (std::size_t k = 0; k < cells; ++k)
             line.points.push_back(from +
                                   static_cast<double>(k) / static_cast<double>(cells) * (centre - from));
+        line.points.push_back(centre);
         return line;
     };
     double quality = 1;
     for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t before = (i + n - 1) % n, rest = edges[before] - foot[before];
-        const std::size_t a = std::min(kSamples / 2, foot[i]), b = std::min(kSamples / 2, rest);
+        const std::size_t before = (i + n - 1) % n,
+                          rest = static_cast<std::size_t>(counts.side[before]) - foot(before);
+        const std::size_t a = std::min(kSamples / 2, foot(i)), b = std::min(kSamples / 2, rest);
         const std::array<Sampled, 4> side{
-            sample(draft, cycle, corners[i], foot[i], a), straight(at[i], rest, b),
-            straight(at[before], foot[i], a),
-            reversed(sample(draft, cycle, (corners[before] + foot[before]) % size, rest, b))};
-        quality = std::min(quality, judge_block(draft, side, {}));
+            sample(partial, cycle, corners[i], foot(i), a), straight(at[i], rest, b),
+            straight(at[before], foot(i), a),
+            reversed(sample(partial, cycle, (corners[before] + foot(before)) % size, rest, b))};
+        quality = std::min(quality, judge_block(partial, side, {}));
     }
     return quality;
 }
 
-/// Four corners of a loop that has none, as a square or a rectangle of the same way round.
-Fit fit_round(const Draft& draft, const Cycle& cycle, const std::vector<double>& angles)
+/// The best four corners for a loop that has none: those of a square or rectangle with as many edges.
+PatchFit fit_round(const PartialMesh& partial, const Cycle& cycle, const std::vector<double>& angles)
 {
     const std::size_t n = cycle.size(), half = n / 2;
-    Fit best;
+    PatchFit best;
     best.quality = -1;
     if (n < 8 || n % 2 != 0) return best;
-    constexpr std::size_t kTurns = 24; // ways round tried
+    constexpr std::size_t kTurns = 24; // first corners tried, for the time; a choice
     const std::size_t step = std::max<std::size_t>(1, half / kTurns);
     for (std::size_t start = 0; start < half; start += step) {
         for (const double share : {0.5, 0.4, 0.3, 0.2}) {
@@ -160,36 +148,36 @@ Fit fit_round(const Draft& draft, const Cycle& cycle, const std::vector<double>&
                 const std::vector<std::size_t> corners{start, start + first, start + half,
                                                        (start + half + first) % n};
                 bool free = true;
-                for (const std::size_t c : corners) free = free && !draft.is_fixed(cycle[c % n]);
+                for (const std::size_t c : corners) free = free && !partial.is_fixed(cycle[c % n]);
                 if (!free || corners[2] >= n || corners[3] < start) continue;
-                const double quality = judge_four(draft, cycle, angles, corners);
+                const double quality = judge_four(partial, cycle, angles, corners);
                 if (quality > best.quality) best = {corners, quality};
             }
         }
     }
-    // A square made round bends at its corners, which lie on a round outline.
-    constexpr double kBend = 0.8;
+    // The corners of the grid lie on a round outline, where its corner cells are skewed.
+    constexpr double kBend = 0.8; // a choice, not a measurement
     best.quality *= best.quality > 0 ? kBend : 1;
     return best;
 }
 
 } // namespace
 
-std::vector<double> angles_of(const Draft& draft, const Cycle& cycle)
+std::vector<double> angles_of(const PartialMesh& partial, const Cycle& cycle)
 {
     std::vector<double> angles(cycle.size());
-    for (std::size_t i = 0; i < cycle.size(); ++i) angles[i] = inner_angle(draft, cycle, i);
+    for (std::size_t i = 0; i < cycle.size(); ++i) angles[i] = inner_angle(partial, cycle, i);
     return angles;
 }
 
-Fit fit_patch(const Draft& draft, const Cycle& cycle, const std::vector<double>& angles)
+PatchFit fit_patch(const PartialMesh& partial, const Cycle& cycle, const std::vector<double>& angles)
 {
-    Fit fit;
+    PatchFit fit;
     for (std::size_t i = 0; i < cycle.size(); ++i) {
         if (angles[i] > kBentAbove) return {};
         if (angles[i] < kCornerBelow) fit.corners.push_back(i);
     }
-    if (fit.corners.empty()) return fit_round(draft, cycle, angles);
+    if (fit.corners.empty()) return fit_round(partial, cycle, angles);
     if (fit.corners.size() == 3) {
         // A wide corner may be the fourth where no other comes near it.
         std::vector<std::size_t> order(cycle.size());
@@ -197,18 +185,18 @@ Fit fit_patch(const Draft& draft, const Cycle& cycle, const std::vector<double>&
         std::partial_sort(order.begin(), order.begin() + 5, order.end(), [&](std::size_t a, std::size_t b) {
             return std::pair(angles[a], a) < std::pair(angles[b], b);
         });
-        constexpr double kClear = kRightAngle / 9; // 10°
+        constexpr double kClear = kRightAngle / 9; // 10° wider at the next node; a choice
         if (angles[order[3]] + kClear < angles[order[4]]) {
             std::vector<std::size_t> four(order.begin(), order.begin() + 4);
             std::sort(four.begin(), four.end());
-            const double quality = judge_four(draft, cycle, angles, four);
+            const double quality = judge_four(partial, cycle, angles, four);
             if (quality > 0) return {four, quality};
         }
     }
     if (fit.corners.size() == 4)
-        fit.quality = judge_four(draft, cycle, angles, fit.corners);
+        fit.quality = judge_four(partial, cycle, angles, fit.corners);
     else if (fit.corners.size() == 3 || fit.corners.size() == 5)
-        fit.quality = judge_star(draft, cycle, fit.corners);
+        fit.quality = judge_star(partial, cycle, fit.corners);
     else
         return {};
     if (fit.quality <= 0) fit.corners.clear();

@@ -3,27 +3,30 @@
 
 namespace lacuna::quads::paving {
 
-Gaps::Gaps(const Draft& draft, const std::vector<Cycle>& loops) : draft_(draft)
+GapFinder::GapFinder(const PartialMesh& partial, const std::vector<Cycle>& loops) : partial_(partial)
 {
     double sum = 0, count = 0;
     low_ = Vec2::Constant(std::numeric_limits<double>::infinity());
     Vec2 high = -low_;
     for (const Cycle& loop : loops) {
         for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec2& p = draft.at(loop[i]);
+            const Vec2& p = partial.at(loop[i]);
             low_ = low_.cwiseMin(p);
             high = high.cwiseMax(p);
-            sum += (draft.at(loop[(i + 1) % loop.size()]) - p).norm();
+            sum += (partial.at(loop[(i + 1) % loop.size()]) - p).norm();
             count += 1;
         }
     }
     diagonal_ = (high - low_).norm();
-    // As many cells as sides at the most, however far apart they lie.
-    cell_ = std::max({sum / count, (high - low_).maxCoeff() / 4096, std::numeric_limits<double>::min()});
+    // Cells as wide as a mean side, but no more than kMostCells across, so that a long side is in few of
+    // them.
+    constexpr double kMostCells = 4096; // a choice, not a measurement
+    cell_ = std::max(
+        {sum / count, (high - low_).maxCoeff() / kMostCells, std::numeric_limits<double>::min()});
     for (const Cycle& loop : loops) {
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const Segment side{loop[i], loop[(i + 1) % loop.size()]};
-            const Vec2 a = (draft.at(side[0]) - low_) / cell_, b = (draft.at(side[1]) - low_) / cell_;
+            const Vec2 a = (partial.at(side[0]) - low_) / cell_, b = (partial.at(side[1]) - low_) / cell_;
             const auto steps = static_cast<int>((b - a).cwiseAbs().maxCoeff() * 2) + 1;
             std::int64_t last = -1;
             for (int k = 0; k <= steps; ++k) {
@@ -37,9 +40,9 @@ Gaps::Gaps(const Draft& draft, const std::vector<Cycle>& loops) : draft_(draft)
     }
 }
 
-double Gaps::ahead(Index before, Index node, Index after, const Vec2& direction, double reach) const
+double GapFinder::ahead(Index before, Index node, Index after, const Vec2& direction, double reach) const
 {
-    const Vec2& p = draft_.at(node);
+    const Vec2& p = partial_.at(node);
     const Vec2 a = (p - low_) / cell_, b = (p + reach * direction - low_) / cell_;
     const auto span = [](double u, double v) {
         return std::pair(static_cast<std::int64_t>(std::floor(std::min(u, v))) - 1,
@@ -56,12 +59,15 @@ double Gaps::ahead(Index before, Index node, Index after, const Vec2& direction,
                 if (side[0] == node || side[1] == node || side[0] == before || side[1] == before ||
                     side[0] == after || side[1] == after)
                     continue;
-                const Vec2 from = draft_.at(side[0]) - p, along = draft_.at(side[1]) - draft_.at(side[0]);
+                const Vec2 from = partial_.at(side[0]) - p,
+                           along = partial_.at(side[1]) - partial_.at(side[0]);
                 const double det = cross(direction, along);
                 if (det == 0) continue;
                 const double t = cross(from, along) / det, s = cross(from, direction) / det;
-                // A little beyond both ends: passing close by is meeting.
-                if (t > 0 && s >= -0.2 && s <= 1.2) nearest = std::min(nearest, t);
+                // Passing an end within a fifth of the side counts as meeting it; a choice, not a
+                // measurement.
+                constexpr double kBeyond = 0.2;
+                if (t > 0 && s >= -kBeyond && s <= 1 + kBeyond) nearest = std::min(nearest, t);
             }
         }
     }

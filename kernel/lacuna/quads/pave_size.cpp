@@ -11,14 +11,14 @@
 namespace lacuna::quads::paving {
 namespace {
 
-struct Side {
+struct BoundarySide {
     Vec2 middle;
     double length;
 };
 
-std::vector<Side> sides_of(const PlanarRegion& region)
+std::vector<BoundarySide> sides_of(const PlanarRegion& region)
 {
-    std::vector<Side> sides;
+    std::vector<BoundarySide> sides;
     for (const auto& loop : region.loops) {
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const Vec2& a = region.points[static_cast<std::size_t>(loop[i])];
@@ -29,18 +29,18 @@ std::vector<Side> sides_of(const PlanarRegion& region)
     return sides;
 }
 
-/// Bounds on the size on a grid over the region, each carried outward from the boundary sides.
-class Bounds {
+/// Bounds on the size, on a grid over the region, spread from the boundary sides.
+class SizeBounds {
 public:
-    Bounds(const std::vector<Side>& sides, double grading)
+    SizeBounds(const std::vector<BoundarySide>& sides, double grading)
     {
         Vec2 high = sides.front().middle;
         low_ = high;
-        for (const Side& side : sides) {
+        for (const BoundarySide& side : sides) {
             low_ = low_.cwiseMin(side.middle);
             high = high.cwiseMax(side.middle);
         }
-        constexpr double kAcross = 128; // cells along the longer side of the box
+        constexpr double kAcross = 128; // cells along the longer side of the box, for the time; a choice
         cell_ = std::max((high - low_).maxCoeff() / kAcross, std::numeric_limits<double>::min());
         low_ -= Vec2::Constant(cell_);
         nx_ = static_cast<int>((high.x() - low_.x()) / cell_) + 2;
@@ -48,12 +48,12 @@ public:
         const auto cells = static_cast<std::size_t>(nx_ * ny_);
         most_.assign(cells, std::numeric_limits<double>::infinity());
         least_.assign(cells, 0);
-        for (const Side& side : sides) {
+        for (const BoundarySide& side : sides) {
             const std::size_t c = cell_of(side.middle);
             most_[c] = std::min(most_[c], side.length);
             least_[c] = std::max(least_[c], side.length);
         }
-        // Two rounds of two sweeps each carry the bounds all over, but round sharp bends.
+        // Two rounds of two sweeps spread the bounds everywhere but around sharp bends.
         for (int round = 0; round < 2; ++round) {
             for (int y = 0; y < ny_; ++y)
                 for (int x = 0; x < nx_; ++x) relax(x, y, -1, grading);
@@ -62,7 +62,8 @@ public:
         }
     }
 
-    /// The asked size between the bounds at the four cells around; the lower bound gives way.
+    /// The size asked for, within the bounds at the four cells around; where they disagree the upper one
+    /// holds.
     [[nodiscard]] double limit(const Vec2& p, double asked) const
     {
         const double x = std::clamp((p.x() - low_.x()) / cell_ - 0.5, 0.0, nx_ - 1.001);
@@ -108,19 +109,19 @@ private:
 
 std::function<double(const Vec2&)> size_with_boundary(const PlanarRegion& region, double grading)
 {
-    const std::vector<Side> sides = sides_of(region);
+    const std::vector<BoundarySide> sides = sides_of(region);
     double sum = 0;
-    for (const Side& side : sides) sum += side.length;
+    for (const BoundarySide& side : sides) sum += side.length;
     std::function<double(const Vec2&)> asked = region.size;
     if (!asked) asked = [mean = sum / static_cast<double>(sides.size())](const Vec2&) { return mean; };
     constexpr double kAlike =
-        1.6; // a side this much off the size asked is within the bounds of what one asks for
-    const bool alike = std::all_of(sides.begin(), sides.end(), [&](const Side& side) {
+        1.6; // sides within this factor have the length asked; a choice, not a measurement
+    const bool alike = std::all_of(sides.begin(), sides.end(), [&](const BoundarySide& side) {
         const double size = asked(side.middle);
         return side.length < kAlike * size && size < kAlike * side.length;
     });
     if (alike) return asked;
-    return [asked, bounds = std::make_shared<const Bounds>(sides, grading)](const Vec2& p) {
+    return [asked, bounds = std::make_shared<const SizeBounds>(sides, grading)](const Vec2& p) {
         return bounds->limit(p, asked(p));
     };
 }

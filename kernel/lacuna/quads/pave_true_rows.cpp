@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_true_rows.h>
 
-#include <lacuna/quads/detail/pave_draft.h>
+#include <lacuna/quads/detail/partial_mesh.h>
 
 namespace lacuna::quads::paving {
 namespace {

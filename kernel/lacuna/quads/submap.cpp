@@ -14,48 +14,51 @@
 namespace lacuna::quads {
 namespace {
 
-/// How many nodes the grid's outline turns at.
+/// The number of nodes at which a loop turns in the grid.
 std::size_t corner_count(const GridLoop& loop)
 {
     std::size_t count = 0;
-    for (std::size_t i = 0, n = loop.spots.size(); i < n; ++i) {
-        const Spot &before = loop.spots[(i + n - 1) % n], &here = loop.spots[i],
-                   &after = loop.spots[(i + 1) % n];
+    for (std::size_t i = 0, n = loop.positions.size(); i < n; ++i) {
+        const GridPosition &before = loop.positions[(i + n - 1) % n], &here = loop.positions[i],
+                           &after = loop.positions[(i + 1) % n];
         count += after[0] - here[0] != here[0] - before[0] || after[1] - here[1] != here[1] - before[1] ? 1U
                                                                                                         : 0U;
     }
     return count;
 }
 
-/// Lay a row along every round loop. @return false where there is no room for one.
-bool row_round(paving::Draft& draft, std::vector<std::vector<Index>>& loops, const std::vector<bool>& round)
+/// Lay a row along every round loop. @return false where one has no room, or its inner side cannot have four
+/// corners.
+bool lay_rows_on_round(paving::PartialMesh& partial, std::vector<std::vector<Index>>& loops,
+                       const std::vector<bool>& round)
 {
     std::vector<bool> wanted = round;
-    paving::lay_rows(draft, loops, wanted, draft.size);
+    paving::lay_rows(partial, loops, wanted, partial.size);
     for (std::size_t l = 0; l < loops.size(); ++l) {
         if (round[l] && (!wanted[l] || loops[l].size() % 2 != 0 || loops[l].size() < 8)) return false;
     }
     return true;
 }
 
-/// Give the holes their places in an outer loop's grid. @return how far off they are, in sum.
-double settle_all(const std::vector<Vec2>& points, const std::vector<std::vector<Index>>& loops,
-                  const std::vector<bool>& round, std::vector<GridLoop>& grid)
+/// Give the holes their positions in the outer loop's grid.
+/// @return how far their nodes are from the outline's interpolated coordinates, squared, in sum.
+double place_holes(const std::vector<Vec2>& points, const std::vector<std::vector<Index>>& loops,
+                   const std::vector<bool>& round, std::vector<GridLoop>& grid)
 {
     double off = 0;
     for (std::size_t l = 1; l < loops.size(); ++l) {
         std::vector<Vec2> goal;
         for (const Index p : loops[l])
-            goal.push_back(carried_inward(points, grid.front(), points[static_cast<std::size_t>(p)]));
+            goal.push_back(mean_value_position(points, grid.front(), points[static_cast<std::size_t>(p)]));
         if (!round[l]) {
-            off += settle(goal, grid[l]);
+            off += place_hole(goal, grid[l]);
             continue;
         }
-        // Corners where they lie nearest to a square's.
+        // The corners go where they lie nearest to those of a square.
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t start = 0; start < loops[l].size() / 2; ++start) {
             GridLoop turned = with_corners(loops[l], start, false);
-            const double error = settle(goal, turned);
+            const double error = place_hole(goal, turned);
             if (error >= least) continue;
             least = error;
             grid[l] = std::move(turned);
@@ -65,7 +68,7 @@ double settle_all(const std::vector<Vec2>& points, const std::vector<std::vector
     return off;
 }
 
-/// Grid coordinates of all loops; nothing where they do not close.
+/// Grid coordinates of all loops; nothing where one does not close.
 std::optional<std::vector<GridLoop>> place_loops(const std::vector<Vec2>& points,
                                                  const std::vector<std::vector<Index>>& loops,
                                                  const std::vector<bool>& round)
@@ -78,18 +81,18 @@ std::optional<std::vector<GridLoop>> place_loops(const std::vector<Vec2>& points
         grid[l] = std::move(*walked);
     }
     if (!round[0]) {
-        settle_all(points, loops, round, grid);
+        place_holes(points, loops, round, grid);
         return grid;
     }
-    // A round outline may have its corners anywhere: where the holes fit best.
-    constexpr std::size_t kStarts = 8;
+    // A round outline may have its corners anywhere: they go where the holes fit best.
+    constexpr std::size_t kStarts = 8; // first corners tried in a quarter of the loop, for the time; a choice
     const std::size_t quarter = loops[0].size() / 4;
     std::vector<GridLoop> best;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < (loops.size() > 1 ? kStarts : 1); ++k) {
         grid[0] = with_corners(loops[0], k * quarter / kStarts, true);
         std::vector<GridLoop> settled = grid;
-        const double off = settle_all(points, loops, round, settled);
+        const double off = place_holes(points, loops, round, settled);
         if (off >= least) continue;
         least = off;
         best = std::move(settled);
@@ -102,9 +105,9 @@ std::optional<std::vector<GridLoop>> place_loops(const std::vector<Vec2>& points
 int grid_quads(double angle)
 {
     using paving::kRightAngle;
-    constexpr double kOff = kRightAngle * 4 / 9; // 40°: a sine of 0.77 left at a corner
+    constexpr double kOff = kRightAngle * 4 / 9; // 40°: it leaves a sine of 0.77 at a corner; a choice
     const int quads = paving::quads_in(angle);
-    // A side is whatever no right angle is near to: outlines of few nodes bend by up to 45° at each.
+    // Any angle that is nearest to a straight one is a side: outlines of few nodes bend by up to 45° at each.
     if (quads == 2) return 2;
     return quads <= 4 && std::abs(angle - quads * kRightAngle) <= kOff ? quads : 0;
 }
@@ -112,18 +115,18 @@ int grid_quads(double angle)
 std::optional<PlanarQuads> submap(const PlanarRegion& region, bool round_loops, const RunContext& context)
 {
     const std::size_t fixed = region.points.size();
-    paving::Draft draft{region.points, {}, fixed, paving::size_with_boundary(region), 0};
+    paving::PartialMesh partial{region.points, {}, fixed, paving::size_with_boundary(region), 0};
     std::vector<std::vector<Index>> loops = region.loops;
     std::vector<bool> round;
     for (const auto& loop : loops) round.push_back(is_round(region.points, loop));
     const bool rows = std::find(round.begin(), round.end(), true) != round.end();
-    if (rows && (!round_loops || !row_round(draft, loops, round))) return std::nullopt;
-    const auto grid_loops = place_loops(draft.points, loops, round);
+    if (rows && (!round_loops || !lay_rows_on_round(partial, loops, round))) return std::nullopt;
+    const auto grid_loops = place_loops(partial.points, loops, round);
     if (!grid_loops) return std::nullopt;
-    Grid grid(*grid_loops);
+    SubmapGrid grid(*grid_loops);
     if (!grid.enclose(*grid_loops)) return std::nullopt;
     const bool four_sided = !rows && loops.size() == 1 && corner_count(grid_loops->front()) == 4;
-    PlanarQuads mesh{std::move(draft.points), std::move(draft.quads),
+    PlanarQuads mesh{std::move(partial.points), std::move(partial.quads),
                      four_sided ? "mapped"
                      : rows     ? "paved, its core submapped"
                                 : "submapped"};
@@ -132,7 +135,7 @@ std::optional<PlanarQuads> submap(const PlanarRegion& region, bool round_loops, 
     grid.place_inner(mesh.points, first);
     const std::vector<Quad> cells = grid.quads();
     mesh.quads.insert(mesh.quads.end(), cells.begin(), cells.end());
-    smooth_plane(mesh.points, mesh.quads, fixed, {.size = draft.size}, context);
+    smooth_plane(mesh.points, mesh.quads, fixed, {.size = partial.size}, context);
     if (!find_fault(mesh, region).empty()) return std::nullopt;
     return mesh;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/submap_grid.h>
 
-#include <lacuna/quads/detail/pave_draft.h>
+#include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/submap.h>
 
 #include <algorithm>
@@ -14,12 +14,12 @@ namespace {
 using paving::cross;
 using paving::turn_between;
 
-constexpr std::array<Spot, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+constexpr std::array<GridPosition, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
 
-Spot rotated(Spot spot, int quarters)
+GridPosition rotated(GridPosition position, int quarters)
 {
-    for (; quarters > 0; --quarters) spot = {-spot[1], spot[0]};
-    return spot;
+    for (; quarters > 0; --quarters) position = {-position[1], position[0]};
+    return position;
 }
 
 double angle_at(const std::vector<Vec2>& points, const std::vector<Index>& loop, std::size_t i)
@@ -43,23 +43,23 @@ std::optional<GridLoop> walk(const std::vector<Vec2>& points, const std::vector<
 {
     GridLoop grid{loop, {}};
     const std::size_t n = loop.size();
-    Spot spot{0, 0};
+    GridPosition position{0, 0};
     int heading = 0, sum = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const int quads = grid_quads(angle_at(points, loop, i));
         if (quads == 0) return std::nullopt;
         sum += 2 - quads;
-        // The first side's heading is what the axes are named after.
+        // The first side runs along the first axis, whatever the angle at its start.
         if (i > 0) heading = (heading + 2 - quads + 8) % 4;
-        grid.spots.push_back(spot);
-        const Spot& step = kSteps[static_cast<std::size_t>(heading)];
-        spot = {spot[0] + step[0], spot[1] + step[1]};
+        grid.positions.push_back(position);
+        const GridPosition& step = kSteps[static_cast<std::size_t>(heading)];
+        position = {position[0] + step[0], position[1] + step[1]};
     }
-    if (sum != turns || spot != Spot{0, 0}) return std::nullopt;
+    if (sum != turns || position != GridPosition{0, 0}) return std::nullopt;
     return grid;
 }
 
-Vec2 carried_inward(const std::vector<Vec2>& points, const GridLoop& outer, const Vec2& p)
+Vec2 mean_value_position(const std::vector<Vec2>& points, const GridLoop& outer, const Vec2& p)
 {
     const std::size_t n = outer.nodes.size();
     const auto to = [&](std::size_t i) -> Vec2 {
@@ -73,60 +73,62 @@ Vec2 carried_inward(const std::vector<Vec2>& points, const GridLoop& outer, cons
     for (std::size_t i = 0; i < n; ++i) {
         const double weight = (half_tangent(to(i + n - 1), to(i)) + half_tangent(to(i), to(i + 1))) /
                               to(i).norm();
-        sum += weight * Vec2(outer.spots[i][0], outer.spots[i][1]);
+        sum += weight * Vec2(outer.positions[i][0], outer.positions[i][1]);
         weights += weight;
     }
     return sum / weights;
 }
 
-double settle(const std::vector<Vec2>& goal, GridLoop& hole)
+double place_hole(const std::vector<Vec2>& goal, GridLoop& hole)
 {
     Vec2 middle = Vec2::Zero();
     for (const Vec2& p : goal) middle += p / static_cast<double>(goal.size());
     double best_error = std::numeric_limits<double>::infinity();
-    std::vector<Spot> best;
+    std::vector<GridPosition> best;
     for (int quarter = 0; quarter < 4; ++quarter) {
-        std::vector<Spot> spots;
+        std::vector<GridPosition> positions;
         Vec2 mean = Vec2::Zero();
-        for (const Spot& spot : hole.spots) {
-            spots.push_back(rotated(spot, quarter));
-            mean += Vec2(spots.back()[0], spots.back()[1]) / static_cast<double>(hole.spots.size());
+        for (const GridPosition& position : hole.positions) {
+            positions.push_back(rotated(position, quarter));
+            mean += Vec2(positions.back()[0], positions.back()[1]) /
+                    static_cast<double>(hole.positions.size());
         }
         const Vec2 move = middle - mean;
-        const Spot by{static_cast<int>(std::lround(move.x())), static_cast<int>(std::lround(move.y()))};
+        const GridPosition by{static_cast<int>(std::lround(move.x())),
+                              static_cast<int>(std::lround(move.y()))};
         double error = 0;
-        for (std::size_t i = 0; i < spots.size(); ++i) {
-            spots[i] = {spots[i][0] + by[0], spots[i][1] + by[1]};
-            error += (Vec2(spots[i][0], spots[i][1]) - goal[i]).squaredNorm();
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            positions[i] = {positions[i][0] + by[0], positions[i][1] + by[1]};
+            error += (Vec2(positions[i][0], positions[i][1]) - goal[i]).squaredNorm();
         }
         if (error >= best_error) continue;
         best_error = error;
-        best = std::move(spots);
+        best = std::move(positions);
     }
-    hole.spots = std::move(best);
+    hole.positions = std::move(best);
     return best_error;
 }
 
 GridLoop with_corners(const std::vector<Index>& loop, std::size_t start, bool outer)
 {
     const std::size_t n = loop.size(), half = n / 2, quarter = half / 2;
-    GridLoop grid{loop, std::vector<Spot>(n)};
-    Spot spot{0, 0};
+    GridLoop grid{loop, std::vector<GridPosition>(n)};
+    GridPosition position{0, 0};
     std::size_t heading = 0;
     for (std::size_t k = 0; k < n; ++k) {
         if (k > 0 && (k % half == 0 || k % half == quarter)) heading = (heading + (outer ? 1 : 3)) % 4;
-        grid.spots[(start + k) % n] = spot;
-        spot = {spot[0] + kSteps[heading][0], spot[1] + kSteps[heading][1]};
+        grid.positions[(start + k) % n] = position;
+        position = {position[0] + kSteps[heading][0], position[1] + kSteps[heading][1]};
     }
     return grid;
 }
 
-Grid::Grid(const std::vector<GridLoop>& loops)
+SubmapGrid::SubmapGrid(const std::vector<GridLoop>& loops)
 {
-    low_ = loops.front().spots.front();
-    Spot high = low_;
+    low_ = loops.front().positions.front();
+    GridPosition high = low_;
     for (const GridLoop& loop : loops) {
-        for (const Spot& s : loop.spots) {
+        for (const GridPosition& s : loop.positions) {
             for (std::size_t k = 0; k < 2; ++k) {
                 low_[k] = std::min(low_[k], s[k]);
                 high[k] = std::max(high[k], s[k]);
@@ -137,20 +139,20 @@ Grid::Grid(const std::vector<GridLoop>& loops)
     height_ = high[1] - low_[1] + 1;
 }
 
-bool Grid::enclose(const std::vector<GridLoop>& loops)
+bool SubmapGrid::enclose(const std::vector<GridLoop>& loops)
 {
     node_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), -1);
-    // How often each cell is gone round: summed along its row over the sides that run up or down.
+    // The winding number of each cell, summed along its row over the sides that run up or down.
     std::vector<int> change(node_.size(), 0);
     for (const GridLoop& loop : loops) {
-        for (std::size_t i = 0, n = loop.spots.size(); i < n; ++i) {
-            const Spot &a = loop.spots[i], &b = loop.spots[(i + 1) % n];
-            Index& here = node_[place(a)];
+        for (std::size_t i = 0, n = loop.positions.size(); i < n; ++i) {
+            const GridPosition &a = loop.positions[i], &b = loop.positions[(i + 1) % n];
+            Index& here = node_[slot(a)];
             if (here >= 0) return false;
             here = loop.nodes[i];
-            // The region lies left of a side: leaving it to the right of one that runs up.
-            if (b[1] > a[1]) --change[place(a)];
-            if (b[1] < a[1]) ++change[place(b)];
+            // The region lies on the left of a side, so it ends at one that runs up.
+            if (b[1] > a[1]) --change[slot(a)];
+            if (b[1] < a[1]) ++change[slot(b)];
         }
     }
     in_.assign(node_.size(), 0);
@@ -166,7 +168,7 @@ bool Grid::enclose(const std::vector<GridLoop>& loops)
     return true;
 }
 
-Index Grid::number_inner(Index first)
+Index SubmapGrid::number_inner(Index first)
 {
     const Index start = first;
     for (int y = 0; y + 1 < height_; ++y) {
@@ -179,7 +181,7 @@ Index Grid::number_inner(Index first)
     return first - start;
 }
 
-std::vector<Quad> Grid::quads() const
+std::vector<Quad> SubmapGrid::quads() const
 {
     std::vector<Quad> result;
     for (int y = 0; y + 1 < height_; ++y) {
@@ -192,7 +194,7 @@ std::vector<Quad> Grid::quads() const
     return result;
 }
 
-void Grid::place_inner(std::vector<Vec2>& points, Index fixed) const
+void SubmapGrid::place_inner(std::vector<Vec2>& points, Index fixed) const
 {
     std::vector<double> weight(points.size(), 0);
     std::vector<Vec2> sum(points.size(), Vec2::Zero());

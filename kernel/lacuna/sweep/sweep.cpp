@@ -57,10 +57,9 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options)
                                    " boundary nodes enclose folds or overlaps; use quads = \"auto\"");
         };
     }
-    const int rows = options.rows > 0 ? options.rows : -1; // -1: the paver decides
     const bool grids = options.quads != Quads::paved;
-    return [rows, grids](const quads::PlanarRegion& region, const RunContext& context) {
-        return quads::pave(region, {.rows = rows, .grids = grids}, context);
+    return [rows = options.rows, grids](const quads::PlanarRegion& region, const RunContext& context) {
+        return quads::pave(region, {.exact_rows = rows, .grids = grids}, context).mesh;
     };
 }
 

@@ -4,7 +4,7 @@
 /// Trial of fillings for patches; only sources of this folder include it.
 
 #include <lacuna/quads/detail/clean_patch.h>
-#include <lacuna/quads/detail/patch_patterns.h>
+#include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/smooth_plane.h>
 
 #include <span>
@@ -32,14 +32,14 @@ public:
     ///
     /// It is judged three times: as it is, after a few sweeps over its own points, and smoothed together with what is around.
     /// @param hopeless  given up the first times where the loss is so many times what is allowed
-    Verdict run(const Filling& filling, int sweeps, double hopeless);
+    Verdict run(const TemplateMesh& filling, int sweeps, double hopeless);
 
 private:
-    bool settles(const Filling& filling, int sweeps, double most);
+    bool settles(const TemplateMesh& filling, int sweeps, double most);
     bool exceeds(std::size_t filled, double most) const;
     void number_points();
-    bool fits(const Filling& filling, double allowed);
-    void put_in(const Filling& filling);
+    bool fits(const TemplateMesh& filling, double allowed);
+    void put_in(const TemplateMesh& filling);
 
     CleanMesh& mesh_;
     const CleanOptions& options_;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/quads/detail/pave_draft.h>
+#include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/pave.h>
 
 namespace lacuna::quads::paving {
@@ -33,7 +33,7 @@ void judge(Attempt& attempt);
 
 /// Fill a region in one way: rows, cuts and patches, or triangles; open what folds, clean and smooth it.
 /// @param flat  quads with a smaller sine count as folded.
-Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style, const Taste& taste,
+Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style, const CutWeights& weights,
                  double flat, const RunContext& context);
 
 } // namespace lacuna::quads::paving

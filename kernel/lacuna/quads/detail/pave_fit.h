@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/quads/detail/pave_draft.h>
+#include <lacuna/quads/detail/partial_mesh.h>
 
 #include <vector>
 
 namespace lacuna::quads::paving {
 
 /// How well a loop can be filled as one patch.
-struct Fit {
-    std::vector<std::size_t> corners; ///< 3 to 5 places in the cycle; empty where it cannot be filled
-    double quality = 0; ///< 1 for a rectangle of right counts and sizes; 0 and less: it would fold
+struct PatchFit {
+    std::vector<std::size_t> corners; ///< 3 to 5 positions in the cycle; empty where it cannot be filled
+    double quality = 0; ///< 1 for a rectangle of right counts and sizes; 0 and less: it would fold [-]
 };
 
-/// The best corners of a loop, and what a patch over them would be like, by a few sample cells.
+/// The best corners of a loop, and the quality of a patch with those corners, estimated from a few sample
+/// cells.
 ///
-/// Places where the outline turns are corners. A round loop of inner nodes gets four where they lie best:
-/// rows lie around it, so its nodes need not be flat.
-Fit fit_patch(const Draft& draft, const Cycle& cycle, const std::vector<double>& angles);
+/// Nodes where the outline turns are corners. A loop without corners gets four among its inner nodes, where
+/// they lie best: such a loop has rows around it, so that quads at its nodes need not be flat.
+PatchFit fit_patch(const PartialMesh& partial, const Cycle& cycle, const std::vector<double>& angles);
 
-/// The inner angles at all places of a loop.
-std::vector<double> angles_of(const Draft& draft, const Cycle& cycle);
+/// The inner angles at all nodes of a loop [radians].
+std::vector<double> angles_of(const PartialMesh& partial, const Cycle& cycle);
 
 } // namespace lacuna::quads::paving

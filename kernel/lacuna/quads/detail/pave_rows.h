@@ -1,33 +1,34 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/quads/detail/pave_draft.h>
+#include <lacuna/quads/detail/partial_mesh.h>
 
 #include <vector>
 
 namespace lacuna::quads::paving {
 
-/// How rows are laid.
+/// How strictly a row's height is kept.
 enum class RowKind {
     tall,  ///< as high as asked on most of the loop, or not at all
     thin,  ///< also where the next loop is near
     exact, ///< as high as asked everywhere, or not at all
-    buffer ///< no node is an end, and the row gets flatter until it fits
+    buffer ///< at least two quads at every node, and flatter until the row fits
 };
 
-/// What a row costs a loop in turns: it needs one where its nodes turn without being corners.
-bool needs_row(const Draft& draft, const Cycle& cycle);
+/// Whether a loop needs a row: where its nodes turn without being corners, by more than half a right angle in
+/// sum.
+bool needs_row(const PartialMesh& partial, const Cycle& cycle);
 
-/// Lay a row of quads inward from each loop that is asked for and replace it by the row's inner side.
+/// Lay a row of quads inward from each wanted loop, and replace the loop by the row's inner side.
 ///
-/// Loop nodes are ends (one quad), sides (two, of neighbouring edges), corners (three) or reversals (four) by
-/// their angle. Rows are as high as `height` says, or (but exact ones) a third of the gap where another side is near. A row
-/// that would fold, run into another or leave too few nodes is not laid.
+/// By their angle, loop nodes are ends (one quad), sides (two, of neighbouring edges), corners (three) or
+/// reversals (four). Rows are as high as `height` says; where another side is near, all but exact rows are a
+/// third of the gap. A row that would fold, run into another or leave too few nodes is not laid.
 ///
-/// @param kind  how.
-/// @param wanted  loops a row is wanted on; false afterwards for those that got none.
-/// @return how many were laid.
-int lay_rows(Draft& draft, std::vector<Cycle>& loops, std::vector<bool>& wanted,
+/// @param wanted  the loops that shall get a row; false afterwards for those that got none.
+/// @param height  of the row over a boundary point [length].
+/// @return how many rows were laid.
+int lay_rows(PartialMesh& partial, std::vector<Cycle>& loops, std::vector<bool>& wanted,
              const std::function<double(const Vec2&)>& height, RowKind kind = RowKind::tall);
 
 } // namespace lacuna::quads::paving

@@ -7,11 +7,14 @@
 
 namespace lacuna::quads::paving {
 
-/// The edge length to aim for: what the region asks, but near the boundary what its given sides allow.
+/// The edge length to aim for: what the region asks for, limited near the boundary by the lengths of its
+/// given sides.
 ///
-/// Within a distance d of a boundary node with sides of length l it lies between l − g d and l + g d, with
-/// g the grading. Where the sides have about the length asked, that changes nothing and the region's own
-/// size is handed back; without one it is the mean boundary side.
+/// At distance d from a boundary node with sides of length l it lies between l − g d and l + g d, with g the
+/// grading. Where the sides have about the length asked, that changes nothing and the region's own size is
+/// handed back. A region without a size has its mean boundary side.
+/// @param grading  change of size over distance; the default keeps neighbouring edges within 1.3 of each
+///                 other [-].
 std::function<double(const Vec2&)> size_with_boundary(const PlanarRegion& region, double grading = 0.3);
 
 } // namespace lacuna::quads::paving

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What the parts of the paver share: the mesh being made, cycles of its nodes, angles along them.
+/// What the parts of the paver share: the mesh while it is built, cycles of its nodes, angles along them.
 /// Only sources of this folder include it.
 
 #include <lacuna/quads/region.h>
@@ -17,32 +17,37 @@
 namespace lacuna::quads::paving {
 
 inline constexpr double kRightAngle = std::numbers::pi / 2;
+/// A boundary node with a smaller angle is a corner of one quad: half way from a right angle to a straight
+/// one.
+inline constexpr double kCornerBelow = 1.5 * kRightAngle;
+/// With a larger one the outline turns inward: half way from a straight angle to a corner of three quads.
+inline constexpr double kBentAbove = 2.5 * kRightAngle;
 
-/// Node numbers in walking order, region on the left. A node may occur twice, where a cut was drawn.
+/// Node numbers in walking order, the region on the left. A node may occur twice where a cut was drawn.
 using Cycle = std::vector<Index>;
 
-/// What cuts are chosen by, as weights: none is best for all regions, so that small ones are filled in several ways.
-struct Taste {
-    double corners = 1;       ///< right angles between a cut and the outline
-    double added = 1;         ///< quads a cut adds at its ends
-    double length = 1;        ///< of a cut against the outline it takes off
-    double mismatch = 1;      ///< sides of a part that do not agree
-    double bent = 0.5;        ///< off for a cut that ends where the outline turns inward
-    double least_patch = 0.6; ///< from what quality on a small part is filled as it is [-]
-    double most_patch = 0.9;  ///< and a large one
+/// What a cut costs, by weights. No weights are best for all outlines, so small regions are cut by several.
+struct CutWeights {
+    double corners = 1;       ///< of angles at its ends that are no right ones
+    double added = 1;         ///< of the quads it adds at its ends
+    double length = 1;        ///< of its length over that of the outline it takes off
+    double mismatch = 1;      ///< of parts whose sides do not agree
+    double bent = 0.5;        ///< gained by ending where the outline turns inward
+    double least_patch = 0.6; ///< quality from which a small part is filled without a cut [-]
+    double most_patch = 0.9;  ///< and a large one [-]
 };
 
-/// The mesh being made. The first `fixed` points are the region's own.
-struct Draft {
+/// The mesh while it is built. The first `fixed` points are the region's own.
+struct PartialMesh {
     std::vector<Vec2> points;
     std::vector<Quad> quads;
     std::size_t fixed = 0;
     std::function<double(const Vec2&)> size;
-    double flat = 0; ///< quads with a smaller sine count as folded
-    /// Single edges drawn between nodes that were there before: a second one between the same two would be
-    /// no mesh.
+    double flat = 0; ///< quads with a smaller sine count as folded [-]
+    /// Single edges drawn between nodes that were there before. A second one between the same two nodes would
+    /// make no valid mesh.
     std::unordered_set<std::uint64_t> links{};
-    Taste taste{};
+    CutWeights weights{};
 
     static std::uint64_t link_key(Index a, Index b)
     {
@@ -71,24 +76,24 @@ inline double turn_between(const Vec2& u, const Vec2& v)
     return angle > 0 ? angle : angle + 2 * std::numbers::pi;
 }
 
-/// Angle inside the region at a place of the cycle.
-inline double inner_angle(const Draft& draft, const Cycle& cycle, std::size_t i)
+/// Angle inside the region at a position of the cycle [radians].
+inline double inner_angle(const PartialMesh& partial, const Cycle& cycle, std::size_t i)
 {
     const std::size_t n = cycle.size();
-    const Vec2& p = draft.at(cycle[i]);
-    return turn_between(draft.at(cycle[(i + 1) % n]) - p, draft.at(cycle[(i + n - 1) % n]) - p);
+    const Vec2& p = partial.at(cycle[i]);
+    return turn_between(partial.at(cycle[(i + 1) % n]) - p, partial.at(cycle[(i + n - 1) % n]) - p);
 }
 
-/// How many quads an angle is right for, at least one.
+/// How many quads suit an angle, at least one.
 inline int quads_in(double angle) { return std::max(1, static_cast<int>(angle / kRightAngle + 0.5)); }
 
-/// Twice the area a cycle goes round, > 0 counter-clockwise.
-inline double twice_area(const Draft& draft, const Cycle& cycle)
+/// Twice the area within a cycle, > 0 where it runs counter-clockwise.
+inline double twice_area(const PartialMesh& partial, const Cycle& cycle)
 {
     double sum = 0;
     for (std::size_t i = 0, n = cycle.size(); i < n; ++i)
-        sum += cross(draft.at(cycle[i]) - draft.at(cycle[0]),
-                     draft.at(cycle[(i + 1) % n]) - draft.at(cycle[0]));
+        sum += cross(partial.at(cycle[i]) - partial.at(cycle[0]),
+                     partial.at(cycle[(i + 1) % n]) - partial.at(cycle[0]));
     return sum;
 }
 
@@ -102,9 +107,9 @@ inline double least_sine(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2
                      cross(bc, cd) / std::max(l1 * l2, least), cross(cd, da) / std::max(l2 * l3, least)});
 }
 
-inline double least_sine(const Draft& draft, const Quad& q)
+inline double least_sine(const PartialMesh& partial, const Quad& q)
 {
-    return least_sine(draft.at(q[0]), draft.at(q[1]), draft.at(q[2]), draft.at(q[3]));
+    return least_sine(partial.at(q[0]), partial.at(q[1]), partial.at(q[2]), partial.at(q[3]));
 }
 
 } // namespace lacuna::quads::paving

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/quads/detail/pave_attempt.h>
+
+#include <span>
+
+namespace lacuna::quads::paving {
+
+/// Paves a region in several ways and keeps the best attempt by measure.
+class AttemptChooser {
+public:
+    /// @param region, context  kept by reference.
+    AttemptChooser(const PlanarRegion& region, const PaveOptions& options, const RunContext& context);
+
+    /// The grid of a region of right angles, then, unless that is good, rows in every style that is worth a
+    /// trial, all with the default weights.
+    void try_default_weights();
+    /// The score of the style that was best so far, with other weights of the cuts; nothing is kept.
+    [[nodiscard]] double score_with(const CutWeights& weights) const;
+    /// Every row of `cut_weight_rows()`, as long as the region is small and there is something to gain.
+    void try_all_weights();
+    /// Triangles, where nothing else fills the region well.
+    void try_triangles();
+
+    [[nodiscard]] const Attempt& best() const { return best_; }
+    [[nodiscard]] Attempt take_best() { return std::move(best_); }
+    /// Of the best attempt: see `score_of()` in the source; -2 before there is one.
+    [[nodiscard]] double score() const { return best_score_; }
+    /// Quads with a smaller sine count as folded.
+    [[nodiscard]] double flat() const { return flat_; }
+    /// Whether nothing else need be tried.
+    [[nodiscard]] bool is_done() const { return is_good_grid_; }
+
+private:
+    void consider(Attempt made);
+    [[nodiscard]] Attempt pave_in(RowStyle style, const CutWeights& weights = {}) const;
+    /// The score of an attempt; one with a fault is marked as such.
+    double judge_score(Attempt& made) const;
+    [[nodiscard]] bool is_small() const;
+
+    const PlanarRegion& region_;
+    PaveOptions options_;
+    const RunContext& context_;
+    double flat_;
+    Attempt best_;
+    double best_score_ = -2;
+    std::size_t made_ = 0; ///< quads, in all attempts
+    bool is_good_grid_ = false;
+};
+
+/// The rows of weights that small regions are also cut with, in the order they are tried.
+std::span<const CutWeights> cut_weight_rows();
+
+/// Below what sine a quad counts as folded: no sweep bears a flatter one, unless the given corners are that
+/// sharp.
+double flat_below(const PlanarRegion& region);
+
+} // namespace lacuna::quads::paving

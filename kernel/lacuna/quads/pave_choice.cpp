@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/pave_choice.h>
+
+#include <lacuna/quads/detail/pave_size.h>
+#include <lacuna/quads/detail/pave_true_rows.h>
+#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/submap.h>
+
+#include <array>
+#include <sstream>
+
+namespace lacuna::quads::paving {
+namespace {
+
+/// Up to this many quads a region is paved in several ways: that takes about a second. A choice, not a
+/// measurement.
+constexpr std::size_t kSmall = 4000;
+/// Quads made in all with every row of weights: some eight meshes of a region of kSmall. Where the worst quad
+/// stays poor the outline is the cause more than the cuts, and less is spent. Choices, not measurements.
+constexpr std::size_t kMostMade = 30'000, kMostMadePoor = 6000;
+/// A worst quad below this is poor: half of a square's scaled Jacobian. A choice, not a measurement.
+constexpr double kPoor = 0.5;
+
+constexpr std::array<CutWeights, 7> kCutWeights{{
+    {.corners = 0.5, .length = 0.5, .mismatch = 0.75, .bent = 0.375, .most_patch = 0.85},
+    {.corners = 0.5, .added = 0.5, .length = 0.75, .mismatch = 0.75, .bent = 0.675},
+    {.corners = 1.35, .added = 1.35, .mismatch = 0.5, .bent = 0.25, .least_patch = 0.5},
+    {.added = 0.5, .length = 0.5, .most_patch = 0.85},
+    {.added = 0.5, .length = 0.75, .mismatch = 0.75, .bent = 1, .least_patch = 0.5},
+    {.added = 0.5, .length = 1.35, .mismatch = 1.35, .bent = 0.375, .most_patch = 0.85},
+    {.added = 1.35, .mismatch = 2, .bent = 1},
+}};
+
+/// How good quads are, to choose between two attempts; higher is better, 3.325 at most.
+///
+/// The sum of the mean and the least scaled Jacobian, the shares of right sizes and of right row heights,
+/// less the share of irregular nodes. The least one counts double up to kGood, for a sweep repeats the worst
+/// quad and makes it worse, and half up to kBest, above which smoothing gets it anyway. The outline, not the
+/// number of quads, says how many irregular nodes there must be: below kFewNodes their share is taken of that
+/// many. The weights are choices.
+double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
+{
+    constexpr double kGood = 0.6, kBest = 0.85, kFewNodes = 1500;
+    const PlaneQuality quality = measure_plane(mesh, region);
+    const double least = quality.min_scaled_jacobian;
+    const double irregular = static_cast<double>(quality.irregular) /
+                             std::max(static_cast<double>(quality.interior), kFewNodes);
+    return quality.mean_scaled_jacobian + 2 * std::min(least, kGood) +
+           (std::clamp(least, kGood, kBest) - kGood) / 2 + quality.size_share() / 2 +
+           quality.row_share() / 2 - 2 * irregular;
+}
+/// A score from which no further weights are tried: all but perfect. A choice, not a measurement.
+constexpr double kGoodEnough = 3.3;
+
+/// The grid of a region of right angles, as an attempt like others.
+Attempt try_submap(const PlanarRegion& region, bool round_loops, const RunContext& context)
+{
+    Attempt attempt;
+    auto mesh = submap(region, round_loops, context);
+    if (!mesh) return attempt;
+    attempt.mesh = std::move(*mesh);
+    attempt.report.used = attempt.mesh.how;
+    attempt.report.mapped = 1;
+    true_rows(attempt.mesh, region, size_with_boundary(region));
+    judge(attempt);
+    return attempt;
+}
+
+/// Whether a grid is so good that nothing else need be tried.
+bool is_good_grid(const Attempt& attempt, const PlanarRegion& region)
+{
+    // The worst quad as in `score_of()`, and nearly all quads of the size asked; choices, not measurements.
+    constexpr double kGood = 0.6, kOfSize = 0.95;
+    if (attempt.worst < kGood) return false;
+    const PlaneQuality quality = measure_plane(attempt.mesh, region);
+    return quality.min_scaled_jacobian > kGood && quality.size_share() > kOfSize;
+}
+
+} // namespace
+
+std::span<const CutWeights> cut_weight_rows() { return kCutWeights; }
+
+double flat_below(const PlanarRegion& region)
+{
+    // A corner of about 1°, or a third of the outline's sharpest corner; choices, not measurements.
+    constexpr double kFlat = 0.02, kShare = 0.3;
+    double sharpest = 1;
+    for (const auto& loop : region.loops) {
+        for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
+            const auto at = [&](std::size_t k) { return region.points[index(loop[k % n])]; };
+            const double angle = turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i));
+            if (angle < kRightAngle) sharpest = std::min(sharpest, std::sin(angle));
+        }
+    }
+    return std::min(kFlat, kShare * sharpest);
+}
+
+AttemptChooser::AttemptChooser(const PlanarRegion& region, const PaveOptions& options,
+                               const RunContext& context)
+    : region_(region), options_(options), context_(context), flat_(flat_below(region))
+{
+}
+
+double AttemptChooser::judge_score(Attempt& made) const
+{
+    if (made.worst > 0 && !find_fault(made.mesh, region_).empty()) made.worst = -1;
+    return made.worst > flat_ ? score_of(made.mesh, region_) : made.worst;
+}
+
+void AttemptChooser::consider(Attempt made)
+{
+    made_ += made.mesh.quads.size();
+    const double score = judge_score(made);
+    if (score <= best_score_) return;
+    best_score_ = score;
+    best_ = std::move(made);
+}
+
+Attempt AttemptChooser::pave_in(RowStyle style, const CutWeights& weights) const
+{
+    Attempt made = try_pave(region_, options_, style, weights, flat_, context_);
+    if (made.worst <= flat_) {
+        std::ostringstream text;
+        text << "quads fold near (" << made.where.x() << ", " << made.where.y() << "): paving differently";
+        log_line(context_, text.str());
+    }
+    return made;
+}
+
+bool AttemptChooser::is_small() const { return best_.mesh.quads.size() <= kSmall; }
+
+void AttemptChooser::try_default_weights()
+{
+    if (options_.grids) consider(try_submap(region_, false, context_));
+    is_good_grid_ = is_good_grid(best_, region_);
+    if (is_good_grid_) return;
+    consider(pave_in(RowStyle::by_shape));
+    if (best_.worst <= flat_) consider(pave_in(RowStyle::buffer));
+    for (const RowStyle style : {RowStyle::none, RowStyle::thin}) {
+        if (best_.worst <= 0 || is_small()) consider(pave_in(style));
+    }
+    if (options_.grids && is_small()) consider(try_submap(region_, true, context_));
+}
+
+double AttemptChooser::score_with(const CutWeights& weights) const
+{
+    Attempt made = pave_in(best_.style, weights);
+    return judge_score(made);
+}
+
+void AttemptChooser::try_all_weights()
+{
+    for (const CutWeights& weights : cut_weight_rows()) {
+        const std::size_t most = best_.worst > kPoor ? kMostMade : kMostMadePoor;
+        if (best_.worst > flat_ && is_small() && made_ < most && best_score_ < kGoodEnough)
+            consider(pave_in(best_.style, weights));
+    }
+}
+
+void AttemptChooser::try_triangles()
+{
+    // They are worth a trial where that costs little.
+    for (const RowStyle style : {RowStyle::halved_triangles, RowStyle::paired_triangles}) {
+        if (best_.worst <= 0 || (is_small() && best_.worst < kPoor)) consider(pave_in(style));
+    }
+    if (best_.worst <= flat_) consider(pave_in(RowStyle::split_triangles));
+}
+
+} // namespace lacuna::quads::paving

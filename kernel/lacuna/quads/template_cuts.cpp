@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/patch_template.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lacuna::quads {
+
+namespace {
+
+/// Cuts that slant more than this are left out: 0 is square to the outline, 1 along it. A choice, not a
+/// measurement.
+constexpr double kMostSlant = 0.7;
+/// So are those with fewer or more edges than these shares of what their length has room for, so that no quad
+/// along a cut is stretched by much more than 1.6. A choice, not a measurement.
+constexpr double kFewestEdges = 0.6, kMostEdges = 1.6;
+
+/// Twice what `spoke_feet()` finds for side i: every second side's length, added and subtracted in turn.
+int twice_foot(const SideCounts& counts, std::size_t i)
+{
+    const std::size_t n = counts.count;
+    int twice = 0;
+    for (std::size_t j = 0, at = i; j < n; ++j, at = at + 2 < n ? at + 2 : at + 2 - n)
+        twice += j % 2 == 0 ? counts.side[at] : -counts.side[at];
+    return twice;
+}
+
+int least_twice(bool ends_in_cut, std::size_t i) { return ends_in_cut && i == 0 ? 0 : 2; }
+
+/// Whether a patch is filled without a cut.
+bool needs_no_cut(const SideCounts& counts)
+{
+    std::array<int, kMostSides> foot{};
+    const auto& side = counts.side;
+    if (counts.count == 4) return side[0] == side[2] && side[1] == side[3];
+    return (counts.count == 3 || counts.count == 5) && spoke_feet(counts, false, foot);
+}
+
+/// Numbers of edges, both ends included.
+struct EdgeRange {
+    int low, high;
+};
+
+/// The numbers of edges a cut between two sides of a patch may have, so that both parts are filled without
+/// another cut.
+///
+/// The cut starts `a` edges along the first side and ends `b` edges along the second. What `spoke_feet()`
+/// asks of either part is linear in a, b and the cut's edges, each with a factor of 1 or -1: a lower or upper
+/// bound on the cut's edges.
+class EdgeBounds {
+public:
+    EdgeBounds(const SideCounts& counts, std::size_t side, std::size_t between)
+    {
+        const std::size_t n = counts.count;
+        const auto along = [&](std::size_t i) { return counts.side[(side + i) % n]; };
+        // The sides of the parts with a = b = 0 and no edges, and how they change with a and b.
+        SideCounts first{{}, between + 2}, second{{}, n - between + 2};
+        for (std::size_t i = 0; i < between; ++i) first.side[i] = along(i);
+        for (std::size_t i = between; i < n; ++i) second.side[i - between] = along(i);
+        add(first, 0, between);
+        add(second, n - between, 0);
+    }
+
+    /// The tightest bounds for one a, of those that fall with b and of those that rise.
+    struct Tightest {
+        std::array<int, 2> low, high;
+
+        [[nodiscard]] EdgeRange at(int b) const
+        {
+            return {std::max({1, low[0] - b, low[1] + b}), std::min(high[0] - b, high[1] + b)};
+        }
+    };
+    [[nodiscard]] Tightest at(int a) const
+    {
+        Tightest bounds{{-kFar, -kFar}, {kFar, kFar}};
+        for (std::size_t i = 0; i < count_; ++i) {
+            const Bound& bound = bounds_[i];
+            const int value = bound.constant + bound.a * a;
+            const std::size_t rises = bound.b > 0 ? 1 : 0;
+            if (bound.is_low)
+                bounds.low[rises] = std::max(bounds.low[rises], value);
+            else
+                bounds.high[rises] = std::min(bounds.high[rises], value);
+        }
+        return bounds;
+    }
+
+private:
+    static constexpr int kFar = std::numeric_limits<int>::max() / 2; ///< more than any sum of sides
+
+    struct Bound {
+        int constant = 0, a = 0, b = 0;
+        bool is_low = false;
+    };
+
+    /// @param part    a part whose last side is the cut.
+    /// @param with_a  the side that changes with a; `with_b` the one that changes with b. The part's first
+    ///                side gets shorter, any other longer.
+    void add(const SideCounts& part, std::size_t with_a, std::size_t with_b)
+    {
+        const auto change = [&](std::size_t of, std::size_t i) {
+            SideCounts unit{{}, part.count};
+            unit.side[of] = of == 0 ? -1 : 1;
+            return twice_foot(unit, i);
+        };
+        for (std::size_t i = 0; i < part.count; ++i) {
+            // constant + a + b ± edges >= 0
+            const int sign = change(part.count - 1, i), turned = -sign;
+            bounds_[count_++] = {turned * (twice_foot(part, i) - least_twice(true, i)),
+                                 turned * change(with_a, i), turned * change(with_b, i), sign > 0};
+        }
+    }
+
+    std::array<Bound, 2 * kMostSides> bounds_{};
+    std::size_t count_ = 0;
+};
+
+/// Ranks cuts by their lengths and directions.
+class CutRanker {
+public:
+    explicit CutRanker(std::span<const Vec2> loop) : loop_(loop)
+    {
+        const std::size_t n = loop.size();
+        along_.reserve(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            spacing_ += (loop[(i + 1) % n] - loop[i]).norm() / static_cast<double>(n);
+            const Vec2 side = loop[(i + 1) % n] - loop[(i + n - 1) % n];
+            along_.push_back({side, std::max(side.norm(), std::numeric_limits<double>::min())});
+        }
+    }
+
+    /// Add the cuts between two positions.
+    void add(std::size_t from, std::size_t to, EdgeRange edges, std::vector<TemplateCut>& found) const
+    {
+        const Vec2 across = loop_[to] - loop_[from];
+        const double length = across.norm(), fitting = length / spacing_;
+        edges.low = std::max(edges.low, static_cast<int>(fitting * kFewestEdges));
+        edges.high = std::min(edges.high, static_cast<int>(fitting * kMostEdges) + 1);
+        if ((to + loop_.size() - from + static_cast<std::size_t>(edges.low)) % 2 != 0)
+            ++edges.low; // parts have even outlines
+        if (edges.low > edges.high || !(length > 0)) return;
+        // How far from square the cut meets the sides, 0 to 1.
+        const auto slant_at = [&](std::size_t i) {
+            return std::abs(along_[i].side.dot(across / length)) / along_[i].length;
+        };
+        const double slant = (slant_at(from) + slant_at(to)) / 2;
+        if (slant > kMostSlant) return;
+        for (int k = edges.low; k <= edges.high; k += 2)
+            found.push_back({from, to, k, std::abs(std::log(fitting / k)) + slant});
+    }
+
+private:
+    struct Along {
+        Vec2 side;
+        double length;
+    };
+    std::span<const Vec2> loop_;
+    std::vector<Along> along_; ///< from the position before to the one after
+    double spacing_ = 0;
+};
+
+} // namespace
+
+SideCounts side_counts(std::size_t loop, std::span<const std::size_t> corners)
+{
+    SideCounts counts{{}, corners.size()};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const std::size_t next = i + 1 < corners.size() ? corners[i + 1] : corners[0] + loop;
+        counts.side[i] = static_cast<int>(next - corners[i]);
+    }
+    return counts;
+}
+
+bool spoke_feet(const SideCounts& counts, bool ends_in_cut, std::array<int, kMostSides>& foot)
+{
+    for (std::size_t i = 0; i < counts.count; ++i) {
+        const int twice = twice_foot(counts, i);
+        if (twice < least_twice(ends_in_cut, i) || twice % 2 != 0) return false;
+        foot[i] = twice / 2;
+    }
+    return true;
+}
+
+bool can_fill(const SideCounts& counts)
+{
+    if (counts.count != 4) return needs_no_cut(counts);
+    // How many columns turn, each way, must leave a row and a column beside each irregular node.
+    const int more = std::abs(counts.side[0] - counts.side[2]),
+              less = std::abs(counts.side[1] - counts.side[3]);
+    const int across = std::min(counts.side[0], counts.side[2]),
+              along = std::min(counts.side[1], counts.side[3]);
+    if ((more + less) % 2 != 0) return false;
+    if (more == 0 && less == 0) return true;
+    if (more == less) return across >= 2 && along >= 2;
+    const int top = more > less ? across : along, rows = more > less ? along : across;
+    return top >= 4 && rows - (std::max(more, less) - std::min(more, less)) / 2 >= 2;
+}
+
+std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const std::size_t> corners,
+                                   std::size_t most)
+{
+    const std::size_t n = corners.size();
+    std::vector<TemplateCut> found;
+    if (n < 2 || n > 6 || loop.size() % 2 != 0) return found;
+    const SideCounts counts = side_counts(loop.size(), corners);
+    if (needs_no_cut(counts)) found.push_back({});
+    if (!found.empty() || n % 2 != 0) return found;
+    const CutRanker ranker(loop);
+    // One or three corners lie between the two sides cut: a part of four sides would only be a strip.
+    const std::size_t between = n / 2 - (n == 4 ? 1 : 0);
+    // Sides that face each other make each pair once.
+    const std::size_t pairs = 2 * between == n ? n / 2 : n;
+    for (std::size_t side = 0; side < pairs; ++side) {
+        const std::size_t other = (side + between) % n;
+        const EdgeBounds bounds(counts, side, between);
+        for (int a = 1; a < counts.side[side]; ++a) {
+            const EdgeBounds::Tightest tightest = bounds.at(a);
+            for (int b = 1; b < counts.side[other]; ++b) {
+                const EdgeRange edges = tightest.at(b);
+                if (edges.low > edges.high) continue;
+                ranker.add((corners[side] + static_cast<std::size_t>(a)) % loop.size(),
+                           (corners[other] + static_cast<std::size_t>(b)) % loop.size(), edges, found);
+            }
+        }
+    }
+    // Sides that face each other have half as many cuts, so half as many are kept.
+    const std::size_t kept = std::min(pairs < n ? (most + 1) / 2 : most, found.size());
+    const auto best = found.begin() + static_cast<std::ptrdiff_t>(kept);
+    std::partial_sort(found.begin(), best, found.end(),
+                      [](const TemplateCut& x, const TemplateCut& y) { return x.fault < y.fault; });
+    found.erase(best, found.end());
+    return found;
+}
+
+int fewest_irregular(std::size_t loop, std::span<const std::size_t> corners)
+{
+    if (corners.size() < 2 || corners.size() > 6) return std::numeric_limits<int>::max();
+    const bool even = corners.size() % 2 == 0;
+    if (!needs_no_cut(side_counts(loop, corners))) return even ? 2 : std::numeric_limits<int>::max();
+    return even ? 0 : 1;
+}
+
+} // namespace lacuna::quads
