@@ -3,9 +3,7 @@
 #include "bindings/io_paths.h"
 #include "bindings/options.h"
 
-#ifdef LACUNA_WITH_CAD
 #include <lacuna/cad/load.h>
-#endif
 
 #include <cmath>
 #include <thread>
@@ -234,9 +232,7 @@ SweepArguments& push_arguments(lua_State* L, int index, const char* call)
              call);
     push_field(L, index, "size", arguments.size_function, arguments.options.size);
     push_field(L, index, "row_height", arguments.row_height_function, arguments.options.row_height);
-#ifdef LACUNA_WITH_CAD
     guard(L, [&] { arguments.options.quad_mesher = cad::recombine; });
-#endif
     return arguments;
 }
 

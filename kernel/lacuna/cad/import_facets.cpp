@@ -2,9 +2,10 @@
 #include <lacuna/cad/detail/import_facets.h>
 #include <lacuna/healing/split_facets.h>
 
-#include <lacuna/cad/detail/gmsh_api.h>
+#include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad/detail/import_cad.h>
-#include <lacuna/cad/session.h>
+#include <lacuna/cad/detail/input_file.h>
+#include <lacuna/cad_worker/session.h>
 
 #include <algorithm>
 #include <fstream>
@@ -141,8 +142,9 @@ void read_with_gmsh(const std::string& path, const std::string& ending, Labelled
     }
     int tag_offset = 0;
     for (const int tag : into.label_tag) tag_offset = std::max(tag_offset, tag);
-    Session session(path);
-    const GmshModel model(session);
+    static const cad_worker::Gmsh gmsh;
+    cad_worker::Session session(path);
+    const cad_worker::GmshModel model(session);
     const std::size_t before = into.soup.triangles.size() + into.soup.quads.size();
     try {
         session.run([&] { gmsh::merge(path); });

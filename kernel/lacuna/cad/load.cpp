@@ -1,8 +1,9 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
+// SPDX-License-Identifier: MIT
 #include <lacuna/cad/load.h>
 
 #include <lacuna/cad/detail/import_cad.h>
 #include <lacuna/cad/detail/import_facets.h>
+#include <lacuna/cad/detail/input_file.h>
 #include <lacuna/core/error.h>
 #include <lacuna/healing/stitch.h>
 

@@ -1,20 +1,14 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <lacuna/cad/load.h>
 
 namespace lacuna::cad {
 
-/// Read CAD files into one model, their tags running on from file to file as in Gmsh.
+/// Have the CAD process read CAD files into one model, their tags running on from file to file as in Gmsh.
 /// @pre every path has one of the endings of `is_cad_ending()`.
 topology::Model import_cad(const std::vector<std::string>& paths, const LoadOptions& options,
                            const RunContext& context);
-
-/// .step .stp .iges .igs .brep .geo .geo_unrolled, in lower case.
-bool is_cad_ending(std::string_view ending);
-
-/// The part of a path from its last dot on, in lower case; empty where there is none.
-std::string ending_of(const std::string& path);
 
 /// Turn faces so that neighbours agree, as far as each edge has two of them in its group (a solid, or all
 /// faces of none), and outward where that closes a volume. Where no orientation agrees, faces stay as they
