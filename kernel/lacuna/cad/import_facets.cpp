@@ -142,7 +142,7 @@ void read_with_gmsh(const std::string& path, const std::string& ending, Labelled
     }
     int tag_offset = 0;
     for (const int tag : into.label_tag) tag_offset = std::max(tag_offset, tag);
-    static const cad_worker::Gmsh gmsh;
+    const cad_worker::Gmsh gmsh;
     cad_worker::Session session(path);
     const cad_worker::GmshModel model(session);
     const std::size_t before = into.soup.triangles.size() + into.soup.quads.size();

@@ -17,7 +17,7 @@ struct LoadOptions {
     double feature_angle = 40; ///< where facets are cut into faces [degrees]
     bool keep_mesh = true;     ///< quads of FE formats stay as they are
     double scale = 1;          ///< every coordinate times this, > 0 [-]
-    Limits limits;             ///< of the CAD process
+    Limits limits{};           ///< of the CAD process
 };
 
 /// Read files into one model: STEP, IGES, BREP, GEO, STL, OBJ, MSH and what else Gmsh reads as faces.

@@ -63,6 +63,7 @@ double seconds_for(const Task& task)
 std::string plain(double value)
 {
     std::ostringstream text;
+    text.precision(3);
     text << value;
     return text.str();
 }

@@ -15,7 +15,7 @@ struct WriteCadOptions {
     /// seal it.
     double tolerance = 0;
     double deviation = 0.05; ///< the solid's volume may differ by this part from that within the facets [-]
-    Limits limits;           ///< of the CAD process
+    Limits limits{};         ///< of the CAD process
 };
 
 /// What was written, as it reads back.
