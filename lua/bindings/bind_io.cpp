@@ -4,7 +4,9 @@
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
 
+#include <lacuna/cad/load.h>
 #include <lacuna/io/facets.h>
+#include <lacuna/io/load_facets.h>
 #include <lacuna/io/msh.h>
 #include <lacuna/io/msh_reader.h>
 #include <lacuna/io/vtk.h>
@@ -163,6 +165,62 @@ int write_facets(lua_State* L)
     return 0;
 }
 
+void read_feature_angle(lua_State* L, int index, const Where& where, io::LoadOptions& options)
+{
+    options.feature_angle = read_positive(L, index, where);
+    if (options.feature_angle > 180) fail_value(L, where, "degrees in (0, 180]", index);
+}
+
+const Option<io::LoadOptions> kLoadOptions[] = {
+    {"tolerance", positive<&io::LoadOptions::tolerance>},
+    {"feature_angle", read_feature_angle},
+    {"keep_mesh", boolean<&io::LoadOptions::keep_mesh>},
+    {"scale", positive<&io::LoadOptions::scale>},
+};
+
+/// The path or the array of paths at `index`, as a temporary.
+std::vector<std::string>& push_paths(lua_State* L, int index)
+{
+    const Where where{"load", "path"};
+    auto& paths = temporary<std::vector<std::string>>(L);
+    const auto add = [&](int element, const Where& at) {
+        const char* path = read_string(L, element, at);
+        guard(L, [&] { paths.emplace_back(path); });
+    };
+    if (lua_type(L, index) == LUA_TTABLE && lua_rawlen(L, index) > 0)
+        read_array(L, index, where, "", add);
+    else if (lua_type(L, index) == LUA_TSTRING)
+        add(index, {"load", nullptr});
+    else
+        fail_value(L, {"load", nullptr}, "the path of a file or an array of paths", index);
+    return paths;
+}
+
+topology::Model load_model(const std::vector<std::string>& paths, const io::LoadOptions& options,
+                           const RunContext& context)
+{
+    return cad::load(paths, options, context);
+}
+
+/// model = lacuna.load(path | {paths} [, options])
+int load(lua_State* L)
+{
+    lua_settop(L, 2);
+    auto& paths = push_paths(L, 1);
+    io::LoadOptions options;
+    read_options(L, 2, "load", kLoadOptions, options);
+    const Host& lent = host(L);
+    RunContext& context = push_context(L);
+    lua_gc(L, LUA_GCCOLLECT); // to Lua a model is a few bytes: it would let old ones pile up
+    auto& box = new_box<ModelState>(L);
+    guard(L, [&] {
+        for (const std::string& path : paths) check_input_path(lent, path);
+        box = std::make_shared<ModelState>();
+        box->model = load_model(paths, options, context);
+    });
+    return 1;
+}
+
 /// quality = lacuna.check(path): of the hexahedra of a .msh file
 int check_file(lua_State* L)
 {
@@ -174,8 +232,8 @@ int check_file(lua_State* L)
     const int at = lua_gettop(L);
     guard(L, [&] {
         check_input_path(lent, path);
-        source.cells = io::read_msh_hexes(path);
-        const io::HexCells& cells = source.cells;
+        source.cells = io::read_msh(path);
+        const io::MshCells& cells = source.cells;
         if (cells.hexes.empty())
             throw InvalidInput("lua.no_hexahedra", std::string("check: ") + path + " holds no hexahedra");
         source.quality = quality::measure_cells(cells.nodes, cells.hexes, context);
@@ -187,7 +245,7 @@ int check_file(lua_State* L)
 const luaL_Reg kMeshMethods[] = {{"write", write}, {"view", view}, {nullptr, nullptr}};
 const luaL_Reg kVolumeMethods[] = {{"write_facets", write_facets}, {nullptr, nullptr}};
 
-const luaL_Reg kFunctions[] = {{"check", check_file}, {nullptr, nullptr}};
+const luaL_Reg kFunctions[] = {{"check", check_file}, {"load", load}, {nullptr, nullptr}};
 
 } // namespace
 

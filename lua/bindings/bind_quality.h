@@ -16,7 +16,7 @@ namespace lacuna::lua {
 struct QualitySource {
     quality::Quality quality;
     std::shared_ptr<MeshState> mesh; ///< or, where null, the cells of a file
-    io::HexCells cells;
+    io::MshCells cells;
     std::optional<std::vector<quality::MetricSummary>> metrics;
 };
 

@@ -36,11 +36,11 @@ TEST_CASE("a missing file, a folder and an empty file are told apart, each named
     for (const std::string& ending : kEndings) {
         CAPTURE(ending);
         const std::string missing = folder.path("missing" + ending);
-        CHECK(has(failure(missing), "cad.missing_file"));
+        CHECK(has(failure(missing), "io.no_file"));
         CHECK(has(failure(missing), missing));
         std::filesystem::create_directory(folder.path("folder" + ending));
-        CHECK(has(failure(folder.path("folder" + ending)), "cad.is_directory"));
-        CHECK(has(failure(folder.write("empty" + ending, "")), "cad.empty_file"));
+        CHECK(has(failure(folder.path("folder" + ending)), "io.not_a_file"));
+        CHECK(has(failure(folder.write("empty" + ending, "")), "io.empty_file"));
     }
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("an unknown ending is answered with the known ones")
     const test::TempFolder folder;
     for (const char* name : {"part.sldprt", "part.docx", "part", "part.step.bak"}) {
         const std::string message = failure(folder.write(name, "text"));
-        CHECK(has(message, "cad.unknown_ending"));
+        CHECK(has(message, "io.unknown_ending"));
         CHECK(has(message, ".step"));
         CHECK(has(message, ".stl"));
     }
@@ -74,7 +74,7 @@ TEST_CASE("text that is no file of its kind is refused, whatever the ending")
             CAPTURE(ending);
             const std::string path = folder.write("bad" + ending, text);
             const std::string message = failure(path);
-            CHECK((has(message, "cad.unreadable") || has(message, "cad.no_faces")));
+            CHECK((has(message, ".unreadable: ") || has(message, ".no_faces: ")));
             CHECK(has(message, path));
         }
     }
@@ -116,7 +116,7 @@ TEST_CASE("a file without faces says so")
                                   [] { occ::addLine(occ::addPoint(0, 0, 0), occ::addPoint(1, 0, 0)); })),
               "cad.no_faces"));
     CHECK(has(failure(folder.write("point.geo", "Point(1) = {0, 0, 0};\n")), "cad.no_faces"));
-    CHECK(has(failure(folder.write("points.obj", "v 0 0 0\nv 1 0 0\n")), "cad.no_faces"));
+    CHECK(has(failure(folder.write("points.obj", "v 0 0 0\nv 1 0 0\n")), "io.no_faces"));
     CHECK(has(failure(folder.write(
                   "tetra.bdf",
                   "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"
@@ -137,8 +137,8 @@ TEST_CASE("options out of range are refused")
     const test::TempFolder folder;
     const std::string path = folder.gmsh("box.step", [] { occ::addBox(0, 0, 0, 1, 1, 1); });
     for (const double scale : {0.0, -1.0, double(NAN), double(INFINITY)})
-        CHECK(has(failure(path, {.scale = scale}), "cad.scale"));
+        CHECK(has(failure(path, {.scale = scale}), "io.scale"));
     for (const double tolerance : {-1.0, double(NAN)})
-        CHECK(has(failure(path, {.tolerance = tolerance}), "cad.tolerance"));
+        CHECK(has(failure(path, {.tolerance = tolerance}), "io.tolerance"));
     CHECK_THROWS_AS(cad::load({}), InvalidInput);
 }

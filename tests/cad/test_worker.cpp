@@ -137,7 +137,7 @@ TEST_CASE("a CAD process that dies, stops or works for ever ends alone, and the 
     for (const bool stopped : {false, true}) {
         if (stopped) ::kill(cad::Worker::current()->pid(), SIGSTOP);
         const auto start = std::chrono::steady_clock::now();
-        const std::string words = failure([&] { (void)cad::load({path}, {.limits = {.seconds = 0.5}}); });
+        const std::string words = failure([&] { (void)cad::load({path}, {}, {}, {.seconds = 0.5}); });
         CHECK(has(words, "cad.time_limit"));
         CHECK(has(words, "0.5 s"));
         CHECK(has(words, path));
@@ -150,7 +150,7 @@ TEST_CASE("a file that takes too much memory is an error that says so")
 {
     const test::TempFolder folder;
     const std::string path = folder.write("much.geo", "a[] = {1};\nFor i In {1:40}\n  a[] = {a[], a[]};\nEndFor\n");
-    const std::string words = failure([&] { (void)cad::load({path}, {.limits = {.memory = 1'500'000'000}}); });
+    const std::string words = failure([&] { (void)cad::load({path}, {}, {}, {.memory = 1'500'000'000}); });
     CHECK((has(words, "cad.memory_limit") || has(words, "cad.worker_ended")));
     CHECK(has(words, path));
     CHECK(cad::load({folder.gmsh("box.step", [] { occ::addBox(0, 0, 0, 1, 1, 1); })}).faces.size() == 6);
@@ -269,7 +269,7 @@ TEST_CASE("a CAD process that lies does no harm")
     for (const char* how : {"silent", "deaf"}) {
         CAPTURE(how);
         const Fake fake(how);
-        CHECK(has(failure([&] { (void)cad::load({path}, {.limits = {.seconds = 0.5}}); }), "cad.time_limit"));
+        CHECK(has(failure([&] { (void)cad::load({path}, {}, {}, {.seconds = 0.5}); }), "cad.time_limit"));
     }
     {
         const Fake fake("noise"); // replies with bytes changed, another way every time

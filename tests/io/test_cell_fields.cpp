@@ -109,7 +109,7 @@ TEST_CASE(
         CAPTURE(version);
         const test::Folder folder;
         io::write_msh(mesh, folder.file("a.msh"), {binary, version, fields});
-        const io::HexCells cells = io::read_msh_hexes(folder.file("a.msh"));
+        const io::MshCells cells = io::read_msh(folder.file("a.msh"));
         REQUIRE(cells.hexes.size() == mesh.hex_count());
         CHECK(cells.nodes == mesh.nodes);
         const auto sections = element_data(test::bytes_of(folder.file("a.msh")), binary);

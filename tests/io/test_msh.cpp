@@ -24,14 +24,14 @@ Vec3 crooked(const Vec3& p)
     return Vec3(p.x() + std::sin(p.y()) / 3, p.y() * 1e-3 - 1e5, p.z() / 7 + p.x() * p.y() * 1e-9);
 }
 
-io::HexCells written_and_read(const mesh::HexMesh& mesh, const io::MshOptions& options)
+io::MshCells written_and_read(const mesh::HexMesh& mesh, const io::MshOptions& options)
 {
     const test::Folder folder;
     io::write_msh(mesh, folder.file("a.msh"), options);
-    return io::read_msh_hexes(folder.file("a.msh"));
+    return io::read_msh(folder.file("a.msh"));
 }
 
-const io::MshGroup* find_group(const io::HexCells& cells, const std::string& name)
+const io::MshGroup* find_group(const io::MshCells& cells, const std::string& name)
 {
     const auto found = std::find_if(cells.groups.begin(), cells.groups.end(),
                                     [&](const auto& g) { return g.name == name; });
@@ -48,7 +48,7 @@ TEST_CASE("nodes, cells and skin come back from every format bit for bit, in the
               test::block({.columns = 60, .rows = 50, .layers = 9, .map = crooked})}) {
             CAPTURE(options.version);
             CAPTURE(options.binary);
-            const io::HexCells cells = written_and_read(mesh, options);
+            const io::MshCells cells = written_and_read(mesh, options);
             CHECK(cells.nodes == mesh.nodes);
             REQUIRE(cells.hexes.size() == mesh.hex_count());
             bool same = true;
@@ -74,7 +74,7 @@ TEST_CASE("a mesh read back is proved, its skin included")
 {
     const auto mesh = test::ring(12, 5);
     for (const auto& options : kFormats) {
-        const io::HexCells cells = written_and_read(mesh, options);
+        const io::MshCells cells = written_and_read(mesh, options);
         CHECK(quality::prove_cells(cells.nodes, cells.hexes, cells.quads).hexes == mesh.hex_count());
     }
 }
@@ -86,7 +86,7 @@ TEST_CASE("every group has its name and its surfaces; a name over several patche
     std::fill(mesh.wall_patch.begin() + 4, mesh.wall_patch.end(), 3);
     mesh.volume_groups = {"volume", "inlet"};
     for (const bool binary : {true, false}) {
-        const io::HexCells cells = written_and_read(mesh, {.binary = binary});
+        const io::MshCells cells = written_and_read(mesh, {.binary = binary});
         const auto entities = [&](const char* name) {
             const io::MshGroup* group = find_group(cells, name);
             return group == nullptr ? std::vector<int>{-1} : group->entities;
@@ -111,7 +111,7 @@ TEST_CASE("names the format cannot hold are changed, and stay different from eac
     mesh.patches[0].groups = {"say \"so\"", "two\nlines", std::string(300, 'a') + "1",
                               std::string(300, 'a') + "2", umlauts};
     for (const bool binary : {true, false}) {
-        const io::HexCells cells = written_and_read(mesh, {.binary = binary});
+        const io::MshCells cells = written_and_read(mesh, {.binary = binary});
         CHECK(find_group(cells, "say 'so'") != nullptr);
         CHECK(find_group(cells, "two lines") != nullptr);
         CHECK(find_group(cells, std::string(127, 'a')) != nullptr);

@@ -5,7 +5,6 @@ local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
 local lacuna = require "lacuna"
 local params = lacuna.params { lacuna = "", scratch = "" }
 local folder = params.scratch
-local has_cad = lacuna.gmsh_version ~= "none"
 
 -- Lines before the recipe's own, then lines after; the error is expected in between, on line 2.
 local function expect(line, words, after)
@@ -24,14 +23,12 @@ local function expect(line, words, after)
 end
 
 -- Files.
-if has_cad then
-  expect('lacuna.load "nowhere.step"', { "nowhere.step" })
-  expect('lacuna.load "empty.step"', { "empty.step" })
-  expect('lacuna.load "empty.stl"', { "empty.stl" })
-  expect('lacuna.load "garbage.step"', { "garbage.step" })
-  expect('lacuna.load "recipe.lua"', { "recipe.lua" })
-  expect('lacuna.load "."', { "." })
-end
+expect('lacuna.load "nowhere.step"', { "nowhere.step" })
+expect('lacuna.load "empty.step"', { "empty.step" })
+expect('lacuna.load "empty.stl"', { "empty.stl" })
+expect('lacuna.load "garbage.step"', { "garbage.step" })
+expect('lacuna.load "recipe.lua"', { "recipe.lua" })
+expect('lacuna.load "."', { "." })
 
 -- Faces and roles.
 expect("s.prism():open_volume { source = 99 }", { "'source'", "99", 'face 1 "source"' })

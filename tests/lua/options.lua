@@ -25,8 +25,6 @@ local calls = {
   ["synthetic.barrel"] = { lacuna.synthetic.barrel, { "radius", "height", "bulge", "facets", "drop" } },
   ["synthetic.plate"] = { lacuna.synthetic.plate, { "length", "width", "height", "holes", "hole_radius", "facets", "drop" } },
 }
-local has_cad = lacuna.gmsh_version ~= "none"  -- without it `load` is one error whatever it is given
-if not has_cad then calls.load = nil end
 for name, entry in pairs(calls) do
   local call, keys = table.unpack(entry)
   for _, key in ipairs(keys) do
@@ -50,13 +48,11 @@ local function wrong(name, key, values, expected)
   end
 end
 local huge, nan = math.huge, 0 / 0
-if has_cad then
-  wrong("load", "tolerance", { 0, -1, nan, huge, "1", true, {} }, "a positive number")
-  wrong("load", "scale", { 0, -1, nan, huge, "1" }, "a positive number")
-  wrong("load", "feature_angle", { 0, -1, nan, "1" }, "a positive number")
-  wrong("load", "feature_angle", { 181 }, "degrees")
-  wrong("load", "keep_mesh", { 1, "true" }, "true or false")
-end
+wrong("load", "tolerance", { 0, -1, nan, huge, "1", true, {} }, "a positive number")
+wrong("load", "scale", { 0, -1, nan, huge, "1" }, "a positive number")
+wrong("load", "feature_angle", { 0, -1, nan, "1" }, "a positive number")
+wrong("load", "feature_angle", { 181 }, "degrees")
+wrong("load", "keep_mesh", { 1, "true" }, "true or false")
 wrong("add_face", "name", { "", 1 }, "a word in quotes")
 wrong("add_face", "points", { 1, {}, { { 0, 0, 0 } } }, "at least three points")
 wrong("add_face", "points", { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1 } } }, "{ x, y, z }")
@@ -106,13 +102,9 @@ wrong("synthetic.annulus", "inner", { 1, 2 }, "below 'outer'")
 wrong("synthetic.elbow", "bend_radius", { 0.5, 1 }, "above 'radius'")
 
 -- Arguments by themselves.
-if has_cad then
-  check.fails(function() lacuna.load() end, "load:", "path", "nothing")
-  check.fails(function() lacuna.load(7) end, "load:", "found 7")
-  check.fails(function() lacuna.load { "a.step", 7 } end, "load:", "path[2]", "found 7")
-else
-  check.fails(function() lacuna.load "a.step" end, "load:", "LACUNA_WITH_CAD")
-end
+check.fails(function() lacuna.load() end, "load:", "path", "nothing")
+check.fails(function() lacuna.load(7) end, "load:", "found 7")
+check.fails(function() lacuna.load { "a.step", 7 } end, "load:", "path[2]", "found 7")
 check.fails(function() lacuna.model(7) end, "model:", "found 7")
 check.fails(function() lacuna.params(7) end, "params:", "found 7")
 

@@ -3,6 +3,7 @@
 
 #include <lacuna/cad/detail/exact_geometry.h>
 #include <lacuna/cad/detail/input_file.h>
+#include <lacuna/healing/orient_groups.h>
 
 #include <utility>
 
@@ -95,7 +96,7 @@ topology::Model build_model(LoadReply reply, double scale, const std::shared_ptr
 } // namespace
 
 topology::Model import_cad(const std::vector<std::string>& paths, const LoadOptions& options,
-                           const RunContext& context)
+                           const RunContext& context, const Limits& limits)
 {
     LoadRequest request;
     request.tolerance = options.tolerance;
@@ -110,7 +111,7 @@ topology::Model import_cad(const std::vector<std::string>& paths, const LoadOpti
         for (Descriptor& file : input.descriptors) files.push_back(std::move(file));
     }
     task.doing = "reading it";
-    task.limits = options.limits;
+    task.limits = limits;
     task.context = &context;
     task.stage = "load";
     std::vector<int> descriptors;
@@ -124,7 +125,7 @@ topology::Model import_cad(const std::vector<std::string>& paths, const LoadOpti
     for (const std::vector<Index>& faces : reply.solids) solids.emplace_back(faces.begin(), faces.end());
     topology::Model model = build_model(std::move(reply), options.scale, source);
     model.tolerance = options.tolerance > 0 ? options.tolerance : 1e-6 * model.diagonal;
-    orient_groups(model, solids);
+    healing::orient_groups(model, solids);
     return model;
 }
 

@@ -3,6 +3,7 @@
 
 #include <lacuna/cad/detail/script.h>
 #include <lacuna/core/error.h>
+#include <lacuna/io/load_facets.h>
 
 #include <algorithm>
 #include <cctype>
@@ -18,6 +19,7 @@ namespace lacuna::cad {
 
 using cad_protocol::Descriptor;
 using cad_protocol::LoadFile;
+using io::ending_of;
 
 namespace {
 
@@ -166,25 +168,6 @@ InputFile open_input(const std::string& path, const RunContext& context)
     input.file.contents.push_back({name_of(path)});
     if (input.file.format == LoadFile::script) add_merged(input, path, context);
     return input;
-}
-
-std::string ending_of(const std::string& path)
-{
-    const std::size_t dot = path.find_last_of('.');
-    const std::size_t slash = path.find_last_of("/\\");
-    if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) return {};
-    std::string ending = path.substr(dot);
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return ending;
-}
-
-bool is_cad_ending(std::string_view ending)
-{
-    for (const std::string_view known :
-         {".step", ".stp", ".iges", ".igs", ".brep", ".geo", ".geo_unrolled"}) {
-        if (ending == known) return true;
-    }
-    return false;
 }
 
 } // namespace lacuna::cad

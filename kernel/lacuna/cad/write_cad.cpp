@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/cad/write_cad.h>
 
-#include <lacuna/cad/detail/input_file.h>
 #include <lacuna/cad/detail/solid_plan.h>
 #include <lacuna/closure/close.h>
+#include <lacuna/io/load_facets.h>
 #include <lacuna/io/whole_file.h>
 
 #include <algorithm>
@@ -113,7 +113,7 @@ WrittenCad write_cad(const OpenVolume& volume, const std::string& path, const Wr
                      const RunContext& context)
 {
     check_options(options);
-    const std::string ending = ending_of(path);
+    const std::string ending = io::ending_of(path);
     if (ending != ".step" && ending != ".stp" && ending != ".brep") {
         throw InvalidInput("cad.unknown_ending",
                            "cannot write a solid to '" + path + "': the ending \"" + ending +

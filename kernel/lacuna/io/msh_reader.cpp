@@ -2,11 +2,10 @@
 #include <lacuna/io/msh_reader.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/io/detail/msh_cursor.h>
+#include <lacuna/io/detail/facet_collector.h>
+#include <lacuna/io/detail/input_file.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <set>
@@ -30,65 +29,22 @@ constexpr ElementType kTypes[] = {
 
 bool is_hex(int type) { return type == 5 || type == 12 || type == 17 || type == 92 || type == 93; }
 bool is_quad(int type) { return type == 3 || type == 10 || type == 16 || (type >= 36 && type <= 38); }
+bool is_triangle(const ElementType& type) { return type.dimension == 2 && !is_quad(type.type); }
 
-ElementType type_of(const MshCursor& cursor, int type)
+ElementType type_of(const Cursor& cursor, int type)
 {
     for (const ElementType& known : kTypes)
         if (known.type == type) return known;
     cursor.fail("element type " + std::to_string(type) + " is not known");
 }
 
-/// Positions of nodes by the tags the file gives them, which need not be dense.
-class NodeTags {
-public:
-    void add(std::uint64_t tag) { tags_.push_back(tag); }
-    [[nodiscard]] std::size_t count() const { return tags_.size(); }
-
-    /// @pre  all tags are added
-    void finish(const MshCursor& cursor)
-    {
-        const std::uint64_t highest = tags_.empty() ? 0 : *std::max_element(tags_.begin(), tags_.end());
-        if (highest <= 4 * tags_.size() + 1024) {
-            dense_.assign(highest + 1, -1);
-            for (std::size_t i = 0; i < tags_.size(); ++i) {
-                if (dense_[tags_[i]] >= 0)
-                    cursor.fail("node " + std::to_string(tags_[i]) + " is there twice");
-                dense_[tags_[i]] = static_cast<Index>(i);
-            }
-            return;
-        }
-        for (std::size_t i = 0; i < tags_.size(); ++i) sparse_.push_back({tags_[i], static_cast<Index>(i)});
-        std::sort(sparse_.begin(), sparse_.end());
-        for (std::size_t i = 1; i < sparse_.size(); ++i)
-            if (sparse_[i].first == sparse_[i - 1].first)
-                cursor.fail("node " + std::to_string(sparse_[i].first) + " is there twice");
-    }
-
-    [[nodiscard]] Index position(const MshCursor& cursor, std::uint64_t tag) const
-    {
-        if (tag < dense_.size() && dense_[tag] >= 0) return dense_[tag];
-        const auto found = std::lower_bound(sparse_.begin(), sparse_.end(),
-                                            std::pair<std::uint64_t, Index>{tag, 0});
-        if (found == sparse_.end() || found->first != tag)
-            cursor.fail("a cell names node " + std::to_string(tag) + ", which is not there");
-        return found->second;
-    }
-
-private:
-    std::vector<std::uint64_t> tags_;
-    std::vector<Index> dense_;
-    std::vector<std::pair<std::uint64_t, Index>> sparse_;
-};
-
 class Reader {
 public:
-    Reader(const std::string& path, std::string_view data) : cursor_(path, data) {}
+    explicit Reader(Cursor& cursor) : cursor_(cursor) {}
 
-    HexCells read()
+    MshCells read()
     {
-        while (!cursor_.at_end()) {
-            const std::string_view line = cursor_.line();
-            if (line.empty()) continue;
+        for (std::string_view line; !(line = cursor_.full_line()).empty();) {
             if (line.front() != '$')
                 cursor_.fail("expected a section, as $Nodes; this is no MSH file, or it is damaged");
             read_section(std::string(line.substr(1)));
@@ -114,7 +70,12 @@ private:
             version_ == 4 ? read_nodes_4() : read_nodes_2();
         else if (name == "Elements")
             version_ == 4 ? read_elements_4() : read_elements_2();
-        cursor_.leave(name);
+        else if (!cursor_.skip_past("$End" + name))
+            cursor_.fail("the file ends within $" + name);
+        else
+            return void(cursor_.line());
+        if (cursor_.full_line() != "$End" + name)
+            cursor_.fail("expected $End" + name + ": $" + name + " holds more than it announces");
     }
 
     void read_format()
@@ -122,14 +83,15 @@ private:
         const double version = cursor_.text_real();
         const std::int64_t binary = cursor_.text_integer();
         const std::int64_t bytes = cursor_.text_integer();
-        if (version != 4.1 && !(version >= 2 && version < 3))
-            cursor_.fail("only versions 4.1 and 2.2 are read; save the mesh anew as one of them");
+        if (version != 4.1 && version != 4 && !(version >= 2 && version < 3))
+            cursor_.fail("expected version 2.2, 4.0 or 4.1; save the mesh anew as one of them");
         if (bytes != 8)
             cursor_.fail("numbers of " + std::to_string(bytes) + " bytes are not read; expected 8");
-        version_ = version == 4.1 ? 4 : 2;
+        version_ = version >= 4 ? 4 : 2;
+        first_of_4_ = version == 4;
         cursor_.line();
         if (binary == 1) {
-            cursor_.binary = true;
+            cursor_.coding = std::endian::native == std::endian::little ? Coding::little : Coding::big;
             if (cursor_.raw_integer() != 1)
                 cursor_.fail("the bytes are in another machine's order; save the mesh as text");
         } else if (binary != 0) {
@@ -144,9 +106,9 @@ private:
         for (std::int64_t i = 0; i < count; ++i) {
             MshGroup group;
             if (cursor_.at_end()) cursor_.fail("the file ends within $PhysicalNames");
-            group.dimension = static_cast<int>(cursor_.text_integer());
-            group.tag = static_cast<int>(cursor_.text_integer());
-            const std::string_view rest = cursor_.line();
+            group.dimension = text_int();
+            group.tag = text_int();
+            const std::string_view rest = cursor_.line_end();
             const std::size_t first = rest.find('"');
             const std::size_t last = rest.rfind('"');
             if (first == std::string_view::npos || last == first) cursor_.fail("expected a name in quotes");
@@ -154,12 +116,19 @@ private:
         }
     }
 
+    int text_int()
+    {
+        const auto value = parse_integer<int>(cursor_.word("a number"));
+        if (!value) cursor_.fail("expected a small whole number");
+        return *value;
+    }
+
     void read_entities()
     {
         std::uint64_t counts[4];
         for (std::uint64_t& count : counts) count = cursor_.size();
         for (int dimension = 0; dimension < 4; ++dimension) {
-            const int reals = dimension == 0 ? 3 : 6;
+            const int reals = dimension == 0 && !first_of_4_ ? 3 : 6;
             for (std::uint64_t i = 0; i < counts[dimension]; ++i) {
                 const int tag = cursor_.integer();
                 for (int k = 0; k < reals; ++k) cursor_.real();
@@ -179,6 +148,14 @@ private:
         return tag < 0 ? -tag : tag;
     }
 
+    /// Of versions 2 and 4.0.
+    std::uint64_t node_tag()
+    {
+        const int tag = cursor_.integer();
+        if (tag < 0) cursor_.fail("node tag " + std::to_string(tag) + " is negative");
+        return static_cast<std::uint64_t>(tag);
+    }
+
     void begin_nodes(std::uint64_t count, std::uint64_t bytes, std::uint64_t values)
     {
         if (nodes_known_) cursor_.fail("a second $Nodes");
@@ -186,6 +163,7 @@ private:
         if (count > static_cast<std::uint64_t>(std::numeric_limits<Index>::max()))
             cursor_.fail("too many nodes");
         cells_.nodes.reserve(count);
+        tags_.reserve(count);
     }
 
     void end_nodes(std::uint64_t count)
@@ -193,36 +171,30 @@ private:
         if (cells_.nodes.size() != count)
             cursor_.fail("the file announces " + std::to_string(count) + " nodes and holds " +
                          std::to_string(cells_.nodes.size()));
-        tags_.finish(cursor_);
+        tags_.finish([&](Index, Index node) {
+            cursor_.fail("node " + std::to_string(node + 1) + " of the file has the tag of one before");
+        });
         nodes_known_ = true;
-    }
-
-    void read_point()
-    {
-        const double x = cursor_.real();
-        const double y = cursor_.real();
-        const double z = cursor_.real();
-        cells_.nodes.emplace_back(x, y, z);
     }
 
     void read_nodes_4()
     {
         const std::uint64_t blocks = cursor_.plausible(cursor_.size(), 20, 4);
         const std::uint64_t total = cursor_.size();
-        cursor_.size();
-        cursor_.size();
-        begin_nodes(total, 32, 4);
+        for (int i = 0; i < 2 && !first_of_4_; ++i) cursor_.size();
+        begin_nodes(total, 28, 4);
         for (std::uint64_t b = 0; b < blocks; ++b) {
-            const int dimension = cursor_.integer();
-            cursor_.integer();
+            int dimension = cursor_.integer();
+            if (const int entity = cursor_.integer(); first_of_4_) dimension = entity;
             const bool parametric = cursor_.integer() != 0;
             if (dimension < 0 || dimension > 3)
                 cursor_.fail("nodes of dimension " + std::to_string(dimension));
-            const std::uint64_t count = cursor_.plausible(cursor_.size(), 32, 4);
+            const std::uint64_t count = cursor_.plausible(cursor_.size(), 28, 4);
             if (count > total - cells_.nodes.size()) cursor_.fail("more nodes than announced");
-            for (std::uint64_t i = 0; i < count; ++i) tags_.add(cursor_.size());
+            for (std::uint64_t i = 0; i < count && !first_of_4_; ++i) tags_.add(cursor_.size());
             for (std::uint64_t i = 0; i < count; ++i) {
-                read_point();
+                if (first_of_4_) tags_.add(node_tag());
+                cells_.nodes.push_back(cursor_.point());
                 for (int k = 0; parametric && k < dimension; ++k) cursor_.real();
             }
         }
@@ -236,10 +208,8 @@ private:
         if (count < 0) cursor_.fail("a negative number of nodes");
         begin_nodes(static_cast<std::uint64_t>(count), 28, 4);
         for (std::int64_t i = 0; i < count; ++i) {
-            const int tag = cursor_.integer();
-            if (tag < 0) cursor_.fail("node tag " + std::to_string(tag) + " is negative");
-            tags_.add(static_cast<std::uint64_t>(tag));
-            read_point();
+            tags_.add(node_tag());
+            cells_.nodes.push_back(cursor_.point());
         }
         end_nodes(static_cast<std::uint64_t>(count));
     }
@@ -250,7 +220,8 @@ private:
         if (!nodes_known_) cursor_.fail("$Elements before $Nodes");
         if (count + cells_.hexes.size() > static_cast<std::uint64_t>(std::numeric_limits<Index>::max()))
             cursor_.fail("too many cells");
-        if (is_hex(type.type)) {
+        // Many small blocks must not each copy what is there.
+        if (is_hex(type.type) && count > cells_.hexes.size()) {
             cells_.hexes.reserve(cells_.hexes.size() + count);
             cells_.hex_entity.reserve(cells_.hexes.size() + count);
         }
@@ -260,40 +231,49 @@ private:
     template <class NextTag>
     void take_cell(const ElementType& type, int entity, const NextTag& next_tag)
     {
-        const auto corners = [&](auto& cell) {
-            for (Index& node : cell) node = tags_.position(cursor_, next_tag());
+        const auto take = [&](auto& cells, std::vector<int>& entities) {
+            auto& cell = cells.emplace_back();
+            for (Index& node : cell) node = position(next_tag());
             for (int i = static_cast<int>(cell.size()); i < type.nodes; ++i) next_tag();
-            return cell;
+            entities.push_back(entity);
         };
         if (is_hex(type.type)) {
-            Hex hex;
-            cells_.hexes.push_back(corners(hex));
-            cells_.hex_entity.push_back(entity);
+            take(cells_.hexes, cells_.hex_entity);
             cells_.order = std::max(cells_.order, type.order);
         } else if (is_quad(type.type)) {
-            Quad quad;
-            cells_.quads.push_back(corners(quad));
-            cells_.quad_entity.push_back(entity);
+            take(cells_.quads, cells_.quad_entity);
+        } else if (is_triangle(type)) {
+            take(cells_.triangles, cells_.triangle_entity);
         } else {
             for (int i = 0; i < type.nodes; ++i) next_tag();
             ++others_[{type.dimension, type.type}];
         }
     }
 
+    Index position(std::uint64_t tag) const
+    {
+        const Index node = tags_.find(tag);
+        if (node < 0) cursor_.fail("a cell names node " + std::to_string(tag) + ", which is not there");
+        return node;
+    }
+
     void read_elements_4()
     {
         const std::uint64_t blocks = cursor_.plausible(cursor_.size(), 20, 4);
-        for (int i = 0; i < 3; ++i) cursor_.size();
+        for (int i = 0; i < (first_of_4_ ? 1 : 3); ++i) cursor_.size();
         for (std::uint64_t b = 0; b < blocks; ++b) {
-            cursor_.integer();
-            const int entity = cursor_.integer();
+            const int first = cursor_.integer();
+            const int second = cursor_.integer();
+            const int entity = first_of_4_ ? first : second;
             const ElementType type = type_of(cursor_, cursor_.integer());
             const auto values = static_cast<std::uint64_t>(type.nodes) + 1;
-            const std::uint64_t count = cursor_.plausible(cursor_.size(), 8 * values, values);
+            const std::uint64_t count = cursor_.plausible(cursor_.size(), (first_of_4_ ? 4 : 8) * values,
+                                                          values);
             expect_cells(type, count);
+            const auto next_tag = [&] { return first_of_4_ ? node_tag() : cursor_.size(); };
             for (std::uint64_t i = 0; i < count; ++i) {
-                cursor_.size();
-                take_cell(type, entity, [&] { return cursor_.size(); });
+                next_tag();
+                take_cell(type, entity, next_tag);
             }
         }
     }
@@ -311,11 +291,7 @@ private:
                 cursor_.integer();
         }
         if (physical != 0) members_[{type.dimension, physical}].insert(entity);
-        take_cell(type, entity, [&] {
-            const int tag = cursor_.integer();
-            if (tag < 0) cursor_.fail("node tag " + std::to_string(tag) + " is negative");
-            return static_cast<std::uint64_t>(tag);
-        });
+        take_cell(type, entity, [&] { return node_tag(); });
     }
 
     void read_elements_2()
@@ -325,9 +301,9 @@ private:
         if (announced < 0) cursor_.fail("a negative number of cells");
         const std::uint64_t total = cursor_.plausible(static_cast<std::uint64_t>(announced), 8, 4);
         for (std::uint64_t done = 0; done < total;) {
-            if (!cursor_.binary) cursor_.integer();
+            if (cursor_.coding == Coding::text) cursor_.integer();
             const ElementType type = type_of(cursor_, cursor_.integer());
-            const int count = cursor_.binary ? cursor_.integer() : 1;
+            const int count = cursor_.coding == Coding::text ? 1 : cursor_.integer();
             const int tags = cursor_.integer();
             if (count < 1 || tags < 0 || static_cast<std::uint64_t>(count) > total - done)
                 cursor_.fail("a block of " + std::to_string(count) + " cells with " + std::to_string(tags) +
@@ -337,7 +313,7 @@ private:
             if (count > 1) expect_cells(type, static_cast<std::uint64_t>(count));
             if (!nodes_known_) cursor_.fail("$Elements before $Nodes");
             for (int i = 0; i < count; ++i) {
-                if (cursor_.binary) cursor_.integer();
+                if (cursor_.coding != Coding::text) cursor_.integer();
                 read_cell_2(type, tags);
             }
             done += static_cast<std::uint64_t>(count);
@@ -358,42 +334,50 @@ private:
     }
 
     using Key = std::pair<int, int>; // dimension, tag
-    MshCursor cursor_;
-    HexCells cells_;
+    Cursor& cursor_;
+    MshCells cells_;
     NodeTags tags_;
     std::map<Key, std::string> names_;
     std::map<Key, std::set<int>> members_;
     std::map<Key, std::size_t> others_;
     int version_ = 0;
+    bool first_of_4_ = false; ///< version 4.0, which counts tags in 4 bytes and has them in another order
     bool nodes_known_ = false;
 };
 
-std::string contents(const std::string& path)
-{
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored))
-        throw InvalidInput("io.not_a_file", "cannot read '" + path + "': it is a folder");
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
-        throw InvalidInput("io.no_file",
-                           "cannot open '" + path + "': is the name right, and may it be read?");
-    std::string data;
-    const auto size = std::filesystem::file_size(path, ignored);
-    if (!ignored) {
-        data.resize(size);
-        file.read(data.data(), static_cast<std::streamsize>(size));
-        data.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
-    }
-    if (file.bad()) throw BackendError("io.read_failed", "reading '" + path + "' failed");
-    return data;
-}
-
 } // namespace
 
-HexCells read_msh_hexes(const std::string& path)
+MshCells read_msh(const std::string& path)
 {
-    const std::string data = contents(path);
-    return Reader(path, data).read();
+    const std::string data = read_file(path);
+    Cursor cursor(path, data);
+    return Reader(cursor).read();
+}
+
+void read_msh_facets(Cursor& cursor, FacetCollector& into)
+{
+    MshCells cells = Reader(cursor).read();
+    into.points() = std::move(cells.nodes);
+    std::map<int, std::string> names;
+    for (const MshGroup& group : cells.groups) {
+        if (group.dimension != 2 || trimmed(group.name).empty()) continue;
+        for (const int entity : group.entities) names.try_emplace(entity, group.name);
+    }
+    const auto take = [&](const auto& faces, const std::vector<int>& entities) {
+        for (std::size_t f = 0; f < faces.size(); ++f) {
+            const auto name = names.find(entities[f]);
+            const int label = into.label_of(entities[f], name == names.end() ? "" : name->second);
+            into.add_face(faces[f], label, cursor);
+        }
+    };
+    take(cells.triangles, cells.triangle_entity);
+    take(cells.quads, cells.quad_entity);
+    into.pass_over_solid("hexahedra", cells.hexes.size());
+    for (const OtherCells& other : cells.others) {
+        const std::string what = "cells of type " + std::to_string(other.type);
+        other.dimension == 3 ? into.pass_over_solid(what, other.count) : into.pass_over(what, other.count);
+    }
+    into.sort_by_label();
 }
 
 } // namespace lacuna::io

@@ -24,10 +24,4 @@ struct InputFile {
 /// @throw BackendError  it cannot be read. Cancelled.
 InputFile open_input(const std::string& path, const RunContext& context);
 
-/// .step .stp .iges .igs .brep .geo .geo_unrolled, in lower case.
-bool is_cad_ending(std::string_view ending);
-
-/// The part of a path from its last dot on, in lower case; empty where there is none.
-std::string ending_of(const std::string& path);
-
 } // namespace lacuna::cad

@@ -1,9 +1,9 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/detail/import_cad.h>
+// SPDX-License-Identifier: MIT
+#include <lacuna/healing/orient_groups.h>
 
 #include <map>
 
-namespace lacuna::cad {
+namespace lacuna::healing {
 
 namespace {
 
@@ -115,4 +115,4 @@ void orient_groups(topology::Model& model, const std::vector<std::vector<std::si
     }
 }
 
-} // namespace lacuna::cad
+} // namespace lacuna::healing

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/cursor.h>
+
+#include <lacuna/core/error.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+namespace lacuna::io {
+namespace {
+
+bool separates(char c) { return is_blank(c) || c == '\n'; }
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// A number as Fortran writes it, as C++ reads it: `D` for `E`, an exponent without a letter.
+std::string plain_exponent(std::string_view text)
+{
+    std::string plain;
+    for (const char c : text) {
+        const bool bare_sign = (c == '+' || c == '-') && !plain.empty() &&
+                               (is_digit(plain.back()) || plain.back() == '.');
+        if (bare_sign) plain += 'e';
+        plain += c == 'd' || c == 'D' ? 'e' : c;
+    }
+    return plain;
+}
+
+} // namespace
+
+std::optional<double> parse_real(std::string_view text, Exponents exponents)
+{
+    constexpr std::size_t kLongest = 400; // characters: a double written out in full has some 330
+    if (text.size() > kLongest) return {};
+    if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (end != text.data() + text.size()) {
+        if (exponents == Exponents::plain) return {};
+        return parse_real(plain_exponent(text), Exponents::plain);
+    }
+    const bool tiny = error == std::errc::result_out_of_range &&
+                      (text.find("e-") != text.npos || text.find("E-") != text.npos);
+    if (tiny) return 0;
+    if (error != std::errc{} || !std::isfinite(value)) return {};
+    return value;
+}
+
+std::string_view trimmed(std::string_view text)
+{
+    while (!text.empty() && separates(text.front())) text.remove_prefix(1);
+    while (!text.empty() && separates(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+bool same_word(std::string_view a, std::string_view b)
+{
+    return std::ranges::equal(
+        a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+std::string shown(std::string_view text)
+{
+    std::string result = "'";
+    for (const char c : text.substr(0, 40)) result += c >= 32 && c < 127 ? c : '?';
+    return result + "'";
+}
+
+Cursor::Cursor(std::string path, std::string_view data) : path_(std::move(path)), data_(data)
+{
+    if (data_.starts_with("\xef\xbb\xbf")) at_ = 3; // the mark some editors put before UTF-8
+}
+
+void Cursor::fail_at(std::size_t position, const std::string& what) const
+{
+    const auto read = data_.substr(0, std::min(position, data_.size()));
+    const std::string place = has_bytes || coding != Coding::text
+                                  ? "byte " + std::to_string(position)
+                                  : "line " + std::to_string(1 + std::count(read.begin(), read.end(), '\n'));
+    throw InvalidInput("io.unreadable", "cannot read " + path_ + ", " + place + ": " + what);
+}
+
+Cursor Cursor::part(std::string_view part) const
+{
+    Cursor result = *this;
+    const auto begin = static_cast<std::size_t>(part.data() - data_.data());
+    result.data_ = data_.substr(0, begin + part.size());
+    result.at_ = result.last_ = begin;
+    return result;
+}
+
+std::string_view Cursor::raw_line()
+{
+    const std::size_t end = std::min(data_.find('\n', at_), data_.size());
+    last_ = at_;
+    at_ = std::min(end + 1, data_.size());
+    return data_.substr(last_, end - last_);
+}
+
+std::string_view Cursor::line() { return trimmed(raw_line()); }
+
+std::string_view Cursor::full_line()
+{
+    std::string_view text;
+    while (text.empty() && !at_end()) text = line();
+    return text;
+}
+
+std::string_view Cursor::word(const char* expected)
+{
+    more();
+    last_ = at_;
+    while (at_ < data_.size() && !separates(data_[at_])) ++at_;
+    if (last_ == at_) fail(std::string("the file ends where ") + expected + " was expected");
+    return data_.substr(last_, at_ - last_);
+}
+
+std::string_view Cursor::word_in_line()
+{
+    while (at_ < data_.size() && is_blank(data_[at_])) ++at_;
+    if (at_end() || data_[at_] == '\n') return {};
+    return word();
+}
+
+std::string_view Cursor::line_end()
+{
+    const std::size_t last = last_;
+    const std::string_view text = line();
+    last_ = last;
+    return text;
+}
+
+bool Cursor::more()
+{
+    while (at_ < data_.size() && separates(data_[at_])) ++at_;
+    return at_ < data_.size();
+}
+
+void Cursor::expect(std::string_view wanted)
+{
+    word();
+    expect_last(wanted);
+}
+
+void Cursor::expect_last(std::string_view wanted) const
+{
+    const std::string_view found = data_.substr(last_, at_ - last_);
+    if (!same_word(found, wanted)) fail("expected " + std::string(wanted) + ", found " + shown(found));
+}
+
+bool Cursor::skip_past(std::string_view text)
+{
+    const std::size_t found = data_.find(text, at_);
+    if (found == std::string_view::npos) return false;
+    at_ = found + text.size();
+    return true;
+}
+
+std::int64_t Cursor::integer_of(std::string_view word) const
+{
+    const auto value = parse_integer<std::int64_t>(word);
+    if (!value) fail("expected a whole number, found " + shown(word));
+    return *value;
+}
+
+double Cursor::real_of(std::string_view word, Exponents exponents) const
+{
+    const auto value = parse_real(word, exponents);
+    if (!value) fail("expected a finite number, found " + shown(word));
+    return *value;
+}
+
+int Cursor::integer()
+{
+    if (coding != Coding::text) return raw<int>();
+    const std::int64_t value = text_integer();
+    if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
+        fail("the number " + std::to_string(value) + " is too large");
+    return static_cast<int>(value);
+}
+
+std::uint64_t Cursor::size()
+{
+    if (coding != Coding::text) return raw<std::uint64_t>();
+    const std::int64_t value = text_integer();
+    if (value < 0) fail("expected a count or a tag, found " + std::to_string(value));
+    return static_cast<std::uint64_t>(value);
+}
+
+double Cursor::real()
+{
+    if (coding == Coding::text) return text_real();
+    const double value = raw<double>();
+    if (!std::isfinite(value)) fail("expected a finite number, found " + std::to_string(value));
+    return value;
+}
+
+Vec3 Cursor::point()
+{
+    const double x = real();
+    const double y = real();
+    const double z = real();
+    return {x, y, z};
+}
+
+std::string_view Cursor::bytes(std::uint64_t count)
+{
+    last_ = at_;
+    if (count > data_.size() - at_)
+        fail("the file is cut off: expected " + std::to_string(count) + " bytes, found " +
+             std::to_string(data_.size() - at_));
+    at_ += count;
+    return data_.substr(last_, count);
+}
+
+std::uint64_t Cursor::plausible(std::uint64_t count, std::uint64_t bytes, std::uint64_t values) const
+{
+    const std::uint64_t least = coding != Coding::text ? bytes : 2 * values; // a digit and a blank
+    if (count > (data_.size() - at_ + 1) / std::max<std::uint64_t>(least, 1))
+        fail("the file is cut off: it announces " + std::to_string(count) +
+             " entries and has no room for them");
+    return count;
+}
+
+} // namespace lacuna::io

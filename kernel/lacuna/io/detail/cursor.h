@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+
+/// A place in the bytes of a file. Internal to this folder.
+namespace lacuna::io {
+
+/// How a file's numbers lie in it.
+enum class Coding { text, little, big };
+/// Whether `1.5D+3` and `1.5+3` are numbers too.
+enum class Exponents { plain, fortran };
+
+/// The finite number that is all of `text`, the same in every locale; what is too small to be told from 0 is 0.
+std::optional<double> parse_real(std::string_view text, Exponents exponents = Exponents::plain);
+
+/// The whole number that is all of `text`, where it fits.
+template <class Int>
+std::optional<Int> parse_integer(std::string_view text)
+{
+    if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
+    Int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return {};
+    return value;
+}
+
+/// A value from its bytes. @param big  the first byte weighs most.
+template <class Value>
+Value from_bytes(const char* bytes, bool big)
+{
+    char turned[sizeof(Value)];
+    for (std::size_t i = 0; i < sizeof turned; ++i)
+        turned[i] = bytes[big == (std::endian::native == std::endian::big) ? i : sizeof turned - 1 - i];
+    Value value;
+    std::memcpy(&value, turned, sizeof value);
+    return value;
+}
+
+/// Blank, tab or carriage return.
+inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+/// Without blanks and line ends on either side.
+std::string_view trimmed(std::string_view text);
+/// Whether two words are the same but for capitals.
+bool same_word(std::string_view a, std::string_view b);
+/// Text from a file as a message may show it: in quotes, its first 40 characters, what cannot be printed as '?'.
+std::string shown(std::string_view text);
+
+/// Reads lines, words and values, and never beyond the end. Messages name the file and the line, in binary parts
+/// the byte, of what was read last.
+class Cursor {
+public:
+    Cursor(std::string path, std::string_view data);
+
+    Coding coding = Coding::text; ///< of `integer()`, `size()` and `real()`
+    bool has_bytes = false;       ///< parts of the file are no text, so that messages name bytes
+
+    [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] bool at_end() const { return at_ >= data_.size(); }
+    /// Where the next character is, and where what was read last began [bytes].
+    [[nodiscard]] std::size_t position() const { return at_; }
+    [[nodiscard]] std::size_t last() const { return last_; }
+    [[nodiscard]] std::string_view rest() const { return data_.substr(at_); }
+    /// A cursor over a part of the same file that ends where the part does.
+    [[nodiscard]] Cursor part(std::string_view part) const;
+
+    /// The rest of the line as it is.
+    std::string_view raw_line();
+    /// The rest of the line, without blanks at its ends.
+    std::string_view line();
+    /// The next line that is not empty; empty at the end of the file.
+    std::string_view full_line();
+    /// The next word of this line or a later one. @throw InvalidInput  at the end of the file.
+    std::string_view word(const char* expected = "a word");
+    /// The next word of this line; empty at its end.
+    std::string_view word_in_line();
+    /// Like `line()`, but messages go on naming what was read before.
+    std::string_view line_end();
+    /// Whether another word follows.
+    bool more();
+    /// Read the next word, which must be this one but for capitals.
+    void expect(std::string_view wanted);
+    /// See that the last word was this one.
+    void expect_last(std::string_view wanted) const;
+    /// Go behind the next place of `text`. @return false  there is none; then nothing moves.
+    bool skip_past(std::string_view text);
+
+    int integer();        ///< 4 bytes, or text
+    std::uint64_t size(); ///< 8 bytes, or text
+    double real();        ///< 8 bytes, or text; finite
+    Vec3 point();         ///< three of them
+    /// A number in text, also in files that are binary elsewhere.
+    std::int64_t text_integer() { return integer_of(word("a number")); }
+    double text_real() { return real_of(word("a number")); }
+    /// A word read before as a number. @throw InvalidInput  it is none.
+    std::int64_t integer_of(std::string_view word) const;
+    double real_of(std::string_view word, Exponents exponents = Exponents::plain) const;
+    /// 4 bytes as they lie.
+    int raw_integer() { return raw<int>(); }
+    /// `count` bytes as they lie.
+    std::string_view bytes(std::uint64_t count);
+
+    /// A count of records, refused where the rest of the file could not hold them: a count that lies must not
+    /// cost memory. @param bytes  of a record in a binary file. @param values  of a record in a text file.
+    std::uint64_t plausible(std::uint64_t count, std::uint64_t bytes, std::uint64_t values) const;
+
+    /// @throw InvalidInput "io.unreadable"
+    [[noreturn]] void fail(const std::string& what) const { fail_at(last_, what); }
+    [[noreturn]] void fail_at(std::size_t position, const std::string& what) const;
+
+private:
+    template <class Value>
+    Value raw()
+    {
+        return from_bytes<Value>(bytes(sizeof(Value)).data(), coding == Coding::big);
+    }
+
+    std::string path_;
+    std::string_view data_;
+    std::size_t at_ = 0, last_ = 0;
+};
+
+} // namespace lacuna::io

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/load_facets.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/healing/stitch.h>
+#include <lacuna/io/detail/facet_collector.h>
+#include <lacuna/io/detail/input_file.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+
+namespace lacuna::io {
+namespace {
+
+struct Format {
+    std::string_view ending, name;
+    void (*read)(Cursor&, FacetCollector&);
+};
+constexpr Format kFormats[] = {
+    {".stl", "an STL file", read_stl},        {".obj", "a Wavefront OBJ file", read_obj},
+    {".msh", "an MSH file", read_msh_facets}, {".unv", "a universal file", read_unv},
+    {".bdf", "a Nastran deck", read_nastran}, {".nas", "a Nastran deck", read_nastran},
+    {".dat", "a Nastran deck", read_nastran}, {".vtk", "a legacy VTK file", read_vtk},
+    {".vtu", "a VTU file", read_vtu},         {".mesh", "a Medit file", read_medit}};
+
+const Format* format_of(std::string_view ending)
+{
+    const auto found = std::ranges::find(kFormats, ending, &Format::ending);
+    return found == std::end(kFormats) ? nullptr : &*found;
+}
+
+/// What some kinds of file cannot but begin with, for the error that names what a file really is.
+struct Beginning {
+    std::string_view text, ending;
+};
+constexpr Beginning kBeginnings[] = {{"# vtk datafile", ".vtk"},    {"<?xml", ".vtu"},
+                                     {"<vtkfile", ".vtu"},          {"$meshformat", ".msh"},
+                                     {"$comments", ".msh"},         {"solid ", ".stl"},
+                                     {"meshversion", ".mesh"},      {"iso-10303-21", ".step"},
+                                     {"cascade topology", ".brep"}, {"dbrep_drawable", ".brep"}};
+
+/// The ending of what a file begins like; empty where its beginning says nothing.
+std::string_view ending_by_content(std::string_view bytes)
+{
+    if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+    const std::string_view head = trimmed(bytes.substr(0, 256));
+    for (const Beginning& known : kBeginnings)
+        if (same_word(head.substr(0, known.text.size()), known.text)) return known.ending;
+    // A universal file: a line -1, then the number of a dataset.
+    const std::size_t line = head.find('\n');
+    if (line != std::string_view::npos && trimmed(head.substr(0, line)) == "-1" &&
+        parse_integer<int>(trimmed(head.substr(line + 1, head.find('\n', line + 1) - line - 1))))
+        return ".unv";
+    return {};
+}
+
+void check_content(const std::string& name, const Format& format, std::string_view bytes)
+{
+    if (format.read == read_stl && is_binary_stl(bytes)) return;
+    const std::string_view found = ending_by_content(bytes);
+    if (found.empty() || found == format.ending) return;
+    const Format* other = format_of(found);
+    throw InvalidInput("io.unreadable",
+                       "cannot read " + name + ", line 1: expected " + std::string(format.name) + ", found " +
+                           (other != nullptr ? std::string(other->name)
+                                             : "what a " + std::string(found) + " file begins with") +
+                           "; give it the ending of what it holds, " + std::string(found));
+}
+
+std::string known_endings(std::string_view others)
+{
+    std::string text(others);
+    for (const Format& format : kFormats) text += (text.empty() ? "" : " ") + std::string(format.ending);
+    return text;
+}
+
+const Format& needed_format(const std::string& path, std::string_view others)
+{
+    const std::string ending = ending_of(path);
+    if (const Format* format = format_of(ending)) return *format;
+    throw InvalidInput("io.unknown_ending", path + ": the ending \"" + ending +
+                                                "\" is unknown; files are read that end in " +
+                                                known_endings(others));
+}
+
+bool is_among(std::string_view endings, const std::string& ending)
+{
+    return !ending.empty() &&
+           (" " + std::string(endings) + " ").find(" " + ending + " ") != std::string::npos;
+}
+
+void check_options(const LoadOptions& options)
+{
+    if (!(options.scale > 0) || !std::isfinite(options.scale)) {
+        throw InvalidInput("io.scale",
+                           "the scale must be a number above 0, not " + std::to_string(options.scale));
+    }
+    if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance)) {
+        throw InvalidInput("io.tolerance", "the tolerance must be a length of 0 or more, not " +
+                                               std::to_string(options.tolerance));
+    }
+}
+
+/// Quads as two triangles each, along the shorter diagonal, for those who want them meshed anew.
+void split_quads(healing::FacetSoup& soup)
+{
+    for (std::size_t q = 0; q < soup.quads.size(); ++q) {
+        const Quad& quad = soup.quads[q];
+        const auto at = [&](std::size_t k) -> const Vec3& { return soup.points[index(quad[k])]; };
+        const std::size_t k = (at(0) - at(2)).squaredNorm() <= (at(1) - at(3)).squaredNorm() ? 0 : 1;
+        soup.triangles.push_back({quad[k], quad[k + 1], quad[k + 2]});
+        soup.triangles.push_back({quad[k], quad[k + 2], quad[(k + 3) % 4]});
+        soup.triangle_label.insert(soup.triangle_label.end(), 2, soup.quad_label[q]);
+    }
+    soup.quads.clear();
+    soup.quad_label.clear();
+}
+
+template <class T>
+void move_in(std::vector<T>& to, std::vector<T>& from)
+{
+    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+template <class Entities>
+int highest_tag(const Entities& entities)
+{
+    int tag = 0;
+    for (const auto& entity : entities) tag = std::max(tag, entity.tag);
+    return tag;
+}
+
+/// Put the facets of `more` behind those of `all`; tags count on.
+void append(FacetFile& all, FacetFile more)
+{
+    const auto points = static_cast<Index>(all.soup.points.size());
+    const auto labels = static_cast<int>(all.label_tag.size());
+    int offset = 0;
+    for (const int tag : all.label_tag) offset = std::max(offset, tag);
+    for (int& tag : more.label_tag) tag += offset;
+    const auto shift = [&](auto& cells, std::vector<int>& cell_labels) {
+        for (auto& cell : cells)
+            for (Index& p : cell) p += points;
+        for (int& label : cell_labels) label += labels;
+    };
+    shift(more.soup.triangles, more.soup.triangle_label);
+    shift(more.soup.quads, more.soup.quad_label);
+    move_in(all.soup.points, more.soup.points);
+    move_in(all.soup.triangles, more.soup.triangles);
+    move_in(all.soup.triangle_label, more.soup.triangle_label);
+    move_in(all.soup.quads, more.soup.quads);
+    move_in(all.soup.quad_label, more.soup.quad_label);
+    move_in(all.soup.label_name, more.soup.label_name);
+    move_in(all.label_tag, more.label_tag);
+    move_in(all.notes, more.notes);
+}
+
+/// Put the entities of `more` after those of `model`; face, edge and vertex tags count on.
+void append(topology::Model& model, topology::Model more)
+{
+    const auto points = static_cast<Index>(model.points.size());
+    const std::size_t vertices = model.vertices.size();
+    const int vertex_tag = highest_tag(model.vertices);
+    const int edge_tag = highest_tag(model.edges);
+    const int face_tag = highest_tag(model.faces);
+    for (topology::Vertex& vertex : more.vertices) {
+        vertex.point += points;
+        vertex.tag += vertex_tag;
+    }
+    for (topology::Edge& edge : more.edges) {
+        edge.tag += edge_tag;
+        edge.from = VertexId(edge.from.index() + vertices);
+        edge.to = VertexId(edge.to.index() + vertices);
+        for (Index& p : edge.points) p += points;
+    }
+    for (topology::Face& face : more.faces) {
+        face.tag += face_tag;
+        face.loops.clear();
+        for (Triangle& t : face.triangles) {
+            for (Index& p : t) p += points;
+        }
+        for (Quad& q : face.given_quads) {
+            for (Index& p : q) p += points;
+        }
+    }
+    move_in(model.points, more.points);
+    move_in(model.vertices, more.vertices);
+    move_in(model.edges, more.edges);
+    move_in(model.faces, more.faces);
+    Eigen::AlignedBox3d bounds;
+    for (const Vec3& p : model.points) bounds.extend(p);
+    model.diagonal = bounds.diagonal().norm();
+    model.tolerance = std::max(model.tolerance, more.tolerance);
+    model.source += ", " + more.source;
+    move_in(model.notes, more.notes);
+}
+
+/// Give faces their labels' names and, where a label is one face, its tag; the others count on from the
+/// highest tag.
+void name_faces(topology::Model& model, const std::vector<std::string>& names,
+                const std::vector<int>& label_tag)
+{
+    std::vector<std::size_t> label_of_face;
+    std::vector<int> faces_of_label(names.size(), 0);
+    for (const topology::Face& face : model.faces) {
+        label_of_face.push_back(static_cast<std::size_t>(std::stoul(face.name)));
+        ++faces_of_label[label_of_face.back()];
+    }
+    // A file of one part: the faces are counted as they come.
+    const bool counted = names.size() == 1 && model.faces.size() > 1;
+    int next = 0;
+    for (const int tag : label_tag) next = std::max(next, tag);
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        const std::size_t label = label_of_face[f];
+        model.faces[f].name = names[label];
+        if (!counted) model.faces[f].tag = faces_of_label[label] == 1 ? label_tag[label] : ++next;
+    }
+}
+
+/// The facets of files as faces, not yet stitched.
+topology::Model import_facets(const std::vector<std::string>& paths, const LoadOptions& options,
+                              const RunContext& context)
+{
+    FacetFile all;
+    std::string source;
+    for (const std::string& path : paths) {
+        check_cancelled(context);
+        source += (source.empty() ? "" : ", ") + path;
+        append(all, read_facets(path));
+    }
+    check_cancelled(context);
+    for (Vec3& p : all.soup.points) p *= options.scale;
+    if (!options.keep_mesh) split_quads(all.soup);
+    // Names may be alike or missing: faces carry the label's number through the cutting.
+    const std::vector<std::string> names = std::exchange(all.soup.label_name, {});
+    for (std::size_t label = 0; label < names.size(); ++label)
+        all.soup.label_name.push_back(std::to_string(label));
+    topology::Model model = healing::split_facets(all.soup, {options.feature_angle, options.tolerance});
+    name_faces(model, names, all.label_tag);
+    model.source = source;
+    move_in(model.notes, all.notes);
+    return model;
+}
+
+/// What reading the files has not joined: T-junctions, faces of different files, faces listed twice.
+void stitch(topology::Model& model, const RunContext& context)
+{
+    constexpr double kMostTolerance = 0.01; // of the diagonal: more than this joins what was drawn apart
+    if (model.tolerance > kMostTolerance * model.diagonal) {
+        throw InvalidInput("io.tolerance", "the tolerance " + std::to_string(model.tolerance) +
+                                               " is more than a hundredth of the model's diagonal (" +
+                                               std::to_string(model.diagonal) +
+                                               "), so faces would fall together; give a smaller one");
+    }
+    const healing::StitchReport report = healing::stitch(model, model.tolerance);
+    if (report.changed()) log_line(context, report.summary());
+    model.notes.insert(model.notes.end(), report.notes.begin(), report.notes.end());
+    for (const std::string& note : model.notes) log_line(context, note);
+}
+
+} // namespace
+
+std::string ending_of(const std::string& path)
+{
+    std::string ending = std::filesystem::path(path).extension().string();
+    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return ending;
+}
+
+FacetFile read_facets(const std::string& name, std::string_view bytes)
+{
+    const Format& format = needed_format(name, {});
+    check_content(name, format, bytes);
+    Cursor cursor(name, bytes);
+    FacetCollector facets;
+    format.read(cursor, facets);
+    return facets.take(name);
+}
+
+FacetFile read_facets(const std::string& path)
+{
+    needed_format(path, {});
+    return read_facets(path, read_file(path));
+}
+
+topology::Model load_facets(const std::vector<std::string>& paths, const LoadOptions& options,
+                            const RunContext& context, const OtherFormats& others)
+{
+    check_options(options);
+    if (paths.empty()) throw InvalidInput("io.no_file", "no file was named; name at least one");
+    std::vector<std::string> other, facets;
+    for (const std::string& path : paths) {
+        check_file(path);
+        const bool is_other = is_among(others.endings, ending_of(path));
+        if (!is_other) needed_format(path, others.endings);
+        (is_other ? other : facets).push_back(path);
+    }
+    topology::Model model;
+    if (!other.empty()) model = others.import(other, options, context);
+    if (!facets.empty() && other.empty())
+        model = import_facets(facets, options, context);
+    else if (!facets.empty())
+        append(model, import_facets(facets, options, context));
+    topology::build_loops(model);
+    stitch(model, context);
+    return model;
+}
+
+} // namespace lacuna::io

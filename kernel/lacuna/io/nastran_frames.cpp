@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/nastran.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace lacuna::io {
+namespace {
+
+constexpr int kDeepest = 200; // frames given by frames: a choice; each takes a call within a call
+
+/// Coordinates as a frame of this kind gives them, along its axes.
+Vec3 along_axes(char kind, const Vec3& p)
+{
+    constexpr double kDegree = std::numbers::pi / 180;
+    if (kind == 'C') return {p.x() * std::cos(p.y() * kDegree), p.x() * std::sin(p.y() * kDegree), p.z()};
+    if (kind == 'S') {
+        const double across = p.x() * std::sin(p.y() * kDegree);
+        return {across * std::cos(p.z() * kDegree), across * std::sin(p.z() * kDegree),
+                p.x() * std::cos(p.y() * kDegree)};
+    }
+    return p;
+}
+
+} // namespace
+
+void Frames::add(Index tag, const Definition& definition)
+{
+    if (tag == 0) definition.place.fail("expected a coordinate system's number above 0");
+    const auto [found, fresh] = frames_.try_emplace(tag, Frame{.definition = definition});
+    if (!fresh) definition.place.fail("a second coordinate system " + std::to_string(tag));
+}
+
+Vec3 Frames::to_basic(Index tag, const Vec3& point, const DeckPlace& place)
+{
+    if (tag == 0) return point;
+    const auto found = frames_.find(tag);
+    if (found == frames_.end())
+        place.fail("the point is in coordinate system " + std::to_string(tag) +
+                   ", which is not there; CORD1R, 1C, 1S, 2R, 2C and 2S are read");
+    if (!found->second.known) resolve(tag, found->second);
+    const Frame& frame = found->second;
+    return frame.origin + frame.axes * along_axes(frame.definition.kind, point);
+}
+
+void Frames::resolve(Index tag, Frame& frame)
+{
+    const Definition& given = frame.definition;
+    if (++depth_ > kDeepest)
+        given.place.fail("coordinate system " + std::to_string(tag) +
+                         " is given by itself, or by others more than " + std::to_string(kDeepest) + " deep");
+    std::array<Vec3, 3> at;
+    for (std::size_t k = 0; k < 3; ++k)
+        at[k] = given.by_nodes ? node_at_(given.node[k], given.place)
+                               : to_basic(given.base, given.at[k], given.place);
+    --depth_;
+    const Vec3 z = (at[1] - at[0]).stableNormalized();
+    const Vec3 y = z.cross((at[2] - at[0]).stableNormalized());
+    constexpr double kLeastSine = 1e-9; // between the z axis and the third point: less is rounding
+    if (!(y.norm() > kLeastSine))
+        given.place.fail("the three points of coordinate system " + std::to_string(tag) + " are in line");
+    frame.axes.col(2) = z;
+    frame.axes.col(1) = y.normalized();
+    frame.axes.col(0) = frame.axes.col(1).cross(z);
+    frame.origin = at[0];
+    frame.known = true;
+}
+
+} // namespace lacuna::io

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/facet_collector.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace lacuna::io {
+namespace {
+
+/// Words of a Wavefront file that hold no faces and may be passed over unsaid.
+constexpr std::string_view kUncounted[] = {"vt", "vn", "s", "usemtl", "mtllib"};
+
+class ObjReader {
+public:
+    ObjReader(Cursor& cursor, FacetCollector& into) : cursor_(cursor), into_(into) {}
+
+    void read()
+    {
+        while (!cursor_.at_end()) {
+            line_ = cursor_.line();
+            const std::size_t begin = cursor_.last();
+            // A line that ends with a backslash goes on with the next.
+            std::string joined;
+            while (line_.ends_with('\\')) {
+                if (joined.empty()) joined = line_;
+                joined.back() = ' ';
+                joined += cursor_.at_end() ? std::string_view() : cursor_.line();
+                line_ = joined;
+            }
+            line_ = line_.substr(0, line_.find('#'));
+            begin_ = begin;
+            read_line();
+        }
+    }
+
+private:
+    void read_line()
+    {
+        const std::string_view word = next_word();
+        if (word.empty()) return;
+        if (word == "v") {
+            if (into_.points().size() >= static_cast<std::size_t>(std::numeric_limits<Index>::max()))
+                fail("too many points");
+            Vec3 p;
+            for (double& x : p) x = coordinate(next_word());
+            into_.points().push_back(p);
+        } else if (word == "f") {
+            read_face();
+        } else if (word == "o" || word == "g") {
+            name_ = trimmed(line_);
+            label_ = -1;
+        } else if (std::ranges::find(kUncounted, word) == std::end(kUncounted)) {
+            into_.pass_over("lines \"" + std::string(word.substr(0, 8)) + '"');
+        }
+    }
+
+    void read_face()
+    {
+        corners_.clear();
+        for (std::string_view word = next_word(); !word.empty(); word = next_word())
+            corners_.push_back(corner(word.substr(0, word.find('/'))));
+        if (corners_.size() < 3)
+            fail("expected a face of three corners or more, found " + std::to_string(corners_.size()));
+        if (label_ < 0) label_ = into_.add_label(++labels_, name_);
+        into_.add_face(corners_, label_, cursor_);
+    }
+
+    /// Counted from 1, or back from the last point where negative.
+    Index corner(std::string_view word) const
+    {
+        const auto value = parse_integer<std::int64_t>(word);
+        const auto count = static_cast<std::int64_t>(into_.points().size());
+        const std::int64_t place = !value ? -1 : *value > 0 ? *value - 1 : count + *value;
+        if (!value || *value == 0 || place < 0 || place >= count)
+            fail("expected the number of one of the " + std::to_string(count) + " points so far, found " +
+                 shown(word));
+        return static_cast<Index>(place);
+    }
+
+    double coordinate(std::string_view word) const
+    {
+        const auto value = parse_real(word);
+        if (!value) fail("expected a finite coordinate, found " + shown(word));
+        return *value;
+    }
+
+    std::string_view next_word()
+    {
+        line_ = trimmed(line_);
+        const std::size_t length = std::min(line_.find_first_of(" \t\r"), line_.size());
+        const std::string_view word = line_.substr(0, length);
+        line_.remove_prefix(length);
+        return word;
+    }
+
+    [[noreturn]] void fail(const std::string& what) const { cursor_.fail_at(begin_, what); }
+
+    Cursor& cursor_;
+    FacetCollector& into_;
+    std::string_view line_; ///< what is left of it
+    std::size_t begin_ = 0;
+    std::vector<Index> corners_;
+    std::string name_;
+    int label_ = -1, labels_ = 0;
+};
+
+} // namespace
+
+void read_obj(Cursor& cursor, FacetCollector& into) { ObjReader(cursor, into).read(); }
+
+} // namespace lacuna::io

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/facet_collector.h>
+
+#include <lacuna/core/error.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace lacuna::io {
+namespace {
+
+constexpr std::size_t kHeader = 80; // bytes, of any content
+constexpr std::size_t kFacet = 50;  // bytes: a normal and three points in floats, two bytes of no meaning
+
+/// The text a header begins with; empty where it is no text.
+std::string_view name_in(std::string_view header)
+{
+    header = trimmed(header.substr(0, header.find('\0')));
+    const bool text = std::ranges::none_of(header, [](unsigned char c) { return c < 32 || c == 127; });
+    return text ? header : std::string_view();
+}
+
+std::uint32_t count_at(std::string_view bytes) { return from_bytes<std::uint32_t>(bytes.data(), false); }
+
+class StlReader {
+public:
+    StlReader(Cursor& cursor, FacetCollector& into) : cursor_(cursor), into_(into) {}
+
+    void read_text()
+    {
+        do {
+            cursor_.expect("solid");
+            begin_solid(cursor_.line_end());
+            while (same_word(cursor_.word("facet or endsolid"), "facet")) read_facet();
+            cursor_.expect_last("endsolid");
+            cursor_.line_end();
+        } while (cursor_.more());
+    }
+
+    void read_binary()
+    {
+        cursor_.coding = Coding::little;
+        while (cursor_.rest().size() >= kHeader + 4) {
+            const std::string_view header = cursor_.bytes(kHeader);
+            const std::uint32_t count = count_at(cursor_.bytes(4));
+            cursor_.plausible(count, kFacet, 0);
+            begin_solid(name_in(header));
+            into_.points().reserve(into_.points().size() + 3 * std::size_t(count));
+            for (std::uint32_t f = 0; f < count; ++f) read_binary_facet(cursor_.bytes(kFacet));
+        }
+        const std::string_view rest = cursor_.rest();
+        if (std::ranges::any_of(rest, [](char c) { return c != 0 && c != '\n' && !is_blank(c); }))
+            cursor_.fail_at(cursor_.position(),
+                            "expected a header of 80 bytes and a count of facets, found " +
+                                std::to_string(rest.size()) + " bytes more");
+    }
+
+private:
+    void begin_solid(std::string_view name)
+    {
+        ++solids_;
+        name_ = name;
+        label_ = -1;
+    }
+
+    void read_facet()
+    {
+        cursor_.expect("normal");
+        cursor_.line_end(); // it is found again from the corners
+        cursor_.expect("outer");
+        cursor_.expect("loop");
+        std::array<Vec3, 3> corner;
+        for (Vec3& p : corner) {
+            cursor_.expect("vertex");
+            p = cursor_.point();
+        }
+        cursor_.expect("endloop");
+        cursor_.expect("endfacet");
+        add(corner);
+    }
+
+    void read_binary_facet(std::string_view bytes)
+    {
+        std::array<Vec3, 3> corner;
+        for (Index i = 0; i < 9; ++i)
+            corner[index(i / 3)][i % 3] = from_bytes<float>(bytes.data() + 12 + 4 * i, false);
+        for (const Vec3& p : corner)
+            if (!p.allFinite()) cursor_.fail("expected finite coordinates, found one that is none");
+        add(corner);
+    }
+
+    void add(const std::array<Vec3, 3>& corner)
+    {
+        std::vector<Vec3>& points = into_.points();
+        if (points.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max()) - 3)
+            cursor_.fail("too many facets");
+        const auto first = static_cast<Index>(points.size());
+        points.insert(points.end(), corner.begin(), corner.end());
+        if (label_ < 0) label_ = into_.add_label(solids_, name_);
+        into_.add_face(Triangle{first, first + 1, first + 2}, label_, cursor_);
+    }
+
+    Cursor& cursor_;
+    FacetCollector& into_;
+    int solids_ = 0;
+    int label_ = -1;
+    std::string_view name_;
+};
+
+} // namespace
+
+bool is_binary_stl(std::string_view bytes)
+{
+    return bytes.size() >= kHeader + 4 &&
+           bytes.size() == kHeader + 4 + kFacet * std::uint64_t(count_at(bytes.substr(kHeader)));
+}
+
+void read_stl(Cursor& cursor, FacetCollector& into)
+{
+    StlReader reader(cursor, into);
+    const bool text = !is_binary_stl(cursor.rest()) &&
+                      same_word(trimmed(cursor.rest()).substr(0, 5), "solid");
+    if (text)
+        reader.read_text();
+    else
+        reader.read_binary();
+}
+
+} // namespace lacuna::io

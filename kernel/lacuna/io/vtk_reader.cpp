@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/vtk_cells.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lacuna::io {
+namespace {
+
+/// Reads the geometry of a legacy file; data of points and cells come behind it and are left.
+class VtkReader {
+public:
+    VtkReader(Cursor& cursor, FacetCollector& into) : cursor_(cursor), into_(into) {}
+
+    void read()
+    {
+        const std::string_view head = cursor_.line();
+        if (!same_word(head.substr(0, 22), "# vtk DataFile Version"))
+            cursor_.fail("expected \"# vtk DataFile Version\", found " + shown(head));
+        cursor_.line(); // the title, any text
+        const std::string_view coding = cursor_.word("ASCII or BINARY");
+        if (!same_word(coding, "ASCII") && !same_word(coding, "BINARY"))
+            cursor_.fail("expected ASCII or BINARY, found " + shown(coding));
+        cursor_.has_bytes = binary_ = same_word(coding, "BINARY");
+        while (cursor_.more()) {
+            const std::string_view word = cursor_.word();
+            if (same_word(word, "CELL_DATA") || same_word(word, "POINT_DATA")) break;
+            read_section(word);
+        }
+        if (cells_.types.empty() && !unstructured_.empty())
+            cursor_.fail("the file has CELLS and no CELL_TYPES");
+        if (!unstructured_.empty()) {
+            cells_.ends = std::move(unstructured_);
+            cells_.points = std::move(unstructured_points_);
+            take_cells();
+        }
+        into_.sort_by_label();
+    }
+
+private:
+    void read_section(std::string_view word)
+    {
+        if (same_word(word, "DATASET")) {
+            const std::string_view kind = cursor_.word("a kind of data set");
+            if (!same_word(kind, "POLYDATA") && !same_word(kind, "UNSTRUCTURED_GRID"))
+                cursor_.fail("expected DATASET POLYDATA or UNSTRUCTURED_GRID, found " + shown(kind) +
+                             "; write it as one of them");
+        } else if (same_word(word, "POINTS")) {
+            read_points();
+        } else if (same_word(word, "POLYGONS") || same_word(word, "TRIANGLE_STRIPS")) {
+            read_lists(cells_.ends, cells_.points);
+            cells_.strips = same_word(word, "TRIANGLE_STRIPS");
+            take_cells();
+        } else if (same_word(word, "VERTICES") || same_word(word, "LINES")) {
+            read_lists(cells_.ends, cells_.points);
+            into_.pass_over(same_word(word, "LINES") ? "lines" : "vertices", cells_.ends.size());
+        } else if (same_word(word, "CELLS")) {
+            if (!unstructured_.empty()) cursor_.fail("a second section CELLS");
+            read_lists(unstructured_, unstructured_points_);
+        } else if (same_word(word, "CELL_TYPES")) {
+            const std::uint64_t count = cursor_.size();
+            cells_.types = read_wholes("int", count);
+        } else if (same_word(word, "METADATA")) {
+            for (cursor_.line(); !cursor_.at_end() && !cursor_.line().empty();) {}
+        } else if (same_word(word, "FIELD")) {
+            skip_field();
+        } else {
+            cursor_.fail("expected a section, as POINTS or CELLS, found " + shown(word));
+        }
+    }
+
+    void read_points()
+    {
+        if (!into_.points().empty()) cursor_.fail("a second section POINTS");
+        const std::uint64_t count = cursor_.size();
+        if (count > static_cast<std::uint64_t>(std::numeric_limits<Index>::max()))
+            cursor_.fail("too many points");
+        const VtkType& type = needed_type(cursor_.word("a type of numbers"));
+        std::vector<Vec3>& points = into_.points();
+        const auto take = [&](std::uint64_t i, double value) {
+            if (!std::isfinite(value)) cursor_.fail("expected finite coordinates, found one that is none");
+            if (i % 3 == 0) points.emplace_back();
+            points.back()[static_cast<Index>(i % 3)] = value;
+        };
+        each_value(type, plausible(count, 3 * type.bytes, 3) * 3, take);
+    }
+
+    /// Lists of points: each with its length before it, or, since 5.1, where each begins and then all.
+    void read_lists(std::vector<std::int64_t>& ends, std::vector<std::int64_t>& points)
+    {
+        ends.clear();
+        points.clear();
+        const std::uint64_t lists = cursor_.size();
+        const std::uint64_t values = cursor_.size();
+        Cursor ahead = cursor_;
+        if (ahead.more() && same_word(ahead.word(), "OFFSETS")) {
+            cursor_.expect("OFFSETS");
+            ends = read_wholes(cursor_.word("a type of numbers"), lists);
+            cursor_.expect("CONNECTIVITY");
+            points = read_wholes(cursor_.word("a type of numbers"), values);
+            if (!ends.empty() && ends.front() != 0) cursor_.fail("expected the first offset to be 0");
+            if (!ends.empty() && ends.back() != static_cast<std::int64_t>(points.size()))
+                cursor_.fail("expected the last offset to be " + std::to_string(points.size()) + ", found " +
+                             std::to_string(ends.back()));
+            if (!ends.empty()) ends.erase(ends.begin());
+            return;
+        }
+        std::int64_t left = 0;
+        each_whole(needed_type("int"), plausible(values, 4, 1), [&](std::int64_t value) {
+            if (left == 0) {
+                if (value < 0) cursor_.fail("expected the length of a list, found " + std::to_string(value));
+                left = value;
+                ends.push_back(static_cast<std::int64_t>(points.size()) + value);
+            } else {
+                points.push_back(value);
+                --left;
+            }
+        });
+        if (left != 0 || ends.size() != lists)
+            cursor_.fail("expected " + std::to_string(lists) + " lists in " + std::to_string(values) +
+                         " numbers, found " + std::to_string(ends.size()));
+    }
+
+    void take_cells()
+    {
+        cells_.last_point = static_cast<Index>(into_.points().size());
+        take_vtk_cells(cells_, into_, cursor_);
+    }
+
+    /// Arrays that belong to the whole file.
+    void skip_field()
+    {
+        cursor_.word("a name");
+        const std::uint64_t arrays = cursor_.size();
+        for (std::uint64_t a = 0; a < arrays; ++a) {
+            const std::string_view name = cursor_.word("the name of an array");
+            if (same_word(name, "METADATA")) {
+                for (cursor_.line(); !cursor_.at_end() && !cursor_.line().empty();) {}
+                --a;
+                continue;
+            }
+            const std::uint64_t components = cursor_.size();
+            const std::uint64_t tuples = cursor_.size();
+            const std::string_view kind = cursor_.word("a type of numbers");
+            if (components != 0 && tuples > std::numeric_limits<std::uint64_t>::max() / 64 / components)
+                cursor_.fail("expected a smaller array");
+            const std::uint64_t count = components * tuples;
+            if (same_word(kind, "string"))
+                for (std::uint64_t i = 0; i < count; ++i) skip_string();
+            else
+                each_value(needed_type(kind), plausible(count, needed_type(kind).bytes, 1),
+                           [](std::uint64_t, double) {});
+        }
+    }
+
+    void skip_string()
+    {
+        if (cursor_.at_end()) cursor_.fail("the file ends where a text was expected");
+        if (binary_) cursor_.fail("texts in binary files are not read; write the file as text");
+        cursor_.line();
+    }
+
+    std::vector<std::int64_t> read_wholes(std::string_view name, std::uint64_t count)
+    {
+        const VtkType& type = needed_type(name);
+        std::vector<std::int64_t> values;
+        values.reserve(plausible(count, type.bytes, 1));
+        each_whole(type, count, [&](std::int64_t value) { values.push_back(value); });
+        return values;
+    }
+
+    const VtkType& needed_type(std::string_view name) const
+    {
+        const VtkType* type = vtk_type(name);
+        if (type == nullptr) cursor_.fail("expected a type of numbers, as float, found " + shown(name));
+        return *type;
+    }
+
+    /// A count that the rest of the file can hold.
+    std::uint64_t plausible(std::uint64_t count, std::uint64_t bytes, std::uint64_t values)
+    {
+        cursor_.coding = binary_ ? Coding::big : Coding::text;
+        cursor_.plausible(count, bytes, values);
+        cursor_.coding = Coding::text;
+        return count;
+    }
+
+    /// The bytes of an array, which begin on the line after its head.
+    std::string_view array_bytes(const VtkType& type, std::uint64_t count)
+    {
+        cursor_.line();
+        return cursor_.bytes(type.bytes * count);
+    }
+
+    template <class Take>
+    void each_value(const VtkType& type, std::uint64_t count, const Take& take)
+    {
+        const std::string_view bytes = binary_ ? array_bytes(type, count) : std::string_view();
+        for (std::uint64_t i = 0; i < count; ++i)
+            take(i, binary_ ? type.real(bytes.data() + i * type.bytes, true) : cursor_.text_real());
+    }
+
+    template <class Take>
+    void each_whole(const VtkType& type, std::uint64_t count, const Take& take)
+    {
+        if (type.whole == nullptr)
+            cursor_.fail("expected whole numbers, found type " + std::string(type.legacy));
+        const std::string_view bytes = binary_ ? array_bytes(type, count) : std::string_view();
+        for (std::uint64_t i = 0; i < count; ++i)
+            take(binary_ ? type.whole(bytes.data() + i * type.bytes, true) : cursor_.text_integer());
+    }
+
+    Cursor& cursor_;
+    FacetCollector& into_;
+    bool binary_ = false;
+    VtkCells cells_;
+    std::vector<std::int64_t> unstructured_, unstructured_points_; ///< of CELLS, until their types are known
+};
+
+} // namespace
+
+void read_vtk(Cursor& cursor, FacetCollector& into) { VtkReader(cursor, into).read(); }
+
+} // namespace lacuna::io

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/vtk_cells.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lacuna::io {
+namespace {
+
+/// A begin or end tag; attributes keep their order.
+struct XmlTag {
+    std::string_view name; ///< an end tag's begins with '/'
+    std::vector<std::pair<std::string_view, std::string_view>> attributes;
+    bool empty = false; ///< ends itself
+
+    [[nodiscard]] std::string_view operator[](std::string_view attribute) const
+    {
+        for (const auto& [key, value] : attributes)
+            if (key == attribute) return value;
+        return {};
+    }
+};
+
+/// The value of a base64 digit; -1 for other characters.
+int base64_value(char c)
+{
+    if (c >= 'A' && c <= 'Z') return c - 'A';
+    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+    if (c >= '0' && c <= '9') return c - '0' + 52;
+    return c == '+' ? 62 : c == '/' ? 63 : -1;
+}
+
+/// Bytes of base64 text up to the first character that is none; every padded piece ends with its '='.
+/// @param most  bytes wanted; no more are decoded.
+std::string from_base64(std::string_view text, std::uint64_t most)
+{
+    std::string bytes;
+    bytes.reserve(std::min<std::uint64_t>(most, text.size() / 4 * 3 + 3));
+    std::uint32_t bits = 0;
+    int held = 0;
+    for (const char c : text) {
+        if (bytes.size() >= most) break;
+        if (c == '=') {
+            held = 0;
+            bits = 0;
+            continue;
+        }
+        const int value = base64_value(c);
+        if (value < 0) {
+            if (is_blank(c) || c == '\n') continue;
+            break;
+        }
+        bits = (bits << 6 | static_cast<std::uint32_t>(value)) & 0xFFFFFF;
+        held += 6;
+        if (held >= 8) {
+            held -= 8;
+            bytes += static_cast<char>(bits >> held & 0xFF);
+        }
+    }
+    return bytes;
+}
+
+class VtuReader {
+public:
+    VtuReader(Cursor& cursor, FacetCollector& into) : cursor_(cursor), into_(into) {}
+
+    void read()
+    {
+        XmlTag tag;
+        while (next_tag(tag)) {
+            if (tag.name == "VTKFile")
+                read_head(tag);
+            else if (!headed_)
+                cursor_.fail("expected <VTKFile>, found <" + std::string(tag.name.substr(0, 40)) + ">");
+            else if (tag.name == "Piece")
+                pieces_.push_back(
+                    {count(tag, "NumberOfPoints"), count(tag, "NumberOfCells"), {}, {}, {}, {}});
+            else if (tag.name == "Points" || tag.name == "Cells")
+                section_ = tag.name;
+            else if (tag.name == "/Points" || tag.name == "/Cells")
+                section_ = {};
+            else if (tag.name == "DataArray")
+                take_array(tag);
+            else if (tag.name == "AppendedData") {
+                read_appended(tag);
+                break;
+            }
+        }
+        if (!headed_) cursor_.fail("expected <VTKFile>, found none");
+        for (const Piece& piece : pieces_) read_piece(piece);
+        into_.sort_by_label();
+    }
+
+private:
+    struct Array {
+        const VtkType* type = nullptr;
+        std::string_view format, text; ///< `text`: what stands between its tags
+        std::uint64_t offset = 0;
+        std::size_t position = 0;
+    };
+    struct Piece {
+        std::uint64_t points, cells;
+        Array at, connectivity, offsets, types;
+    };
+
+    /// The next tag; false at the end of the file. Comments and declarations are passed over.
+    bool next_tag(XmlTag& tag)
+    {
+        while (cursor_.skip_past("<")) {
+            if (cursor_.rest().starts_with("!--")) {
+                if (!cursor_.skip_past("-->")) cursor_.fail("the file ends within a comment");
+                continue;
+            }
+            const std::string_view rest = cursor_.rest();
+            const std::size_t end = rest.find('>');
+            if (end == std::string_view::npos)
+                cursor_.fail_at(cursor_.position(), "the file ends within a tag");
+            std::string_view inside = cursor_.bytes(end + 1).substr(0, end);
+            if (inside.starts_with('?') || inside.starts_with('!')) continue;
+            tag = {};
+            tag.empty = inside.ends_with('/');
+            if (tag.empty) inside.remove_suffix(1);
+            const std::size_t name = std::min(inside.find_first_of(" \t\r\n"), inside.size());
+            tag.name = inside.substr(0, name);
+            read_attributes(inside.substr(name), tag);
+            return true;
+        }
+        return false;
+    }
+
+    void read_attributes(std::string_view text, XmlTag& tag) const
+    {
+        while (!(text = trimmed(text)).empty()) {
+            const std::size_t equals = text.find('=');
+            if (equals == std::string_view::npos)
+                cursor_.fail("expected an attribute, found " + shown(text));
+            const std::string_view key = trimmed(text.substr(0, equals));
+            text = trimmed(text.substr(equals + 1));
+            const std::size_t end = text.empty() || (text[0] != '"' && text[0] != '\'')
+                                        ? std::string_view::npos
+                                        : text.find(text[0], 1);
+            if (end == std::string_view::npos)
+                cursor_.fail("expected a value in quotes, found " + shown(text));
+            tag.attributes.emplace_back(key, text.substr(1, end - 1));
+            text.remove_prefix(end + 1);
+        }
+    }
+
+    void read_head(const XmlTag& tag)
+    {
+        if (tag["type"] != "UnstructuredGrid")
+            cursor_.fail("expected type=\"UnstructuredGrid\", found " + shown(tag["type"]));
+        big_ = tag["byte_order"] == "BigEndian";
+        if (!big_ && tag["byte_order"] != "LittleEndian" && !tag["byte_order"].empty())
+            cursor_.fail("expected byte_order LittleEndian or BigEndian, found " + shown(tag["byte_order"]));
+        compressed_ = !tag["compressor"].empty();
+        const std::string_view header = tag["header_type"].empty() ? "UInt32" : tag["header_type"];
+        if (header != "UInt32" && header != "UInt64")
+            cursor_.fail("expected header_type UInt32 or UInt64, found " + shown(header));
+        header_ = vtk_type(header);
+        headed_ = true;
+    }
+
+    std::uint64_t count(const XmlTag& tag, std::string_view attribute) const
+    {
+        const auto value = parse_integer<Index>(trimmed(tag[attribute]));
+        if (!value || *value < 0)
+            cursor_.fail("expected a count " + std::string(attribute) + ", found " + shown(tag[attribute]));
+        return static_cast<std::uint64_t>(*value);
+    }
+
+    void take_array(const XmlTag& tag)
+    {
+        Array array{vtk_type(tag["type"]), tag["format"], {}, 0, cursor_.last()};
+        if (!tag.empty) {
+            // Text holds no '<'; a tag within, as <InformationKey>, ends it.
+            array.text = cursor_.rest().substr(0, cursor_.rest().find('<'));
+        }
+        if (section_.empty() || pieces_.empty()) return;
+        if (array.format == "appended") {
+            const auto offset = parse_integer<std::uint64_t>(trimmed(tag["offset"]));
+            if (!offset) cursor_.fail("expected an offset, found " + shown(tag["offset"]));
+            array.offset = *offset;
+        }
+        Piece& piece = pieces_.back();
+        if (section_ == "Points")
+            piece.at = array;
+        else if (tag["Name"] == "connectivity")
+            piece.connectivity = array;
+        else if (tag["Name"] == "offsets")
+            piece.offsets = array;
+        else if (tag["Name"] == "types")
+            piece.types = array;
+    }
+
+    void read_appended(const XmlTag& tag)
+    {
+        base64_ = tag["encoding"] == "base64";
+        if (!base64_ && tag["encoding"] != "raw")
+            cursor_.fail("expected encoding raw or base64, found " + shown(tag["encoding"]));
+        if (!cursor_.skip_past("_")) cursor_.fail("expected _ before the appended data");
+        appended_ = cursor_.rest();
+    }
+
+    void read_piece(const Piece& piece)
+    {
+        VtkCells cells;
+        std::vector<Vec3>& points = into_.points();
+        if (points.size() + piece.points > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
+            cursor_.fail("too many points");
+        cells.first_point = static_cast<Index>(points.size());
+        std::uint64_t i = 0;
+        each_value(piece.at, "Points", 3 * piece.points, [&](double value) {
+            if (!std::isfinite(value)) cursor_.fail_at(piece.at.position, "expected finite coordinates");
+            if (i % 3 == 0) points.emplace_back();
+            points.back()[static_cast<Index>(i++ % 3)] = value;
+        });
+        cells.last_point = static_cast<Index>(points.size());
+        cells.ends = wholes(piece.offsets, "offsets", piece.cells);
+        cells.types = wholes(piece.types, "types", piece.cells);
+        const std::int64_t all = cells.ends.empty() ? 0 : cells.ends.back();
+        if (all < 0) cursor_.fail_at(piece.offsets.position, "expected offsets that rise");
+        cells.points = wholes(piece.connectivity, "connectivity", static_cast<std::uint64_t>(all));
+        take_vtk_cells(cells, into_, cursor_);
+    }
+
+    std::vector<std::int64_t> wholes(const Array& array, const char* name, std::uint64_t count)
+    {
+        std::vector<std::int64_t> values;
+        each_value(array, name, count, [&](double value) {
+            if (value != std::floor(value) || std::abs(value) > kMostWhole)
+                cursor_.fail_at(array.position, std::string("expected whole numbers as ") + name);
+            values.push_back(static_cast<std::int64_t>(value));
+        });
+        return values;
+    }
+
+    /// All `count` values of an array, whichever way they are written.
+    template <class Take>
+    void each_value(const Array& array, const char* name, std::uint64_t count, const Take& take)
+    {
+        const auto fail = [&](const std::string& what) {
+            cursor_.fail_at(array.position, std::string(name) + ": " + what);
+        };
+        if (count == 0) return;
+        if (array.type == nullptr) fail("expected an array of numbers, found none");
+        if (array.format == "ascii") {
+            Cursor text = cursor_.part(array.text);
+            for (std::uint64_t i = 0; i < count; ++i) take(text.text_real());
+            if (text.more()) fail("expected " + std::to_string(count) + " numbers, found more");
+            return;
+        }
+        if (array.format != "binary" && array.format != "appended")
+            fail("expected format ascii, binary or appended, found " + shown(array.format));
+        if (compressed_) fail("compressed data are not read; write the file as text or without compression");
+        const bool appended = array.format == "appended";
+        if (appended && array.offset > appended_.size()) fail("the appended data end before it begins");
+        const std::string_view from = appended ? appended_.substr(array.offset) : array.text;
+        // No count is believed beyond what the text can hold.
+        if (count > from.size()) fail("the file is cut off: expected " + std::to_string(count) + " numbers");
+        const std::uint64_t needed = header_->bytes + count * array.type->bytes;
+        const std::string decoded = appended && !base64_ ? std::string() : from_base64(from, needed);
+        const std::string_view bytes = appended && !base64_ ? from : std::string_view(decoded);
+        if (bytes.size() < needed)
+            fail("the file is cut off: expected " + std::to_string(needed) + " bytes, found " +
+                 std::to_string(bytes.size()));
+        const auto announced = static_cast<std::uint64_t>(header_->whole(bytes.data(), big_));
+        if (announced != count * array.type->bytes)
+            fail("expected " + std::to_string(count * array.type->bytes) + " bytes, found " +
+                 std::to_string(announced));
+        for (std::uint64_t i = 0; i < count; ++i)
+            take(array.type->real(bytes.data() + header_->bytes + i * array.type->bytes, big_));
+    }
+
+    static constexpr double kMostWhole = 9007199254740992.0; // 2^53: whole numbers a double holds
+
+    Cursor& cursor_;
+    FacetCollector& into_;
+    std::vector<Piece> pieces_;
+    std::string_view section_, appended_;
+    const VtkType* header_ = nullptr;
+    bool headed_ = false, big_ = false, compressed_ = false, base64_ = false;
+};
+
+} // namespace
+
+void read_vtu(Cursor& cursor, FacetCollector& into) { VtuReader(cursor, into).read(); }
+
+} // namespace lacuna::io
