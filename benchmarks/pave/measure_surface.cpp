@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "saddle_face.h"
 
-#include <lacuna/cad/session.h>
+#include <lacuna/cad_worker/session.h>
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/mesh/quad_mesh.h>
 
@@ -159,8 +159,9 @@ private:
 double off_surface(const std::vector<Vec3>& points, const std::string& file)
 {
     constexpr std::size_t kMost = 20000;
-    cad::Session session(file);
-    const cad::GmshModel model(session);
+    const cad_worker::Gmsh gmsh_of_ours;
+    cad_worker::Session session(file);
+    const cad_worker::GmshModel model(session);
     return session.run([&] {
         gmsh::vectorpair shapes;
         gmsh::model::occ::importShapes(file, shapes, false);

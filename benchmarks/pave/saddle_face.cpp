@@ -2,7 +2,7 @@
 #include "saddle_face.h"
 
 #include <lacuna/cad/load.h>
-#include <lacuna/cad/session.h>
+#include <lacuna/cad_worker/session.h>
 #include <lacuna/quads/pave.h>
 #include <lacuna/surface/edge_nodes.h>
 
@@ -61,8 +61,9 @@ int draw_rim()
 
 void write_saddle(const std::string& file)
 {
-    cad::Session session("the saddle");
-    const cad::GmshModel model(session);
+    const cad_worker::Gmsh gmsh_of_ours;
+    cad_worker::Session session("the saddle");
+    const cad_worker::GmshModel model(session);
     session.run([&] {
         std::vector<int> controls;
         for (int j = 0; j < kControls; ++j) {
@@ -168,8 +169,9 @@ SurfaceQuads lacuna_quads(const SeededFace& seeded)
 
 SurfaceQuads gmsh_quads(const SeededFace& seeded, const GmshWay& way)
 {
-    cad::Session session("the saddle");
-    const cad::GmshModel model(session);
+    const cad_worker::Gmsh gmsh_of_ours;
+    cad_worker::Session session("the saddle");
+    const cad_worker::GmshModel model(session);
     // A recombination to full quads halves the size itself; the division asked for does not.
     const double factor = way.subdivision ? 2 : 1;
     for (const auto& [option, value] : std::initializer_list<std::pair<const char*, double>>{

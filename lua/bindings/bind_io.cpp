@@ -4,9 +4,7 @@
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
 
-#ifdef LACUNA_WITH_CAD
 #include <lacuna/cad/load.h>
-#endif
 #include <lacuna/io/facets.h>
 #include <lacuna/io/load_facets.h>
 #include <lacuna/io/msh.h>
@@ -201,18 +199,7 @@ std::vector<std::string>& push_paths(lua_State* L, int index)
 topology::Model load_model(const std::vector<std::string>& paths, const io::LoadOptions& options,
                            const RunContext& context)
 {
-#ifdef LACUNA_WITH_CAD
     return cad::load(paths, options, context);
-#else
-    const io::OtherFormats cad{".step .stp .iges .igs .brep .geo .geo_unrolled",
-                               [](const auto& files, const auto&, const auto&) -> topology::Model {
-                                   throw InvalidInput("lua.no_cad",
-                                                      files.front() +
-                                                          ": this build reads no CAD files, it was made with "
-                                                          "LACUNA_WITH_CAD=OFF; export the facets, as STL");
-                               }};
-    return io::load_facets(paths, options, context, cad);
-#endif
 }
 
 /// model = lacuna.load(path | {paths} [, options])

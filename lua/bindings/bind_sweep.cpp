@@ -3,9 +3,7 @@
 #include "bindings/io_paths.h"
 #include "bindings/options.h"
 
-#ifdef LACUNA_WITH_CAD
 #include <lacuna/cad/load.h>
-#endif
 
 #include <cmath>
 #include <thread>
@@ -212,9 +210,7 @@ SweepArguments& push_arguments(lua_State* L, int index, const char* call)
         fail(L, "%s: cells of order 2 are not available yet; leave 'order' and 'serendipity' out", call);
     push_field(L, index, "size", arguments.size_function, arguments.options.size);
     push_field(L, index, "row_height", arguments.row_height_function, arguments.options.row_height);
-#ifdef LACUNA_WITH_CAD
     guard(L, [&] { arguments.options.quad_mesher = cad::recombine; });
-#endif
     // A height alone stands for one row of it.
     if (arguments.options.row_height && arguments.options.rows == 0) arguments.options.rows = 1;
     guard(L, [&] {

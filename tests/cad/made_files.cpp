@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "made_files.h"
 
-#include <lacuna/cad/session.h>
+#include <lacuna/cad_worker/session.h>
 
 #include <doctest/doctest.h>
 #include <gmsh.h>
@@ -29,7 +29,7 @@ void with_gmsh(const std::string& path, const std::function<void()>& build)
     build();
     occ::synchronize();
     {
-        const cad::CapturedOutput quiet; // Open CASCADE reports every STEP file it writes
+        const cad_worker::CapturedOutput quiet; // Open CASCADE reports every STEP file it writes
         gmsh::write(path);
     }
     gmsh::finalize();

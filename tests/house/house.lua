@@ -21,7 +21,9 @@ local plan = {
   quality = { "mesh" },
   sweep = { "closure", "surface", "quality" },
   io = { "mesh", "healing" },
-  cad = { "closure", "healing", "io", "surface" },
+  cad_protocol = { "core" },
+  cad = { "cad_protocol", "closure", "healing", "io", "surface" },
+  cad_worker = { "cad_protocol", "geometry" },
 }
 
 local function reachable(folder, set)
@@ -73,7 +75,7 @@ local function faults(folder, path, text)
   local found = {}
   local function fault(line, what) found[#found + 1] = ("%s:%d: %s"):format(path, line, what) end
 
-  local licence = folder == "cad" and "GPL-2.0-or-later" or "MIT"
+  local licence = folder == "cad_worker" and "GPL-2.0-or-later" or "MIT"
   if not text:match("^// SPDX%-License%-Identifier: " .. licence:gsub("[%.%-]", "%%%0") .. "\n") then
     fault(1, "the first line does not name the licence " .. licence)
   end
@@ -104,13 +106,13 @@ local function faults(folder, path, text)
         fault(number, ("includes \"%s\": say <lacuna/folder/file.h>"):format(include))
       end
       local base = include:match("[^/]+$")
-      if base:match("^gmsh[%w_]*%.h") and folder ~= "cad" then
-        fault(number, "only cad/ may include " .. include)
+      if base:match("^gmsh[%w_]*%.h") and folder ~= "cad_worker" then
+        fault(number, "only cad_worker/ may include " .. include)
       end
       if base:match("^lua.*%.hp*$") or base:match("^lauxlib%.h") or base == "lualib.h" then
         fault(number, "only lua/ may include " .. include)
       end
-      if base == "iostream" and folder ~= "cad" then
+      if base == "iostream" and folder ~= "cad_worker" then
         fault(number, "the kernel does not print: no <iostream>")
       end
     end
@@ -119,8 +121,8 @@ local function faults(folder, path, text)
   number = 0
   for line in (code_of(text) .. "\n"):gmatch("(.-)\n") do
     number = number + 1
-    -- Gmsh prints on its own; cad/ may turn the stream aside, which is not printing.
-    if folder == "cad" then line = line:gsub("cout%.rdbuf%f[^%w_]", "") end
+    -- Gmsh prints on its own; cad_worker/ may turn the stream aside, which is not printing.
+    if folder == "cad_worker" then line = line:gsub("cout%.rdbuf%f[^%w_]", "") end
     for before, word in line:gmatch("(.?)%f[%w_]([%a_][%w_]*)") do
       for _, bad in ipairs(forbidden) do
         if word == bad and before ~= "." then
@@ -139,23 +141,27 @@ local samples = {
   { "mesh", mit .. "#include <lacuna/topology/model.h>\n", "not below it" },
   { "io", mit .. "#include <lacuna/cad/load.h>\n", "not below it" },
   { "io", mit .. "#include <lacuna/nowhere/x.h>\n", "no folder nowhere" },
-  { "io", mit .. "#include <gmsh.h>\n", "only cad/" },
-  { "cad", gpl .. "#include <lua5.4/lauxlib.h>\n", "only lua/" },
-  { "cad", mit .. "#include <gmsh.h>\n", "licence GPL" },
+  { "io", mit .. "#include <gmsh.h>\n", "only cad_worker/" },
+  { "cad", mit .. "#include <gmsh.h>\n", "only cad_worker/" },
+  { "cad", mit .. "#include <lacuna/cad_worker/session.h>\n", "not below it" },
+  { "core", mit .. "#include <lacuna/cad_worker/session.h>\n", "not below it" },
+  { "cad_worker", gpl .. "#include <lua5.4/lauxlib.h>\n", "only lua/" },
+  { "cad_worker", mit .. "#include <gmsh.h>\n", "licence GPL" },
+  { "cad", gpl, "licence MIT" },
   { "core", gpl, "licence MIT" },
   { "core", mit .. "void f() { std::cout << 1; }\n", "cout" },
   { "core", mit .. 'void f() { printf("x"); }\n', "printf" },
   { "core", mit .. "void f() { std::abort(); }\n", "abort" },
   { "core", mit .. "int big = 1'000'000; void f() { exit(1); }\n", "exit" },
-  { "cad", gpl .. "auto* old = std::cout.rdbuf(mine);\nvoid f() { std::cout << 1; }\n", "sample.cpp:3" },
-  { "cad", gpl .. "auto* old = std::cout.rdbuf(mine);\n" },
+  { "cad_worker", gpl .. "auto* old = std::cout.rdbuf(mine);\nvoid f() { std::cout << 1; }\n", "sample.cpp:3" },
+  { "cad_worker", gpl .. "auto* old = std::cout.rdbuf(mine);\n" },
   { "sweep", mit .. "#include <lacuna/core/types.h>\n#include <lacuna/closure/close.h>\n" },
   { "sweep", mit .. "#include <lacuna/surface/detail/linking_map.h>\n", "internal to surface" },
   { "surface", mit .. "#include <lacuna/surface/detail/linking_map.h>\n" },
   { "surface", mit .. "#pragma once\n#include <lacuna/surface/detail/linking_map.h>\n", "not installed",
       "surface/walls.h" },
   { "surface", mit .. "int f() { return 1; }\n", "internal headers alone", "surface/detail/linking_map.cpp" },
-  { "cad", gpl .. "#include <gmsh.h>\n#include <lacuna/topology/model.h>\n" },
+  { "cad_worker", gpl .. "#include <gmsh.h>\n#include <lacuna/geometry/delaunay.h>\n" },
   { "core", mit .. '// exit, printf and abort in prose\nauto s = "printf \\" exit";\n'
       .. 'std::snprintf(b, 1, "abort");\n' },
 }

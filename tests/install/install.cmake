@@ -13,7 +13,7 @@ run("installing" ${CMAKE_COMMAND} --install "${BUILD_DIR}" --prefix "${WORK_DIR}
 file(GLOB_RECURSE installed "${WORK_DIR}/prefix/*.h" "${WORK_DIR}/prefix/*.cmake")
 foreach(path IN LISTS installed)
   file(STRINGS "${path}" leaks REGEX "#include <gmsh|${BUILD_DIR}")
-  if(path MATCHES "/lacuna/cad/" OR leaks)
+  if(path MATCHES "/lacuna/cad_worker/" OR leaks)
     message(FATAL_ERROR "${path} needs Gmsh or the build folder: ${leaks}")
   endif()
 endforeach()

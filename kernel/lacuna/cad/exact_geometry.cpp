@@ -1,274 +1,52 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
+// SPDX-License-Identifier: MIT
 #include <lacuna/cad/detail/exact_geometry.h>
 
-#include <lacuna/cad/detail/gmsh_api.h>
-
-#include <Eigen/LU>
-
 #include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <sstream>
 
 namespace lacuna::cad {
 
+using namespace cad_protocol;
+
 namespace {
 
-std::vector<double> flat(const std::vector<Vec2>& uv)
+/// Points of one request: large enough that asking costs nothing beside the answer, small enough that other
+/// threads need not wait long. Measured on a million points: no slower than in one.
+constexpr std::size_t kAtOnce = 100'000;
+
+void require_same(std::size_t asked, std::size_t came, const CadSource& source)
 {
-    std::vector<double> values;
-    values.reserve(2 * uv.size());
-    for (const Vec2& p : uv) values.insert(values.end(), {p.x(), p.y()});
-    return values;
-}
-
-std::vector<Vec3> unflat(const std::vector<double>& values)
-{
-    std::vector<Vec3> points(values.size() / 3);
-    for (std::size_t i = 0; i < points.size(); ++i)
-        points[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
-    return points;
-}
-
-/// Steps with first derivatives alone before second ones are asked for as well. Near the surface the former
-/// gain a digit or more a step; a point as far off as the radius of curvature needs the latter.
-constexpr int kCheapSteps = 8;
-constexpr int kMaxSteps = 60;
-/// Convergence, as a part of the model's diagonal.
-constexpr double kPrecision = 1e-10;
-
-/// One projection under way, in file lengths.
-struct Iterate {
-    Vec3 target;
-    Vec2 uv;
-    Vec3 at;
-    double damping = 0; ///< Levenberg's, relative to the derivatives
-    bool done = false;
-};
-
-/// Parameters a step may change: those at a border stay there when the step would leave the box.
-std::array<bool, 2> free_parameters(const ParameterBox& box, const Vec2& uv, const Vec2& descent)
-{
-    std::array<bool, 2> open{true, true};
-    for (int k = 0; k < 2; ++k) {
-        if (box.closed[static_cast<std::size_t>(k)]) continue;
-        if ((uv[k] <= box.low[k] && descent[k] < 0) || (uv[k] >= box.high[k] && descent[k] > 0)) {
-            open[static_cast<std::size_t>(k)] = false;
-        }
-    }
-    return open;
-}
-
-/// The step in the parameters towards the target, and how far it goes in space.
-std::pair<Vec2, double> step_of(const Iterate& it, const SurfaceFrame& frame, const SecondDerivatives* second,
-                                const ParameterBox& box)
-{
-    const Vec3 miss = it.target - it.at;
-    const Vec2 descent(frame.du.dot(miss), frame.dv.dot(miss));
-    Eigen::Matrix2d normal;
-    normal << frame.du.squaredNorm(), frame.du.dot(frame.dv), frame.du.dot(frame.dv), frame.dv.squaredNorm();
-    if (second != nullptr) {
-        Eigen::Matrix2d full = normal;
-        full(0, 0) -= miss.dot(second->uu);
-        full(1, 1) -= miss.dot(second->vv);
-        full(0, 1) -= miss.dot(second->uv);
-        full(1, 0) = full(0, 1);
-        if (full.determinant() > 1e-3 * normal.determinant() && full.trace() > 0) normal = full;
-    }
-    const std::array<bool, 2> open = free_parameters(box, it.uv, descent);
-    Vec2 step = Vec2::Zero();
-    if (open[0] && open[1]) {
-        // At a pole one derivative vanishes: the least of damping keeps the matrix regular.
-        const double least = 1e-14 * normal.trace();
-        normal(0, 0) += it.damping * normal(0, 0) + least;
-        normal(1, 1) += it.damping * normal(1, 1) + least;
-        step = normal.inverse() * descent;
-    } else {
-        const int k = open[0] ? 0 : 1;
-        if (open[static_cast<std::size_t>(k)] && normal(k, k) > 0)
-            step[k] = descent[k] / (normal(k, k) * (1 + it.damping));
-    }
-    return {step, (frame.du * step.x() + frame.dv * step.y()).norm()};
-}
-
-/// One step of every iterate that is not done. @return how many are left.
-std::size_t advance(std::vector<Iterate>& all, std::vector<std::size_t>& active, int tag,
-                    const ParameterBox& box, double precision, bool with_second)
-{
-    std::vector<Vec2> uv;
-    for (const std::size_t i : active) uv.push_back(all[i].uv);
-    const std::vector<SurfaceFrame> frames = surface_frames(tag, uv);
-    const std::vector<SecondDerivatives> second = with_second ? surface_second(tag, uv)
-                                                              : std::vector<SecondDerivatives>{};
-    for (std::size_t k = 0; k < active.size(); ++k) {
-        Iterate& it = all[active[k]];
-        const auto [step, length] = step_of(it, frames[k], with_second ? &second[k] : nullptr, box);
-        const Vec2 next = box.bring_in(it.uv + step);
-        it.done = length <= precision || next == it.uv;
-        uv[k] = next;
-    }
-    const std::vector<Vec3> at = surface_points(tag, uv);
-    for (std::size_t k = 0; k < active.size(); ++k) {
-        Iterate& it = all[active[k]];
-        const double before = (it.target - it.at).norm();
-        const double after = (it.target - at[k]).norm();
-        if (after <= before + precision) {
-            it.uv = uv[k];
-            it.at = at[k];
-            it.damping = it.damping < 1e-3 ? 0 : it.damping / 10;
-        } else {
-            it.done = false;
-            it.damping = it.damping == 0 ? 0.1 : it.damping * 10;
-            // Damped to a standstill: rounding is all that is left.
-            if (it.damping > 1e12) it.done = true;
-        }
-    }
-    std::erase_if(active, [&](std::size_t i) { return all[i].done; });
-    return active.size();
-}
-
-/// A start at a pole, where one parameter says nothing, is moved to the best of a few places around it.
-void leave_pole(Iterate& it, const SurfaceFrame& frame, int tag, const ParameterBox& box, double precision)
-{
-    const Vec2 side = box.high - box.low;
-    const double across[2] = {frame.du.norm() * side.x(), frame.dv.norm() * side.y()};
-    for (int k = 0; k < 2; ++k) {
-        const int other = 1 - k;
-        if (across[k] > 1e-6 * across[other] || (it.target - it.at).norm() <= precision) continue;
-        constexpr int kDirections = 12;
-        constexpr double kInward = 0.02; // of the box: off the pole, still near it
-        std::vector<Vec2> ring(kDirections);
-        const bool at_low = it.uv[other] - box.low[other] < side[other] / 2;
-        for (int i = 0; i < kDirections; ++i) {
-            Vec2& uv = ring[static_cast<std::size_t>(i)];
-            uv[k] = box.low[k] + side[k] * (i + 0.5) / kDirections;
-            uv[other] = it.uv[other] + (at_low ? kInward : -kInward) * side[other];
-        }
-        const std::vector<Vec3> at = surface_points(tag, ring);
-        const auto nearest = std::min_element(at.begin(), at.end(), [&](const Vec3& a, const Vec3& b) {
-            return (a - it.target).squaredNorm() < (b - it.target).squaredNorm();
-        });
-        it.at = *nearest;
-        it.uv = ring[static_cast<std::size_t>(nearest - at.begin())];
-        return;
-    }
-}
-
-[[noreturn]] void fail_projection(const CadSource& source, int tag, const Vec3& point)
-{
-    std::ostringstream words;
-    words << source.path << ": the point (" << point.x() << ", " << point.y() << ", " << point.z()
-          << ") could not be projected onto face " << tag << "; check the face in the CAD system";
-    throw BackendError("cad.projection", words.str());
+    if (asked != came)
+        throw BackendError("cad.protocol", source.path + ": the CAD process answered for another number of points");
 }
 
 } // namespace
 
-Vec2 ParameterBox::bring_in(Vec2 uv) const
-{
-    for (int k = 0; k < 2; ++k) {
-        const double period = high[k] - low[k];
-        if (closed[static_cast<std::size_t>(k)] && period > 0) {
-            if (uv[k] < low[k] || uv[k] > high[k]) uv[k] -= period * std::floor((uv[k] - low[k]) / period);
-        } else {
-            uv[k] = std::clamp(uv[k], low[k], high[k]);
-        }
-    }
-    return uv;
-}
-
 void CadSurface::project(std::span<Vec3> points, std::span<Vec2> uv) const
 {
-    if (points.empty()) return;
-    Session session(source_->path);
-    source_->model->activate(session);
-    session.run([&] {
-        std::vector<Vec2> start(uv.size());
-        for (std::size_t i = 0; i < uv.size(); ++i) start[i] = box_.bring_in(uv[i]);
-        const std::vector<Vec3> at = surface_points(tag_, start);
-        std::vector<Iterate> all(points.size());
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            if (!points[i].allFinite() || !start[i].allFinite()) fail_projection(*source_, tag_, points[i]);
-            all[i] = {points[i] / source_->scale, start[i], at[i], 0, false};
-        }
-        std::vector<std::size_t> active(all.size());
-        std::iota(active.begin(), active.end(), std::size_t{0});
-        const double precision = kPrecision * source_->diagonal;
-        const std::vector<SurfaceFrame> frames = surface_frames(tag_, start);
-        for (std::size_t i = 0; i < all.size(); ++i) leave_pole(all[i], frames[i], tag_, box_, precision);
-        for (int step = 0; step < kMaxSteps; ++step) {
-            if (advance(all, active, tag_, box_, precision, step >= kCheapSteps) == 0) break;
-        }
-        for (const std::size_t i : active) {
-            std::vector<double> closest, parameters;
-            gmsh::model::getClosestPoint(2, tag_, {all[i].target.x(), all[i].target.y(), all[i].target.z()},
-                                         closest, parameters);
-            if (closest.size() != 3 || parameters.size() != 2) fail_projection(*source_, tag_, points[i]);
-            all[i].at = {closest[0], closest[1], closest[2]};
-            all[i].uv = {parameters[0], parameters[1]};
-        }
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            points[i] = all[i].at * source_->scale;
-            uv[i] = all[i].uv;
-        }
-    });
+    for (std::size_t from = 0; from < points.size(); from += kAtOnce) {
+        const std::size_t count = std::min(kAtOnce, points.size() - from);
+        const std::span<Vec3> some = points.subspan(from, count);
+        const std::span<Vec2> places = uv.subspan(from, count);
+        Task task{source_->path, "projecting points onto face " + std::to_string(tag_)};
+        task.points = count;
+        const auto reply = source_->worker->ask<ProjectReply>(
+            Opcode::project,
+            ProjectRequest{source_->handle, tag_, {some.begin(), some.end()}, {places.begin(), places.end()}}, task);
+        require_same(count, reply.points.size(), *source_);
+        std::copy(reply.points.begin(), reply.points.end(), some.begin());
+        std::copy(reply.uv.begin(), reply.uv.end(), places.begin());
+    }
 }
 
 void CadCurve::evaluate(std::span<const double> params, std::span<Vec3> points) const
 {
     if (points.empty()) return;
-    Session session(source_->path);
-    source_->model->activate(session);
-    session.run([&] {
-        const std::vector<Vec3> at = curve_points(tag_, {params.begin(), params.end()});
-        std::transform(at.begin(), at.end(), points.begin(),
-                       [&](const Vec3& p) { return Vec3(p * source_->scale); });
-    });
-}
-
-std::vector<Vec3> curve_points(int tag, const std::vector<double>& params)
-{
-    std::vector<double> values;
-    gmsh::model::getValue(1, tag, params, values);
-    return unflat(values);
-}
-
-std::vector<Vec3> curve_tangents(int tag, const std::vector<double>& params)
-{
-    std::vector<double> values;
-    gmsh::model::getDerivative(1, tag, params, values);
-    return unflat(values);
-}
-
-std::vector<Vec3> surface_points(int tag, const std::vector<Vec2>& uv)
-{
-    std::vector<double> values;
-    gmsh::model::getValue(2, tag, flat(uv), values);
-    return unflat(values);
-}
-
-std::vector<SurfaceFrame> surface_frames(int tag, const std::vector<Vec2>& uv)
-{
-    std::vector<double> values;
-    gmsh::model::getDerivative(2, tag, flat(uv), values);
-    std::vector<SurfaceFrame> frames(uv.size());
-    for (std::size_t i = 0; i < uv.size(); ++i) {
-        const double* d = values.data() + 6 * i;
-        frames[i] = {{d[0], d[1], d[2]}, {d[3], d[4], d[5]}};
-    }
-    return frames;
-}
-
-std::vector<SecondDerivatives> surface_second(int tag, const std::vector<Vec2>& uv)
-{
-    std::vector<double> values;
-    gmsh::model::getSecondDerivative(2, tag, flat(uv), values);
-    std::vector<SecondDerivatives> second(uv.size());
-    for (std::size_t i = 0; i < uv.size(); ++i) {
-        const double* d = values.data() + 9 * i;
-        second[i] = {{d[0], d[1], d[2]}, {d[3], d[4], d[5]}, {d[6], d[7], d[8]}};
-    }
-    return second;
+    Task task{source_->path, "evaluating curve " + std::to_string(tag_)};
+    task.points = params.size();
+    const auto reply = source_->worker->ask<EvaluateReply>(
+        Opcode::evaluate, EvaluateRequest{source_->handle, tag_, {params.begin(), params.end()}}, task);
+    require_same(points.size(), reply.points.size(), *source_);
+    std::copy(reply.points.begin(), reply.points.end(), points.begin());
 }
 
 } // namespace lacuna::cad

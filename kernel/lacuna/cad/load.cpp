@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
+// SPDX-License-Identifier: MIT
 #include <lacuna/cad/load.h>
 
 #include <lacuna/cad/detail/import_cad.h>
@@ -6,10 +6,12 @@
 namespace lacuna::cad {
 
 topology::Model load(const std::vector<std::string>& paths, const LoadOptions& options,
-                     const RunContext& context)
+                     const RunContext& context, const Limits& limits)
 {
+    const auto import = [&](const std::vector<std::string>& cad_paths, const LoadOptions& all,
+                            const RunContext& run) { return import_cad(cad_paths, all, run, limits); };
     return io::load_facets(paths, options, context,
-                           {".step .stp .iges .igs .brep .geo .geo_unrolled", import_cad});
+                           {".step .stp .iges .igs .brep .geo .geo_unrolled", import});
 }
 
 } // namespace lacuna::cad

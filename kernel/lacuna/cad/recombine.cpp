@@ -1,16 +1,21 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
+// SPDX-License-Identifier: MIT
 #include <lacuna/cad/load.h>
 
-#include <lacuna/cad/detail/gmsh_api.h>
-#include <lacuna/cad/session.h>
+#include <lacuna/cad/detail/worker.h>
 
 #include <algorithm>
-#include <exception>
-#include <unordered_map>
+#include <cmath>
+#include <limits>
 
 namespace lacuna::cad {
 
+using namespace cad_protocol;
+
 namespace {
+
+/// Crossings of the size raster along the longer side of a region: a choice, fine enough that sizes which change over
+/// a tenth of the region are met to a percent.
+constexpr int kCrossings = 96;
 
 std::size_t side_count(const quads::PlanarRegion& region)
 {
@@ -19,68 +24,74 @@ std::size_t side_count(const quads::PlanarRegion& region)
     return sides;
 }
 
-/// Draw the loops as lines that Gmsh does not divide. @return the face, and the Gmsh point of each region point on a loop.
-std::pair<int, std::unordered_map<Index, int>> draw(const quads::PlanarRegion& region, const Vec2& origin,
-                                                    double scale)
+/// Where a horizontal line meets the loops, from left to right.
+std::vector<double> cuts_at(const quads::PlanarRegion& region, double y)
 {
-    std::unordered_map<Index, int> drawn;
-    std::vector<int> wires;
+    std::vector<double> cuts;
     for (const std::vector<Index>& loop : region.loops) {
-        for (const Index p : loop) {
-            const Vec2 at = (region.points[static_cast<std::size_t>(p)] - origin) / scale;
-            drawn[p] = gmsh::model::geo::addPoint(at.x(), at.y(), 0);
-        }
-        std::vector<int> lines;
         for (std::size_t i = 0; i < loop.size(); ++i) {
-            lines.push_back(gmsh::model::geo::addLine(drawn[loop[i]], drawn[loop[(i + 1) % loop.size()]]));
-            gmsh::model::geo::mesh::setTransfiniteCurve(lines.back(), 2);
+            const Vec2 &a = region.points[index(loop[i])], &b = region.points[index(loop[(i + 1) % loop.size()])];
+            if ((a.y() <= y) != (b.y() <= y)) cuts.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
         }
-        wires.push_back(gmsh::model::geo::addCurveLoop(lines));
     }
-    const int face = gmsh::model::geo::addPlaneSurface(wires);
-    gmsh::model::geo::synchronize();
-    return {face, std::move(drawn)};
+    std::sort(cuts.begin(), cuts.end());
+    return cuts;
 }
 
-/// The cells Gmsh made, counter-clockwise, the region's own points first.
-quads::PlanarQuads read_quads(const quads::PlanarRegion& region, int face,
-                              const std::unordered_map<Index, int>& drawn, const Vec2& origin, double scale)
+/// The region's sizes on a raster over it. They are asked within the region alone; crossings outside take the mean of
+/// their neighbours, from the border outwards.
+SizeRaster size_raster(const quads::PlanarRegion& region, const Eigen::AlignedBox2d& box, const RunContext& context)
 {
-    quads::PlanarQuads mesh{region.points, {}, "gmsh"};
-    std::unordered_map<std::size_t, Index> number;
-    std::vector<std::size_t> nodes;
-    std::vector<double> at, parameters;
-    for (const auto& [p, tag] : drawn) {
-        gmsh::model::mesh::getNodes(nodes, at, parameters, 0, tag, false, false);
-        number[nodes.at(0)] = p;
+    SizeRaster raster;
+    raster.origin = box.min();
+    raster.step = box.sizes().maxCoeff() / (kCrossings - 1);
+    const auto lines = [&](double length) { return std::max(2, static_cast<int>(std::ceil(length / raster.step)) + 1); };
+    raster.columns = lines(box.sizes().x());
+    const int columns = raster.columns, rows = lines(box.sizes().y());
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    raster.sizes.assign(index(columns) * index(rows), kUnknown);
+    const auto at = [&](int i, int j) -> double& { return raster.sizes[index(j) * index(columns) + index(i)]; };
+    bool any = false;
+    for (int j = 0; j < rows; ++j) {
+        check_cancelled(context);
+        const double y = raster.origin.y() + j * raster.step;
+        const std::vector<double> cuts = cuts_at(region, y);
+        for (std::size_t c = 0; c + 1 < cuts.size(); c += 2) {
+            const auto first = static_cast<int>(std::ceil((cuts[c] - raster.origin.x()) / raster.step));
+            for (int i = std::max(0, first); i < columns && raster.origin.x() + i * raster.step <= cuts[c + 1]; ++i) {
+                at(i, j) = region.size(Vec2(raster.origin.x() + i * raster.step, y));
+                any = true;
+            }
+        }
     }
-    gmsh::model::mesh::getNodes(nodes, at, parameters, 2, face, false, false);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        number[nodes[i]] = static_cast<Index>(mesh.points.size());
-        mesh.points.push_back(origin + scale * Vec2(at[3 * i], at[3 * i + 1]));
+    if (!any) { // thinner than the raster
+        raster.sizes.assign(raster.sizes.size(), region.size(region.points[index(region.loops.front().front())]));
+        return raster;
     }
-    std::vector<std::size_t> elements, corners;
-    gmsh::model::mesh::getElementsByType(2, elements, corners, face);
-    if (!elements.empty()) {
-        throw NotSweepable("cad.recombine", "Gmsh leaves " + std::to_string(elements.size()) +
-                                                " triangles in a region of " +
-                                                std::to_string(side_count(region)) +
-                                                " boundary sides; use quads = \"auto\" or another size");
+    for (bool missing = true; missing;) {
+        missing = false;
+        const std::vector<double> before = raster.sizes;
+        for (int j = 0; j < rows; ++j) {
+            for (int i = 0; i < columns; ++i) {
+                if (!std::isnan(at(i, j))) continue;
+                double sum = 0, first = 0;
+                int count = 0;
+                for (int y = std::max(0, j - 1); y <= std::min(rows - 1, j + 1); ++y) {
+                    for (int x = std::max(0, i - 1); x <= std::min(columns - 1, i + 1); ++x) {
+                        const double size = before[index(y) * index(columns) + index(x)];
+                        if (std::isnan(size)) continue;
+                        // Differences from the first, so that equal sizes have themselves for a mean.
+                        if (count == 0) first = size;
+                        sum += size - first;
+                        ++count;
+                    }
+                }
+                if (count > 0) at(i, j) = first + sum / count;
+                missing = missing || count == 0;
+            }
+        }
     }
-    gmsh::model::mesh::getElementsByType(3, elements, corners, face);
-    double area = 0;
-    for (std::size_t e = 0; e < elements.size(); ++e) {
-        Quad quad;
-        for (std::size_t k = 0; k < 4; ++k) quad[k] = number.at(corners[4 * e + k]);
-        const auto point = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(quad[k])]; };
-        const Vec2 u = point(2) - point(0), v = point(3) - point(1);
-        area += u.x() * v.y() - u.y() * v.x();
-        mesh.quads.push_back(quad);
-    }
-    if (area < 0) {
-        for (Quad& quad : mesh.quads) std::reverse(quad.begin(), quad.end());
-    }
-    return mesh;
+    return raster;
 }
 
 } // namespace
@@ -95,53 +106,31 @@ quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext
                 " boundary sides cannot be filled with quads; their number must be even and 4 at least");
     }
     check_cancelled(context);
-    // Gmsh has tolerances of its own that are lengths: it gets a region of size 1.
-    Eigen::AlignedBox2d box;
-    for (const std::vector<Index>& loop : region.loops) {
-        for (const Index p : loop) box.extend(region.points[static_cast<std::size_t>(p)]);
+    RecombineRequest request{region.points, region.loops, {}};
+    if (region.size) {
+        Eigen::AlignedBox2d box;
+        for (const std::vector<Index>& loop : region.loops)
+            for (const Index p : loop) box.extend(region.points[index(p)]);
+        request.size = size_raster(region, box, context);
     }
-    const Vec2 origin = box.min();
-    const double scale = box.sizes().maxCoeff();
+    Task task{"a region of " + std::to_string(sides) + " boundary sides", "filling it with quads"};
+    task.context = &context;
+    task.points = sides * sides / 16; // as many quads as a round region of so many sides has
+    auto reply = Worker::current(&context)->ask<RecombineReply>(Opcode::recombine, request, task);
+    if (reply.points.size() < region.points.size() ||
+        !std::equal(region.points.begin(), region.points.end(), reply.points.begin()))
+        throw BackendError("cad.protocol", "the CAD process moved nodes of the boundary of a region");
+    return {std::move(reply.points), std::move(reply.quads), "gmsh"};
+}
 
-    Session session("a region to be filled with quads");
-    // 6, frontal: 8, which is made for quads, gives other coordinates each time, since its cross field is solved in an
-    // order that depends on addresses.
-    session.set("Mesh.Algorithm", 6);
-    session.set("Mesh.RecombinationAlgorithm", 1); // Blossom
-    session.set("Mesh.CrossFieldClosestPoint", 0); // without ANN the default crashes
-    session.set("Mesh.MeshSizeFromPoints", 0);
-    session.set("Mesh.MeshSizeFromCurvature", 0);
-    session.set("Mesh.MeshSizeFromParametricPoints", 0);
-    session.set("Mesh.MeshSizeExtendFromBoundary", 1);
-    session.set("Mesh.SubdivisionAlgorithm", 0);
-    session.set("Mesh.ElementOrder", 1);
-    session.set("Mesh.MeshSizeMin", 0);
-    session.set("Mesh.MeshSizeMax", 1e22);
-    session.set("Mesh.MeshSizeFactor", 1);
-    session.set("Mesh.RecombineAll", 0);
-    session.set("Mesh.Smoothing", 10);
-    GmshModel model(session);
-    return session.run([&] {
-        const auto [face, drawn] = draw(region, origin, scale);
-        gmsh::model::mesh::setRecombine(2, face);
-        // Later versions hand over their own wish as well.
-        // An exception that leaves the callback would end the process: Gmsh meshes in a parallel region.
-        std::exception_ptr thrown;
-        if (region.size) {
-            gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double, auto...) {
-                try {
-                    if (!thrown) return region.size(origin + scale * Vec2(x, y)) / scale;
-                } catch (...) {
-                    thrown = std::current_exception();
-                }
-                return 1e22;
-            });
-        }
-        gmsh::model::mesh::generate(2);
-        if (region.size) gmsh::model::mesh::removeSizeCallback();
-        if (thrown) std::rethrow_exception(thrown);
-        return read_quads(region, face, drawn, origin, scale);
-    });
+std::string gmsh_version()
+{
+    try {
+        const Hello& hello = Worker::current()->hello();
+        return hello.gmsh_version + (hello.missing.empty() ? "" : ", without " + hello.missing);
+    } catch (const BackendError&) {
+        return "none";
+    }
 }
 
 } // namespace lacuna::cad

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
+// SPDX-License-Identifier: MIT
 #include <lacuna/cad/detail/void_patch.h>
 
 #include <lacuna/cad/detail/edge_shape.h>

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/cad/limits.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/io/whole_file.h>
 #include <lacuna/topology/open_volume.h>
@@ -15,6 +16,7 @@ struct WriteCadOptions {
     /// seal it.
     double tolerance = 0;
     double deviation = 0.05; ///< the solid's volume may differ by this part from that within the facets [-]
+    Limits limits{};         ///< of the CAD process
 };
 
 /// What was written, as it reads back.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <lacuna/cad/detail/cad_curves.h>
-#include <lacuna/cad/detail/exact_geometry.h>
+#include <lacuna/cad_worker/detail/cad_curves.h>
+#include <lacuna/cad_worker/exact_geometry.h>
 
 #include <vector>
 
-namespace lacuna::cad {
+namespace lacuna::cad_worker {
 
 /// A map of one surface parameter to grid coordinates, in which the grid lines are the integers. Rising,
 /// linear between knots.
@@ -43,4 +43,4 @@ struct FaceGrid {
 /// next, cells are not too long, and there are not too many of them.
 FaceGrid lay_grid(int tag, bool flat, const ParameterBox& box, const Fineness& fineness, double max_cells);
 
-} // namespace lacuna::cad
+} // namespace lacuna::cad_worker

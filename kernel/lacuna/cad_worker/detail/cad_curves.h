@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace lacuna::cad {
+namespace lacuna::cad_worker {
 
 /// A curve of the current Gmsh model, as far as its topology goes.
 struct CadCurveInfo {
@@ -88,4 +88,4 @@ struct PieceNodes {
 };
 PieceNodes nodes_of(const CadWire& wire, std::size_t piece);
 
-} // namespace lacuna::cad
+} // namespace lacuna::cad_worker

@@ -4,22 +4,25 @@
 #include <lacuna/core/error.h>
 
 #include <memory>
-#include <mutex>
+#include <new>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
-namespace lacuna::cad {
+namespace lacuna::cad_worker {
 
-class GmshLife;
+/// Gmsh for as long as the process works with it: initialised silently, with no start-up files of the user's.
+class Gmsh {
+public:
+    Gmsh();
+    ~Gmsh();
+    Gmsh(const Gmsh&) = delete;
+    Gmsh& operator=(const Gmsh&) = delete;
+    [[nodiscard]] static std::string version();
+};
 
-/// One stay in Gmsh, which is global to the process and not safe for two threads.
-///
-/// Between construction and destruction this thread has Gmsh to itself, initialised, silent, with LC_NUMERIC
-/// "C". At the end the host's current model, options, locale and PYTHONPATH are as they were. Gmsh is
-/// finalised only if no host had initialised it, and only when no stay and no `GmshModel` is left. Stays
-/// nest.
+/// One piece of work in Gmsh: options set for it, and kept from what a script sets, are as before at its end.
+/// @pre  a `Gmsh` lives.
 class Session {
 public:
     /// @param subject  what messages name: the file, as a rule.
@@ -28,20 +31,23 @@ public:
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    /// Set an option until the stay ends; one this version of Gmsh does not have is passed over.
+    /// Set an option until the session ends; one this version of Gmsh does not have is passed over.
     void set(const std::string& option, double value);
     void set(const std::string& option, const std::string& value);
-    /// Have an option as it is now at the end of the stay, whatever a script sets meanwhile.
+    /// Have an option as it is now at the end of the session, whatever a script sets meanwhile.
     void keep(const std::string& option);
 
     /// Do work in Gmsh, its many ways of failing turned into one.
-    /// @throw BackendError  Gmsh's own words, after the subject.
+    /// @throw BackendError    Gmsh's own words, after the subject.
+    /// @throw std::bad_alloc  the memory limit.
     template <class Work>
     auto run(Work&& work)
     {
         try {
             return work();
         } catch (const Error&) {
+            throw;
+        } catch (const std::bad_alloc&) {
             throw;
         } catch (const std::string& message) {
             fail(message);
@@ -54,11 +60,10 @@ public:
         }
     }
 
-    /// Errors Gmsh has logged since the stay began, without the word "Error".
+    /// Errors Gmsh has logged since the session began, without the word "Error".
     [[nodiscard]] std::vector<std::string> logged_errors() const;
     /// @throw BackendError always.
     [[noreturn]] void fail(const std::string& message) const;
-    [[nodiscard]] const std::shared_ptr<GmshLife>& life() const { return life_; }
 
 private:
     struct SavedNumber {
@@ -69,32 +74,25 @@ private:
         std::string name, value;
     };
 
-    std::unique_lock<std::recursive_mutex> lock_;
     std::string subject_;
-    std::string locale_;
-    std::shared_ptr<GmshLife> life_;
-    std::string host_model_;
     std::vector<SavedNumber> numbers_;
     std::vector<SavedString> strings_;
     std::size_t log_start_ = 0;
-    bool own_log_ = false;
 };
 
-/// A model of ours in Gmsh, under a name no one else has; removed with the object. It keeps Gmsh alive.
+/// A model in Gmsh under a name no one else has; removed with the object.
 class GmshModel {
 public:
-    /// Make it, and make it the current one. @pre within the session given.
+    /// Make it, and make it the current one.
     explicit GmshModel(Session& session);
     ~GmshModel();
     GmshModel(const GmshModel&) = delete;
     GmshModel& operator=(const GmshModel&) = delete;
 
-    /// Make it the current one for the rest of the stay.
-    /// @throw BackendError  the host has finalised Gmsh or removed the model.
+    /// Make it the current one.
     void activate(Session& session) const;
 
 private:
-    std::shared_ptr<GmshLife> life_;
     std::string name_;
 };
 
@@ -113,4 +111,4 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-} // namespace lacuna::cad
+} // namespace lacuna::cad_worker

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/detail/cad_curves.h>
+#include <lacuna/cad_worker/detail/cad_curves.h>
 
-#include <lacuna/cad/detail/exact_geometry.h>
-#include <lacuna/cad/detail/gmsh_api.h>
+#include <lacuna/cad_worker/exact_geometry.h>
+#include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/geometry/union_find.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include <optional>
 #include <unordered_map>
 
-namespace lacuna::cad {
+namespace lacuna::cad_worker {
 
 namespace {
 
@@ -397,4 +397,4 @@ PieceNodes nodes_of(const CadWire& wire, std::size_t p)
     return nodes;
 }
 
-} // namespace lacuna::cad
+} // namespace lacuna::cad_worker

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/detail/cad_facets.h>
+#include <lacuna/cad_worker/detail/cad_facets.h>
 
-#include <lacuna/cad/detail/face_grid.h>
-#include <lacuna/cad/detail/gmsh_api.h>
+#include <lacuna/cad_worker/detail/face_grid.h>
+#include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/geometry/delaunay.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace lacuna::cad {
+namespace lacuna::cad_worker {
 
 namespace {
 
@@ -407,4 +407,4 @@ std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo&
     return facets;
 }
 
-} // namespace lacuna::cad
+} // namespace lacuna::cad_worker

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <lacuna/cad/detail/cad_curves.h>
-#include <lacuna/cad/detail/exact_geometry.h>
+#include <lacuna/cad_worker/detail/cad_curves.h>
+#include <lacuna/cad_worker/exact_geometry.h>
 
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace lacuna::cad {
+namespace lacuna::cad_worker {
 
 /// Facets of one face. Points from `first_added` on are its own, the others those of the wire.
 struct CadFacets {
@@ -39,4 +39,4 @@ std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo&
 /// Gmsh does not know, by the principal curvatures.
 std::string kind_of_face(int tag, const ParameterBox& box);
 
-} // namespace lacuna::cad
+} // namespace lacuna::cad_worker

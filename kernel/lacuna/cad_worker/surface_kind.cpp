@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/detail/cad_facets.h>
-#include <lacuna/cad/detail/gmsh_api.h>
+#include <lacuna/cad_worker/detail/cad_facets.h>
+#include <lacuna/cad_worker/detail/gmsh_api.h>
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
 
-namespace lacuna::cad {
+namespace lacuna::cad_worker {
 
 namespace {
 
@@ -122,4 +122,4 @@ std::string kind_of_face(int tag, const ParameterBox& box)
     return kind_by_bending(tag, box);
 }
 
-} // namespace lacuna::cad
+} // namespace lacuna::cad_worker

@@ -13,7 +13,7 @@
     (GMSH_API_VERSION_MAJOR > (major) ||                                                                     \
      (GMSH_API_VERSION_MAJOR == (major) && GMSH_API_VERSION_MINOR >= (minor)))
 
-namespace lacuna::cad {
+namespace lacuna::cad_worker {
 
 /// Has anyone initialised Gmsh?
 inline bool gmsh_is_initialized()
@@ -43,4 +43,4 @@ inline std::string gmsh_type(int dim, int tag)
     return type;
 }
 
-} // namespace lacuna::cad
+} // namespace lacuna::cad_worker

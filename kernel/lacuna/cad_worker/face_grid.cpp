@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lacuna/cad/detail/face_grid.h>
+#include <lacuna/cad_worker/detail/face_grid.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-namespace lacuna::cad {
+namespace lacuna::cad_worker {
 
 namespace {
 
@@ -147,4 +147,4 @@ FaceGrid lay_grid(int tag, bool flat, const ParameterBox& box, const Fineness& f
     return grid;
 }
 
-} // namespace lacuna::cad
+} // namespace lacuna::cad_worker

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/cad/detail/input_file.h>
+
+#include <lacuna/cad/detail/script.h>
+#include <lacuna/core/error.h>
+#include <lacuna/io/load_facets.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace lacuna::cad {
+
+using cad_protocol::Descriptor;
+using cad_protocol::LoadFile;
+using io::ending_of;
+
+namespace {
+
+constexpr std::size_t kHead = 4096;         // bytes at the beginning, in which a file says what it is
+constexpr std::size_t kBlock = std::size_t{1} << 20;
+/// Scripts longer than this are not written by hand, nor by Gmsh. A choice, not a measurement.
+constexpr std::size_t kLongestScript = std::size_t{64} << 20;
+/// Files one script may bring along.
+constexpr std::size_t kMostContents = 100;
+
+[[noreturn]] void fail(const std::string& path, int error)
+{
+    throw BackendError("cad.unreadable", path + " cannot be read: " + std::strerror(error));
+}
+
+/// Copy a regular file to memory that no one can change any more.
+Descriptor copy_to_memory(const std::string& path, int flags, std::uint64_t& bytes, const RunContext& context)
+{
+    // Not to wait for a writer where it is a pipe.
+    const Descriptor from(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | flags));
+    if (!from) fail(path, errno);
+    struct stat status {};
+    if (::fstat(from.get(), &status) != 0) fail(path, errno);
+    if (!S_ISREG(status.st_mode))
+        throw InvalidInput("cad.not_a_file", path + " is no regular file; name a file that is on a disk");
+    Descriptor copy(::memfd_create("lacuna-cad input", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+    if (!copy) fail(path, errno);
+    std::vector<char> block(kBlock);
+    for (;;) {
+        check_cancelled(context);
+        const ssize_t got = ::read(from.get(), block.data(), block.size());
+        if (got == 0) break;
+        if (got < 0 && errno != EINTR) fail(path, errno);
+        for (ssize_t put = 0; put < got;) {
+            const ssize_t now = ::write(copy.get(), block.data() + put, static_cast<std::size_t>(got - put));
+            if (now < 0 && errno != EINTR) fail(path, errno);
+            if (now > 0) put += now;
+        }
+        bytes += static_cast<std::uint64_t>(std::max<ssize_t>(got, 0));
+    }
+    ::fcntl(copy.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE | F_SEAL_SEAL);
+    return copy;
+}
+
+std::string text_of(const Descriptor& file, std::size_t most)
+{
+    const off_t size = std::max<off_t>(0, ::lseek(file.get(), 0, SEEK_END));
+    std::string text(std::min(most, static_cast<std::size_t>(size)), '\0');
+    std::size_t got = 0;
+    while (got < text.size()) {
+        const ssize_t now = ::pread(file.get(), text.data() + got, text.size() - got, static_cast<off_t>(got));
+        if (now <= 0) break;
+        got += static_cast<std::size_t>(now);
+    }
+    text.resize(got);
+    return text;
+}
+
+bool is_step(const std::string& head) { return head.find("ISO-10303-21") != std::string::npos; }
+bool is_brep(const std::string& head)
+{
+    return head.find("CASCADE Topology") != std::string::npos || head.find("DBRep_DrawableShape") != std::string::npos;
+}
+/// Every line of an IGES file has its section's letter in column 73.
+bool is_iges(const std::string& head)
+{
+    constexpr std::size_t kColumn = 72;
+    return head.size() > kColumn && (head[kColumn] == 'S' || head[kColumn] == 'C' || head[kColumn] == 'B') &&
+           head.find('\n') > kColumn;
+}
+
+[[noreturn]] void throw_not_of_kind(const std::string& path, const std::string& kind)
+{
+    throw InvalidInput("cad.unreadable", path + " does not hold what its ending promises: this is no " +
+                                             kind +
+                                             " file; check the file, or give it the ending of what it holds");
+}
+
+LoadFile::Format format_of(const std::string& path, const std::string& head)
+{
+    const std::string ending = ending_of(path);
+    if (ending == ".step" || ending == ".stp") {
+        if (!is_step(head)) throw_not_of_kind(path, "STEP");
+        return LoadFile::step;
+    }
+    if (ending == ".iges" || ending == ".igs") {
+        if (!is_iges(head)) throw_not_of_kind(path, "IGES");
+        return LoadFile::iges;
+    }
+    if (ending == ".brep") {
+        if (!is_brep(head)) throw_not_of_kind(path, "BREP");
+        return LoadFile::brep;
+    }
+    // A script is a program: its ending is meant, not met by chance.
+    const std::string written = path.substr(path.size() - ending.size());
+    const bool meant = written == ending ||
+                       std::none_of(written.begin(), written.end(), [](unsigned char c) { return std::islower(c); });
+    if (!meant || is_step(head) || is_brep(head) || head.find('\0') != std::string::npos)
+        throw_not_of_kind(path, "Gmsh script");
+    return LoadFile::script;
+}
+
+std::string name_of(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
+
+/// What Gmsh would run as a script when a script merges it.
+bool runs_as_script(const std::string& name, const std::string& head)
+{
+    const std::string ending = ending_of(name);
+    for (const std::string_view data : {".step", ".stp", ".iges", ".igs", ".brep", ".stl", ".msh"})
+        if (ending == data) return false;
+    return !is_step(head) && !is_brep(head);
+}
+
+/// Look through a script and bring along what it merges, and what that merges in turn.
+void add_merged(InputFile& input, const std::string& path, const RunContext& context)
+{
+    for (std::size_t i = 0; i < input.descriptors.size(); ++i) {
+        const std::string name = input.file.contents[i].name;
+        if (i > 0 && !runs_as_script(name, text_of(input.descriptors[i], kHead))) continue;
+        const std::string own = i == 0 ? path : path.substr(0, path.size() - name_of(path).size()) + name;
+        std::string text = text_of(input.descriptors[i], kLongestScript + 1);
+        if (text.size() > kLongestScript) throw InvalidInput("cad.script", own + " is too long for a script");
+        for (const ScriptFile& wanted : files_of_script(own, text)) {
+            const auto known = std::find_if(input.file.contents.begin(), input.file.contents.end(),
+                                            [&](const auto& sent) { return sent.name == wanted.name; });
+            if (known != input.file.contents.end()) continue;
+            const std::string beside = path.substr(0, path.size() - name_of(path).size()) + wanted.name;
+            if (::access(beside.c_str(), F_OK) != 0 || input.descriptors.size() == kMostContents) {
+                throw InvalidInput("cad.script", own + ", line " + std::to_string(wanted.line) + ": the script asks for " +
+                                                     wanted.name + ", which is not beside it");
+            }
+            input.descriptors.push_back(copy_to_memory(beside, O_NOFOLLOW, input.bytes, context));
+            input.file.contents.push_back({wanted.name});
+        }
+    }
+}
+
+} // namespace
+
+InputFile open_input(const std::string& path, const RunContext& context)
+{
+    InputFile input;
+    input.descriptors.push_back(copy_to_memory(path, 0, input.bytes, context));
+    input.file.path = path;
+    input.file.format = format_of(path, text_of(input.descriptors.front(), kHead));
+    input.file.contents.push_back({name_of(path)});
+    if (input.file.format == LoadFile::script) add_merged(input, path, context);
+    return input;
+}
+
+} // namespace lacuna::cad

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/cad/detail/script.h>
+
+#include <lacuna/core/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace lacuna::cad {
+
+namespace {
+
+/// Words that reach beyond the geometry, and what they would do.
+struct Word {
+    std::string_view word, does;
+};
+constexpr std::array kRefused{
+    Word{"SystemCall", "runs a command"},
+    Word{"NonBlockingSystemCall", "runs a command"},
+    Word{"System", "runs a command"},
+    Word{"OnelabRun", "runs a program"},
+    Word{"OnelabAction", "runs a program"},
+    Word{"Save", "writes a file"},
+    Word{"Print", "writes a file"},
+    Word{"CreateOverlay", "writes files"},
+    Word{"Plugin", "runs a plugin, which may read and write files"},
+    Word{"Exit", "ends Gmsh"},
+};
+/// Words a file name follows.
+constexpr std::array<std::string_view, 5> kFiles{"Include", "Merge", "MergeFile", "ShapeFromFile", "ListFromFile"};
+
+class Scanner {
+public:
+    Scanner(const std::string& path, std::string_view text) : path_(path), text_(text) {}
+
+    std::vector<ScriptFile> run()
+    {
+        while (skip_to_code(), at_ < text_.size()) {
+            const char c = text_[at_];
+            if (c == '"' || c == '\'') {
+                (void)quoted();
+            } else if (is_letter(c)) {
+                word();
+            } else if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
+                // 1e5 holds no word.
+                while (at_ < text_.size() && is_letter(text_[at_])) ++at_;
+            } else {
+                ++at_;
+            }
+        }
+        return std::move(files_);
+    }
+
+private:
+    static bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+    [[noreturn]] void refuse(const std::string& what) const
+    {
+        throw InvalidInput("cad.script", path_ + ", line " + std::to_string(line_) + ": " + what +
+                                             "; a script may make geometry, and include and merge files beside it");
+    }
+    void step()
+    {
+        if (text_[at_] == '\n') ++line_;
+        ++at_;
+    }
+    void skip_to_code()
+    {
+        while (at_ < text_.size()) {
+            const std::string_view left = text_.substr(at_);
+            if (left.starts_with("//")) {
+                while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+            } else if (left.starts_with("/*")) {
+                const std::size_t end = std::min(text_.find("*/", at_ + 2), text_.size());
+                while (at_ < end) step();
+                at_ = std::min(at_ + 2, text_.size());
+            } else if (std::isspace(static_cast<unsigned char>(text_[at_])) != 0) {
+                step();
+            } else {
+                return;
+            }
+        }
+    }
+    std::string quoted()
+    {
+        const char quote = text_[at_];
+        std::string inside;
+        for (++at_; at_ < text_.size() && text_[at_] != quote; step()) {
+            // Gmsh takes a backslash before a quote for the quote.
+            if (text_[at_] == '\\' && at_ + 1 < text_.size() && text_[at_ + 1] == quote) step();
+            inside += text_[at_];
+        }
+        if (at_ < text_.size()) ++at_;
+        return inside;
+    }
+    void word()
+    {
+        const std::size_t from = at_;
+        while (at_ < text_.size() && is_letter(text_[at_])) ++at_;
+        const std::string_view found = text_.substr(from, at_ - from);
+        // "Print.Background" is an option, and a script may set those.
+        if (at_ < text_.size() && text_[at_] == '.') return;
+        for (const Word& refused : kRefused)
+            if (found == refused.word) refuse(std::string(found) + " " + std::string(refused.does));
+        if (found == "Printf") redirected();
+        if (std::find(kFiles.begin(), kFiles.end(), found) != kFiles.end()) file(found);
+    }
+    /// Printf ("…") > "file" writes.
+    void redirected()
+    {
+        int depth = 0;
+        while (skip_to_code(), at_ < text_.size() && (depth > 0 || text_[at_] != ';')) {
+            const char c = text_[at_];
+            if (c == '"' || c == '\'') {
+                (void)quoted();
+                continue;
+            }
+            if (c == '>' && depth == 0) refuse("Printf writes a file");
+            depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+            ++at_;
+        }
+    }
+    void file(std::string_view found)
+    {
+        skip_to_code();
+        if (at_ < text_.size() && text_[at_] == '(') {
+            ++at_;
+            skip_to_code();
+        }
+        const int line = line_;
+        std::string name;
+        if (at_ < text_.size() && (text_[at_] == '"' || text_[at_] == '\'')) name = quoted();
+        if (name.starts_with("./")) name.erase(0, 2);
+        if (name.empty()) refuse(std::string(found) + " needs the name of a file in quotes");
+        if (name.find_first_of("/\\") != std::string::npos || name == "..")
+            refuse(std::string(found) + " names " + name + ", which is in another folder");
+        files_.push_back({name, line});
+    }
+
+    const std::string& path_;
+    std::string_view text_;
+    std::size_t at_ = 0;
+    int line_ = 1;
+    std::vector<ScriptFile> files_;
+};
+
+} // namespace
+
+std::vector<ScriptFile> files_of_script(const std::string& path, std::string_view text)
+{
+    return Scanner(path, text).run();
+}
+
+} // namespace lacuna::cad

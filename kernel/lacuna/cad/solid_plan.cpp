@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/cad/detail/solid_plan.h>
+
+#include <lacuna/cad/detail/edge_shape.h>
+#include <lacuna/cad/detail/void_patch.h>
+#include <lacuna/closure/void_geometry.h>
+#include <lacuna/geometry/newell.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+namespace lacuna::cad {
+
+using namespace topology;
+using namespace cad_protocol;
+
+namespace {
+
+/// How exactly splines meet what they stand for, as a part of the diagonal: a hundredth of the tolerance
+/// there is by default.
+constexpr double kPrecision = 1e-8;
+/// Points a filled surface is led through at most, of each inner loop and of the facets: the time it takes
+/// grows with their cube.
+constexpr std::size_t kLeadingPoints = 40;
+
+bool is_plane(const Model& model, const Face& face)
+{
+    std::vector<std::vector<Vec3>> rims;
+    for (const Loop& loop : face.loops) {
+        std::vector<Vec3>& rim = rims.emplace_back();
+        for (const EdgeUse& use : loop.uses) {
+            const std::vector<Index> chain = use_points(model, use);
+            for (std::size_t k = 0; k + 1 < chain.size(); ++k) rim.push_back(model.at(chain[k]));
+        }
+    }
+    const geometry::Plane plane = geometry::newell_plane(rims);
+    const auto on_plane = [&](const Vec3& p) {
+        return std::abs(geometry::height(plane, p)) <= model.tolerance;
+    };
+    for (const std::vector<Vec3>& rim : rims)
+        if (!std::all_of(rim.begin(), rim.end(), on_plane)) return false;
+    for (const Triangle& t : face.triangles)
+        for (const Index p : t)
+            if (!on_plane(model.at(p))) return false;
+    return true;
+}
+
+/// The loop round the others first.
+std::vector<Loop> outermost_first(const Model& model, std::vector<Loop> loops)
+{
+    const auto extent = [&](const Loop& loop) {
+        Eigen::AlignedBox3d box;
+        for (const EdgeUse& use : loop.uses)
+            for (const Index p : model[use.edge].points) box.extend(model.at(p));
+        return box.diagonal().norm();
+    };
+    std::stable_sort(loops.begin(), loops.end(),
+                     [&](const Loop& a, const Loop& b) { return extent(a) > extent(b); });
+    return loops;
+}
+
+SplineAxisData data_of(const SplineAxis& axis)
+{
+    return {axis.degree, axis.knots, {axis.multiplicities.begin(), axis.multiplicities.end()}};
+}
+
+class Planner {
+public:
+    Planner(const OpenVolume& volume, const SolidSources& sources, const BeginSolidReply& found)
+        : volume_(volume), model_(volume.model), edge_at_(model_.edges.size(), -1)
+    {
+        Eigen::AlignedBox3d box;
+        for (const Vec3& p : model_.points) box.extend(p);
+        precision_ = kPrecision * box.diagonal().norm();
+        plan_.points = model_.points;
+        plan_.diagonal = model_.diagonal;
+        for (std::size_t s = 0; s < sources.order.size(); ++s) {
+            Source& source = source_[sources.order[s]];
+            source.number = static_cast<Index>(s);
+            const BeginSolidReply::Found& own = found.sources[s];
+            source.faces.insert(own.faces.begin(), own.faces.end());
+            for (std::size_t c = 0; c < own.curves.size(); ++c) source.curves[own.curves[c]] = own.curve_points[c];
+        }
+    }
+
+    SolidPlan run(const RunContext& context)
+    {
+        for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+            check_cancelled(context);
+            try {
+                plan_.faces.push_back(plan(FaceId(f)));
+            } catch (const BackendError& error) {
+                throw BackendError("cad.face_failed",
+                                   name_of(model_, FaceId(f)) + " could not be made: " + error.what());
+            }
+        }
+        return std::move(plan_);
+    }
+
+private:
+    struct Source {
+        Index number = 0;
+        std::set<std::int32_t> faces;
+        std::map<std::int32_t, std::array<double, 9>> curves;
+    };
+
+    // --- edges ------------------------------------------------------------------------------------------
+
+    /// The curve an edge is all of.
+    bool exact_curve(const Edge& edge, SolidEdge& made) const
+    {
+        const auto* curve = dynamic_cast<const CadCurve*>(edge.curve.get());
+        if (curve == nullptr || edge.params.size() < 2) return false;
+        const auto source = source_.find(curve->source().get());
+        if (source == source_.end()) return false;
+        const auto known = source->second.curves.find(curve->tag());
+        if (known == source->second.curves.end()) return false;
+        // Scaling may have changed the curve's parameters, so ends and middle tell.
+        const double first = edge.params.front(), last = edge.params.back();
+        const std::array<double, 3> params{first, (first + last) / 2, last};
+        std::array<Vec3, 3> own;
+        curve->evaluate(params, own);
+        const auto near = [&](std::size_t a, std::size_t b) {
+            return (own[a] - Eigen::Map<const Vec3>(known->second.data() + 3 * b)).norm() <= 10 * precision_;
+        };
+        if (!near(1, 1) || !((near(0, 0) && near(2, 2)) || (near(0, 2) && near(2, 0)))) return false;
+        made.kind = SolidEdge::exact;
+        made.source = source->second.number;
+        made.curve = curve->tag();
+        return true;
+    }
+
+    SolidEdge make_edge(EdgeId id) const
+    {
+        const Edge& edge = model_[id];
+        SolidEdge made;
+        if (exact_curve(edge, made)) return made;
+        const EdgeShape shape(model_, id);
+        if (shape.is_straight()) {
+            made.points = {edge.points.front(), edge.points.back()};
+        } else if (shape.is_polyline()) {
+            made.points = edge.points;
+        } else {
+            made.kind = SolidEdge::spline;
+            const SplineCurve spline = approximate([&](std::span<const double> at) { return shape.at(at); },
+                                                   precision_);
+            made.curve_data = {data_of(spline.axis), spline.poles};
+        }
+        return made;
+    }
+
+    std::vector<std::array<Index, 2>> wire(const Loop& loop)
+    {
+        std::vector<std::array<Index, 2>> uses;
+        for (const EdgeUse& use : loop.uses) {
+            Index& at = edge_at_[use.edge.index()];
+            if (at < 0) {
+                plan_.edges.push_back(make_edge(use.edge));
+                at = static_cast<Index>(plan_.edges.size() - 1);
+            }
+            uses.push_back({at, use.reversed ? 1 : 0});
+        }
+        return uses;
+    }
+
+    // --- faces ------------------------------------------------------------------------------------------
+
+    bool exact_face(const Face& face, SolidFace& made) const
+    {
+        const auto* surface = dynamic_cast<const CadSurface*>(face.surface.get());
+        if (surface == nullptr) return false;
+        const Source& source = source_.at(surface->source().get());
+        if (!source.faces.contains(surface->tag())) return false;
+        made.kind = SolidFace::exact;
+        made.source = source.number;
+        made.face = surface->tag();
+        return true;
+    }
+
+    void plane(FaceId id, SolidFace& made)
+    {
+        // Without seams, which mean nothing in a plane.
+        std::vector<Loop> walks;
+        for (const Rim& rim : rims(model_, {id})) walks.push_back({rim.uses});
+        for (const Loop& loop : outermost_first(model_, std::move(walks))) made.loops.push_back(wire(loop));
+    }
+
+    void patches(FaceId face, const std::vector<std::vector<EdgeUse>>& sides, SolidFace& made) const
+    {
+        made.kind = SolidFace::patches;
+        for (const SplineSurface& surface : void_patches(model_, model_[face], sides, precision_))
+            made.surfaces.push_back({data_of(surface.u), data_of(surface.v), surface.poles});
+    }
+
+    /// A smooth surface over the outer loop, led through points of the facets and of inner loops, which divide it.
+    void filling(FaceId id, SolidFace& made)
+    {
+        made.kind = SolidFace::filling;
+        made.area = face_area(model_, id);
+        const Face& face = model_[id];
+        const std::vector<Loop> loops = outermost_first(model_, face.loops);
+        std::set<Index> taken;
+        const auto lead = [&](const std::vector<Index>& points) {
+            const std::size_t step = points.size() / kLeadingPoints + 1;
+            for (std::size_t i = 0; i < points.size(); i += step) made.leading.push_back(points[i]);
+        };
+        for (std::size_t l = 0; l < loops.size(); ++l) {
+            std::vector<Index> on_loop;
+            for (const EdgeUse& use : loops[l].uses)
+                for (const Index p : model_[use.edge].points)
+                    if (taken.insert(p).second) on_loop.push_back(p);
+            if (l > 0) lead(on_loop);
+        }
+        std::vector<Index> inside;
+        for (const Triangle& t : face.triangles)
+            for (const Index p : t)
+                if (taken.insert(p).second) inside.push_back(p);
+        lead(inside);
+        for (const Loop& loop : loops) made.loops.push_back(wire(loop));
+    }
+
+    SolidFace plan(FaceId id)
+    {
+        const Face& face = model_[id];
+        SolidFace made;
+        made.name = name_of(model_, id);
+        if (exact_face(face, made)) return made;
+        const bool is_void = face.origin == Origin::made_void;
+        if (is_plane(model_, face)) {
+            plan_.planes += is_void ? 1 : 0;
+            plane(id, made);
+            return made;
+        }
+        if (!is_void) {
+            throw InvalidInput("cad.facets_alone",
+                               made.name + " is bent and has facets alone, no exact surface a CAD file could hold; "
+                                           "write the volume with write_facets (.stl, .msh, .obj)");
+        }
+        ++plan_.fitted;
+        const auto sides = face.loops.size() == 1 ? closure::logical_sides(volume_, face.loops.front())
+                                                  : std::vector<std::vector<EdgeUse>>{};
+        if (!sides.empty())
+            patches(id, sides, made);
+        else
+            filling(id, made);
+        return made;
+    }
+
+    const OpenVolume& volume_;
+    const Model& model_;
+    double precision_ = 0;
+    std::map<const CadSource*, Source> source_;
+    std::vector<Index> edge_at_; ///< in the plan, of every edge of the model; -1: not yet there
+    SolidPlan plan_;
+};
+
+} // namespace
+
+SolidSources sources_of(const Model& model)
+{
+    SolidSources sources;
+    const auto place_of = [&](const CadSource* source) {
+        return static_cast<std::size_t>(std::find(sources.order.begin(), sources.order.end(), source) -
+                                        sources.order.begin());
+    };
+    for (const Face& face : model.faces) {
+        const auto* surface = dynamic_cast<const CadSurface*>(face.surface.get());
+        if (surface == nullptr) continue;
+        const CadSource* source = surface->source().get();
+        if (sources.worker && sources.worker != source->worker)
+            throw InvalidInput("cad.worker_ended", sources.order.front()->path + " and " + source->path +
+                                                       " were read by two CAD processes, as one of them ended; load "
+                                                       "the files again");
+        sources.worker = source->worker;
+        const std::size_t place = place_of(source);
+        if (place == sources.order.size()) {
+            sources.order.push_back(source);
+            sources.wanted.push_back({source->handle, {}, {}});
+        }
+        sources.wanted[place].faces.push_back(surface->tag());
+    }
+    for (const Edge& edge : model.edges) {
+        const auto* curve = dynamic_cast<const CadCurve*>(edge.curve.get());
+        if (curve == nullptr) continue;
+        const std::size_t place = place_of(curve->source().get());
+        if (place < sources.order.size()) sources.wanted[place].curves.push_back(curve->tag());
+    }
+    return sources;
+}
+
+SolidPlan plan_solid(const OpenVolume& volume, const SolidSources& sources, const BeginSolidReply& found,
+                     const RunContext& context)
+{
+    return Planner(volume, sources, found).run(context);
+}
+
+} // namespace lacuna::cad

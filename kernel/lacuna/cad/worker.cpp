@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/cad/detail/worker.h>
+
+#include <lacuna/cad/detail/worker_program.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char** environ; // NOLINT(readability-redundant-declaration): POSIX does not say who declares it
+
+namespace lacuna::cad {
+
+using namespace cad_protocol;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+/// Seconds for a request, and more for each million bytes of files and for each thousand points. The shared CAD cases
+/// (10 to 86 kB) take 0.1 to 1 s; files made to hang must not hold a person for over 20 s.
+constexpr double kSeconds = 12, kSecondsPerMegabyte = 100, kSecondsPerThousand = 0.5;
+constexpr double kMostSeconds = 3600;
+/// Address space for a request: libraries take some 0.6 GB of it, a model of 86 kB less than 0.2 GB.
+constexpr std::uint64_t kMemory = std::uint64_t{1792} << 20;
+constexpr std::uint64_t kMemoryPerByte = 2000, kMemoryPerPoint = 2000;
+/// The longest a worker may take to start [s]: libraries come from a cold disk.
+constexpr double kStartSeconds = 60;
+/// Bytes of what a worker printed that an error repeats.
+constexpr std::size_t kLastWords = 300;
+
+double from_environment(const char* name)
+{
+    const char* text = std::getenv(name);
+    if (text == nullptr) return 0;
+    const double value = std::strtod(text, nullptr);
+    return value > 0 && std::isfinite(value) ? value : 0;
+}
+
+double seconds_for(const Task& task)
+{
+    if (task.limits.seconds > 0) return task.limits.seconds;
+    if (const double given = from_environment("LACUNA_CAD_SECONDS"); given > 0) return given;
+    return std::min(kMostSeconds, kSeconds + kSecondsPerMegabyte * static_cast<double>(task.bytes) / 1e6 +
+                                      kSecondsPerThousand * static_cast<double>(task.points) / 1e3);
+}
+
+/// A number as a person writes it.
+std::string plain(double value)
+{
+    std::ostringstream text;
+    text.precision(3);
+    text << value;
+    return text.str();
+}
+
+/// Thrown out of a wait whose time is over.
+struct TimeOver {};
+
+Channel::Patience patience_of(const RunContext* context, double seconds)
+{
+    const auto last = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    return [context, last] {
+        if (context != nullptr) check_cancelled(*context);
+        if (Clock::now() > last) throw TimeOver();
+    };
+}
+
+/// What the worker gets of the host's environment: where its libraries lie.
+std::vector<std::string> worker_environment()
+{
+    std::vector<std::string> kept{"LC_ALL=C"};
+    for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
+        const std::string_view text(*entry);
+        for (const std::string_view name : {"LD_LIBRARY_PATH=", "CSF_", "ASAN_OPTIONS=", "UBSAN_OPTIONS="})
+            if (text.starts_with(name)) kept.emplace_back(text);
+    }
+    return kept;
+}
+
+class SpawnActions {
+public:
+    SpawnActions()
+    {
+        ::posix_spawn_file_actions_init(&files);
+        ::posix_spawnattr_init(&attributes);
+    }
+    ~SpawnActions()
+    {
+        ::posix_spawn_file_actions_destroy(&files);
+        ::posix_spawnattr_destroy(&attributes);
+    }
+    SpawnActions(const SpawnActions&) = delete;
+    SpawnActions& operator=(const SpawnActions&) = delete;
+
+    posix_spawn_file_actions_t files{};
+    posix_spawnattr_t attributes{};
+};
+
+/// Start the program with `socket` as its descriptor 3, printing to `words`, in a group of its own.
+pid_t spawn(const std::string& program, int socket, int words)
+{
+    SpawnActions actions;
+    ::posix_spawn_file_actions_addopen(&actions.files, 0, "/dev/null", O_RDONLY, 0);
+    ::posix_spawn_file_actions_adddup2(&actions.files, words, 1);
+    ::posix_spawn_file_actions_adddup2(&actions.files, words, 2);
+    ::posix_spawn_file_actions_adddup2(&actions.files, socket, 3);
+    sigset_t all, none;
+    ::sigfillset(&all);
+    ::sigemptyset(&none);
+    ::posix_spawnattr_setsigdefault(&actions.attributes, &all);
+    ::posix_spawnattr_setsigmask(&actions.attributes, &none);
+    ::posix_spawnattr_setpgroup(&actions.attributes, 0);
+    ::posix_spawnattr_setflags(&actions.attributes,
+                               POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+    std::vector<std::string> kept = worker_environment();
+    std::vector<char*> environment;
+    for (std::string& entry : kept) environment.push_back(entry.data());
+    environment.push_back(nullptr);
+    std::string name = "lacuna-cad";
+    std::array<char*, 2> arguments{name.data(), nullptr};
+    pid_t pid = 0;
+    const int error = ::posix_spawn(&pid, program.c_str(), &actions.files, &actions.attributes, arguments.data(),
+                                    environment.data());
+    if (error != 0)
+        throw BackendError("cad.no_worker", "the CAD process " + program + " does not start: " + std::strerror(error));
+    return pid;
+}
+
+/// A descriptor above the standard ones, which the worker's are laid over.
+Descriptor raised(int number)
+{
+    constexpr int kFirst = 10;
+    Descriptor low(number);
+    return number > 3 ? std::move(low) : Descriptor(::fcntl(number, F_DUPFD_CLOEXEC, kFirst));
+}
+
+/// One to a process, made anew in a child of fork(); never destroyed, as a host's statics may outlive ours.
+struct Current {
+    pid_t owner = ::getpid();
+    std::mutex mutex;
+    std::shared_ptr<Worker> worker;
+};
+
+Current& current_of_process()
+{
+    static std::atomic<Current*> known{nullptr};
+    Current* current = known.load();
+    while (current == nullptr || current->owner != ::getpid()) {
+        auto* fresh = new Current;
+        if (known.compare_exchange_strong(current, fresh)) return *fresh;
+        delete fresh;
+    }
+    return *current;
+}
+
+} // namespace
+
+std::shared_ptr<Worker> Worker::current(const RunContext* context)
+{
+    Current& current = current_of_process();
+    const std::lock_guard lock(current.mutex);
+    if (current.worker) {
+        const std::unique_lock busy(current.worker->busy_, std::try_to_lock);
+        // One that works is alive; of one that idles, see whether it still is.
+        if (busy && !current.worker->ended_) {
+            siginfo_t info{};
+            const auto id = static_cast<id_t>(current.worker->process_.get());
+            if (::waitid(P_PIDFD, id, &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != 0)
+                current.worker->end();
+        }
+        if (!busy || !current.worker->ended_) return current.worker;
+    }
+    current.worker.reset();
+    current.worker = std::shared_ptr<Worker>(new Worker(context));
+    return current.worker;
+}
+
+Worker::Worker(const RunContext* context) : owner_(::getpid())
+{
+    const std::string program = find_worker_program();
+    std::array<int, 2> ends{};
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+        throw BackendError("cad.no_worker", std::string("the CAD process does not start: ") + std::strerror(errno));
+    Descriptor ours = raised(ends[0]), theirs = raised(ends[1]);
+    // Large enough that a bulk call is a few waits, not hundreds.
+    constexpr int kBuffer = 1 << 20;
+    for (const int end : {ours.get(), theirs.get()}) ::setsockopt(end, SOL_SOCKET, SO_SNDBUF, &kBuffer, sizeof(kBuffer));
+    words_ = raised(::memfd_create("lacuna-cad words", MFD_CLOEXEC));
+    pid_ = spawn(program, theirs.get(), words_.get());
+    process_ = Descriptor(static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0)));
+    theirs.reset();
+    if (!process_) {
+        ::kill(pid_, SIGKILL);
+        ::waitpid(pid_, nullptr, 0);
+        throw BackendError("cad.no_worker", "the CAD process needs a kernel with pidfd_open (Linux 5.3 or later)");
+    }
+    channel_ = std::make_unique<Channel>(std::move(ours));
+    try {
+        const Frame frame = channel_->receive(patience_of(context, kStartSeconds));
+        if (frame.opcode == Opcode::failed) {
+            const auto failure = decode<Failure>(frame.bytes);
+            throw BackendError(failure.code, failure.message);
+        }
+        if (frame.opcode != Opcode::hello) throw ProtocolError("no greeting came");
+        hello_ = decode<Hello>(frame.bytes);
+    } catch (const TimeOver&) {
+        end();
+        throw BackendError("cad.no_worker", program + " did not answer within " + plain(kStartSeconds) + " s");
+    } catch (const ProtocolError& error) {
+        end();
+        throw BackendError("cad.no_worker", program + " is no CAD process of this Lacuna: " + error.what() + " (" +
+                                                how_it_ended() + last_words() + ")");
+    } catch (...) {
+        end();
+        throw;
+    }
+}
+
+Worker::~Worker()
+{
+    if (::getpid() == owner_) end();
+}
+
+void Worker::end() noexcept
+{
+    if (ended_) return;
+    ended_ = true;
+    siginfo_t info{};
+    const auto id = static_cast<id_t>(process_.get());
+    // It may just have ended by itself: how, says more than our signal.
+    if (process_ && ::waitid(P_PIDFD, id, &info, WEXITED | WNOHANG) == 0 && info.si_pid == 0) {
+        ::syscall(SYS_pidfd_send_signal, process_.get(), SIGKILL, nullptr, 0);
+        while (::waitid(P_PIDFD, id, &info, WEXITED) != 0 && errno == EINTR) {
+        }
+    }
+    status_ = info.si_code == CLD_EXITED ? info.si_status : info.si_code == 0 ? 0 : -info.si_status;
+    channel_.reset();
+}
+
+std::string Worker::how_it_ended() const
+{
+    if (status_ >= 0) return "it ended with " + std::to_string(status_);
+    const char* name = ::sigabbrev_np(-status_);
+    return std::string("it was ended by SIG") + (name != nullptr ? name : std::to_string(-status_));
+}
+
+std::string Worker::last_words() const
+{
+    std::string words(kLastWords, '\0');
+    const off_t size = ::lseek(words_.get(), 0, SEEK_END);
+    const ssize_t got = ::pread(words_.get(), words.data(), words.size(),
+                                std::max<off_t>(0, size - static_cast<off_t>(words.size())));
+    words.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+    for (char& c : words)
+        if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    while (!words.empty() && words.back() == ' ') words.pop_back();
+    return words.empty() ? "" : "; its last words: " + words;
+}
+
+void Worker::died(const Task& task)
+{
+    // The stream may close a moment before the process is gone.
+    if (!ended_) {
+        siginfo_t info{};
+        constexpr int kTries = 100; // of 10 ms: writing out a large process takes a while
+        for (int i = 0; i < kTries; ++i) {
+            if (::waitid(P_PIDFD, static_cast<id_t>(process_.get()), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+                info.si_pid != 0)
+                break;
+            ::usleep(10'000);
+        }
+        end();
+    }
+    end_ = "it crashed over " + task.subject;
+    throw BackendError("cad.worker_ended", task.subject + ": the CAD process ended while " + task.doing + ": " +
+                                               how_it_ended() + last_words() +
+                                               "; the file is damaged, or Open CASCADE cannot cope with it: "
+                                               "repair it in the CAD system or export it anew");
+}
+
+void Worker::give_up(const Task& task, const ProtocolError& error)
+{
+    end_ = "it made no sense over " + task.subject;
+    end();
+    throw BackendError("cad.protocol", task.subject + ": the CAD process made no sense while " + task.doing + ": " +
+                                           error.what());
+}
+
+std::unique_lock<std::timed_mutex> Worker::enter(const Task& task)
+{
+    if (owner_ != ::getpid())
+        throw BackendError("cad.worker_ended", task.subject + ": the CAD process belongs to the process this one was "
+                                                              "forked from; load the file again");
+    std::unique_lock lock(busy_, std::defer_lock);
+    constexpr auto kTick = std::chrono::milliseconds(50);
+    while (!lock.try_lock_for(kTick))
+        if (task.context != nullptr) check_cancelled(*task.context);
+    if (ended_) {
+        throw BackendError("cad.worker_ended", task.subject + ": the CAD process that held the model has ended" +
+                                                   (end_.empty() ? "" : " (" + end_ + ")") +
+                                                   "; load the file again");
+    }
+    return lock;
+}
+
+Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task,
+                       const std::vector<int>& descriptors)
+{
+    const double seconds = seconds_for(task);
+    std::uint64_t charged = task.bytes * kMemoryPerByte + task.points * kMemoryPerPoint;
+    try {
+        flush_released();
+        for (const auto& [handle, size] : charged_) charged += size * kMemoryPerByte;
+        std::uint64_t memory = task.limits.memory;
+        if (memory == 0) memory = static_cast<std::uint64_t>(from_environment("LACUNA_CAD_MEGABYTES") * 1e6);
+        if (memory == 0) memory = kMemory + charged;
+        limit_memory(memory);
+        const Channel::Patience patience = patience_of(task.context, seconds);
+        channel_->send(opcode, bytes, descriptors, patience);
+        for (;;) {
+            Frame frame = channel_->receive(patience);
+            if (frame.opcode == Opcode::done) return frame;
+            if (frame.opcode == Opcode::progress) {
+                const double fraction = decode<Progress>(frame.bytes).fraction;
+                if (task.context != nullptr && task.context->progress && fraction >= 0 && fraction <= 1)
+                    task.context->progress(task.stage, fraction);
+                continue;
+            }
+            if (frame.opcode != Opcode::failed) throw ProtocolError("an answer that is none");
+            const auto failure = decode<Failure>(frame.bytes);
+            switch (failure.kind) {
+            case Failure::invalid_input:
+                throw InvalidInput(failure.code, failure.message);
+            case Failure::not_sweepable:
+                throw NotSweepable(failure.code, failure.message);
+            case Failure::out_of_memory:
+                // What it still holds of the attempt is not known, so it goes.
+                end_ = "it ran out of memory over " + task.subject;
+                end();
+                throw BackendError("cad.memory_limit", task.subject + ": " + task.doing + " took more than the " +
+                                                           std::to_string(memory >> 20) +
+                                                           " MiB the CAD process may use; repair the file, or allow "
+                                                           "more with LACUNA_CAD_MEGABYTES");
+            default:
+                throw BackendError(failure.code, failure.message);
+            }
+        }
+    } catch (const TimeOver&) {
+        end_ = "it took too long over " + task.subject;
+        end();
+        throw BackendError("cad.time_limit", task.subject + ": " + task.doing + " took longer than " + plain(seconds) +
+                                                 " s, and the CAD process was ended; repair the file, or allow more "
+                                                 "with LACUNA_CAD_SECONDS");
+    } catch (const ChannelClosed&) {
+        died(task);
+    } catch (const ProtocolError& error) {
+        give_up(task, error);
+    } catch (const InvalidInput&) {
+        throw;
+    } catch (const NotSweepable&) {
+        throw;
+    } catch (const BackendError&) {
+        throw;
+    } catch (...) { // Cancelled, or what a progress callback threw: the answer is not waited for.
+        end_ = "it was stopped over " + task.subject;
+        end();
+        throw;
+    }
+}
+
+void Worker::limit_memory(std::uint64_t bytes) const
+{
+    rlimit limit{};
+    if (::prlimit(pid_, RLIMIT_AS, nullptr, &limit) != 0) return;
+    limit.rlim_cur = std::min<rlim_t>(bytes, limit.rlim_max);
+    ::prlimit(pid_, RLIMIT_AS, &limit, nullptr);
+}
+
+void Worker::charge(std::uint64_t handle, std::uint64_t bytes)
+{
+    const std::lock_guard lock(busy_);
+    charged_[handle] = bytes;
+}
+
+void Worker::flush_released()
+{
+    std::vector<std::uint64_t> handles;
+    {
+        const std::lock_guard lock(released_mutex_);
+        handles.swap(released_);
+    }
+    for (const std::uint64_t handle : handles) {
+        charged_.erase(handle);
+        constexpr double kSecondsToSend = 5; // it is idle, and the message is small
+        channel_->send(Opcode::release, encode(ReleaseRequest{handle}), {}, patience_of(nullptr, kSecondsToSend));
+    }
+}
+
+void Worker::release(std::uint64_t handle) noexcept
+{
+    if (::getpid() != owner_) return;
+    try {
+        {
+            const std::lock_guard lock(released_mutex_);
+            released_.push_back(handle);
+        }
+        const std::unique_lock lock(busy_, std::try_to_lock);
+        if (lock && !ended_) flush_released();
+    } catch (...) { // It ended, or memory did; the next request will see.
+    }
+}
+
+} // namespace lacuna::cad

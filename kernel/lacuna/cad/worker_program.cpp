@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/cad/detail/worker_program.h>
+
+#include <lacuna/core/error.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+namespace lacuna::cad {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kProgram = "lacuna-cad";
+/// Folders above a program or library that may be the root of its installation: lib/<machine>/lua/5.4 is the deepest.
+constexpr int kMostLevels = 4;
+
+/// Beside a binary, and in libexec of the installation it is in.
+void add_around(const fs::path& binary, std::vector<fs::path>& places)
+{
+    std::error_code error;
+    fs::path folder = fs::canonical(binary, error).parent_path();
+    if (error) return;
+    places.push_back(folder / kProgram);
+    for (int level = 0; level < kMostLevels && folder.has_relative_path(); ++level) {
+        folder = folder.parent_path();
+        places.push_back(folder / "libexec" / "lacuna" / kProgram);
+    }
+}
+
+} // namespace
+
+std::string find_worker_program()
+{
+    if (const char* named = std::getenv("LACUNA_CAD"); named != nullptr && *named != '\0') {
+        if (::access(named, X_OK) == 0) return named;
+        throw BackendError("cad.no_worker", std::string("LACUNA_CAD names ") + named +
+                                                ", which is no program that can be started");
+    }
+    std::vector<fs::path> places;
+    add_around("/proc/self/exe", places);
+    Dl_info here{};
+    if (::dladdr(reinterpret_cast<const void*>(&find_worker_program), &here) != 0 && here.dli_fname != nullptr)
+        add_around(here.dli_fname, places);
+#ifdef LACUNA_CAD_LIBEXEC
+    places.emplace_back(LACUNA_CAD_LIBEXEC);
+#endif
+    for (const fs::path& place : places)
+        if (::access(place.c_str(), X_OK) == 0) return place.string();
+    throw BackendError("cad.no_worker", "CAD files are read by the program lacuna-cad, which is not beside this program "
+                                        "(" +
+                                            places.front().string() +
+                                            ") nor in its libexec/lacuna; install it, or name it in LACUNA_CAD");
+}
+
+} // namespace lacuna::cad

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/cad_protocol/messages.h>
+
+#include <cmath>
+
+namespace lacuna::cad_protocol {
+
+// The fields of every message in their order on the wire, once for writing and reading.
+
+template <class A, class M>
+void put(A& with, M& m)
+{
+    using T = std::remove_const_t<M>;
+    if constexpr (requires { with(m); }) {
+        with(m);
+    } else if constexpr (std::is_same_v<T, Hello>) {
+        with(m.gmsh_version), with(m.missing);
+    } else if constexpr (std::is_same_v<T, Progress>) {
+        with(m.fraction);
+    } else if constexpr (std::is_same_v<T, Failure>) {
+        with(m.kind), with(m.code), with(m.message);
+    } else if constexpr (std::is_same_v<T, SentFile>) {
+        with(m.name);
+    } else if constexpr (std::is_same_v<T, LoadFile>) {
+        with(m.format), with(m.path), with(m.contents);
+    } else if constexpr (std::is_same_v<T, LoadRequest>) {
+        with(m.files), with(m.tolerance), with(m.scale);
+    } else if constexpr (std::is_same_v<T, LoadReply::Edge>) {
+        with(m.tag), with(m.curve), with(m.from), with(m.to), with(m.params), with(m.points);
+    } else if constexpr (std::is_same_v<T, LoadReply::Face>) {
+        with(m.tag), with(m.name), with(m.kind), with(m.triangles), with(m.uv);
+    } else if constexpr (std::is_same_v<T, LoadReply>) {
+        with(m.model), with(m.diagonal), with(m.points), with(m.vertex_tags), with(m.edges), with(m.faces);
+        with(m.solids);
+    } else if constexpr (std::is_same_v<T, EvaluateRequest>) {
+        with(m.model), with(m.curve), with(m.params);
+    } else if constexpr (std::is_same_v<T, EvaluateReply>) {
+        with(m.points);
+    } else if constexpr (std::is_same_v<T, ProjectRequest>) {
+        with(m.model), with(m.face), with(m.points), with(m.uv);
+    } else if constexpr (std::is_same_v<T, ProjectReply>) {
+        with(m.points), with(m.uv);
+    } else if constexpr (std::is_same_v<T, SizeRaster>) {
+        with(m.origin), with(m.step), with(m.columns), with(m.sizes);
+    } else if constexpr (std::is_same_v<T, RecombineRequest>) {
+        with(m.points), with(m.loops), put(with, m.size);
+    } else if constexpr (std::is_same_v<T, RecombineReply>) {
+        with(m.points), with(m.quads);
+    } else if constexpr (std::is_same_v<T, SolidSource>) {
+        with(m.model), with(m.faces), with(m.curves);
+    } else if constexpr (std::is_same_v<T, BeginSolidRequest>) {
+        with(m.subject), with(m.result), with(m.sources);
+    } else if constexpr (std::is_same_v<T, BeginSolidReply::Found>) {
+        with(m.faces), with(m.curves), with(m.curve_points);
+    } else if constexpr (std::is_same_v<T, BeginSolidReply>) {
+        with(m.solid), with(m.sources);
+    } else if constexpr (std::is_same_v<T, SplineAxisData>) {
+        with(m.degree), with(m.knots), with(m.multiplicities);
+    } else if constexpr (std::is_same_v<T, SplineCurveData>) {
+        put(with, m.axis), with(m.poles);
+    } else if constexpr (std::is_same_v<T, SplineSurfaceData>) {
+        put(with, m.u), put(with, m.v), with(m.poles);
+    } else if constexpr (std::is_same_v<T, SolidEdge>) {
+        with(m.kind), with(m.source), with(m.curve), with(m.points), put(with, m.curve_data);
+    } else if constexpr (std::is_same_v<T, SolidFace>) {
+        with(m.kind), with(m.name), with(m.source), with(m.face), with(m.loops), with(m.surfaces);
+        with(m.leading), with(m.area);
+    } else if constexpr (std::is_same_v<T, MakeSolidRequest>) {
+        with(m.solid), with(m.format), with(m.points), with(m.edges), with(m.faces), with(m.diagonal);
+        with(m.first_tolerance), with(m.last_tolerance), with(m.facet_volume), with(m.deviation);
+    } else if constexpr (std::is_same_v<T, MakeSolidReply>) {
+        with(m.volume), with(m.tolerance), with(m.faces);
+    } else if constexpr (std::is_same_v<T, ReleaseRequest>) {
+        with(m.handle);
+    } else {
+        static_assert(!sizeof(T), "a message without fields");
+    }
+}
+
+namespace {
+
+void require(bool right, const char* what)
+{
+    if (!right) throw ProtocolError(what);
+}
+
+/// Numbers that will be used as positions must be positions.
+template <class Range>
+void require_below(const Range& numbers, std::size_t count, const char* what)
+{
+    for (const Index n : numbers) require(n >= 0 && index(n) < count, what);
+}
+
+template <class Range>
+void require_finite(const Range& points, const char* what)
+{
+    for (const auto& p : points) require(p.allFinite(), what);
+}
+
+bool is_file_name(const std::string& name)
+{
+    constexpr std::size_t kLongest = 255; // of a file system
+    return !name.empty() && name.size() <= kLongest && name.find('/') == std::string::npos;
+}
+
+template <class T>
+void check(const T&)
+{
+}
+
+template <>
+void check(const Failure& m)
+{
+    require(m.kind < Failure::count, "an unknown kind of error");
+}
+
+template <>
+void check(const LoadRequest& m)
+{
+    for (const LoadFile& file : m.files) {
+        require(file.format < LoadFile::count && !file.contents.empty(), "a file of no format");
+        for (const SentFile& sent : file.contents) {
+            require(is_file_name(sent.name), "a file name with a folder");
+        }
+    }
+    require(m.scale > 0 && std::isfinite(m.scale) && std::isfinite(m.tolerance), "a scale that is none");
+}
+
+template <>
+void check(const LoadReply& m)
+{
+    require(std::isfinite(m.diagonal), "a diagonal that is no number");
+    require_finite(m.points, "a point that is none");
+    require(m.points.size() <= 0x7fffffff && m.vertex_tags.size() <= m.points.size(), "more vertices than points");
+    for (const LoadReply::Edge& edge : m.edges) {
+        require_below(std::array{edge.from, edge.to}, m.vertex_tags.size(), "an edge between no vertices");
+        require_below(edge.points, m.points.size(), "an edge through no points");
+        require(edge.points.size() >= 2 && edge.points.front() == edge.from && edge.points.back() == edge.to &&
+                    edge.params.size() == edge.points.size(),
+                "an edge that does not run between its ends");
+        for (const double t : edge.params) require(std::isfinite(t), "a parameter that is no number");
+    }
+    for (const LoadReply::Face& face : m.faces) {
+        for (const Triangle& t : face.triangles) {
+            require_below(t, m.points.size(), "a facet of no points");
+            require(t[0] != t[1] && t[1] != t[2] && t[2] != t[0], "a facet with a corner twice");
+        }
+        require(face.uv.size() == face.triangles.size(), "facets without parameters");
+        for (const auto& uv : face.uv) require_finite(uv, "a parameter that is no number");
+    }
+    for (const auto& solid : m.solids) require_below(solid, m.faces.size(), "a solid of no faces");
+}
+
+template <>
+void check(const ProjectRequest& m)
+{
+    require(m.points.size() == m.uv.size(), "points without a start each");
+}
+
+template <>
+void check(const ProjectReply& m)
+{
+    require(m.points.size() == m.uv.size(), "points without parameters");
+    require_finite(m.points, "a projected point that is none");
+    require_finite(m.uv, "a projected point without a place");
+}
+
+template <>
+void check(const EvaluateReply& m)
+{
+    require_finite(m.points, "a point of a curve that is none");
+}
+
+template <>
+void check(const RecombineRequest& m)
+{
+    require_finite(m.points, "a point that is none");
+    for (const auto& loop : m.loops) require_below(loop, m.points.size(), "a loop through no points");
+    const SizeRaster& raster = m.size;
+    require(raster.sizes.empty() || (raster.columns >= 2 && raster.step > 0 && raster.origin.allFinite() &&
+                                     raster.sizes.size() % index(raster.columns) == 0 &&
+                                     raster.sizes.size() / index(raster.columns) >= 2),
+            "a raster without two rows and columns");
+}
+
+template <>
+void check(const RecombineReply& m)
+{
+    require_finite(m.points, "a node that is none");
+    for (const Quad& quad : m.quads) require_below(quad, m.points.size(), "a quad of no nodes");
+}
+
+template <>
+void check(const BeginSolidRequest& m)
+{
+    require(is_file_name(m.result), "a file name with a folder");
+}
+
+template <>
+void check(const BeginSolidReply& m)
+{
+    for (const auto& source : m.sources)
+        require(source.curves.size() == source.curve_points.size(), "curves without points");
+}
+
+void check_axis(const SplineAxisData& axis)
+{
+    constexpr int kMostDegree = 25; // Open CASCADE's own limit
+    require(axis.degree >= 1 && axis.degree <= kMostDegree, "a spline of no degree");
+    require(axis.knots.size() >= 2 && axis.knots.size() == axis.multiplicities.size(), "a spline without knots");
+    for (const std::int32_t m : axis.multiplicities)
+        require(m >= 1 && m <= axis.degree + 1, "a knot of no multiplicity");
+}
+
+std::size_t poles_of(const SplineAxisData& axis)
+{
+    std::size_t sum = 0;
+    for (const std::int32_t m : axis.multiplicities) sum += index(m);
+    require(sum > index(axis.degree) + 1, "a spline with too few knots");
+    return sum - index(axis.degree) - 1;
+}
+
+template <>
+void check(const MakeSolidRequest& m)
+{
+    require(m.format < MakeSolidRequest::format_count, "a file of no format");
+    require_finite(m.points, "a point that is none");
+    require(m.first_tolerance > 0 && m.last_tolerance >= m.first_tolerance && std::isfinite(m.last_tolerance),
+            "tolerances that are none");
+    for (const SolidEdge& edge : m.edges) {
+        require(edge.kind < SolidEdge::count, "an edge of no kind");
+        require_below(edge.points, m.points.size(), "an edge through no points");
+        if (edge.kind == SolidEdge::lines) require(edge.points.size() >= 2, "an edge of one point");
+        if (edge.kind != SolidEdge::spline) continue;
+        check_axis(edge.curve_data.axis);
+        require_finite(edge.curve_data.poles, "a pole that is none");
+        require(edge.curve_data.poles.size() == poles_of(edge.curve_data.axis), "poles that are too many or few");
+    }
+    for (const SolidFace& face : m.faces) {
+        require(face.kind < SolidFace::count, "a face of no kind");
+        for (const auto& loop : face.loops) {
+            for (const auto& use : loop) require_below(std::array{use[0]}, m.edges.size(), "a loop of no edges");
+        }
+        const bool bordered = face.kind == SolidFace::plane || face.kind == SolidFace::filling;
+        require(!bordered || !face.loops.empty(), "a face without a border");
+        require_below(face.leading, m.points.size(), "a surface through no points");
+        for (const SplineSurfaceData& surface : face.surfaces) {
+            check_axis(surface.u);
+            check_axis(surface.v);
+            require_finite(surface.poles, "a pole that is none");
+            require(surface.poles.size() == poles_of(surface.u) * poles_of(surface.v),
+                    "poles that are too many or few");
+        }
+    }
+}
+
+} // namespace
+
+template <class T>
+std::string encode(const T& message)
+{
+    Writer writer;
+    put(writer, message);
+    return std::move(writer).take();
+}
+
+template <class T>
+T decode(std::string_view bytes)
+{
+    Reader reader(bytes);
+    T message;
+    put(reader, message);
+    reader.finish();
+    check(message);
+    return message;
+}
+
+#define LACUNA_MESSAGE(T)                                                                                    \
+    template std::string encode(const T&);                                                                   \
+    template T decode(std::string_view);
+LACUNA_MESSAGE(Hello)
+LACUNA_MESSAGE(Progress)
+LACUNA_MESSAGE(Failure)
+LACUNA_MESSAGE(LoadRequest)
+LACUNA_MESSAGE(LoadReply)
+LACUNA_MESSAGE(EvaluateRequest)
+LACUNA_MESSAGE(EvaluateReply)
+LACUNA_MESSAGE(ProjectRequest)
+LACUNA_MESSAGE(ProjectReply)
+LACUNA_MESSAGE(RecombineRequest)
+LACUNA_MESSAGE(RecombineReply)
+LACUNA_MESSAGE(BeginSolidRequest)
+LACUNA_MESSAGE(BeginSolidReply)
+LACUNA_MESSAGE(MakeSolidRequest)
+LACUNA_MESSAGE(MakeSolidReply)
+LACUNA_MESSAGE(ReleaseRequest)
+#undef LACUNA_MESSAGE
+
+} // namespace lacuna::cad_protocol

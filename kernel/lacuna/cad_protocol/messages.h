@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/cad_protocol/bytes.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What the kernel and the CAD worker say to each other: plain arrays, no pointers, no callbacks.
+///
+/// The kernel asks, the worker answers every request with `progress` any number of times and then with `done` or
+/// `failed`. `release` alone has no answer. The worker says `hello` once, before it is asked anything.
+namespace lacuna::cad_protocol {
+
+enum class Opcode : std::uint16_t {
+    hello = 1,
+    progress,
+    done,
+    failed,
+    load,
+    evaluate,
+    project,
+    recombine,
+    begin_solid,
+    make_solid,
+    release,
+};
+
+struct Hello {
+    std::string gmsh_version;
+    std::string missing; ///< parts of the confinement this system lacks, for a person; empty where none
+};
+
+struct Progress {
+    double fraction = 0; ///< [0, 1]
+};
+
+/// An error of the worker's; its kind says which class of ours it is.
+struct Failure {
+    enum Kind : std::uint8_t { invalid_input, not_sweepable, backend, out_of_memory, count };
+    std::uint8_t kind = backend;
+    std::string code, message;
+};
+
+/// A file that came with the message as a descriptor.
+struct SentFile {
+    std::string name; ///< without a folder; how scripts name it and how Gmsh tells its format
+};
+
+struct LoadFile {
+    enum Format : std::uint8_t { step, iges, brep, script, count };
+    std::uint8_t format = step;
+    std::string path;               ///< as the person named it, for messages
+    std::vector<SentFile> contents; ///< the file itself; after it what a script merges
+};
+
+struct LoadRequest {
+    std::vector<LoadFile> files;
+    double tolerance = 0; ///< [model length]; 0: 1e-6 × the diagonal
+    double scale = 1;     ///< model length / file length
+};
+
+/// A CAD model as facets and curves. Lengths are those of the file.
+struct LoadReply {
+    struct Edge {
+        std::int32_t tag = 0, curve = 0, from = 0, to = 0; ///< ends: positions in `vertex_tags`
+        std::vector<double> params;
+        std::vector<Index> points;
+    };
+    struct Face {
+        std::int32_t tag = 0;
+        std::string name, kind;
+        std::vector<Triangle> triangles;
+        std::vector<std::array<Vec2, 3>> uv;
+    };
+    std::uint64_t model = 0; ///< its handle
+    double diagonal = 0;     ///< of the exact bounding box [file length]
+    std::vector<Vec3> points;
+    std::vector<std::int32_t> vertex_tags; ///< vertex k is point k
+    std::vector<Edge> edges;
+    std::vector<Face> faces;
+    std::vector<std::vector<Index>> solids; ///< the faces of each solid, then those of none
+};
+
+struct EvaluateRequest {
+    std::uint64_t model = 0;
+    std::int32_t curve = 0;
+    std::vector<double> params;
+};
+struct EvaluateReply {
+    std::vector<Vec3> points; ///< [model length]
+};
+
+struct ProjectRequest {
+    std::uint64_t model = 0;
+    std::int32_t face = 0;
+    std::vector<Vec3> points; ///< [model length]
+    std::vector<Vec2> uv;
+};
+struct ProjectReply {
+    std::vector<Vec3> points;
+    std::vector<Vec2> uv;
+};
+
+/// Target sizes at the crossings of a square grid, row by row; nothing where Gmsh shall choose.
+struct SizeRaster {
+    Vec2 origin = Vec2::Zero();
+    double step = 1;
+    std::int32_t columns = 0;
+    std::vector<double> sizes;
+};
+struct RecombineRequest {
+    std::vector<Vec2> points;
+    std::vector<std::vector<Index>> loops;
+    SizeRaster size;
+};
+struct RecombineReply {
+    std::vector<Vec2> points;
+    std::vector<Quad> quads;
+};
+
+/// Entities of loaded models a solid is to be made with.
+struct SolidSource {
+    std::uint64_t model = 0;
+    std::vector<std::int32_t> faces, curves;
+};
+struct BeginSolidRequest {
+    std::string subject; ///< the file to be written, for messages
+    std::string result;  ///< its name without a folder; the descriptor comes with the message
+    std::vector<SolidSource> sources;
+};
+/// Which of them there are in the workshop; of each curve its begin, middle and end [model length].
+struct BeginSolidReply {
+    struct Found {
+        std::vector<std::int32_t> faces, curves;
+        std::vector<std::array<double, 9>> curve_points;
+    };
+    std::uint64_t solid = 0;
+    std::vector<Found> sources;
+};
+
+struct SplineAxisData {
+    std::int32_t degree = 1;
+    std::vector<double> knots;
+    std::vector<std::int32_t> multiplicities;
+};
+struct SplineCurveData {
+    SplineAxisData axis;
+    std::vector<Vec3> poles;
+};
+struct SplineSurfaceData {
+    SplineAxisData u, v;
+    std::vector<Vec3> poles; ///< u running fastest
+};
+/// An edge as what it shall be in the solid.
+struct SolidEdge {
+    enum Kind : std::uint8_t { exact, lines, spline, count };
+    std::uint8_t kind = lines;
+    std::int32_t source = -1, curve = 0; ///< exact
+    std::vector<Index> points;           ///< lines: in SolidRequest::points
+    SplineCurveData curve_data;          ///< spline
+};
+struct SolidFace {
+    enum Kind : std::uint8_t { exact, plane, patches, filling, count };
+    std::uint8_t kind = plane;
+    std::string name;                   ///< for messages
+    std::int32_t source = -1, face = 0; ///< exact
+    std::vector<std::vector<std::array<Index, 2>>> loops; ///< edge, and 1 where it is used against its way
+    std::vector<SplineSurfaceData> surfaces;              ///< patches
+    std::vector<Index> leading;                           ///< filling: points to lead it through
+    double area = 0;                                      ///< filling: of its facets
+};
+struct MakeSolidRequest {
+    enum Format : std::uint8_t { step, brep, format_count };
+    std::uint64_t solid = 0;
+    std::uint8_t format = step;
+    std::vector<Vec3> points; ///< [model length]
+    std::vector<SolidEdge> edges;
+    std::vector<SolidFace> faces;
+    double diagonal = 0, first_tolerance = 0, last_tolerance = 0; ///< [model length]
+    double facet_volume = 0, deviation = 0;
+};
+struct MakeSolidReply {
+    double volume = 0, tolerance = 0;
+    std::uint64_t faces = 0;
+};
+
+struct ReleaseRequest {
+    std::uint64_t handle = 0; ///< of a model or a solid under way
+};
+
+// --- bytes --------------------------------------------------------------------------------------------
+
+template <class T>
+std::string encode(const T& message);
+/// @throw ProtocolError  the bytes are no such message, or a number in it points nowhere.
+template <class T>
+T decode(std::string_view bytes);
+
+} // namespace lacuna::cad_protocol

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <lacuna/cad_worker/import_cad.h>
+
+#include <lacuna/cad_worker/detail/cad_facets.h>
+#include <lacuna/cad_worker/detail/gmsh_api.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+
+namespace lacuna::cad_worker {
+
+namespace {
+
+/// Facets to a full turn. The chord then misses the arc by 0.2 % of the radius, a disc 0.3 % of its area.
+constexpr double kSidesPerTurn = 48;
+/// No side is longer than this part of the diagonal.
+constexpr double kLongestSide = 1.0 / 20;
+/// Cells all faces may have together, and any one of them.
+constexpr double kMaxCells = 400'000;
+constexpr double kMaxCellsOfFace = 16'000;
+constexpr double kMinCellsOfFace = 100;
+/// How often borders are divided anew, twice as fine, where they cross themselves.
+constexpr int kDivisions = 6;
+
+/// Tags and coordinates must be those of a plain import.
+void set_import_defaults(Session& session)
+{
+    for (const char* off :
+         {"Geometry.OCCFixDegenerated", "Geometry.OCCFixSmallEdges", "Geometry.OCCFixSmallFaces",
+          "Geometry.OCCSewFaces", "Geometry.OCCMakeSolids", "Geometry.OCCBoundsUseStl"}) {
+        session.set(off, 0);
+    }
+    session.set("Geometry.OCCScaling", 1);
+    session.set("Geometry.OCCAutoFix", 1);
+    session.set("Geometry.OCCImportLabels", 1);
+    session.set("Geometry.OCCTargetUnit", std::string{});
+}
+
+/// Options that scripts are wont to set, which would outlast them.
+void keep_options(Session& session)
+{
+    for (const char* option : {"Mesh.MeshSizeMin",
+                               "Mesh.MeshSizeMax",
+                               "Mesh.MeshSizeFactor",
+                               "Mesh.MeshSizeFromCurvature",
+                               "Mesh.MeshSizeFromPoints",
+                               "Mesh.MeshSizeExtendFromBoundary",
+                               "Mesh.Algorithm",
+                               "Mesh.Algorithm3D",
+                               "Mesh.ElementOrder",
+                               "Mesh.RecombineAll",
+                               "Mesh.RecombinationAlgorithm",
+                               "Mesh.SubdivisionAlgorithm",
+                               "Mesh.Smoothing",
+                               "Mesh.Optimize",
+                               "Mesh.OptimizeNetgen",
+                               "Mesh.SaveAll",
+                               "Mesh.Binary",
+                               "Mesh.MshFileVersion",
+                               "Geometry.Tolerance",
+                               "Geometry.AutoCoherence",
+                               "General.Terminal",
+                               "General.Verbosity",
+                               "General.NumThreads"}) {
+        session.keep(option);
+    }
+}
+
+void import_file(Session& session, const OpenedFile& file)
+{
+    using File = cad_protocol::LoadFile;
+    const CapturedOutput output;
+    try {
+        session.run([&] {
+            if (file.format == File::script) {
+                keep_options(session);
+                return gmsh::merge(file.at);
+            }
+            const char* format = file.format == File::brep   ? "brep"
+                                 : file.format == File::step ? "step"
+                                                             : "iges";
+            gmsh::vectorpair all;
+            gmsh::model::occ::importShapes(file.at, all, false, format);
+            gmsh::model::occ::synchronize();
+        });
+    } catch (const BackendError& error) {
+        const std::string words = output.text();
+        throw InvalidInput("cad.unreadable",
+                           std::string(error.what()) + (words.empty() ? "" : " (" + words + ")"));
+    }
+}
+
+double diagonal_of_model()
+{
+    double x0 = 0, y0 = 0, z0 = 0, x1 = 0, y1 = 0, z1 = 0;
+    gmsh::model::getBoundingBox(-1, -1, x0, y0, z0, x1, y1, z1);
+    return (Vec3(x1, y1, z1) - Vec3(x0, y0, z0)).norm();
+}
+
+std::string name_of_face(int tag)
+{
+    std::vector<int> groups;
+    gmsh::model::getPhysicalGroupsForEntity(2, tag, groups);
+    for (const int group : groups) {
+        std::string name;
+        gmsh::model::getPhysicalName(2, std::abs(group), name);
+        if (!name.empty()) return name;
+    }
+    // A product's face is called "Shapes/assembly/part/face".
+    std::string name;
+    gmsh::model::getEntityName(2, tag, name);
+    return name.substr(name.find_last_of('/') + 1);
+}
+
+struct Cut {
+    std::vector<CadFacets> faces;
+    std::size_t point_count = 0;
+};
+
+/// Divide the edges and cut the faces, finer around those whose border crosses itself.
+Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const Progress& progress)
+{
+    std::vector<double> refinement(wire.edges.size(), 1.0);
+    options.max_cells = std::clamp(kMaxCells / static_cast<double>(wire.faces.size()), kMinCellsOfFace,
+                                   kMaxCellsOfFace);
+    for (int division = 1;; ++division) {
+        divide(wire, options.fineness, refinement);
+        Cut cut;
+        cut.point_count = wire.points.size();
+        const CadFaceInfo* failed = nullptr;
+        for (const CadFaceInfo& face : wire.faces) {
+            auto facets = cut_into_facets(wire, face, options, static_cast<Index>(cut.point_count));
+            if (!facets) {
+                failed = &face;
+                for (const CadFaceInfo::Side& side : face.sides) {
+                    for (const std::size_t p : wire.curves[side.curve].pieces)
+                        refinement[wire.pieces[p].edge] = 1 << division;
+                }
+                continue;
+            }
+            cut.point_count += facets->added.size();
+            cut.faces.push_back(std::move(*facets));
+            progress(static_cast<double>(cut.faces.size()) / static_cast<double>(wire.faces.size()));
+        }
+        if (failed == nullptr) return cut;
+        if (division == kDivisions) {
+            throw BackendError(
+                "cad.face_failed",
+                path + ": face " + std::to_string(failed->tag) +
+                    " could not be cut into facets: its boundary crosses itself or does not close; "
+                    "repair the face in the CAD system");
+        }
+    }
+}
+
+/// The faces of each solid, and those of none.
+std::vector<std::vector<Index>> solids(const CadWire& wire)
+{
+    std::unordered_map<int, std::size_t> face_of_tag;
+    for (std::size_t f = 0; f < wire.faces.size(); ++f) face_of_tag[wire.faces[f].tag] = f;
+    std::vector<bool> taken(wire.faces.size(), false);
+    std::vector<std::vector<Index>> groups;
+    gmsh::vectorpair volumes;
+    gmsh::model::getEntities(volumes, 3);
+    for (const auto& volume : volumes) {
+        std::vector<int> up, down;
+        gmsh::model::getAdjacencies(3, volume.second, up, down);
+        std::vector<Index> group;
+        for (const int tag : down) {
+            const auto face = face_of_tag.find(std::abs(tag));
+            if (face == face_of_tag.end() || taken[face->second]) continue;
+            taken[face->second] = true;
+            group.push_back(static_cast<Index>(face->second));
+        }
+        groups.push_back(std::move(group));
+    }
+    std::vector<Index> loose;
+    for (std::size_t f = 0; f < taken.size(); ++f) {
+        if (!taken[f]) loose.push_back(static_cast<Index>(f));
+    }
+    groups.push_back(std::move(loose));
+    return groups;
+}
+
+cad_protocol::LoadReply reply_of(const CadWire& wire, Cut cut, CadSource& source)
+{
+    cad_protocol::LoadReply reply;
+    reply.diagonal = source.diagonal;
+    reply.points = wire.points;
+    reply.vertex_tags = wire.point_tag;
+    for (const CadEdge& cad : wire.edges) {
+        const CadPiece& piece = wire.pieces[cad.master];
+        reply.edges.push_back(
+            {cad.tag, wire.curves[piece.curve].tag, piece.from, piece.to, cad.params, cad.points});
+    }
+    for (std::size_t f = 0; f < wire.faces.size(); ++f) {
+        CadFacets& facets = cut.faces[f];
+        const int tag = wire.faces[f].tag;
+        source.boxes[tag] = facets.box;
+        reply.faces.push_back({tag, name_of_face(tag), std::move(facets.kind), std::move(facets.triangles),
+                               std::move(facets.uv)});
+        reply.points.insert(reply.points.end(), facets.added.begin(), facets.added.end());
+    }
+    reply.solids = solids(wire);
+    return reply;
+}
+
+} // namespace
+
+Imported import_cad(const std::vector<OpenedFile>& files, double tolerance, double scale,
+                    const Progress& progress)
+{
+    Imported imported{std::make_unique<CadSource>(), {}};
+    CadSource& source = *imported.source;
+    for (const OpenedFile& file : files) source.path += (source.path.empty() ? "" : ", ") + file.path;
+    Session session(source.path);
+    set_import_defaults(session);
+    source.model = std::make_unique<GmshModel>(session);
+    for (const OpenedFile& file : files) {
+        progress(0);
+        import_file(session, file);
+    }
+    source.model->activate(session); // a script may have made others
+    session.run([&] {
+        gmsh::vectorpair faces;
+        gmsh::model::getEntities(faces, 2);
+        if (faces.empty()) {
+            throw InvalidInput("cad.no_faces",
+                               source.path + " holds no faces; export surfaces or solids, not curves alone");
+        }
+        source.scale = scale;
+        source.diagonal = diagonal_of_model();
+
+        FacetOptions facets;
+        facets.tolerance = tolerance > 0 ? tolerance / scale : 1e-6 * source.diagonal;
+        facets.fineness = {2 * std::numbers::pi / kSidesPerTurn, kLongestSide * source.diagonal};
+        CadWire wire = read_wire(facets.tolerance);
+        Cut cut = cut_all(wire, facets, source.path, progress);
+        imported.reply = reply_of(wire, std::move(cut), source);
+    });
+    return imported;
+}
+
+} // namespace lacuna::cad_worker

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <lacuna/cad_protocol/messages.h>
+#include <lacuna/cad_worker/exact_geometry.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lacuna::cad_worker {
+
+/// Told the share of the work that is done, in [0, 1].
+using Progress = std::function<void(double)>;
+
+/// A file of a request, where this process can open it.
+struct OpenedFile {
+    std::uint8_t format = 0; ///< cad_protocol::LoadFile::Format
+    std::string path;        ///< as the person named it
+    std::string at;          ///< as this process opens it
+};
+
+struct Imported {
+    std::unique_ptr<CadSource> source;
+    cad_protocol::LoadReply reply; ///< without a handle
+};
+
+/// Read CAD files into one model, their tags running on from file to file as in Gmsh.
+/// @throw InvalidInput, BackendError  in Gmsh's words, naming the file.
+Imported import_cad(const std::vector<OpenedFile>& files, double tolerance, double scale,
+                    const Progress& progress);
+
+} // namespace lacuna::cad_worker

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// lacuna-cad: Gmsh and Open CASCADE in a process of their own. Started by the kernel with a socket as
+/// descriptor 3; reads what it is sent there, answers there, and ends when the other side does.
+#include <lacuna/cad_worker/confine.h>
+#include <lacuna/cad_worker/serve.h>
+#include <lacuna/cad_worker/session.h>
+
+#include <csignal>
+#include <thread>
+
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+namespace {
+
+constexpr int kSocket = 3;
+/// Bytes a file may grow to: more than any solid, less than a disk. A choice, not a measurement.
+constexpr rlim_t kLargestFile = rlim_t{4} << 30;
+
+/// End with the host, even in the middle of work that never ends.
+void watch_host(pid_t host)
+{
+    for (;;) {
+        pollfd socket{kSocket, POLLRDHUP, 0};
+        constexpr int kPause = 1000; // [ms]: a forked child of the host may hold the socket open
+        ::poll(&socket, 1, kPause);
+        if ((socket.revents & (POLLRDHUP | POLLHUP | POLLERR | POLLNVAL)) != 0 || ::getppid() != host) ::_exit(0);
+    }
+}
+
+} // namespace
+
+int main()
+{
+    int type = 0;
+    socklen_t size = sizeof(type);
+    if (::getsockopt(kSocket, SOL_SOCKET, SO_TYPE, &type, &size) != 0) {
+        constexpr std::string_view kWords = "lacuna-cad is started by Lacuna when a CAD file is read, not by hand\n";
+        return ::write(2, kWords.data(), kWords.size()) < 0 ? 2 : 1;
+    }
+    ::syscall(SYS_close_range, kSocket + 1, ~0U, 0); // what the host let slip
+    const rlimit no_core{0, 0}, file{kLargestFile, kLargestFile};
+    ::setrlimit(RLIMIT_CORE, &no_core);
+    ::setrlimit(RLIMIT_FSIZE, &file);
+    std::signal(SIGXFSZ, SIG_IGN); // a write beyond the limit fails
+    std::signal(SIGPIPE, SIG_IGN);
+    const pid_t host = ::getppid();
+    using namespace lacuna;
+    cad_protocol::Channel channel{cad_protocol::Descriptor(kSocket)};
+    try {
+        const cad_worker::Gmsh gmsh;
+        const std::string missing = cad_worker::confine();
+        std::thread(watch_host, host).detach();
+        cad_worker::serve(channel, missing);
+    } catch (const Error& error) {
+        using namespace cad_protocol;
+        try {
+            channel.send(Opcode::failed, encode(Failure{Failure::backend, error.code(), error.what()}));
+        } catch (const Error&) { // No one listens.
+        }
+    } catch (...) {
+        ::_exit(1);
+    }
+    // Without destructors of libraries that may have been left in any state.
+    ::_exit(0);
+}

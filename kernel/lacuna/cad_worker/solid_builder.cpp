@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <lacuna/cad_worker/solid_builder.h>
+
+#include <lacuna/cad_worker/detail/gmsh_api.h>
+#include <lacuna/cad_worker/detail/solid_file.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <utility>
+
+namespace lacuna::cad_worker {
+
+using cad_protocol::SolidEdge;
+using cad_protocol::SolidFace;
+using cad_protocol::SplineCurveData;
+using cad_protocol::SplineSurfaceData;
+
+namespace {
+
+/// An inner loop no further from a filled surface than this part of the diagonal divides it.
+constexpr double kCloseBy = 1e-3;
+/// How closely a shape must be met to be the one it was before it went through a file, as a part of the
+/// diagonal.
+constexpr double kSame = 1e-7;
+
+/// Places of an entity at a few shares of its parameters, which a copy of it has too.
+std::vector<Vec3> probes_of(int dim, int tag)
+{
+    std::vector<double> low, high;
+    gmsh::model::getParametrizationBounds(dim, tag, low, high);
+    std::vector<Vec3> places;
+    for (const double f : {0.0, 0.23, 0.61, 1.0}) {
+        if (dim == 1) {
+            places.push_back(curve_points(tag, {low[0] + f * (high[0] - low[0])}).front());
+        } else {
+            const double g = 0.87 - 0.7 * f;
+            places.push_back(
+                surface_points(tag, {Vec2(low[0] + f * (high[0] - low[0]), low[1] + g * (high[1] - low[1]))})
+                    .front());
+        }
+    }
+    return places;
+}
+
+/// What a face or a curve is known by after it went through a file.
+struct Fingerprint {
+    std::vector<Vec3> probes;
+    double area = 0; ///< of a face
+
+    Fingerprint(int dim, int tag) : probes(probes_of(dim, tag))
+    {
+        if (dim == 2) gmsh::model::occ::getMass(dim, tag, area);
+    }
+    [[nodiscard]] bool is(const Fingerprint& other, double scale, double diagonal) const
+    {
+        for (std::size_t i = 0; i < probes.size(); ++i)
+            if ((probes[i] * scale - other.probes[i]).norm() > kSame * diagonal * scale) return false;
+        return std::abs(area * scale * scale - other.area) <= kSame * diagonal * diagonal * scale * scale;
+    }
+};
+
+std::vector<int> tags_of(int dim)
+{
+    gmsh::vectorpair entities;
+    gmsh::model::getEntities(entities, dim);
+    std::vector<int> tags;
+    for (const auto& entity : entities) tags.push_back(entity.second);
+    return tags;
+}
+
+std::vector<int> add_points(const std::vector<Vec3>& poles)
+{
+    std::vector<int> tags;
+    for (const Vec3& p : poles) tags.push_back(gmsh::model::occ::addPoint(p.x(), p.y(), p.z()));
+    return tags;
+}
+
+int add_curve(const SplineCurveData& curve)
+{
+    return gmsh::model::occ::addBSpline(add_points(curve.poles), -1, curve.axis.degree, {}, curve.axis.knots,
+                                        curve.axis.multiplicities);
+}
+
+int add_surface(const SplineSurfaceData& surface)
+{
+    // The points stay: to take them away again costs time with their square, and what is written is the solid
+    // alone.
+    const std::vector<int> tags = add_points(surface.poles);
+    const auto across = std::accumulate(surface.u.multiplicities.begin(), surface.u.multiplicities.end(), 0);
+    return gmsh::model::occ::addBSplineSurface(tags, across - surface.u.degree - 1, -1, surface.u.degree,
+                                               surface.v.degree, {}, surface.u.knots, surface.v.knots,
+                                               surface.u.multiplicities, surface.v.multiplicities);
+}
+
+} // namespace
+
+void set_plain_import(Session& session, double scale)
+{
+    for (const char* off :
+         {"Geometry.OCCFixDegenerated", "Geometry.OCCFixSmallEdges", "Geometry.OCCFixSmallFaces",
+          "Geometry.OCCSewFaces", "Geometry.OCCMakeSolids", "Geometry.OCCBoundsUseStl",
+          "Geometry.OCCExportOnlyVisible", "Geometry.OCCParallel"}) {
+        session.set(off, 0);
+    }
+    session.set("Geometry.OCCAutoFix", 1);
+    session.set("Geometry.OCCScaling", scale);
+    session.set("Geometry.OCCTargetUnit", std::string{});
+}
+
+SolidBuilder::SolidBuilder(std::string subject, SolidFiles files)
+    : session_(std::move(subject)), scratch_(session_), files_(std::move(files))
+{
+}
+
+// --- given faces ------------------------------------------------------------------------------------
+
+/// A source's shapes come over by a file, which keeps them to the bit and edges shared.
+cad_protocol::BeginSolidReply::Found SolidBuilder::add_source(const CadSource& source,
+                                                              const cad_protocol::SolidSource& wanted)
+{
+    std::map<int, Fingerprint> faces, curves;
+    source.model->activate(session_);
+    session_.run([&] {
+        gmsh::vectorpair shapes;
+        gmsh::model::occ::getEntities(shapes);
+        const std::set<std::pair<int, int>> there(shapes.begin(), shapes.end());
+        for (const int tag : wanted.faces)
+            if (there.contains({2, tag})) faces.try_emplace(tag, 2, tag);
+        for (const int tag : wanted.curves)
+            if (there.contains({1, tag})) curves.try_emplace(tag, 1, tag);
+        if (!faces.empty()) gmsh::write(files_.source);
+    });
+    scratch_.activate(session_);
+    Imported& imported = imported_.emplace_back();
+    cad_protocol::BeginSolidReply::Found found;
+    if (faces.empty()) return found;
+    session_.run([&] {
+        set_plain_import(session_, source.scale);
+        const std::vector<int> faces_before = tags_of(2), curves_before = tags_of(1);
+        gmsh::vectorpair all;
+        gmsh::model::occ::importShapes(files_.source, all, false, "brep");
+        gmsh::model::occ::synchronize();
+        const auto match = [&](int dim, const std::map<int, Fingerprint>& prints,
+                               const std::vector<int>& before) {
+            std::vector<int> fresh = tags_of(dim);
+            std::erase_if(fresh,
+                          [&](int tag) { return std::binary_search(before.begin(), before.end(), tag); });
+            const int shift = before.empty() ? 0 : before.back();
+            std::map<int, int> matched;
+            for (const auto& [tag, print] : prints) {
+                const auto is = [&, &known = print](int candidate) {
+                    return std::binary_search(fresh.begin(), fresh.end(), candidate) &&
+                           known.is(Fingerprint(dim, candidate), source.scale, source.diagonal);
+                };
+                // As a rule they come in the same order.
+                const auto place = is(tag + shift) ? std::find(fresh.begin(), fresh.end(), tag + shift)
+                                                   : std::find_if(fresh.begin(), fresh.end(), is);
+                if (place == fresh.end())
+                    throw BackendError(
+                        "cad.lost", (dim == 2 ? "face " : "curve ") + std::to_string(tag) + " of " +
+                                        source.path +
+                                        " got lost on its way through a file; repair it in the CAD system");
+                matched[tag] = *place;
+            }
+            return matched;
+        };
+        imported.faces = match(2, faces, faces_before);
+        imported.curves = match(1, curves, curves_before);
+        for (const auto& [tag, own] : imported.faces) found.faces.push_back(tag);
+        for (const auto& [tag, own] : imported.curves) {
+            std::vector<double> low, high;
+            gmsh::model::getParametrizationBounds(1, own, low, high);
+            const std::vector<Vec3> at = curve_points(own, {low[0], (low[0] + high[0]) / 2, high[0]});
+            std::array<double, 9>& row = found.curve_points.emplace_back();
+            for (std::size_t i = 0; i < 9; ++i) row[i] = at[i / 3][static_cast<Eigen::Index>(i % 3)];
+            found.curves.push_back(tag);
+        }
+    });
+    return found;
+}
+
+// --- edges ------------------------------------------------------------------------------------------
+
+int SolidBuilder::point(Index p)
+{
+    const auto [place, fresh] = points_.try_emplace(p, 0);
+    if (fresh) {
+        const Vec3& at = request_->points[index(p)];
+        place->second = gmsh::model::occ::addPoint(at.x(), at.y(), at.z());
+    }
+    return place->second;
+}
+
+std::vector<int> SolidBuilder::make_curves(const SolidEdge& edge)
+{
+    if (edge.kind == SolidEdge::exact) return {imported_.at(index(edge.source)).curves.at(edge.curve)};
+    if (edge.kind == SolidEdge::spline) return {add_curve(edge.curve_data)};
+    std::vector<int> lines;
+    for (std::size_t k = 0; k + 1 < edge.points.size(); ++k)
+        lines.push_back(gmsh::model::occ::addLine(point(edge.points[k]), point(edge.points[k + 1])));
+    return lines;
+}
+
+std::vector<int> SolidBuilder::curves_of(Index edge)
+{
+    const auto [place, fresh] = curves_.try_emplace(edge);
+    if (fresh) {
+        place->second = make_curves(request_->edges[index(edge)]);
+        gmsh::model::occ::synchronize();
+    }
+    return place->second;
+}
+
+int SolidBuilder::wire(const std::vector<std::array<Index, 2>>& loop)
+{
+    std::vector<int> curves;
+    for (const auto& [edge, reversed] : loop) {
+        const std::vector<int> own = curves_of(edge);
+        if (reversed != 0)
+            curves.insert(curves.end(), own.rbegin(), own.rend());
+        else
+            curves.insert(curves.end(), own.begin(), own.end());
+    }
+    return gmsh::model::occ::addCurveLoop(curves);
+}
+
+/// Open CASCADE's booleans take away curves and points that nothing holds any more.
+void SolidBuilder::forget_removed()
+{
+    gmsh::vectorpair left;
+    gmsh::model::occ::getEntities(left);
+    const std::set<std::pair<int, int>> there(left.begin(), left.end());
+    std::erase_if(curves_, [&](const auto& edge) {
+        return std::any_of(edge.second.begin(), edge.second.end(), [&](int tag) {
+            return !there.contains({1, tag});
+        });
+    });
+    std::erase_if(points_, [&](const auto& p) { return !there.contains({0, p.second}); });
+}
+
+// --- faces ------------------------------------------------------------------------------------------
+
+/// Holes are cut out: Gmsh's own planes with holes depend on which way the holes' curves happen to run.
+int SolidBuilder::plane(const SolidFace& face)
+{
+    std::vector<int> parts;
+    for (const auto& loop : face.loops) parts.push_back(gmsh::model::occ::addPlaneSurface({wire(loop)}));
+    if (parts.size() == 1) return parts.front();
+    double wanted = 0;
+    gmsh::vectorpair holes;
+    for (const int part : parts) {
+        double area = 0;
+        gmsh::model::occ::getMass(2, part, area);
+        wanted += part == parts.front() ? area : -area;
+        if (part != parts.front()) holes.emplace_back(2, part);
+    }
+    gmsh::vectorpair cut;
+    std::vector<gmsh::vectorpair> map;
+    gmsh::model::occ::cut({{2, parts.front()}}, holes, cut, map);
+    double area = 0;
+    if (cut.size() == 1) gmsh::model::occ::getMass(2, cut.front().second, area);
+    if (!(std::abs(area - wanted) <= 1e-6 * wanted))
+        throw BackendError("cad.plane_failed", "a plane could not be cut out along its inner loops");
+    forget_removed();
+    return cut.front().second;
+}
+
+/// A smooth surface over the outer loop, led through points of the facets and of inner loops, which divide
+/// it.
+int SolidBuilder::filling(const SolidFace& face)
+{
+    std::vector<int> leading;
+    for (const Index p : face.leading) leading.push_back(point(p));
+    const int filled = gmsh::model::occ::addSurfaceFilling(wire(face.loops.front()), -1, leading);
+    if (face.loops.size() == 1) return filled;
+
+    // The inner loops are close to the surface, not on it; where they divide it they become its edges.
+    gmsh::vectorpair inner, parts;
+    for (std::size_t l = 1; l < face.loops.size(); ++l)
+        for (const auto& use : face.loops[l])
+            for (const int curve : curves_of(use[0])) inner.emplace_back(1, curve);
+    std::vector<gmsh::vectorpair> map;
+    session_.set("Geometry.ToleranceBoolean", kCloseBy * request_->diagonal);
+    gmsh::model::occ::fragment({{2, filled}}, inner, parts, map, -1, true, false);
+    session_.set("Geometry.ToleranceBoolean", 0.0);
+    forget_removed();
+    int best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [dim, tag] : parts) {
+        double area = 0;
+        if (dim == 2) gmsh::model::occ::getMass(2, tag, area);
+        const double off = std::abs(std::abs(area) - face.area);
+        if (dim != 2 || off >= least) continue;
+        least = off;
+        best = tag;
+    }
+    return best;
+}
+
+std::vector<int> SolidBuilder::make_face(const SolidFace& face)
+{
+    std::vector<int> tags;
+    switch (face.kind) {
+    case SolidFace::exact:
+        return {imported_.at(index(face.source)).faces.at(face.face)};
+    case SolidFace::plane:
+        return {plane(face)};
+    case SolidFace::patches:
+        for (const SplineSurfaceData& surface : face.surfaces) tags.push_back(add_surface(surface));
+        return tags;
+    default:
+        return {filling(face)};
+    }
+}
+
+cad_protocol::MakeSolidReply SolidBuilder::make(const cad_protocol::MakeSolidRequest& request,
+                                                const Progress& progress)
+{
+    request_ = &request;
+    scratch_.activate(session_);
+    std::vector<int> faces;
+    for (std::size_t f = 0; f < request.faces.size(); ++f) {
+        const SolidFace& face = request.faces[f];
+        try {
+            const std::vector<int> tags = session_.run([&] { return make_face(face); });
+            faces.insert(faces.end(), tags.begin(), tags.end());
+        } catch (const BackendError& error) {
+            throw BackendError("cad.face_failed", face.name + " could not be made: " + error.what());
+        }
+        progress(static_cast<double>(f + 1) / static_cast<double>(request.faces.size()));
+    }
+    return session_.run([&] { return write_solid(session_, faces, request, files_); });
+}
+
+} // namespace lacuna::cad_worker

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <lacuna/cad_worker/detail/gmsh_api.h>
+#include <lacuna/cad_worker/detail/solid_file.h>
+
+#include <cmath>
+#include <map>
+
+namespace lacuna::cad_worker {
+
+using cad_protocol::MakeSolidRequest;
+
+namespace {
+
+/// What a file may change of the volume: STEP leaves it to the reader to lay edges on fitted surfaces anew.
+constexpr double kSameVolume = 1e-4;
+
+std::vector<int> tags_of(int dim)
+{
+    gmsh::vectorpair entities;
+    gmsh::model::occ::getEntities(entities, dim);
+    std::vector<int> tags;
+    for (const auto& entity : entities) tags.push_back(entity.second);
+    return tags;
+}
+
+double volume_of(int solid)
+{
+    double volume = 0;
+    gmsh::model::occ::getMass(3, solid, volume);
+    return volume;
+}
+
+/// How many entities of the current model are not as they are in one closed solid; in words, empty where all
+/// are.
+std::string faults_of_model()
+{
+    gmsh::model::occ::synchronize();
+    const std::vector<int> solids = tags_of(3);
+    if (solids.size() != 1) return std::to_string(solids.size()) + " solids";
+    gmsh::vectorpair faces;
+    gmsh::model::getBoundary({{3, solids.front()}}, faces, false, false, false);
+    if (faces.size() != tags_of(2).size())
+        return std::to_string(tags_of(2).size() - faces.size()) + " faces beside the solid";
+    std::map<int, int> uses;
+    for (const auto& face : faces) {
+        gmsh::vectorpair curves;
+        gmsh::model::getBoundary({{2, std::abs(face.second)}}, curves, false, false, false);
+        for (const auto& curve : curves) ++uses[std::abs(curve.second)];
+    }
+    std::size_t open = 0;
+    for (const auto& [curve, count] : uses) open += count == 2 ? 0 : 1;
+    return open == 0 ? "" : std::to_string(open) + " open edges";
+}
+
+/// A solid sewn of faces of the current model.
+struct Sewn {
+    int solid = 0;
+    double tolerance = 0;
+};
+
+/// Sew with ever wider tolerances until one solid comes of it.
+Sewn sew(const std::vector<int>& faces, const MakeSolidRequest& request)
+{
+    gmsh::vectorpair shapes;
+    for (const int face : faces) shapes.emplace_back(2, face);
+    const double last = request.last_tolerance;
+    for (double tolerance = request.first_tolerance; tolerance <= last; tolerance *= 10) {
+        gmsh::vectorpair out;
+        gmsh::model::occ::healShapes(out, shapes, tolerance, false, false, false, true, true);
+        std::erase_if(out, [](const auto& entity) { return entity.first != 3; });
+        gmsh::model::occ::synchronize();
+        gmsh::vectorpair boundary;
+        if (out.size() == 1) gmsh::model::getBoundary(out, boundary, false, false, false);
+        if (boundary.size() == faces.size() && volume_of(out.front().second) > 0)
+            return {out.front().second, tolerance};
+        gmsh::model::occ::remove(out);
+    }
+    throw BackendError(
+        "cad.not_sewn",
+        "the " + std::to_string(faces.size()) + " faces could not be sewn into one solid, with gaps up to " +
+            std::to_string(last) +
+            " closed; load the file with a larger tolerance, or write the facets with write_facets");
+}
+
+/// Write one solid of the current model, and nothing else there is.
+void write_alone(Session& session, int solid, const SolidFiles& files)
+{
+    gmsh::vectorpair others;
+    for (const int tag : tags_of(3))
+        if (tag != solid) others.emplace_back(3, tag);
+    if (!others.empty()) gmsh::model::occ::remove(others);
+    // Faces, curves and points are many; read on from a file, the solid comes without those that are not its
+    // own.
+    gmsh::model::occ::synchronize();
+    gmsh::write(files.all);
+    const GmshModel alone(session);
+    set_plain_import(session, 1);
+    gmsh::vectorpair found;
+    gmsh::model::occ::importShapes(files.all, found, true, "brep");
+    gmsh::model::occ::synchronize();
+    gmsh::write(files.result);
+}
+
+/// Read back what was written. @return number of faces and volume.
+std::pair<std::size_t, double> read_back(Session& session, const MakeSolidRequest& request,
+                                          const SolidFiles& files, double expected)
+{
+    const GmshModel again(session);
+    return session.run([&] {
+        set_plain_import(session, 1);
+        gmsh::vectorpair all;
+        gmsh::model::occ::importShapes(files.result, all, false,
+                                       request.format == MakeSolidRequest::brep ? "brep" : "step");
+        const std::string faults = faults_of_model();
+        if (!faults.empty())
+            throw BackendError("cad.reads_back",
+                               "the solid reads back with " + faults +
+                                   ", not as one closed solid; write the facets with write_facets");
+        const double volume = volume_of(tags_of(3).front());
+        if (!(std::abs(volume - expected) <= kSameVolume * expected)) {
+            throw BackendError("cad.reads_back", "the solid reads back with a volume of " +
+                                                     std::to_string(volume) + ", not " +
+                                                     std::to_string(expected) +
+                                                     "; write it as .brep");
+        }
+        return std::pair(tags_of(2).size(), volume);
+    });
+}
+
+void check_volume(double volume, const MakeSolidRequest& request)
+{
+    if (std::abs(volume - request.facet_volume) <= request.deviation * request.facet_volume) return;
+    throw BackendError("cad.volume_differs", "the solid has a volume of " + std::to_string(volume) +
+                                                 ", but the facets enclose " +
+                                                 std::to_string(request.facet_volume) +
+                                                 ": the surfaces fitted to void faces bulge; give more "
+                                                 "walls, or write the facets with write_facets");
+}
+
+} // namespace
+
+cad_protocol::MakeSolidReply write_solid(Session& session, const std::vector<int>& faces,
+                                         const MakeSolidRequest& request, const SolidFiles& files)
+{
+    const CapturedOutput output;
+    const Sewn sewn = sew(faces, request);
+    const double volume = volume_of(sewn.solid);
+    check_volume(volume, request);
+    write_alone(session, sewn.solid, files);
+    const auto [count, written] = read_back(session, request, files, volume);
+    return {written, sewn.tolerance, count};
+}
+
+} // namespace lacuna::cad_worker

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What becomes of the CAD process, and what the host gets to know of it.
+#include "made_files.h"
+
+#include <lacuna/cad/detail/worker.h>
+#include <lacuna/cad/write_cad.h>
+
+#include <doctest/doctest.h>
+#include <gmsh.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+#include <thread>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+using namespace lacuna;
+using namespace cad_protocol;
+namespace occ = gmsh::model::occ;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// "code: message" of the error that work gives.
+template <class Work>
+std::string failure(Work&& work)
+{
+    try {
+        work();
+    } catch (const Error& error) {
+        return error.code() + ": " + error.what();
+    }
+    return "no error";
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// A script that works for hours.
+std::string endless(const test::TempFolder& folder)
+{
+    return folder.write("endless.geo", "Point(1) = {0, 0, 0};\nFor i In {1:2000000000}\n  x = i;\nEndFor\n");
+}
+
+/// Have the CAD process read a script no one looked through.
+std::string run_unseen(const std::string& text)
+{
+    const Descriptor file(::memfd_create("script", MFD_CLOEXEC));
+    REQUIRE(::write(file.get(), text.data(), text.size()) == ssize_t(text.size()));
+    LoadRequest request;
+    request.files.push_back({LoadFile::script, "unseen.geo", {{"unseen.geo"}}});
+    return failure([&] {
+        (void)cad::Worker::current()->ask<LoadReply>(Opcode::load, request, {"unseen.geo", "reading it"}, {file.get()});
+    });
+}
+
+/// Another program in place of the CAD process, which misbehaves as told.
+class Fake {
+public:
+    explicit Fake(const std::string& how) : program_(std::getenv("LACUNA_CAD"))
+    {
+        ::setenv("LACUNA_CAD", LACUNA_FAKE_WORKER, 1);
+        ::setenv("CSF_FAKE", how.c_str(), 1);
+        end_current();
+    }
+    ~Fake()
+    {
+        ::setenv("LACUNA_CAD", program_.c_str(), 1);
+        ::unsetenv("CSF_FAKE");
+        end_current();
+    }
+    Fake(const Fake&) = delete;
+    Fake& operator=(const Fake&) = delete;
+
+private:
+    static void end_current()
+    {
+        try {
+            ::kill(cad::Worker::current()->pid(), SIGKILL);
+        } catch (const Error&) { // There was none, and none would start.
+        }
+    }
+    std::string program_;
+};
+
+} // namespace
+
+TEST_CASE("a CAD process killed between calls costs its models their exact geometry, no more")
+{
+    const test::TempFolder folder;
+    const std::string path = folder.gmsh("ball.step", [] { occ::addSphere(0, 0, 0, 1); });
+    const topology::Model model = cad::load({path});
+    const pid_t first = cad::Worker::current()->pid();
+    ::kill(first, SIGKILL);
+    std::vector<Vec3> points{{1, 0, 0}};
+    std::vector<Vec2> uv{{0, 0}};
+    for (int i = 0; i < 2; ++i) {
+        const std::string words = failure([&] { model.faces[0].surface->project(points, uv); });
+        CHECK(has(words, "cad.worker_ended"));
+        CHECK(has(words, path));
+    }
+    const topology::Model again = cad::load({path});
+    CHECK(cad::Worker::current()->pid() != first);
+    CHECK(failure([&] { again.faces[0].surface->project(points, uv); }) == "no error");
+    CHECK(has(failure([&] { model.faces[0].surface->project(points, uv); }), "load the file again"));
+}
+
+TEST_CASE("a CAD process that dies, stops or works for ever ends alone, and the error says how")
+{
+    const test::TempFolder folder;
+    const std::string path = endless(folder);
+    const std::string box = folder.gmsh("box.step", [] { occ::addBox(0, 0, 0, 1, 1, 1); });
+    for (const int signal : {SIGKILL, SIGSEGV, SIGABRT, SIGFPE}) {
+        const pid_t pid = cad::Worker::current()->pid();
+        std::thread killer([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(200));
+            ::kill(pid, signal);
+        });
+        const std::string words = failure([&] { (void)cad::load({path}); });
+        killer.join();
+        CHECK(has(words, "cad.worker_ended"));
+        CHECK(has(words, path));
+        CHECK(has(words, std::string("SIG") + ::sigabbrev_np(signal)));
+        CHECK(cad::load({box}).faces.size() == 6);
+    }
+    for (const bool stopped : {false, true}) {
+        if (stopped) ::kill(cad::Worker::current()->pid(), SIGSTOP);
+        const auto start = std::chrono::steady_clock::now();
+        const std::string words = failure([&] { (void)cad::load({path}, {}, {}, {.seconds = 0.5}); });
+        CHECK(has(words, "cad.time_limit"));
+        CHECK(has(words, "0.5 s"));
+        CHECK(has(words, path));
+        CHECK(seconds_since(start) < 5);
+        CHECK(cad::load({box}).faces.size() == 6);
+    }
+}
+
+TEST_CASE("a file that takes too much memory is an error that says so")
+{
+    const test::TempFolder folder;
+    const std::string path = folder.write("much.geo", "a[] = {1};\nFor i In {1:40}\n  a[] = {a[], a[]};\nEndFor\n");
+    const std::string words = failure([&] { (void)cad::load({path}, {}, {}, {.memory = 1'500'000'000}); });
+    CHECK((has(words, "cad.memory_limit") || has(words, "cad.worker_ended")));
+    CHECK(has(words, path));
+    CHECK(cad::load({folder.gmsh("box.step", [] { occ::addBox(0, 0, 0, 1, 1, 1); })}).faces.size() == 6);
+}
+
+TEST_CASE("cancelling ends the CAD process within half a second")
+{
+    const test::TempFolder folder;
+    std::atomic<bool> cancel = false;
+    RunContext context;
+    context.cancel = &cancel;
+    std::chrono::steady_clock::time_point asked;
+    (void)cad::gmsh_version();
+    std::thread canceller([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        asked = std::chrono::steady_clock::now();
+        cancel = true;
+    });
+    CHECK_THROWS_AS(cad::load({endless(folder)}, {}, context), Cancelled);
+    canceller.join();
+    CHECK(seconds_since(asked) < 0.5);
+}
+
+TEST_CASE("a script that asks for more than geometry is refused, with the line")
+{
+    const test::TempFolder folder;
+    const std::string made = folder.path("made.txt");
+    folder.write("one.geo", "Point(9) = {0, 0, 0};\n");
+    fs::create_directory(folder.path("other"));
+    folder.write("other/two.geo", "Point(8) = {0, 0, 0};\n");
+    for (const std::string& line :
+         {"SystemCall \"touch " + made + "\";", "NonBlockingSystemCall \"touch " + made + "\";",
+          std::string("Exit;"), "Printf(\"x\") > \"" + made + "\";", "Printf(\"%g\", (1 + 2)) >> \"" + made + "\";",
+          "Save \"" + made + "\";", "Print \"" + made + "\";", std::string("Include \"other/two.geo\";"),
+          std::string("Merge \"/etc/passwd\";"), std::string("Merge \"../x.step\";"),
+          std::string("Merge Str(\"a\", \"b\");"), std::string("Include \"absent.geo\";"),
+          std::string("Plugin(Warp).Run;")}) {
+        CAPTURE(line);
+        const std::string path = folder.write("asks.geo", "Point(1) = {0, 0, 0}; /* Save\n*/ " + line + "\n");
+        const std::string words = failure([&] { (void)cad::load({path}); });
+        CHECK(has(words, "cad.script: "));
+        CHECK(has(words, path + ", line 2"));
+        CHECK(!fs::exists(made));
+    }
+    // An included script is looked through as well.
+    folder.write("asking.geo", "\n\nSystemCall \"touch " + made + "\";\n");
+    const std::string words = failure([&] { (void)cad::load({folder.write("in.geo", "Include \"asking.geo\";\n")}); });
+    CHECK(has(words, folder.path("asking.geo") + ", line 3"));
+}
+
+TEST_CASE("a script may include and merge what lies beside it")
+{
+    const test::TempFolder folder;
+    folder.gmsh("ball.step", [] { occ::addSphere(5, 0, 0, 1); });
+    folder.write("size.geo", "w = 2; // SystemCall in a comment\n");
+    const std::string path = folder.write("main.geo", "Include \"size.geo\";\nSetFactory(\"OpenCASCADE\");\n"
+                                                      "Printf(\"Save me\");\nMerge \"ball.step\";\n"
+                                                      "Box(100) = {0, 0, 0, w, 1, 1};\n");
+    const topology::Model model = cad::load({path});
+    CHECK(model.faces.size() == 7);
+    CHECK(test::total_area(model) == doctest::Approx(10 + 4 * 3.14159265).epsilon(0.01));
+}
+
+TEST_CASE("the CAD process starts nothing, writes nothing and reads nothing it was not given, whatever it is told")
+{
+    const test::TempFolder folder;
+    const std::string made = folder.path("made.txt");
+    const std::string secret = folder.write("secret.geo", "Printf(\"x\");\nnonsense;\n");
+    (void)run_unseen("SystemCall \"touch " + made + "\";\n");
+    (void)run_unseen("NonBlockingSystemCall \"touch " + made + "\";\n");
+    (void)run_unseen("Printf(\"x\") > \"" + made + "\";\n");
+    (void)run_unseen("SetFactory(\"OpenCASCADE\"); Box(1) = {0,0,0,1,1,1}; Save \"" + folder.path("made.brep") + "\";\n");
+    CHECK(!fs::exists(made));
+    CHECK(!fs::exists(folder.path("made.brep")));
+    if (!has(cad::gmsh_version(), "without Landlock")) {
+        const std::string words = run_unseen("Merge \"" + secret + "\";\n");
+        CHECK(!has(words, "line 2"));
+    }
+    CHECK(has(run_unseen("Exit;\n"), "cad.worker_ended"));
+}
+
+TEST_CASE("no options file beside a CAD file is read, and no ending is believed against the content")
+{
+    const test::TempFolder folder;
+    const std::string made = folder.path("made.txt");
+    const std::string box = folder.gmsh("box.step", [] { occ::addBox(0, 0, 0, 1, 1, 1); });
+    folder.write("box.step.opt", "SystemCall \"touch " + made + "\";\n");
+    CHECK(cad::load({box}).faces.size() == 6);
+    for (const char* name : {"p.Geo", "p.step", "p.Brep", "p.igs"}) {
+        const std::string path = folder.write(name, "SystemCall \"touch " + made + "\";\n");
+        CHECK(has(failure([&] { (void)cad::load({path}); }), "cad.unreadable"));
+    }
+    fs::copy_file(box, folder.path("box.geo"));
+    CHECK(has(failure([&] { (void)cad::load({folder.path("box.geo")}); }), "cad.unreadable"));
+    CHECK(!fs::exists(made));
+    REQUIRE(::mkfifo(folder.path("pipe.step").c_str(), 0600) == 0);
+    CHECK(has(failure([&] { (void)cad::load({folder.path("pipe.step")}); }), folder.path("pipe.step")));
+}
+
+TEST_CASE("a CAD process that lies does no harm")
+{
+    const test::TempFolder folder;
+    const std::string path = folder.gmsh("box.step", [] { occ::addBox(0, 0, 0, 1, 1, 1); });
+    for (const char* how : {"ends", "garbage", "version"}) {
+        CAPTURE(how);
+        const Fake fake(how);
+        CHECK(has(failure([&] { (void)cad::load({path}); }), "cad.no_worker"));
+    }
+    for (const char* how : {"length", "opcode", "descriptors", "indices", "edges", "solids", "nan", "text", "half"}) {
+        CAPTURE(how);
+        const Fake fake(how);
+        const std::string words = failure([&] { (void)cad::load({path}); });
+        CHECK((has(words, "cad.protocol") || has(words, "cad.worker_ended")));
+        CHECK(has(words, path));
+    }
+    for (const char* how : {"silent", "deaf"}) {
+        CAPTURE(how);
+        const Fake fake(how);
+        CHECK(has(failure([&] { (void)cad::load({path}, {}, {}, {.seconds = 0.5}); }), "cad.time_limit"));
+    }
+    {
+        const Fake fake("noise"); // replies with bytes changed, another way every time
+        for (int i = 0; i < 300; ++i) (void)failure([&] { (void)cad::load({path}); });
+    }
+    CHECK(cad::load({path}).faces.size() == 6);
+}
+
+TEST_CASE("the CAD process survives a host that lies")
+{
+    const test::TempFolder folder;
+    const topology::Model model =
+        cad::load({folder.gmsh("ball.step", [] { occ::addSphere(0, 0, 0, 1); })}); // keeps it
+    const std::shared_ptr<cad::Worker> worker = cad::Worker::current();
+    const cad::Task task{"nothing", "lying"};
+    const auto ask = [&](Opcode opcode, const auto& request) {
+        return failure([&] { (void)worker->ask<EvaluateReply>(opcode, request, task); });
+    };
+    CHECK(has(ask(Opcode::evaluate, EvaluateRequest{77, 1, {0.5}}), "no such model"));
+    CHECK(has(ask(Opcode::project, ProjectRequest{1, 77, {Vec3(0, 0, 0)}, {Vec2(0, 0)}}), "cad"));
+    CHECK(has(ask(Opcode::project, ProjectRequest{1, 1, {Vec3(0, 0, 0)}, {}}), "cad.protocol"));
+    CHECK(has(ask(Opcode::load, EvaluateRequest{1, 1, {1, 2, 3}}), "cad.protocol"));
+    CHECK(has(ask(Opcode(99), ReleaseRequest{1}), "no such request"));
+    CHECK(has(ask(Opcode::evaluate, EvaluateRequest{1, 4711, {0.5}}), "cad"));
+    CHECK(worker == cad::Worker::current());
+    std::mt19937 dice(5);
+    for (int i = 0; i < 2000; ++i) {
+        LoadRequest request;
+        request.files.push_back({LoadFile::step, "x", {{"x"}}});
+        std::string bytes = encode(request);
+        for (int k = 0; k < 3; ++k) bytes[dice() % bytes.size()] = char(dice());
+        (void)failure([&] { (void)decode<LoadRequest>(bytes); });
+    }
+}
