@@ -27,10 +27,10 @@ TEST_CASE("a triangle with two boundary sides and a neighbour becomes convex qua
           "as it is")
 {
     // Two triangles: each has two boundary sides, so the side between is halved.
-    const MixedMesh pair{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2, -1}, {0, 2, 3, -1}}, 4};
+    const MixedMesh pair{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2, 2}, {0, 2, 3, 3}}, 4};
     const MixedMesh split = quads::split_cells(pair);
     CHECK(split.cells.size() == 10);
-    for (const Quad& q : split.cells) CHECK(quads::scaled_jacobian(split, q) > 0);
+    for (const Quad& q : split.cells) CHECK(quads::scaled_jacobian(split.points, q) > 0);
 }
 
 TEST_CASE("split triangles fill every region that can be filled, spiked and crowded ones too")
@@ -39,7 +39,7 @@ TEST_CASE("split triangles fill every region that can be filled, spiked and crow
         const test::RandomDomain made = test::random_domain(seed, 40);
         if (!can_be_filled(made.region)) continue;
         CAPTURE(seed);
-        const quads::PlanarQuads mesh = quads::quads_of_triangles(made.region, quads::TriangleWay::split);
+        const quads::PlanarQuads mesh = quads::quads_of_triangles(made.region);
         const std::string fault = quads::find_fault(mesh, made.region);
         CHECK_MESSAGE(fault.empty(), fault);
     }

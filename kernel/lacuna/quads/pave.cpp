@@ -270,11 +270,8 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
         if (best.worst > flat && is_few() && made_in_all < most && best_score < kGoodEnough)
             attempt(best.style, taste);
     }
-    // It is worth another way where that costs little.
-    for (const RowStyle style : {RowStyle::halved_triangles, RowStyle::paired_triangles}) {
-        if (best.worst <= 0 || (is_few() && best.worst < kPoor)) attempt(style);
-    }
-    if (best.worst <= flat) attempt(RowStyle::split_triangles);
+    // Triangles are the last resort, and worth a trial where that costs little.
+    if (best.worst <= flat || (is_few() && best.worst < kPoor)) attempt(RowStyle::split_triangles);
     if (best.worst <= 0) {
         throw NotSweepable("surface.pave", "no valid quads were found for a region of " +
                                                std::to_string(region.points.size()) +

@@ -12,8 +12,6 @@
 #include <lacuna/quads/detail/triangle_quads.h>
 #include <lacuna/quads/smooth_plane.h>
 
-#include <optional>
-
 namespace lacuna::quads::paving {
 namespace {
 
@@ -117,21 +115,6 @@ void lay_and_fill(Attempt& attempt, Draft& draft, const PlanarRegion& region, co
     drop_loose_points(attempt.mesh, draft.fixed);
 }
 
-/// The way of triangles a style means, if any.
-std::optional<TriangleWay> triangle_way(RowStyle style)
-{
-    switch (style) {
-    case RowStyle::halved_triangles:
-        return TriangleWay::halved;
-    case RowStyle::paired_triangles:
-        return TriangleWay::paired;
-    case RowStyle::split_triangles:
-        return TriangleWay::split;
-    default:
-        return std::nullopt;
-    }
-}
-
 } // namespace
 
 void judge(Attempt& attempt)
@@ -152,9 +135,9 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
     Attempt attempt;
     attempt.style = style;
     Draft draft{region.points, {}, region.points.size(), size_with_boundary(region), flat, {}, taste};
-    if (const std::optional<TriangleWay> way = triangle_way(style)) {
-        attempt.mesh = quads_of_triangles(region, *way);
-        attempt.report.used = "paired";
+    if (style == RowStyle::split_triangles) {
+        attempt.mesh = quads_of_triangles(region);
+        attempt.report.used = "triangles";
         if (attempt.mesh.quads.empty()) return attempt;
     } else {
         lay_and_fill(attempt, draft, region, options, style, context);

@@ -15,6 +15,9 @@
 namespace lacuna::quads::paving {
 namespace {
 
+/// Closed loops of point numbers, the outer one first.
+using Loops = std::vector<std::vector<Index>>;
+
 /// Rings of quads taken out with the folded ones: nodes next to them were put where they fold.
 constexpr int kRings = 2;
 
@@ -189,7 +192,7 @@ int refill_folds(PlanarQuads& mesh, const PlanarRegion& region, double flat,
     refiller.take_out();
     for (const Loops& loops : holes) {
         auto [hole, own] = region_within(mesh, loops, size);
-        const PlanarQuads filling = quads_of_triangles(hole, TriangleWay::split);
+        const PlanarQuads filling = quads_of_triangles(hole);
         for (std::size_t p = own.size(); p < filling.points.size(); ++p) {
             own.push_back(static_cast<Index>(mesh.points.size()));
             mesh.points.push_back(filling.points[p]);

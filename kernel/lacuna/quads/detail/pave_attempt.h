@@ -14,9 +14,7 @@ enum class RowStyle {
     none,      ///< the region is cut as it is
     thin,      ///< rows also where loops are near each other
     buffer,    ///< one row with two quads at least at every node, so that all other nodes are free to move
-    halved_triangles, ///< no rows: `TriangleWay`
-    paired_triangles,
-    split_triangles
+    split_triangles ///< no rows: `quads_of_triangles()`
 };
 
 /// Quads made in one way.

@@ -4,6 +4,7 @@
 /// What the parts of the paver share: the mesh being made, cycles of its nodes, angles along them.
 /// Only sources of this folder include it.
 
+#include <lacuna/quads/detail/corner_sine.h>
 #include <lacuna/quads/region.h>
 
 #include <algorithm>
@@ -62,14 +63,9 @@ struct Draft {
     }
 };
 
-inline double cross(const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); }
-
-/// Angle from u counter-clockwise to v, in (0, 2π].
-inline double turn_between(const Vec2& u, const Vec2& v)
-{
-    const double angle = std::atan2(cross(u, v), u.dot(v));
-    return angle > 0 ? angle : angle + 2 * std::numbers::pi;
-}
+using quads::cross;
+using quads::least_sine;
+using quads::turn_between;
 
 /// Angle inside the region at a place of the cycle.
 inline double inner_angle(const Draft& draft, const Cycle& cycle, std::size_t i)
@@ -92,16 +88,7 @@ inline double twice_area(const Draft& draft, const Cycle& cycle)
     return sum;
 }
 
-/// Least sine of a quad's corners; 1 for a rectangle, > 0 where it is convex.
-inline double least_sine(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d)
-{
-    const Vec2 ab = b - a, bc = c - b, cd = d - c, da = a - d;
-    const double l0 = ab.norm(), l1 = bc.norm(), l2 = cd.norm(), l3 = da.norm();
-    const double least = 1e-300;
-    return std::min({cross(da, ab) / std::max(l3 * l0, least), cross(ab, bc) / std::max(l0 * l1, least),
-                     cross(bc, cd) / std::max(l1 * l2, least), cross(cd, da) / std::max(l2 * l3, least)});
-}
-
+/// Least sine of a quad's corners.
 inline double least_sine(const Draft& draft, const Quad& q)
 {
     return least_sine(draft.at(q[0]), draft.at(q[1]), draft.at(q[2]), draft.at(q[3]));
