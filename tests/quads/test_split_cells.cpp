@@ -2,7 +2,7 @@
 #include "support/plane_domains.h"
 
 #include <lacuna/geometry/triangulate.h>
-#include <lacuna/quads/detail/pave_refill.h>
+#include <lacuna/quads/detail/refill_cavities.h>
 #include <lacuna/quads/detail/split_cells.h>
 #include <lacuna/quads/detail/triangle_quads.h>
 #include <lacuna/quads/measure_plane.h>
@@ -76,7 +76,7 @@ TEST_CASE("folds made in a mesh are filled anew, and quads away from them stay")
     mesh.points[static_cast<std::size_t>(at(10, 10))] += Vec2(2.4, 1.7);
     mesh.points[static_cast<std::size_t>(at(1, 1))] += Vec2(-0.9, 1.5);
     const quads::PlanarQuads folded = mesh;
-    CHECK(quads::paving::refill_folds(mesh, region, 0, [](const Vec2&) { return 1.0; }) == 2);
+    CHECK(quads::paving::refill_cavities(mesh, region, 0, [](const Vec2&) { return 1.0; }) == 2);
     const std::string fault = quads::find_fault(mesh, region);
     CHECK_MESSAGE(fault.empty(), fault);
     const Quad far{at(16, 3), at(17, 3), at(17, 4), at(16, 4)};
@@ -92,6 +92,6 @@ TEST_CASE("folds made in a mesh are filled anew, and quads away from them stay")
     CHECK(kept == 1);
     // What is sound is left alone.
     const std::size_t quads = mesh.quads.size();
-    CHECK(quads::paving::refill_folds(mesh, region, 0, [](const Vec2&) { return 1.0; }) == 0);
+    CHECK(quads::paving::refill_cavities(mesh, region, 0, [](const Vec2&) { return 1.0; }) == 0);
     CHECK(mesh.quads.size() == quads);
 }

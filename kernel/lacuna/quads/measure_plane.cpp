@@ -14,8 +14,9 @@ namespace lacuna::quads {
 
 namespace {
 
-/// A quarter turn, and how far from right the corners of a good row may be.
 constexpr double kRight = std::numbers::pi / 2;
+/// What `measure_plane()` promises: how far the corners and the height of a good row may be off, and edges of
+/// the size asked. Choices, not measurements.
 constexpr double kOffRight = 20 * std::numbers::pi / 180;
 constexpr double kOffHeight = 0.3;
 constexpr double kShortest = 0.6, kLongest = 1.6;
@@ -49,7 +50,7 @@ std::size_t boundary_irregular(const PlanarRegion& region, const std::vector<Ind
             const Vec2 after = at(region.points, loop[(i + 1) % loop.size()]) - here;
             const Vec2 before = at(region.points, loop[(i + loop.size() - 1) % loop.size()]) - here;
             const auto wanted = std::max(1.0, std::round(turn_between(after, before) / kRight));
-            if (valence[static_cast<std::size_t>(loop[i])] != static_cast<Index>(wanted)) ++count;
+            if (valence[index(loop[i])] != static_cast<Index>(wanted)) ++count;
         }
     }
     return count;
@@ -120,7 +121,7 @@ PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
     std::vector<Index> valence(mesh.points.size(), 0);
     std::vector<char> on_boundary(mesh.points.size(), 0);
     for (const std::vector<Index>& loop : region.loops) {
-        for (const Index p : loop) on_boundary[static_cast<std::size_t>(p)] = 1;
+        for (const Index p : loop) on_boundary[index(p)] = 1;
     }
     const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads,
                                                              static_cast<Index>(mesh.points.size()));
@@ -131,7 +132,7 @@ PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
         result.min_scaled_jacobian = std::min(result.min_scaled_jacobian, jacobian);
         jacobians += jacobian;
         for (std::size_t k = 0; k < 4; ++k) {
-            ++valence[static_cast<std::size_t>(quad[k])];
+            ++valence[index(quad[k])];
             const Index other = opposite[4 * q + k];
             if (other >= 0 && static_cast<std::size_t>(other) < 4 * q + k) continue;
             const Vec2& a = at(mesh.points, quad[k]);
@@ -168,7 +169,7 @@ std::string find_fault(const PlanarQuads& mesh, const PlanarRegion& region)
 
     std::vector<char> used(mesh.points.size(), 0);
     for (const Quad& quad : mesh.quads) {
-        for (const Index p : quad) used[static_cast<std::size_t>(p)] = 1;
+        for (const Index p : quad) used[index(p)] = 1;
     }
     const auto unused = std::find(used.begin(), used.end(), 0);
     if (unused != used.end()) return "point " + std::to_string(unused - used.begin()) + " has no quad";

@@ -5,10 +5,10 @@
 #include <lacuna/geometry/predicates.h>
 #include <lacuna/geometry/triangulate.h>
 #include <lacuna/quads/detail/pave_attempt.h>
-#include <lacuna/quads/detail/pave_repair.h>
+#include <lacuna/quads/detail/open_corners.h>
 #include <lacuna/quads/detail/pave_rows.h>
 #include <lacuna/quads/detail/pave_size.h>
-#include <lacuna/quads/detail/pave_true_rows.h>
+#include <lacuna/quads/detail/row_heights.h>
 #include <lacuna/quads/measure_plane.h>
 #include <lacuna/quads/submap.h>
 
@@ -160,7 +160,7 @@ Attempt try_submap(const PlanarRegion& region, bool round_loops, const RunContex
     attempt.mesh = std::move(*mesh);
     attempt.report.used = attempt.mesh.how;
     attempt.report.mapped = 1;
-    true_rows(attempt.mesh, region, size_with_boundary(region));
+    correct_row_heights(attempt.mesh, region, size_with_boundary(region));
     judge(attempt);
     return attempt;
 }
@@ -259,7 +259,7 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
     const auto is_few = [&] { return options.rows < 0 && best.mesh.quads.size() <= kFew; };
     attempt(RowStyle::by_shape);
     if (best.worst <= flat) attempt(RowStyle::buffer);
-    for (const RowStyle style : {RowStyle::none, RowStyle::thin}) {
+    for (const RowStyle style : {RowStyle::no_rows, RowStyle::thin}) {
         if (best.worst <= 0 || is_few()) attempt(style);
     }
     if (options.grids && is_few()) consider(try_submap(region, true, context));
@@ -271,7 +271,7 @@ PlanarQuads pave(const PlanarRegion& region, const PaveOptions& options, const R
             attempt(best.style, taste);
     }
     // Triangles are the last resort, and worth a trial where that costs little.
-    if (best.worst <= flat || (is_few() && best.worst < kPoor)) attempt(RowStyle::split_triangles);
+    if (best.worst <= flat || (is_few() && best.worst < kPoor)) attempt(RowStyle::triangles);
     if (best.worst <= 0) {
         throw NotSweepable("surface.pave", "no valid quads were found for a region of " +
                                                std::to_string(region.points.size()) +

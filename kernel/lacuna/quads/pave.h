@@ -36,7 +36,7 @@ struct PaveOptions {
 /// without corners and there is room; a cut is straight, with nodes as the size asks, and its ends square to the outline where that
 /// goes; its number of edges leaves even parts whose sides agree. A part that is a good patch of 3 to 5 sides is filled
 /// with grids that meet in 1, 2 or 4 irregular nodes. Then corners that lack a quad get one, folds are opened or
-/// filled anew (`paving::refill_folds()`), irregular nodes paired off, nodes smoothed, rows made true. Up to 4000 quads are made
+/// filled anew (`paving::refill_cavities()`), irregular nodes paired off, nodes smoothed, rows made true. Up to 4000 quads are made
 /// with and without rows and by several weightings of the cuts, and the best by measure kept. Boundary nodes are kept, in order, bit
 /// for bit. The quads are counter-clockwise and convex; flat ones are left only where the boundary's sides are long for
 /// the gap between them, which the log says.

@@ -13,9 +13,9 @@
 namespace lacuna::quads {
 namespace {
 
-/// The inner edges that stay whole: the T-join of `split_cells()`. Breadth-first trees grow from all odd cells at
-/// once. Where two meet, their groups are joined, the nearest first; in the tree of groups every branch with an
-/// odd number of odd cells is joined to the cell above it.
+/// The inner edges that stay whole: the T-join of `split_cells()`. Breadth-first trees grow from all odd
+/// cells at once. Where two meet, their groups are joined, the nearest first; in the tree of groups every
+/// branch with an odd number of odd cells is joined to the cell above it.
 class WholeEdges {
 public:
     explicit WholeEdges(const MixedMesh& mesh)
@@ -223,8 +223,8 @@ private:
             made_.cells.push_back({corner[k], half[k], centre, half[(k + n - 1) % n]});
     }
 
-    /// Two whole sides: with the middle of the third it is a quad with a flat corner. That gets a smaller quad on
-    /// rays from the centre of the triangle's incircle, and four around it.
+    /// Two whole sides: with the middle of the third it is a quad with a flat corner. That gets a smaller
+    /// quad on rays from the centre of the triangle's incircle, and four around it.
     void split_triangle(const std::array<Index, 4>& corner, const std::array<Index, 4>& half)
     {
         std::size_t k = 0;
