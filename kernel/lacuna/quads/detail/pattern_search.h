@@ -10,11 +10,12 @@ namespace lacuna::quads {
 /// Steps of `pattern_search()`.
 struct PatternSteps {
     double scale;       ///< a length of the neighbourhood
-    double first, last; ///< the longest step, and one shorter than the shortest [of `scale`]
+    double first, last; ///< the longest step, and a bound below all [of `scale`]
     double least_gain;  ///< in the value, for a step as long as `scale`, >= 0
 };
 
-/// Move a point to where a value is larger, by pattern search: eight directions, the step halved where none wins.
+/// Move a point to where a value is larger, by pattern search: eight directions, the step halved where none
+/// wins.
 /// @param best   the value at `x`.
 /// @param value  of a place, called as value(const Vec2&).
 /// @return the value at the new `x`, at least `best`.
