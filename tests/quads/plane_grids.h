@@ -18,7 +18,8 @@ struct PlaneGrid {
     quads::PlanarRegion region;
 };
 
-/// Renumber so that the boundary comes first, in walking order, and make the region of it. @pre one boundary loop
+/// Renumber so that the boundary comes first, in walking order, and make the region of it. @pre one boundary
+/// loop
 inline PlaneGrid with_region(const quads::PlanarQuads& raw)
 {
     std::map<Index, Index> next;

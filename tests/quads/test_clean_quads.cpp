@@ -48,7 +48,8 @@ std::vector<quads::TemplateMesh> fillings(const std::vector<Vec2>& loop,
     return made;
 }
 
-/// A filling uses every side of its loop once, others twice, and has one quad at a corner, two elsewhere on the loop.
+/// A filling uses every side of its loop once, others twice, and has one quad at a corner, two elsewhere on
+/// the loop.
 void check_filling(const std::vector<Vec2>& loop, const std::vector<std::size_t>& corners,
                    const quads::TemplateMesh& filling)
 {

@@ -2,7 +2,7 @@
 #include "support/plane_domains.h"
 
 #include <lacuna/geometry/triangulate.h>
-#include <lacuna/quads/detail/pave_refill.h>
+#include <lacuna/quads/detail/refill_cavities.h>
 #include <lacuna/quads/detail/split_cells.h>
 #include <lacuna/quads/detail/triangle_quads.h>
 #include <lacuna/quads/measure_plane.h>
@@ -27,10 +27,10 @@ TEST_CASE("a triangle with two boundary sides and a neighbour becomes convex qua
           "as it is")
 {
     // Two triangles: each has two boundary sides, so the side between is halved.
-    const MixedMesh pair{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2, -1}, {0, 2, 3, -1}}, 4};
+    const MixedMesh pair{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2, 2}, {0, 2, 3, 3}}, 4};
     const MixedMesh split = quads::split_cells(pair);
     CHECK(split.cells.size() == 10);
-    for (const Quad& q : split.cells) CHECK(quads::scaled_jacobian(split, q) > 0);
+    for (const Quad& q : split.cells) CHECK(quads::scaled_jacobian(split.points, q) > 0);
 }
 
 TEST_CASE("split triangles fill every region that can be filled, spiked and crowded ones too")
@@ -39,7 +39,7 @@ TEST_CASE("split triangles fill every region that can be filled, spiked and crow
         const test::RandomDomain made = test::random_domain(seed, 40);
         if (!can_be_filled(made.region)) continue;
         CAPTURE(seed);
-        const quads::PlanarQuads mesh = quads::quads_of_triangles(made.region, quads::TriangleWay::split);
+        const quads::PlanarQuads mesh = quads::quads_of_triangles(made.region);
         const std::string fault = quads::find_fault(mesh, made.region);
         CHECK_MESSAGE(fault.empty(), fault);
     }
@@ -76,7 +76,7 @@ TEST_CASE("folds made in a mesh are filled anew, and quads away from them stay")
     mesh.points[static_cast<std::size_t>(at(10, 10))] += Vec2(2.4, 1.7);
     mesh.points[static_cast<std::size_t>(at(1, 1))] += Vec2(-0.9, 1.5);
     const quads::PlanarQuads folded = mesh;
-    CHECK(quads::paving::refill_folds(mesh, region, 0, [](const Vec2&) { return 1.0; }) == 2);
+    CHECK(quads::paving::refill_cavities(mesh, region, 0, [](const Vec2&) { return 1.0; }) == 2);
     const std::string fault = quads::find_fault(mesh, region);
     CHECK_MESSAGE(fault.empty(), fault);
     const Quad far{at(16, 3), at(17, 3), at(17, 4), at(16, 4)};
@@ -92,6 +92,6 @@ TEST_CASE("folds made in a mesh are filled anew, and quads away from them stay")
     CHECK(kept == 1);
     // What is sound is left alone.
     const std::size_t quads = mesh.quads.size();
-    CHECK(quads::paving::refill_folds(mesh, region, 0, [](const Vec2&) { return 1.0; }) == 0);
+    CHECK(quads::paving::refill_cavities(mesh, region, 0, [](const Vec2&) { return 1.0; }) == 0);
     CHECK(mesh.quads.size() == quads);
 }

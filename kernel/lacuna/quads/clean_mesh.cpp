@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/clean_mesh.h>
 
+#include <lacuna/quads/detail/corner_sine.h>
 #include <lacuna/quads/measure_plane.h>
 
 #include <algorithm>
@@ -13,9 +14,10 @@ namespace lacuna::quads::cleaning {
 namespace {
 
 constexpr double kRight = std::numbers::pi / 2;
-/// Right angles that a boundary point may have more or less than quads.
+/// Right angles that a boundary point may have more or less than quads. A choice, not a measurement.
 constexpr double kFits = 0.65;
-/// Loss of a quad for its area being off by a factor e from the one asked; and the power of e taken for a folded one.
+/// Loss of a quad whose area is off by a factor e from the one asked, and the power of e that a folded one
+/// counts as. Choices, not measurements.
 constexpr double kSizeLoss = 0.1, kFarOff = 10;
 
 } // namespace
@@ -26,10 +28,10 @@ QuadLoss loss_of(std::span<const Vec2> points, const Quad& quad, const CleanOpti
     result.jacobian = scaled_jacobian(points, quad);
     result.loss = 1 - result.jacobian;
     if (!options.size) return result;
-    const auto at = [&](std::size_t k) -> const Vec2& { return points[static_cast<std::size_t>(quad[k])]; };
+    const auto at = [&](std::size_t k) -> const Vec2& { return points[index(quad[k])]; };
     const Vec2 u = at(2) - at(0), v = at(3) - at(1);
     const double size = options.size((at(0) + at(1) + at(2) + at(3)) / 4);
-    const double ratio = (u.x() * v.y() - u.y() * v.x()) / (2 * size * size);
+    const double ratio = cross(u, v) / (2 * size * size);
     const double off = ratio > 0 ? std::log(ratio) : kFarOff;
     result.loss += kSizeLoss * off * off;
     return result;
@@ -40,13 +42,13 @@ CleanMesh::CleanMesh(const PlanarQuads& mesh, std::size_t fixed, const CleanOpti
       points_(mesh.points),
       net_(mesh.points.size(), mesh.quads),
       fixed_(fixed),
-      wanted_(mesh.points.size(), 4),
+      ideal_(mesh.points.size(), 4),
       loss_(mesh.quads.size()),
       loss_known_(mesh.quads.size(), 0),
       version_(mesh.quads.size(), 0)
 {
     for (Index p = 0; p < static_cast<Index>(points_.size()); ++p) {
-        if (net_.is_used(p) && net_.on_boundary(p)) wanted_[static_cast<std::size_t>(p)] = right_angles(p);
+        if (net_.is_used(p) && net_.on_boundary(p)) ideal_[index(p)] = right_angles(p);
     }
 }
 
@@ -57,7 +59,7 @@ bool CleanMesh::is_sound() const
         int in_fan = 0;
         net_.for_sides(p, [&](Index) { ++in_fan; });
         if (in_fan != net_.valence(p)) return false;
-        if (static_cast<std::size_t>(p) >= fixed_ && net_.on_boundary(p)) return false;
+        if (index(p) >= fixed_ && net_.on_boundary(p)) return false;
     }
     return true;
 }
@@ -80,10 +82,8 @@ int CleanMesh::right_angles(Index p) const
         any = true;
         last = at(net_.from(QuadNet::before(side))) - at(p);
     });
-    double angle = std::atan2(first.x() * last.y() - first.y() * last.x(), first.dot(last));
-    if (angle <= 0) angle += 2 * std::numbers::pi;
-    // Half way between two numbers either will do: the one that is there.
-    const double fit = angle / kRight;
+    // Half way between two numbers either will do, so the one that is there stays.
+    const double fit = turn_between(first, last) / kRight;
     const int valence = net_.valence(p);
     return std::abs(fit - valence) < kFits ? valence : std::max(1, static_cast<int>(std::lround(fit)));
 }
@@ -115,22 +115,22 @@ std::size_t CleanMesh::remove_doublets()
         replace(old, merged);
         ++removed;
         for (const Index q : {a, c}) {
-            if (static_cast<std::size_t>(q) >= fixed_) left.push_back(q);
+            if (index(q) >= fixed_) left.push_back(q);
         }
     }
     return removed;
 }
 
-Index CleanMesh::add_point(const Vec2& place)
+Index CleanMesh::add_point(const Vec2& position)
 {
-    points_.push_back(place);
-    wanted_.push_back(4);
+    points_.push_back(position);
+    ideal_.push_back(4);
     return net_.add_point();
 }
 
-void CleanMesh::move(Index p, const Vec2& place)
+void CleanMesh::move(Index p, const Vec2& position)
 {
-    points_[static_cast<std::size_t>(p)] = place;
+    points_[index(p)] = position;
     net_.for_sides(p, [&](Index side) { loss_known_[static_cast<std::size_t>(side / 4)] = 0; });
 }
 
@@ -141,12 +141,12 @@ void CleanMesh::replace(std::span<const Index> removed, std::span<const Quad> ad
     loss_.resize(net_.quad_slots());
     loss_known_.resize(net_.quad_slots(), 0);
     for (const Index q : numbers) {
-        ++version_[static_cast<std::size_t>(q)];
-        loss_known_[static_cast<std::size_t>(q)] = 0;
+        ++version_[index(q)];
+        loss_known_[index(q)] = 0;
     }
 }
 
-PlanarQuads CleanMesh::taken_out() const
+PlanarQuads CleanMesh::result() const
 {
     PlanarQuads mesh;
     std::vector<Index> number(points_.size(), -1);
@@ -158,7 +158,7 @@ PlanarQuads CleanMesh::taken_out() const
     for (Index q = 0; q < static_cast<Index>(net_.quad_slots()); ++q) {
         if (!net_.is_live(q)) continue;
         Quad quad = net_.quad(q);
-        for (Index& p : quad) p = number[static_cast<std::size_t>(p)];
+        for (Index& p : quad) p = number[index(p)];
         mesh.quads.push_back(quad);
     }
     return mesh;

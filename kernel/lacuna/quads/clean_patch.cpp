@@ -5,7 +5,7 @@ namespace lacuna::quads::cleaning {
 
 namespace {
 
-/// Points that are looked at for irregular ones to grow a patch to.
+/// Points that are looked at for irregular ones to grow a patch to. A choice, not a measurement.
 constexpr std::size_t kLookedAt = 900;
 
 } // namespace
@@ -65,14 +65,14 @@ void PatchGrower::add_star(Index p)
     });
 }
 
-Outline PatchGrower::close(std::size_t largest)
+PatchState PatchGrower::close(std::size_t largest)
 {
     while (true) {
-        if (!fill_notches(largest)) return Outline::too_large;
+        if (!fill_notches(largest)) return PatchState::too_large;
         const Index pinched = link_sides();
-        if (pinched < 0) return walk_outline() ? Outline::fine : Outline::hopeless;
+        if (pinched < 0) return walk_outline() ? PatchState::fine : PatchState::hopeless;
         add_star(pinched);
-        if (mesh_.net().on_boundary(pinched)) return Outline::hopeless;
+        if (mesh_.net().on_boundary(pinched)) return PatchState::hopeless;
     }
 }
 
@@ -93,7 +93,7 @@ bool PatchGrower::fill_notches(std::size_t largest)
     return true;
 }
 
-/// Find the point after each on the outline. @return a point where the outline passes twice, or -1
+/// Find the point after each on the outline. @return a point the outline passes twice, or -1
 Index PatchGrower::link_sides()
 {
     const QuadNet& net = mesh_.net();
@@ -124,8 +124,8 @@ bool PatchGrower::walk_outline()
     if (start_ < 0) return false;
     Index p = start_;
     do {
-        const int valence = net.valence(p), inside = count_[p], wanted = mesh_.wanted(p);
-        // On the mesh's boundary a filling may put right how many quads there are.
+        const int valence = net.valence(p), inside = count_[p], wanted = mesh_.ideal_valence(p);
+        // On the mesh's boundary a filling may correct the number of quads.
         const bool whole = inside == valence;
         const int corner = whole ? wanted : inside;
         if (corner > 2) return false;
@@ -134,7 +134,7 @@ bool PatchGrower::walk_outline()
         patch_.loop.push_back(p);
         p = next_[p];
     } while (p != start_ && patch_.loop.size() <= sides_);
-    if (patch_.loop.size() != sides_) return false; // a hole in it
+    if (patch_.loop.size() != sides_) return false; // the patch has a hole
     for (const Index q : patch_.touched) {
         if (!next_.has(q) && net.valence(q) != 4) ++patch_.irregular;
     }

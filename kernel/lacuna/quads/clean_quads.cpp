@@ -17,18 +17,20 @@ namespace cleaning {
 namespace {
 
 /// How much is tried before a patch is given up.
-struct Care {
+struct SearchLimits {
     std::size_t growths;  ///< irregular points a patch is grown to
     std::size_t largest;  ///< patch, in quads
     std::size_t fillings; ///< of each patch
     int sweeps;           ///< over a filling, before it is judged the second time
     double hopeless;      ///< given up then where the loss is so many times what is allowed
 };
-/// Small patches, where most is won for little; then larger ones, and while the budget lasts more thorough.
-constexpr std::array<Care, 3> kCares{{{3, 60, 2, 1, 1.8}, {12, 100'000, 2, 1, 1.8}, {12, 100'000, 4, 2, 3}}};
-/// Quads that may be tried however small the mesh.
+/// Small patches first, where most is won for little; then larger ones, and more thoroughly while the budget
+/// lasts. Choices, not measurements.
+constexpr std::array<SearchLimits, 3> kStages{
+    {{3, 60, 2, 1, 1.8}, {12, 100'000, 2, 1, 1.8}, {12, 100'000, 4, 2, 3}}};
+/// Quads that may be tried however small the mesh. A choice, not a measurement.
 constexpr long kLeastBudget = 50'000;
-/// Layers of quads around a patch that are smoothed with it.
+/// Rings of quads around a patch that are smoothed with it. A choice, not a measurement.
 constexpr int kRings = 2;
 
 class Cleaner {
@@ -39,25 +41,25 @@ public:
         budget_ = kLeastBudget + static_cast<long>(options.effort * static_cast<double>(quads));
     }
 
-    /// Look at everything again, with so much care.
-    void begin(const Care& care)
+    /// Look at everything again, within these limits.
+    void begin(const SearchLimits& limits)
     {
-        if (care.hopeless > care_.hopeless) tried_.clear();
-        care_ = care;
+        if (limits.hopeless > limits_.hopeless) tried_.clear();
+        limits_ = limits;
         due_.assign(mesh_.points().size(), 1);
     }
-    /// @return patches filled anew
+    /// @return how many patches were refilled
     std::size_t pass(CleanReport& report, const RunContext& context);
 
 private:
-    bool mend(Index seed, CleanReport& report);
-    bool fill_anew(const Patch& patch, CleanReport& report);
+    bool improve(Index seed, CleanReport& report);
+    bool refill(const QuadPatch& patch, CleanReport& report);
 
     CleanMesh& mesh_;
     const CleanOptions& options_;
     PatchGrower grower_;
     Trial trial_;
-    Care care_ = kCares[0];
+    SearchLimits limits_ = kStages[0];
     long budget_ = 0;
     std::vector<char> due_;                   ///< points to be looked at, if irregular
     std::unordered_set<std::uint64_t> tried_; ///< patches that were filled for trial with no less patience
@@ -65,7 +67,7 @@ private:
     std::vector<Vec2> loop_;
 };
 
-bool Cleaner::fill_anew(const Patch& patch, CleanReport& report)
+bool Cleaner::refill(const QuadPatch& patch, CleanReport& report)
 {
     if (fewest_irregular(patch.loop.size(), patch.corners) >= patch.irregular) return false;
     std::uint64_t key = 0;
@@ -73,7 +75,7 @@ bool Cleaner::fill_anew(const Patch& patch, CleanReport& report)
     if (!tried_.insert(key).second) return false;
     loop_.clear();
     for (const Index p : patch.loop) loop_.push_back(mesh_.at(p));
-    const std::vector<TemplateCut> cuts = find_cuts(loop_, patch.corners, care_.fillings);
+    const std::vector<TemplateCut> cuts = find_cuts(loop_, patch.corners, limits_.fillings);
     if (cuts.empty()) return false;
     const std::vector<Index>& around = grower_.rings(kRings);
     trial_.set_patch(patch, around);
@@ -84,7 +86,7 @@ bool Cleaner::fill_anew(const Patch& patch, CleanReport& report)
         const TemplateMesh filling = fill_template(loop_, patch.corners, cut);
         budget_ -= static_cast<long>(filling.quads.size() + around.size());
         ++report.tried;
-        const Verdict verdict = trial_.run(filling, care_.sweeps, care_.hopeless);
+        const Verdict verdict = trial_.run(filling, limits_.sweeps, limits_.hopeless);
         if (verdict == Verdict::poor) poor_.insert(filled);
         if (verdict != Verdict::good) continue;
         due_.resize(mesh_.points().size(), 1);
@@ -94,16 +96,16 @@ bool Cleaner::fill_anew(const Patch& patch, CleanReport& report)
     return false;
 }
 
-/// Grow a patch from an irregular point to the next, and the next, until a filling is better.
-bool Cleaner::mend(Index seed, CleanReport& report)
+/// Grow a patch from an irregular point to one irregular point after the other, until a filling is better.
+bool Cleaner::improve(Index seed, CleanReport& report)
 {
-    grower_.start(seed, care_.growths);
-    const std::size_t largest = std::min(care_.largest, static_cast<std::size_t>(options_.largest_patch));
+    grower_.start(seed, limits_.growths);
+    const std::size_t largest = std::min(limits_.largest, static_cast<std::size_t>(options_.largest_patch));
     for (std::size_t growth = 0; growth <= grower_.others().size(); ++growth) {
         if (growth > 0 && !grower_.grow_to(grower_.others()[growth - 1])) continue;
-        const Outline outline = grower_.close(largest);
-        if (outline == Outline::too_large) return false;
-        if (outline == Outline::fine && fill_anew(grower_.patch(), report)) return true;
+        const PatchState outline = grower_.close(largest);
+        if (outline == PatchState::too_large) return false;
+        if (outline == PatchState::fine && refill(grower_.patch(), report)) return true;
         if (budget_ < 0) return false;
     }
     return false;
@@ -111,17 +113,17 @@ bool Cleaner::mend(Index seed, CleanReport& report)
 
 std::size_t Cleaner::pass(CleanReport& report, const RunContext& context)
 {
-    std::size_t mended = 0;
+    std::size_t improved = 0;
     for (Index p = 0; p < static_cast<Index>(mesh_.points().size()) && budget_ >= 0; ++p) {
-        if (due_[static_cast<std::size_t>(p)] == 0 || !mesh_.is_irregular(p)) continue;
+        if (due_[index(p)] == 0 || !mesh_.is_irregular(p)) continue;
         check_cancelled(context);
-        due_[static_cast<std::size_t>(p)] = 0;
-        if (!mend(p, report)) continue;
-        ++mended;
-        // What was looked at has changed for those who looked at it in vain.
-        for (const Index q : grower_.seen_points()) due_[static_cast<std::size_t>(q)] = 1;
+        due_[index(p)] = 0;
+        if (!improve(p, report)) continue;
+        ++improved;
+        // Points that were looked at in vain before have changed surroundings now.
+        for (const Index q : grower_.seen_points()) due_[index(q)] = 1;
     }
-    return mended;
+    return improved;
 }
 
 } // namespace
@@ -137,14 +139,14 @@ CleanReport clean_quads(PlanarQuads& mesh, std::size_t fixed, const CleanOptions
     report.irregular_before = work.irregular();
     report.doublets = work.remove_doublets();
     cleaning::Cleaner cleaner(work, options, mesh.quads.size());
-    for (const cleaning::Care& care : cleaning::kCares) {
-        cleaner.begin(care);
+    for (const cleaning::SearchLimits& limits : cleaning::kStages) {
+        cleaner.begin(limits);
         for (int pass = 0; pass < options.passes; ++pass) {
             if (cleaner.pass(report, context) == 0) break;
         }
     }
     report.irregular_after = work.irregular();
-    PlanarQuads cleaned = work.taken_out();
+    PlanarQuads cleaned = work.result();
     mesh.points = std::move(cleaned.points);
     mesh.quads = std::move(cleaned.quads);
     return report;

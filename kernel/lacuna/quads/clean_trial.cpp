@@ -7,12 +7,13 @@ namespace lacuna::quads::cleaning {
 
 namespace {
 
-/// What a patch may lose in scaled Jacobian, summed over its quads, for each irregular point it sheds.
+/// What a patch may lose in scaled Jacobian, summed over its quads, for each irregular point less. A choice,
+/// not a measurement.
 constexpr double kLossForgiven = 0.15;
-/// The first sweeps over a filling leave this share of its loss at least (of 6,000 fillings from six domains they left less in
-/// one of a hundred).
+/// The first sweeps over a filling leave at least this share of its loss (of 6,000 fillings from six domains
+/// they left less in one of a hundred).
 constexpr double kLeft = 0.6;
-/// Sweeps over a filling and what is around, and rounds over its poor quads.
+/// Sweeps over a filling and its surroundings, and rounds over its poor quads. Choices, not measurements.
 constexpr int kSweeps = 6, kRepairs = 4;
 
 } // namespace
@@ -23,7 +24,7 @@ Trial::Trial(CleanMesh& mesh, const CleanOptions& options) : mesh_(mesh), option
     smoothing_.untangle = false;
 }
 
-void Trial::set_patch(const Patch& patch, std::span<const Index> around)
+void Trial::set_patch(const QuadPatch& patch, std::span<const Index> around)
 {
     patch_ = &patch;
     around_ = around;
@@ -54,7 +55,7 @@ Verdict Trial::run(const TemplateMesh& filling, int sweeps, double hopeless)
     return Verdict::good;
 }
 
-/// Is the loss of the first so many quads, and of those around as they are, larger?
+/// Whether the loss of the first quads and of those around, as they are, is larger than `most`.
 bool Trial::exceeds(std::size_t filled, double most) const
 {
     double loss = loss_around_;
@@ -63,10 +64,12 @@ bool Trial::exceeds(std::size_t filled, double most) const
     return !(loss <= most);
 }
 
-/// Smooth a filling's own points, in `inner_` thereafter. @return false where it is not worth more
+/// Smooth the points of a filling alone; `inner_` has them afterwards. @return false where the loss stays
+/// above `most`
 bool Trial::settles(const TemplateMesh& filling, int sweeps, double most)
 {
-    // The smoothing lets no quad become worse than the worst there is: that around goes with the filling.
+    // Smoothing lets no quad become worse than the worst: so the worst quad around is put in with the
+    // filling.
     points_.clear();
     quads_.clear();
     if (worst_ >= 0) {
@@ -88,7 +91,8 @@ bool Trial::settles(const TemplateMesh& filling, int sweeps, double most)
     return true;
 }
 
-/// Number the points of the loop and around. Those that stay come first: on the boundary, and those with quads further out.
+/// Number the points of the loop and around it. Those that stay come first: on the boundary, and those with
+/// quads further out.
 void Trial::number_points()
 {
     const QuadNet& net = mesh_.net();
@@ -117,7 +121,7 @@ void Trial::number_points()
     }
 }
 
-/// Smooth a filling with what is around. @return whether it is good
+/// Smooth a filling with its surroundings. @return whether it is good
 bool Trial::fits(const TemplateMesh& filling, double allowed)
 {
     points_.clear();
@@ -128,8 +132,7 @@ bool Trial::fits(const TemplateMesh& filling, double allowed)
     const auto inner = static_cast<Index>(points_.size()), rim = static_cast<Index>(patch_->loop.size());
     points_.insert(points_.end(), inner_.begin(), inner_.end());
     for (Quad quad : filling.quads) {
-        for (Index& p : quad)
-            p = p < rim ? number_[patch_->loop[static_cast<std::size_t>(p)]] : inner + p - rim;
+        for (Index& p : quad) p = p < rim ? number_[patch_->loop[index(p)]] : inner + p - rim;
         quads_.push_back(quad);
     }
     for (const Index q : around_) {
@@ -152,15 +155,14 @@ bool Trial::fits(const TemplateMesh& filling, double allowed)
 
 void Trial::put_in(const TemplateMesh& filling)
 {
-    for (const Index p : moving_) mesh_.move(p, points_[static_cast<std::size_t>(number_[p])]);
+    for (const Index p : moving_) mesh_.move(p, points_[index(number_[p])]);
     std::vector<Index> made;
     for (std::size_t i = points_.size() - filling.inner.size(); i < points_.size(); ++i)
         made.push_back(mesh_.add_point(points_[i]));
     const auto rim = static_cast<Index>(patch_->loop.size());
     std::vector<Quad> added = filling.quads;
     for (Quad& quad : added) {
-        for (Index& p : quad)
-            p = p < rim ? patch_->loop[static_cast<std::size_t>(p)] : made[static_cast<std::size_t>(p - rim)];
+        for (Index& p : quad) p = p < rim ? patch_->loop[index(p)] : made[static_cast<std::size_t>(p - rim)];
     }
     mesh_.replace(patch_->quads, added);
 }

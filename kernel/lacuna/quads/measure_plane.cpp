@@ -2,6 +2,7 @@
 #include <lacuna/quads/measure_plane.h>
 
 #include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/quads/detail/corner_sine.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,29 +14,21 @@ namespace lacuna::quads {
 
 namespace {
 
-/// A quarter turn, and how far from right the corners of a good row may be.
 constexpr double kRight = std::numbers::pi / 2;
+/// What `measure_plane()` promises: how far the corners and the height of a good row may be off, and edges of
+/// the size asked. Choices, not measurements.
 constexpr double kOffRight = 20 * std::numbers::pi / 180;
 constexpr double kOffHeight = 0.3;
 constexpr double kShortest = 0.6, kLongest = 1.6;
 
-const Vec2& at(std::span<const Vec2> points, Index p) { return points[static_cast<std::size_t>(p)]; }
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-/// Angle from `a` counter-clockwise to `b` [0, 2π).
-double angle(const Vec2& a, const Vec2& b)
-{
-    const double turn = std::atan2(cross(a, b), a.dot(b));
-    return turn < 0 ? turn + 2 * std::numbers::pi : turn;
-}
+const Vec2& at(std::span<const Vec2> points, Index p) { return points[index(p)]; }
 
 bool stands_well(std::span<const Vec2> points, const Quad& quad, std::size_t side, double height)
 {
     for (std::size_t k = 0; k < 4; ++k) {
         const Vec2& here = at(points, quad[k]);
-        const double corner = angle(at(points, quad[(k + 1) % 4]) - here,
-                                    at(points, quad[(k + 3) % 4]) - here);
+        const double corner = turn_between(at(points, quad[(k + 1) % 4]) - here,
+                                           at(points, quad[(k + 3) % 4]) - here);
         if (std::abs(corner - kRight) > kOffRight) return false;
     }
     const Vec2& from = at(points, quad[side]);
@@ -56,8 +49,8 @@ std::size_t boundary_irregular(const PlanarRegion& region, const std::vector<Ind
             const Vec2& here = at(region.points, loop[i]);
             const Vec2 after = at(region.points, loop[(i + 1) % loop.size()]) - here;
             const Vec2 before = at(region.points, loop[(i + loop.size() - 1) % loop.size()]) - here;
-            const auto wanted = std::max(1.0, std::round(angle(after, before) / kRight));
-            if (valence[static_cast<std::size_t>(loop[i])] != static_cast<Index>(wanted)) ++count;
+            const auto wanted = std::max(1.0, std::round(turn_between(after, before) / kRight));
+            if (valence[index(loop[i])] != static_cast<Index>(wanted)) ++count;
         }
     }
     return count;
@@ -115,18 +108,9 @@ std::string find_bad_side(const PlanarQuads& mesh, const PlanarRegion& region, s
 
 double scaled_jacobian(std::span<const Vec2> points, const Quad& quad)
 {
-    std::array<Vec2, 4> side;
-    std::array<double, 4> length;
-    for (std::size_t k = 0; k < 4; ++k) {
-        side[k] = at(points, quad[(k + 1) % 4]) - at(points, quad[k]);
-        length[k] = side[k].norm();
-    }
-    double least = 1;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const double both = length[k] * length[(k + 3) % 4];
-        least = std::min(least, both > 0 ? cross(side[(k + 3) % 4], side[k]) / both : 0.0);
-    }
-    return least;
+    // Rounding may take the sine of a right angle above 1.
+    return std::min(
+        1.0, least_sine(at(points, quad[0]), at(points, quad[1]), at(points, quad[2]), at(points, quad[3])));
 }
 
 PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
@@ -137,7 +121,7 @@ PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
     std::vector<Index> valence(mesh.points.size(), 0);
     std::vector<char> on_boundary(mesh.points.size(), 0);
     for (const std::vector<Index>& loop : region.loops) {
-        for (const Index p : loop) on_boundary[static_cast<std::size_t>(p)] = 1;
+        for (const Index p : loop) on_boundary[index(p)] = 1;
     }
     const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads,
                                                              static_cast<Index>(mesh.points.size()));
@@ -148,7 +132,7 @@ PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
         result.min_scaled_jacobian = std::min(result.min_scaled_jacobian, jacobian);
         jacobians += jacobian;
         for (std::size_t k = 0; k < 4; ++k) {
-            ++valence[static_cast<std::size_t>(quad[k])];
+            ++valence[index(quad[k])];
             const Index other = opposite[4 * q + k];
             if (other >= 0 && static_cast<std::size_t>(other) < 4 * q + k) continue;
             const Vec2& a = at(mesh.points, quad[k]);
@@ -185,7 +169,7 @@ std::string find_fault(const PlanarQuads& mesh, const PlanarRegion& region)
 
     std::vector<char> used(mesh.points.size(), 0);
     for (const Quad& quad : mesh.quads) {
-        for (const Index p : quad) used[static_cast<std::size_t>(p)] = 1;
+        for (const Index p : quad) used[index(p)] = 1;
     }
     const auto unused = std::find(used.begin(), used.end(), 0);
     if (unused != used.end()) return "point " + std::to_string(unused - used.begin()) + " has no quad";

@@ -10,11 +10,11 @@
 
 namespace lacuna::quads {
 
-/// Least sine of the four corners, negative where one is folded: 1 for a rectangle, -1…1. Verdict's scaled Jacobian
-/// of a quad in the plane; 0 where a side has no length.
+/// Verdict's scaled Jacobian of a quad in the plane: the least sine of its corners, -1…1, 1 for a rectangle,
+/// negative where a corner is folded, 0 where a side has no length.
 double scaled_jacobian(std::span<const Vec2> points, const Quad& quad);
 
-/// How good quads over a region are.
+/// Quality of quads over a region.
 struct PlaneQuality {
     std::size_t quads = 0, points = 0;
     double min_scaled_jacobian = 1;
@@ -23,7 +23,7 @@ struct PlaneQuality {
     std::size_t irregular = 0;          ///< of them, those with other than four quads
     std::size_t boundary_irregular = 0; ///< boundary nodes whose quads are not as many as right angles fit in
     std::size_t rows = 0;               ///< boundary sides
-    std::size_t good_rows = 0;          ///< of them, those a quad stands well on, see `measure_plane()`
+    std::size_t good_rows = 0;          ///< of them, those with a good row quad, see `measure_plane()`
     std::size_t edges = 0;
     std::size_t edges_of_size = 0; ///< of them, those 0.6 to 1.6 times as long as asked; all without a size
     double mean_edge_ratio = 1;    ///< edge length over asked size, mean; 1 without a size
@@ -41,17 +41,17 @@ private:
 
 /// Measure quads over a region.
 ///
-/// A quad stands well on its boundary side when its four corners are within 20° of right, and both ends of the
-/// side opposite lie at the row's height above it, 30 % more or less. The row's height is the size asked at the middle of
-/// the side; without a size, the side's own length.
+/// A row quad is good when its four corners are within 20° of right, and both ends of the side opposite the
+/// boundary lie at the row's height above it, 30 % more or less. The row's height is the size asked at the
+/// middle of the side; without a size, the side's own length.
 /// @pre  `find_fault()` finds none but folded corners.
 PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region);
 
-/// What makes quads no mesh of the region, in words; empty where nothing does.
+/// The first reason why quads are no valid mesh of the region, in words; empty where they are one.
 ///
-/// Looked for: boundary points moved or missing; corners that are no points or twice the same; sides used by three
-/// quads, or by two in one direction; boundary sides that are not those of the loops; points of no quad; a mesh that comes
-/// apart or is pinched at a point; corners that are not positive.
+/// Looked for: boundary points moved or missing; corners that are no points or occur twice; sides used by
+/// three quads, or by two in one direction; boundary sides that are not those of the loops; points without a
+/// quad; a mesh that is not in one piece or is pinched at a point; corners that are not positive.
 std::string find_fault(const PlanarQuads& mesh, const PlanarRegion& region);
 
 } // namespace lacuna::quads

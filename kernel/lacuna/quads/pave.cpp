@@ -5,7 +5,7 @@
 #include <lacuna/geometry/predicates.h>
 #include <lacuna/geometry/triangulate.h>
 #include <lacuna/quads/detail/pave_choice.h>
-#include <lacuna/quads/detail/pave_repair.h>
+#include <lacuna/quads/detail/open_corners.h>
 #include <lacuna/quads/detail/pave_rows.h>
 #include <lacuna/quads/detail/pave_size.h>
 

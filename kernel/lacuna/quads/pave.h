@@ -44,7 +44,7 @@ struct Paved {
 ///    asks, and its number of edges leaves even parts whose sides agree. A part that is a good patch of 3 to
 ///    5 sides is filled with grids that meet in one or two irregular nodes.
 /// 4. Boundary corners that lack a quad get one. Folded quads are opened, or removed and their cavity
-///    remeshed (`paving::refill_folds()`). Irregular nodes are paired off, nodes smoothed, row heights
+///    remeshed (`paving::refill_cavities()`). Irregular nodes are paired off, nodes smoothed, row heights
 ///    corrected.
 ///
 /// Up to 4000 quads are made several times, with and without rows and by several weightings of the cuts, and

@@ -1,73 +1,65 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_attempt.h>
 
+#include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/clean_quads.h>
+#include <lacuna/quads/detail/open_corners.h>
 #include <lacuna/quads/detail/pave_core.h>
 #include <lacuna/quads/detail/pave_fit.h>
-#include <lacuna/quads/detail/pave_refill.h>
-#include <lacuna/quads/detail/pave_repair.h>
 #include <lacuna/quads/detail/pave_rows.h>
 #include <lacuna/quads/detail/pave_size.h>
-#include <lacuna/quads/detail/pave_true_rows.h>
+#include <lacuna/quads/detail/raise_flat_quads.h>
+#include <lacuna/quads/detail/refill_cavities.h>
+#include <lacuna/quads/detail/row_heights.h>
 #include <lacuna/quads/detail/triangle_quads.h>
 #include <lacuna/quads/smooth_plane.h>
-
-#include <optional>
 
 namespace lacuna::quads::paving {
 namespace {
 
-/// Is the region one good patch as it is?
+/// Whether a single mapped patch fills the region well.
 bool is_patch(const PartialMesh& partial, const std::vector<Cycle>& loops)
 {
-    constexpr double kGood = 0.8;
+    constexpr double kGood = 0.8; // quality from which rows gain nothing; a choice, not a measurement
     if (loops.size() > 1 || loops.front().size() < 8) return false;
     const PatchFit fit = fit_patch(partial, loops.front(), angles_of(partial, loops.front()));
     return fit.quality > kGood;
 }
 
-/// Rows a loop is worth. A round outer loop gets four nodes of three quads where its rows end; with rows for
-/// about a fiftieth of its length they lie where a square of the same number of nodes has its corners. Round
-/// a hole every row is one more of stretched quads.
+/// Rows to pave along a loop. A round outer loop gets four nodes of three quads where its rows end. With one
+/// row for about sixty nodes they lie where a square of as many nodes has its corners. Around a hole every
+/// further row is one more of stretched quads.
 int rows_for(const PartialMesh& partial, const Cycle& loop, bool outer)
 {
     if (!needs_row(partial, loop)) return 0;
-    constexpr std::size_t kNodesARow = 60;
+    constexpr std::size_t kNodesARow = 60; // see above
     return outer ? 1 + static_cast<int>(loop.size() / kNodesARow) : 1;
 }
 
-/// Is every side used once in each direction at the most?
-bool sides_match(const std::vector<Quad>& quads)
+/// Whether every edge is used once in each direction at most.
+bool is_conforming(const PlanarQuads& mesh)
 {
-    std::vector<std::uint64_t> sides;
-    sides.reserve(4 * quads.size());
-    for (const Quad& q : quads) {
-        for (std::size_t k = 0; k < 4; ++k) {
-            sides.push_back((static_cast<std::uint64_t>(static_cast<std::uint32_t>(q[k])) << 32) |
-                            static_cast<std::uint32_t>(q[(k + 1) % 4]));
-        }
-    }
-    std::sort(sides.begin(), sides.end());
-    return std::adjacent_find(sides.begin(), sides.end()) == sides.end();
+    const auto opposite = mesh::opposite_sides(mesh.quads, static_cast<Index>(mesh.points.size()));
+    return std::find(opposite.begin(), opposite.end(), mesh::kBadSide) == opposite.end();
 }
 
-/// Open what is folded: by moving nodes, with more of them, and what does not open is filled anew.
+/// Open folded quads by moving nodes, then with more nodes (pillows). Quads that stay inverted are removed
+/// together with two rings of neighbours, and the cavity is remeshed.
 void open_folds(Attempt& attempt, const PlanarRegion& region, const PartialMesh& partial, const PaveOptions& options,
                 const RunContext& context)
 {
-    constexpr int kLoosenings = 1;
-    for (int round = 0; round <= kLoosenings; ++round) {
+    for (int round = 0; round < 2; ++round) {
         Attempt tried = attempt;
-        if (round > 0) loosen_folds(tried.mesh, partial.flat);
-        ease_folds(tried.mesh, partial.fixed);
+        if (round > 0) pillow_folds(tried.mesh, partial.flat);
+        raise_flat_quads(tried.mesh, partial.fixed);
         judge(tried);
         if (tried.worst <= partial.flat && round == 0 && options.clean) {
             clean_quads(tried.mesh, partial.fixed, {.size = partial.size}, context);
-            ease_folds(tried.mesh, partial.fixed);
+            raise_flat_quads(tried.mesh, partial.fixed);
             judge(tried);
         }
         if (tried.worst <= partial.flat) {
-            // What opens here is smoothed with the rest later.
+            // Untangling alone: what opens here is smoothed with the rest later.
             smooth_plane(tried.mesh.points, tried.mesh.quads, partial.fixed,
                          {.size = partial.size, .sweeps = 0, .repairs = 0}, context);
             judge(tried);
@@ -77,20 +69,20 @@ void open_folds(Attempt& attempt, const PlanarRegion& region, const PartialMesh&
         if (!better || attempt.worst > partial.flat) break;
     }
     if (attempt.worst > 0) return;
-    attempt.report.refilled = refill_folds(attempt.mesh, region, 0, partial.size);
+    attempt.report.refilled = refill_cavities(attempt.mesh, region, 0, partial.size);
     judge(attempt);
 }
 
-/// Rows from the loops, the rest cut and filled.
-void lay_and_fill(Attempt& attempt, PartialMesh& partial, const PlanarRegion& region, RowStyle style,
-                  const RunContext& context)
+/// Pave rows from the loops, cut the rest and fill it.
+void pave_and_fill(Attempt& attempt, PartialMesh& partial, const PlanarRegion& region, RowStyle style,
+                   const RunContext& context)
 {
     std::vector<Cycle> loops = region.loops;
-    if (style == RowStyle::by_shape && is_patch(partial, loops)) style = RowStyle::one_patch;
+    if (style == RowStyle::by_shape && is_patch(partial, loops)) style = RowStyle::mapped;
     std::vector<int> rows;
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const int own = rows_for(partial, loops[l], l == 0);
-        rows.push_back(style == RowStyle::none || style == RowStyle::one_patch ? 0
+        rows.push_back(style == RowStyle::no_rows || style == RowStyle::mapped ? 0
                        : style == RowStyle::buffer                             ? 1
                                                                                : own);
     }
@@ -106,7 +98,7 @@ void lay_and_fill(Attempt& attempt, PartialMesh& partial, const PlanarRegion& re
             if (!wanted[l]) rows[l] = 0;
         }
     }
-    const CoreCount count = fill_core(partial, loops, style == RowStyle::one_patch, context);
+    const CoreCount count = fill_core(partial, loops, style == RowStyle::mapped, context);
     attempt.report.mapped = count.patches;
     attempt.report.cuts = count.cuts;
     attempt.report.templates = count.templates;
@@ -114,21 +106,6 @@ void lay_and_fill(Attempt& attempt, PartialMesh& partial, const PlanarRegion& re
                                                                                             : "paved";
     attempt.mesh = {partial.points, partial.quads};
     drop_loose_points(attempt.mesh, partial.fixed);
-}
-
-/// The way of triangles a style means, if any.
-std::optional<TriangleWay> triangle_way(RowStyle style)
-{
-    switch (style) {
-    case RowStyle::halved_triangles:
-        return TriangleWay::halved;
-    case RowStyle::paired_triangles:
-        return TriangleWay::paired;
-    case RowStyle::split_triangles:
-        return TriangleWay::split;
-    default:
-        return std::nullopt;
-    }
 }
 
 } // namespace
@@ -151,22 +128,22 @@ Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyl
     Attempt attempt;
     attempt.style = style;
     PartialMesh partial{region.points, {}, region.points.size(), size_with_boundary(region), flat, {}, weights};
-    if (const std::optional<TriangleWay> way = triangle_way(style)) {
-        attempt.mesh = quads_of_triangles(region, *way);
-        attempt.report.used = "paired";
+    if (style == RowStyle::triangles) {
+        attempt.mesh = quads_of_triangles(region);
+        attempt.report.used = "triangles";
         if (attempt.mesh.quads.empty()) return attempt;
     } else {
-        lay_and_fill(attempt, partial, region, style, context);
+        pave_and_fill(attempt, partial, region, style, context);
     }
-    if (!sides_match(attempt.mesh.quads)) return attempt;
-    if (style != RowStyle::split_triangles) open_corners(attempt.mesh, region);
+    if (!is_conforming(attempt.mesh)) return attempt;
+    if (style != RowStyle::triangles) open_corners(attempt.mesh, region);
     judge(attempt);
     if (options.smooth) open_folds(attempt, region, partial, options, context);
     if (attempt.worst <= 0) return attempt;
     if (options.clean) clean_quads(attempt.mesh, partial.fixed, {.size = partial.size}, context);
     if (options.smooth) {
         smooth_plane(attempt.mesh.points, attempt.mesh.quads, partial.fixed, {.size = partial.size}, context);
-        true_rows(attempt.mesh, region, partial.size);
+        correct_row_heights(attempt.mesh, region, partial.size);
     }
     judge(attempt);
     return attempt;

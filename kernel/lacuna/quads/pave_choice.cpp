@@ -2,7 +2,7 @@
 #include <lacuna/quads/detail/pave_choice.h>
 
 #include <lacuna/quads/detail/pave_size.h>
-#include <lacuna/quads/detail/pave_true_rows.h>
+#include <lacuna/quads/detail/row_heights.h>
 #include <lacuna/quads/measure_plane.h>
 #include <lacuna/quads/submap.h>
 
@@ -64,7 +64,7 @@ Attempt try_submap(const PlanarRegion& region, bool round_loops, const RunContex
     attempt.mesh = std::move(*mesh);
     attempt.report.used = attempt.mesh.how;
     attempt.report.mapped = 1;
-    true_rows(attempt.mesh, region, size_with_boundary(region));
+    correct_row_heights(attempt.mesh, region, size_with_boundary(region));
     judge(attempt);
     return attempt;
 }
@@ -139,7 +139,7 @@ void AttemptChooser::try_default_weights()
     if (is_good_grid_) return;
     consider(pave_in(RowStyle::by_shape));
     if (best_.worst <= flat_) consider(pave_in(RowStyle::buffer));
-    for (const RowStyle style : {RowStyle::none, RowStyle::thin}) {
+    for (const RowStyle style : {RowStyle::no_rows, RowStyle::thin}) {
         if (best_.worst <= 0 || is_small()) consider(pave_in(style));
     }
     if (options_.grids && is_small()) consider(try_submap(region_, true, context_));
@@ -162,11 +162,8 @@ void AttemptChooser::try_all_weights()
 
 void AttemptChooser::try_triangles()
 {
-    // They are worth a trial where that costs little.
-    for (const RowStyle style : {RowStyle::halved_triangles, RowStyle::paired_triangles}) {
-        if (best_.worst <= 0 || (is_small() && best_.worst < kPoor)) consider(pave_in(style));
-    }
-    if (best_.worst <= flat_) consider(pave_in(RowStyle::split_triangles));
+    // The last resort, and worth a trial where that costs little.
+    if (best_.worst <= flat_ || (is_small() && best_.worst < kPoor)) consider(pave_in(RowStyle::triangles));
 }
 
 } // namespace lacuna::quads::paving

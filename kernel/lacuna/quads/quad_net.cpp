@@ -21,7 +21,7 @@ QuadNet::QuadNet(std::size_t points, std::vector<Quad> quads)
 
 void QuadNet::turn_to_boundary(Index point)
 {
-    Index& out = out_[static_cast<std::size_t>(point)];
+    Index& out = out_[index(point)];
     const Index first = out;
     while (opposite(out) >= 0) {
         out = after(opposite(out));
@@ -40,8 +40,8 @@ std::vector<Index> QuadNet::replace(std::span<const Index> removed, std::span<co
     std::vector<Link> outline; // sides outside that met the removed quads, as those ran
     for (const Index q : removed) {
         for (const Index p : quad(q)) {
-            out_[static_cast<std::size_t>(p)] = -1;
-            --valence_[static_cast<std::size_t>(p)];
+            out_[index(p)] = -1;
+            --valence_[index(p)];
         }
     }
     for (const Index q : removed) {
@@ -49,7 +49,7 @@ std::vector<Index> QuadNet::replace(std::span<const Index> removed, std::span<co
             outline.push_back({from(side), to(side), opposite(side)});
     }
     for (const Index q : removed) {
-        quads_[static_cast<std::size_t>(q)] = {-1, -1, -1, -1};
+        quads_[index(q)] = {-1, -1, -1, -1};
         free_.push_back(q);
     }
     std::sort(outline.begin(), outline.end(), less);
@@ -64,7 +64,7 @@ std::vector<Index> QuadNet::replace(std::span<const Index> removed, std::span<co
         } else {
             q = free_.back();
             free_.pop_back();
-            quads_[static_cast<std::size_t>(q)] = quad_added;
+            quads_[index(q)] = quad_added;
         }
         numbers.push_back(q);
         for (Index side = 4 * q; side < 4 * q + 4; ++side) {
@@ -84,9 +84,9 @@ std::vector<Index> QuadNet::replace(std::span<const Index> removed, std::span<co
             other = inner->side;
         } else if (const Link* outer = find(outline, link.from, link.to)) {
             other = outer->side;
-            if (other >= 0) opposite_[static_cast<std::size_t>(other)] = link.side;
+            if (other >= 0) opposite_[index(other)] = link.side;
         }
-        opposite_[static_cast<std::size_t>(link.side)] = other;
+        opposite_[index(link.side)] = other;
     }
     for (const Link& link : sides) turn_to_boundary(link.from);
     return numbers;

@@ -16,9 +16,9 @@ struct SmoothPlaneOptions {
         size;                 ///< edge length asked for [model length]; none: shape alone counts
     int sweeps = 12;          ///< over all points, >= 0
     double size_weight = 0.1; ///< of size against shape, >= 0 [-]
-    double good_enough = 0.7; ///< quads with a smaller scaled Jacobian are worked on one by one [-]
+    double good_enough = 0.7; ///< quads with a smaller scaled Jacobian are improved one by one [-]
     int repairs = 20;         ///< rounds over them, >= 0
-    bool untangle = true;     ///< open what is folded first
+    bool untangle = true;     ///< untangle folded quads first
     std::size_t still = 0;    ///< points before this one move only when one next to them has
 };
 
@@ -28,12 +28,14 @@ struct SmoothedPlane {
     bool folded = false;                  ///< some still is not
 };
 
-/// Move points of the plane so that the quads on them become good; the first `fixed` stay where they are.
+/// Smooth quads of the plane by moving their points, except the first `fixed` ones.
 ///
-/// Where a corner is folded, the quads around are opened first (foldover-free maps, Garanzha et al. 2021, in two dimensions: ε
-/// falls as the least determinant rises, L-BFGS inside). Then every point in turn takes Newton steps on the convex energy
-/// of its corners, (|a|² + |b|²) / 2 det and, with a size, (det/h² + h²/det) / 2, which no step may fold; last the
-/// worst quads are raised, one point after the other, to where the least sine around is largest.
+/// 1. Where a corner is folded, the quads around it are untangled (foldover-free maps, Garanzha et al. 2021,
+///    in two dimensions: ε falls as the least determinant rises, with L-BFGS inside).
+/// 2. Every point in turn takes Newton steps on the convex energy of its corners, (|a|² + |b|²) / 2 det and,
+///    with a size h, (det/h² + h²/det) / 2. No step may fold a quad.
+/// 3. The points of the worst quads are moved, one after the other, to where the least sine around them is
+///    largest.
 /// @post  the least scaled Jacobian is not smaller than before.
 /// @throw Cancelled
 /// @note  Deterministic. O(points) a sweep.

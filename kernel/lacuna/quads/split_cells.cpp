@@ -1,65 +1,76 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/split_cells.h>
 
-#include <lacuna/quads/detail/quad_sides.h>
+#include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/quads/detail/corner_sine.h>
 
+#include <algorithm>
+#include <array>
 #include <numeric>
 #include <tuple>
-#include <unordered_set>
+#include <unordered_map>
 
 namespace lacuna::quads {
 namespace {
 
-/// Which inner sides stay whole, so that every cell has an even number of whole sides: a join of the cells
-/// that are odd in the mesh's dual graph, near the shortest. Ways grow from all of them at once; where two
-/// meet, their groups are joined, the nearest first, and in the tree of groups every odd branch sends its
-/// way up.
-class WholeSides {
+/// The inner edges that stay whole: the T-join of `split_cells()`. Breadth-first trees grow from all odd
+/// cells at once. Where two meet, their groups are joined, the nearest first; in the tree of groups every
+/// branch with an odd number of odd cells is joined to the cell above it.
+class WholeEdges {
 public:
-    explicit WholeSides(const MixedMesh& mesh)
-        : mesh_(mesh),
-          sides_(mesh),
+    explicit WholeEdges(const MixedMesh& mesh)
+        : opposite_(mesh::opposite_sides(mesh.cells, static_cast<Index>(mesh.points.size()))),
           root_(mesh.cells.size(), -1),
           from_(mesh.cells.size(), -1),
-          steps_(mesh.cells.size(), 0)
+          steps_(mesh.cells.size(), 0),
+          whole_(opposite_.size(), 0)
     {
+        for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+            if (MixedMesh::is_triangle(mesh.cells[c])) opposite_[4 * c + 2] = kNoSide;
+        }
         grow();
         join();
     }
 
-    [[nodiscard]] bool is_whole(Index a, Index b) const { return whole_.contains(side_key(a, b)); }
-    [[nodiscard]] bool is_boundary(Index a, Index b, Index cell) const
+    /// Side i of cell c has the number 4c + i; on the boundary all are whole.
+    [[nodiscard]] bool is_whole(Index side) const
     {
-        return sides_.across(a, b, cell) < 0;
+        return opposite_[index(side)] < 0 || whole_[index(side)] != 0;
     }
+    /// The same side in the neighbour.
+    [[nodiscard]] Index opposite(Index side) const { return opposite_[index(side)]; }
 
 private:
+    static constexpr Index kNoSide = -3; ///< from a triangle's last corner to itself
+
     struct Meeting {
         int steps;
         Index one, two; ///< neighbours of different groups
     };
 
+    /// Call `visit(side, neighbour)` for every side of a cell; the neighbour is -1 on the boundary.
     template <class Visit>
     void around(Index c, const Visit& visit) const
     {
-        const Quad& cell = mesh_.cells[index(c)];
-        for (std::size_t k = 0, n = corner_count(cell); k < n; ++k)
-            visit(cell[k], cell[(k + 1) % n], sides_.across(cell[k], cell[(k + 1) % n], c));
+        for (Index side = 4 * c; side < 4 * c + 4; ++side) {
+            const Index other = opposite_[index(side)];
+            if (other != kNoSide) visit(side, other < 0 ? -1 : other / 4);
+        }
     }
 
     void grow()
     {
         std::vector<Index> queue;
-        for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+        for (std::size_t c = 0; c < root_.size(); ++c) {
             int boundary = 0;
-            around(static_cast<Index>(c), [&](Index, Index, Index other) { boundary += other < 0 ? 1 : 0; });
+            around(static_cast<Index>(c), [&](Index, Index other) { boundary += other < 0 ? 1 : 0; });
             if (boundary % 2 == 0) continue;
             root_[c] = static_cast<Index>(c);
             queue.push_back(static_cast<Index>(c));
         }
         for (std::size_t i = 0; i < queue.size(); ++i) {
             const Index here = queue[i];
-            around(here, [&](Index, Index, Index other) {
+            around(here, [&](Index, Index other) {
                 if (other < 0 || root_[index(other)] >= 0) return;
                 root_[index(other)] = root_[index(here)];
                 from_[index(other)] = here;
@@ -72,9 +83,9 @@ private:
     void join()
     {
         std::vector<Meeting> meetings;
-        for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+        for (std::size_t c = 0; c < root_.size(); ++c) {
             const auto one = static_cast<Index>(c);
-            around(one, [&](Index, Index, Index two) {
+            around(one, [&](Index, Index two) {
                 if (two > one && root_[c] >= 0 && root_[index(two)] != root_[c])
                     meetings.push_back({steps_[c] + steps_[index(two)], one, two});
             });
@@ -82,14 +93,14 @@ private:
         std::sort(meetings.begin(), meetings.end(), [](const Meeting& a, const Meeting& b) {
             return std::tie(a.steps, a.one, a.two) < std::tie(b.steps, b.one, b.two);
         });
-        // The least tree over the groups (Kruskal).
-        std::vector<Index> group(mesh_.cells.size());
+        // The minimum spanning tree over the groups (Kruskal).
+        std::vector<Index> group(root_.size());
         std::iota(group.begin(), group.end(), Index{0});
         const auto find = [&](Index c) {
             while (group[index(c)] != c) c = group[index(c)] = group[index(group[index(c)])];
             return c;
         };
-        std::vector<std::vector<Meeting>> tree(mesh_.cells.size());
+        std::vector<std::vector<Meeting>> tree(root_.size());
         for (const Meeting& m : meetings) {
             const Index a = root_[index(m.one)], b = root_[index(m.two)];
             if (find(a) == find(b)) continue;
@@ -97,13 +108,13 @@ private:
             tree[index(a)].push_back(m);
             tree[index(b)].push_back({m.steps, m.two, m.one});
         }
-        std::vector<bool> seen(mesh_.cells.size(), false);
-        for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+        std::vector<bool> seen(root_.size(), false);
+        for (std::size_t c = 0; c < root_.size(); ++c) {
             if (root_[c] == static_cast<Index>(c) && !seen[c]) send_up(static_cast<Index>(c), tree, seen);
         }
     }
 
-    /// From the leaves of a tree of groups to its root: an odd branch is joined to what is above it.
+    /// From the leaves of a tree of groups to its root: an odd branch is joined to the group above it.
     void send_up(Index top, const std::vector<std::vector<Meeting>>& tree, std::vector<bool>& seen)
     {
         std::vector<std::pair<Index, Meeting>> order{{top, {0, -1, -1}}}; // a root and the way up from it
@@ -133,27 +144,23 @@ private:
         for (; from_[index(c)] >= 0; c = from_[index(c)]) toggle(c, from_[index(c)]);
     }
 
+    /// Make the edge between two cells whole, or halve it again.
     void toggle(Index one, Index two)
     {
-        around(one, [&](Index a, Index b, Index other) {
-            if (other != two) return;
-            const std::uint64_t key = side_key(a, b);
-            if (!whole_.erase(key)) whole_.insert(key);
+        around(one, [&](Index side, Index other) {
+            if (other == two) whole_[index(side)] = whole_[index(opposite(side))] ^= 1;
         });
     }
 
-    const MixedMesh& mesh_;
-    Sides sides_;
+    std::vector<Index> opposite_;
     std::vector<Index> root_, from_; ///< the odd cell a cell was reached from, and the cell before it
     std::vector<int> steps_;
-    std::unordered_set<std::uint64_t> whole_;
+    std::vector<char> whole_; ///< of each side
 };
-
-double cross(const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); }
 
 class Splitter {
 public:
-    explicit Splitter(const MixedMesh& mesh) : mesh_(mesh), whole_(mesh)
+    explicit Splitter(const MixedMesh& mesh) : mesh_(mesh), whole_(mesh), middle_(4 * mesh.cells.size(), -1)
     {
         made_.points = mesh.points;
         made_.fixed = mesh.fixed;
@@ -174,26 +181,28 @@ private:
         return static_cast<Index>(made_.points.size()) - 1;
     }
 
-    Index middle(Index a, Index b)
+    /// The node that halves a side; its neighbour gets the same.
+    Index middle(Index side, Index a, Index b)
     {
-        const auto [found, fresh] = middles_.try_emplace(side_key(a, b), -1);
-        if (fresh) found->second = add((at(a) + at(b)) / 2);
-        return found->second;
+        Index& own = middle_[index(side)];
+        if (own < 0) own = middle_[index(whole_.opposite(side))] = add((at(a) + at(b)) / 2);
+        return own;
     }
 
     void split(Index c)
     {
         const Quad& cell = mesh_.cells[index(c)];
-        const std::size_t n = corner_count(cell);
+        const std::size_t n = MixedMesh::is_triangle(cell) ? 3 : 4;
         std::array<Index, 4> corner{}, half{-1, -1, -1, -1};
         std::size_t whole = 0;
         for (std::size_t k = 0; k < n; ++k) {
-            const Index a = cell[k], b = cell[(k + 1) % n];
-            corner[k] = a;
-            if (whole_.is_boundary(a, b, c) || whole_.is_whole(a, b))
+            // The third side of a triangle runs from its last corner, which is there twice.
+            const Index side = 4 * c + static_cast<Index>(n == 3 && k == 2 ? 3 : k);
+            corner[k] = cell[k];
+            if (whole_.is_whole(side))
                 ++whole;
             else
-                half[k] = middle(a, b);
+                half[k] = middle(side, cell[k], cell[(k + 1) % n]);
         }
         if (whole == 0)
             split_all(corner, half, n);
@@ -214,8 +223,8 @@ private:
             made_.cells.push_back({corner[k], half[k], centre, half[(k + n - 1) % n]});
     }
 
-    /// Two whole sides: a quad with a flat corner, filled by a smaller one on rays from the middle of the inner
-    /// circle, and four around.
+    /// Two whole sides: with the middle of the third it is a quad with a flat corner. That gets a smaller
+    /// quad on rays from the centre of the triangle's incircle, and four around it.
     void split_triangle(const std::array<Index, 4>& corner, const std::array<Index, 4>& half)
     {
         std::size_t k = 0;
@@ -234,8 +243,8 @@ private:
             made_.cells.push_back({outer[i], outer[(i + 1) % 4], inner[(i + 1) % 4], inner[i]});
     }
 
-    /// Two whole sides: two quads where they are opposite, three round a point between the corner of the
-    /// halved ones and that of the others.
+    /// Two whole sides: two quads where they are opposite. Else three around a point on the diagonal from the
+    /// corner of the halved sides to that of the whole ones.
     void split_quad(const std::array<Index, 4>& corner, const std::array<Index, 4>& half)
     {
         std::size_t k = 0;
@@ -260,9 +269,9 @@ private:
     }
 
     const MixedMesh& mesh_;
-    WholeSides whole_;
+    WholeEdges whole_;
     MixedMesh made_;
-    std::unordered_map<std::uint64_t, Index> middles_;
+    std::vector<Index> middle_; ///< of each side; -1: none yet
 };
 
 } // namespace

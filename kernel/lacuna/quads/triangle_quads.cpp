@@ -3,28 +3,31 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/triangulate.h>
+#include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/split_cells.h>
+#include <lacuna/quads/measure_plane.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
+#include <functional>
+#include <tuple>
+#include <unordered_map>
 
 namespace lacuna::quads {
 
 namespace {
 
-/// Triangles over loops, as a mixed mesh: the loops' nodes first, loop after loop.
-MixedMesh triangles_over(const PlanarRegion& region, const Loops& loops, double by_size)
+/// Triangles over a region, as a mixed mesh: the loops' nodes first, loop after loop.
+MixedMesh triangles_over(const PlanarRegion& region, double by_size)
 {
     MixedMesh mesh;
-    Loops local;
-    for (const std::vector<Index>& loop : loops) {
+    std::vector<std::vector<Index>> local;
+    for (const std::vector<Index>& loop : region.loops) {
         local.emplace_back();
         for (const Index p : loop) {
             local.back().push_back(static_cast<Index>(mesh.points.size()));
-            mesh.points.push_back(region.points[static_cast<std::size_t>(p)]);
+            mesh.points.push_back(region.points[index(p)]);
         }
     }
     mesh.fixed = mesh.points.size();
@@ -32,132 +35,155 @@ MixedMesh triangles_over(const PlanarRegion& region, const Loops& loops, double 
     if (region.size) options.size = [&](const Vec2& p) { return by_size * region.size(p); };
     geometry::Triangulation triangles = geometry::triangulate(mesh.points, local, options);
     mesh.points = std::move(triangles.points);
-    for (const Triangle& t : triangles.triangles) mesh.cells.push_back({t[0], t[1], t[2], -1});
+    for (const Triangle& t : triangles.triangles) mesh.cells.push_back({t[0], t[1], t[2], t[2]});
     return mesh;
 }
 
-bool all_quads(const MixedMesh& mesh)
-{
-    return std::none_of(mesh.cells.begin(), mesh.cells.end(), MixedMesh::is_triangle);
-}
+/// Pairs of neighbouring triangles to be merged into quads.
+class Matching {
+public:
+    explicit Matching(const MixedMesh& mesh)
+        : mesh_(mesh),
+          opposite_(mesh::opposite_sides(mesh.cells, static_cast<Index>(mesh.points.size()))),
+          neighbours_(mesh.cells.size()),
+          mate_(mesh.cells.size(), -1)
+    {
+        for (std::size_t c = 0; c < neighbours_.size(); ++c) {
+            for (const std::size_t k : kTriangleSides) {
+                const Index other = opposite_[4 * c + k];
+                if (other < 0) continue;
+                const double quality = scaled_jacobian(mesh.points, merged(static_cast<Index>(c), other / 4));
+                if (quality > kLeast) neighbours_[c].emplace_back(quality, other / 4);
+            }
+            std::sort(neighbours_[c].begin(), neighbours_[c].end(), std::greater<>());
+        }
+    }
+
+    /// The best pairs first.
+    void greedy()
+    {
+        std::vector<std::tuple<double, Index, Index>> pairs;
+        for (std::size_t c = 0; c < neighbours_.size(); ++c) {
+            for (const auto& [quality, other] : neighbours_[c]) {
+                if (static_cast<Index>(c) < other) pairs.emplace_back(-quality, static_cast<Index>(c), other);
+            }
+        }
+        std::sort(pairs.begin(), pairs.end());
+        for (const auto& [quality, a, b] : pairs) {
+            if (mate(a) >= 0 || mate(b) >= 0) continue;
+            mate(a) = b;
+            mate(b) = a;
+        }
+    }
+
+    /// Augmenting paths between two unpaired triangles. Odd cycles (blossoms) are not contracted, so a few
+    /// triangles may be left that could be paired.
+    void augment()
+    {
+        for (std::size_t c = 0; c < mate_.size(); ++c) {
+            if (mate_[c] < 0 && !neighbours_[c].empty()) augment_from(static_cast<Index>(c));
+        }
+    }
+
+    [[nodiscard]] std::vector<Quad> cells() const
+    {
+        std::vector<Quad> cells;
+        for (std::size_t c = 0; c < mate_.size(); ++c) {
+            if (mate_[c] < 0)
+                cells.push_back(mesh_.cells[c]);
+            else if (static_cast<Index>(c) < mate_[c])
+                cells.push_back(merged(static_cast<Index>(c), mate_[c]));
+        }
+        return cells;
+    }
+
+private:
+    /// A flatter quad is no pair: smoothing cannot improve it at a boundary. A choice, not a measurement.
+    static constexpr double kLeast = 0.15;
+    /// Sides of a triangle as a quad with its last corner twice.
+    static constexpr std::array<std::size_t, 3> kTriangleSides{0, 1, 3};
+
+    Index& mate(Index c) { return mate_[index(c)]; }
+
+    /// The quad of two triangles. @pre they share a side
+    [[nodiscard]] Quad merged(Index a, Index b) const
+    {
+        const Quad& one = mesh_.cells[index(a)];
+        const auto leads_to = [&](std::size_t i) {
+            const Index other = opposite_[4 * index(a) + kTriangleSides[i]];
+            return other >= 0 && other / 4 == b;
+        };
+        const std::size_t i = leads_to(0) ? 0 : leads_to(1) ? 1 : 2;
+        const Index from = one[i], to = one[(i + 1) % 3];
+        const Quad& two = mesh_.cells[index(b)];
+        const auto far = std::find_if(two.begin(), two.end(), [&](Index p) { return p != from && p != to; });
+        return {from, *far, to, one[(i + 2) % 3]};
+    }
+
+    void augment_from(Index start)
+    {
+        // Triangles reached over an even number of steps, with the one before each.
+        std::unordered_map<Index, Index> before{{start, -1}};
+        std::vector<Index> queue{start};
+        for (std::size_t i = 0; i < queue.size(); ++i) {
+            const Index here = queue[i];
+            for (const auto& [quality, other] : neighbours_[index(here)]) {
+                // Reached both ways: an odd cycle.
+                if (before.contains(other)) continue;
+                const Index next = mate(other);
+                if (next < 0) {
+                    change_partners(here, other, before);
+                    return;
+                }
+                if (next >= 0 && before.try_emplace(next, here).second) queue.push_back(next);
+            }
+        }
+    }
+
+    void change_partners(Index here, Index other, const std::unordered_map<Index, Index>& before)
+    {
+        while (here >= 0) {
+            const Index left = mate(here);
+            mate(here) = other;
+            mate(other) = here;
+            other = left;
+            here = before.at(here);
+        }
+    }
+
+    const MixedMesh& mesh_;
+    std::vector<Index> opposite_;
+    std::vector<std::vector<std::pair<double, Index>>> neighbours_;
+    std::vector<Index> mate_;
+};
 
 } // namespace
 
-PlanarQuads quads_of_triangles(const PlanarRegion& region, TriangleWay way)
+PlanarQuads quads_of_triangles(const PlanarRegion& region)
 {
-    // Pairs of equilateral triangles have less area than the square of their side.
-    const double kPairSize = std::sqrt(2 / std::sqrt(3.0));
+    // Two equilateral triangles have less area than the square of their side; and most cells are halved.
+    const double kBySize = 2 * std::sqrt(2 / std::sqrt(3.0));
     MixedMesh mesh;
     try {
-        if (way == TriangleWay::halved) {
-            const Loops half = halve(region.points, region.loops);
-            if (!can_halve(region.points, region.loops, half)) return {};
-            // A triangle becomes three quads of half its side.
-            mesh = triangles_over(region, half, 2 * kPairSize);
-            match_triangles(mesh);
-            mesh = refine(mesh, region.points, region.loops, half);
-        } else if (way == TriangleWay::split) {
-            mesh = triangles_over(region, region.loops, 2 * kPairSize);
-            match_triangles(mesh);
-            mesh = split_cells(mesh);
-            return deliver(mesh, region, region.loops, Vec2::Zero(), 1);
-        } else {
-            mesh = triangles_over(region, region.loops, kPairSize);
-            match_triangles(mesh);
-            pair_triangles(mesh);
-        }
+        mesh = triangles_over(region, kBySize);
     } catch (const InvalidInput&) {
-        return {}; // loops that touch: no way of triangles goes
+        return {}; // loops that touch cannot be triangulated
     }
-    if (!all_quads(mesh)) return {};
-    improve(mesh);
-    return deliver(mesh, region, region.loops, Vec2::Zero(), 1);
-}
+    Matching matching(mesh);
+    matching.greedy();
+    matching.augment();
+    mesh.cells = matching.cells();
+    mesh = split_cells(mesh);
 
-Loops halve(const std::vector<Vec2>& points, const Loops& loops)
-{
-    Loops half;
-    for (const std::vector<Index>& loop : loops) {
-        const std::size_t n = loop.size();
-        std::array<double, 2> turning{0, 0};
-        for (std::size_t i = 0; i < n; ++i) {
-            const Vec2 in = points[static_cast<std::size_t>(loop[i])] -
-                            points[static_cast<std::size_t>(loop[(i + n - 1) % n])];
-            const Vec2 out = points[static_cast<std::size_t>(loop[(i + 1) % n])] -
-                             points[static_cast<std::size_t>(loop[i])];
-            const double turn = std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
-            turning[i % 2] += turn * turn;
-        }
-        std::vector<Index> kept;
-        for (std::size_t i = turning[1] <= turning[0] ? 0 : 1; i < n; i += 2) kept.push_back(loop[i]);
-        half.push_back(std::move(kept));
-    }
-    return half;
-}
-
-bool can_halve(const std::vector<Vec2>& points, const Loops& loops, const Loops& half)
-{
-    constexpr double kSharpest = 30 * std::numbers::pi / 180;
-    for (std::size_t l = 0; l < loops.size(); ++l) {
-        const std::vector<Index>& loop = loops[l];
-        if (loop.size() % 2 != 0 || half[l].size() < 4) return false;
-        const std::size_t first = loop[0] == half[l][0] ? 1 : 0;
-        for (std::size_t i = first; i < loop.size(); i += 2) {
-            const Vec2& here = points[static_cast<std::size_t>(loop[i])];
-            const Vec2 in = here -
-                            points[static_cast<std::size_t>(loop[(i + loop.size() - 1) % loop.size()])];
-            const Vec2 out = points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])] - here;
-            if (std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out))) > kSharpest)
-                return false;
-        }
-    }
-    return !geometry::find_crossing(points, half);
-}
-
-std::vector<Index> in_order(const Loops& loops)
-{
-    std::vector<Index> order;
-    for (const std::vector<Index>& loop : loops) order.insert(order.end(), loop.begin(), loop.end());
-    return order;
-}
-
-MixedMesh refine(const MixedMesh& mesh, const std::vector<Vec2>& points, const Loops& loops,
-                 const Loops& half)
-{
-    std::vector<Vec2> fixed;
-    std::vector<Index> points_of;
-    std::vector<Triangle> middles;
-    Index start = 0;
-    for (std::size_t l = 0; l < loops.size(); ++l) {
-        const std::size_t n = loops[l].size();
-        const std::size_t first = loops[l][0] == half[l][0] ? 0 : 1;
-        const auto coarse = static_cast<Index>(points_of.size());
-        const auto count = static_cast<Index>(half[l].size());
-        for (Index i = 0; i < count; ++i) {
-            const std::size_t at = first + 2 * static_cast<std::size_t>(i);
-            points_of.push_back(start + static_cast<Index>(at));
-            middles.push_back(
-                {coarse + i, coarse + (i + 1) % count, start + static_cast<Index>((at + 1) % n)});
-        }
-        for (const Index p : loops[l]) fixed.push_back(points[static_cast<std::size_t>(p)]);
-        start += static_cast<Index>(n);
-    }
-    return subdivide(mesh, middles, fixed, points_of);
-}
-
-PlanarQuads deliver(const MixedMesh& mesh, const PlanarRegion& region, const Loops& loops, const Vec2& origin,
-                    double scale)
-{
-    PlanarQuads result;
-    result.points = region.points;
-    std::vector<Index> place = in_order(loops);
+    PlanarQuads result{region.points, std::move(mesh.cells)};
+    std::vector<Index> number; // of the mesh's points in the result
+    for (const std::vector<Index>& loop : region.loops) number.insert(number.end(), loop.begin(), loop.end());
     for (std::size_t p = mesh.fixed; p < mesh.points.size(); ++p) {
-        place.push_back(static_cast<Index>(result.points.size()));
-        result.points.push_back(origin + scale * mesh.points[p]);
+        number.push_back(static_cast<Index>(result.points.size()));
+        result.points.push_back(mesh.points[p]);
     }
-    for (Quad q : mesh.cells) {
-        for (Index& p : q) p = place[static_cast<std::size_t>(p)];
-        result.quads.push_back(q);
+    for (Quad& quad : result.quads) {
+        for (Index& p : quad) p = number[index(p)];
     }
     return result;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The mesh that `clean_quads()` works on; only sources of this folder include it.
+/// The mesh that `clean_quads()` works on.
 
 #include <lacuna/quads/clean_quads.h>
 #include <lacuna/quads/detail/quad_net.h>
@@ -15,7 +15,7 @@ namespace lacuna::quads::cleaning {
 /// How far from good a quad is.
 struct QuadLoss {
     double jacobian = 1; ///< scaled
-    double loss = 0;     ///< 1 - jacobian, and where a size is asked so much more as the area is off
+    double loss = 0;     ///< 1 - jacobian; where a size is asked, more the more the area is off
 };
 
 QuadLoss loss_of(std::span<const Vec2> points, const Quad& quad, const CleanOptions& options);
@@ -26,32 +26,34 @@ public:
     /// @param options  kept by reference
     CleanMesh(const PlanarQuads& mesh, std::size_t fixed, const CleanOptions& options);
 
-    /// Does every point have its quads in one fan, and lie no point on the boundary but the first ones?
+    /// Whether every point has its quads in one fan, and only the fixed points lie on the boundary.
     [[nodiscard]] bool is_sound() const;
     /// Interior points without four quads.
     [[nodiscard]] std::size_t irregular() const;
-    /// Points and quads that are left, the fixed points first.
-    [[nodiscard]] PlanarQuads taken_out() const;
+    /// The points and quads that are left, the fixed points first.
+    [[nodiscard]] PlanarQuads result() const;
 
     [[nodiscard]] const QuadNet& net() const { return net_; }
     [[nodiscard]] const std::vector<Vec2>& points() const { return points_; }
-    [[nodiscard]] const Vec2& at(Index p) const { return points_[static_cast<std::size_t>(p)]; }
-    /// Quads a point should have.
-    [[nodiscard]] int wanted(Index p) const { return wanted_[static_cast<std::size_t>(p)]; }
-    [[nodiscard]] bool is_irregular(Index p) const { return net_.is_used(p) && net_.valence(p) != wanted(p); }
+    [[nodiscard]] const Vec2& at(Index p) const { return points_[index(p)]; }
+    /// Quads a point should have: four, on the boundary as many as right angles fit in.
+    [[nodiscard]] int ideal_valence(Index p) const { return ideal_[index(p)]; }
+    [[nodiscard]] bool is_irregular(Index p) const
+    {
+        return net_.is_used(p) && net_.valence(p) != ideal_valence(p);
+    }
     [[nodiscard]] const QuadLoss& loss(Index q);
-    /// A number for a quad that is not given again.
+    /// A number for a quad that no later quad gets.
     [[nodiscard]] std::uint64_t name(Index q) const
     {
-        return (static_cast<std::uint64_t>(q) << 32) + version_[static_cast<std::size_t>(q)] + 1;
+        return (static_cast<std::uint64_t>(q) << 32) + version_[index(q)] + 1;
     }
 
-    /// Merge quads over interior points that have two alone. @return how many
+    /// Remove doublets: merge the two quads at every interior point that has no more. @return how many
     std::size_t remove_doublets();
-    Index add_point(const Vec2& place);
-    /// Put a point elsewhere.
-    void move(Index p, const Vec2& place);
-    /// Put quads in the place of others with the same outline.
+    Index add_point(const Vec2& position);
+    void move(Index p, const Vec2& position);
+    /// Replace quads by others with the same outline.
     void replace(std::span<const Index> removed, std::span<const Quad> added);
 
 private:
@@ -61,7 +63,7 @@ private:
     std::vector<Vec2> points_;
     QuadNet net_;
     std::size_t fixed_;
-    std::vector<int> wanted_;
+    std::vector<int> ideal_;
     std::vector<QuadLoss> loss_;         ///< of each quad, where it is known
     std::vector<char> loss_known_;       ///< of each quad
     std::vector<std::uint32_t> version_; ///< of each quad, as its number is given again

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Trial of fillings for patches; only sources of this folder include it.
+/// Trial of fillings for patches.
 
 #include <lacuna/quads/detail/clean_patch.h>
 #include <lacuna/quads/detail/patch_template.h>
@@ -15,23 +15,26 @@ namespace lacuna::quads::cleaning {
 /// What became of a filling.
 enum class Verdict {
     hopeless, ///< given up early
-    poor,     ///< smoothed with what is around, and not good
+    poor,     ///< smoothed with its surroundings, and not good
     good      ///< put into the mesh; the patch is gone
 };
 
-/// Smooths fillings of one patch after the other with what is around, and puts the good ones into the mesh.
+/// Smooths fillings of one patch after the other with their surroundings, and puts the good ones into the
+/// mesh.
 class Trial {
 public:
     /// @param mesh, options  kept by reference
     Trial(CleanMesh& mesh, const CleanOptions& options);
 
-    /// The patch the next fillings are for, and the quads around it that are smoothed with it; both are kept by reference.
-    void set_patch(const Patch& patch, std::span<const Index> around);
+    /// Set the patch the next fillings are for, and the quads around it that are smoothed with it.
+    /// Both are kept by reference.
+    void set_patch(const QuadPatch& patch, std::span<const Index> around);
 
     /// Put a filling in the patch's place if it is good.
     ///
-    /// It is judged three times: as it is, after a few sweeps over its own points, and smoothed together with what is around.
-    /// @param hopeless  given up the first times where the loss is so many times what is allowed
+    /// It is judged three times: as it is, after a few sweeps over its own points, and smoothed together with
+    /// its surroundings.
+    /// @param hopeless  given up in the first two where the loss is more than so many times the allowed one
     Verdict run(const TemplateMesh& filling, int sweeps, double hopeless);
 
 private:
@@ -45,7 +48,7 @@ private:
     const CleanOptions& options_;
     SmoothPlaneOptions smoothing_;
     // Of the patch.
-    const Patch* patch_ = nullptr;
+    const QuadPatch* patch_ = nullptr;
     std::span<const Index> around_;
     double loss_ = 0, loss_around_ = 0;
     double least_ = 1; ///< scaled Jacobian of the patch and around

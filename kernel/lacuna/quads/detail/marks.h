@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Sets of point and quad numbers for searches over parts of a mesh; only sources of this folder include it.
+/// Sets and tables of point and quad numbers, for searches over parts of a mesh.
 
 #include <lacuna/core/types.h>
 
@@ -19,15 +19,12 @@ public:
         of_.resize(count, 0);
         ++now_;
     }
-    [[nodiscard]] bool has(Index i) const
-    {
-        return static_cast<std::size_t>(i) < of_.size() && of_[static_cast<std::size_t>(i)] == now_;
-    }
+    [[nodiscard]] bool has(Index i) const { return index(i) < of_.size() && of_[index(i)] == now_; }
     /// @return true where it was not there
     bool add(Index i)
     {
         if (has(i)) return false;
-        of_[static_cast<std::size_t>(i)] = now_;
+        of_[index(i)] = now_;
         return true;
     }
 
@@ -36,7 +33,7 @@ private:
     unsigned now_ = 0;
 };
 
-/// A number for each of a set of numbers, forgotten at no cost.
+/// A table from numbers to numbers that is emptied at no cost.
 class Numbers {
 public:
     void clear(std::size_t count)
@@ -46,13 +43,13 @@ public:
     }
     Index& operator[](Index i)
     {
-        Entry& entry = of_[static_cast<std::size_t>(i)];
+        Entry& entry = of_[index(i)];
         if (entry.known != now_) entry = {now_, 0};
         return entry.value;
     }
     [[nodiscard]] bool has(Index i) const
     {
-        return static_cast<std::size_t>(i) < of_.size() && of_[static_cast<std::size_t>(i)].known == now_;
+        return static_cast<std::size_t>(i) < of_.size() && of_[index(i)].known == now_;
     }
 
 private:
@@ -64,7 +61,7 @@ private:
     unsigned now_ = 0;
 };
 
-/// For sets of numbers, the order of which does not count.
+/// Hash of a number (the finaliser of splitmix64). Summed, it names a set whatever its order.
 inline std::uint64_t mixed(std::uint64_t x)
 {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -4,6 +4,7 @@
 /// What the parts of the paver share: the mesh while it is built, cycles of its nodes, angles along them.
 /// Only sources of this folder include it.
 
+#include <lacuna/quads/detail/corner_sine.h>
 #include <lacuna/quads/region.h>
 
 #include <algorithm>
@@ -67,14 +68,9 @@ struct PartialMesh {
     }
 };
 
-inline double cross(const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); }
-
-/// Angle from u counter-clockwise to v, in (0, 2π].
-inline double turn_between(const Vec2& u, const Vec2& v)
-{
-    const double angle = std::atan2(cross(u, v), u.dot(v));
-    return angle > 0 ? angle : angle + 2 * std::numbers::pi;
-}
+using quads::cross;
+using quads::least_sine;
+using quads::turn_between;
 
 /// Angle inside the region at a position of the cycle [radians].
 inline double inner_angle(const PartialMesh& partial, const Cycle& cycle, std::size_t i)
@@ -97,16 +93,7 @@ inline double twice_area(const PartialMesh& partial, const Cycle& cycle)
     return sum;
 }
 
-/// Least sine of a quad's corners; 1 for a rectangle, > 0 where it is convex.
-inline double least_sine(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d)
-{
-    const Vec2 ab = b - a, bc = c - b, cd = d - c, da = a - d;
-    const double l0 = ab.norm(), l1 = bc.norm(), l2 = cd.norm(), l3 = da.norm();
-    const double least = 1e-300;
-    return std::min({cross(da, ab) / std::max(l3 * l0, least), cross(ab, bc) / std::max(l0 * l1, least),
-                     cross(bc, cd) / std::max(l1 * l2, least), cross(cd, da) / std::max(l2 * l3, least)});
-}
-
+/// Least sine of a quad's corners.
 inline double least_sine(const PartialMesh& partial, const Quad& q)
 {
     return least_sine(partial.at(q[0]), partial.at(q[1]), partial.at(q[2]), partial.at(q[3]));

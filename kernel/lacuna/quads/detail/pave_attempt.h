@@ -7,16 +7,14 @@
 
 namespace lacuna::quads::paving {
 
-/// What lies along the boundary.
+/// How a region is filled: the rows along its boundary, or none.
 enum class RowStyle {
     by_shape,  ///< as many rows as each loop is worth
-    one_patch, ///< none: the region is one patch
-    none,      ///< the region is cut as it is
+    mapped,    ///< no rows: the region is one patch
+    no_rows,   ///< the region is cut as it is
     thin,      ///< rows also where loops are near each other
-    buffer,    ///< one row with two quads at least at every node, so that all other nodes are free to move
-    halved_triangles, ///< no rows: `TriangleWay`
-    paired_triangles,
-    split_triangles
+    buffer,    ///< one row with at least two quads at every node, so that all other nodes are free to move
+    triangles, ///< no rows: `quads_of_triangles()`
 };
 
 /// Quads made in one way.
@@ -25,13 +23,13 @@ struct Attempt {
     PaveReport report;
     RowStyle style = RowStyle::by_shape;
     double worst = -2;         ///< least sine; -2: no mesh, -1: one with a fault
-    Vec2 where = Vec2::Zero(); ///< the worst quad's place
+    Vec2 where = Vec2::Zero(); ///< the worst quad's centre
 };
 
 /// Find the worst quad.
 void judge(Attempt& attempt);
 
-/// Fill a region in one way: rows, cuts and patches, or triangles; open what folds, clean and smooth it.
+/// Fill a region in one way, by rows, cuts and patches or by triangles; then open folds, clean and smooth.
 /// @param flat  quads with a smaller sine count as folded.
 Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style, const CutWeights& weights,
                  double flat, const RunContext& context);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The energy smoothing in the plane lowers; only sources of this folder include it.
+/// The energy that smoothing in the plane lowers.
 
 #include <lacuna/quads/detail/plane_stars.h>
 
@@ -9,20 +9,20 @@
 
 namespace lacuna::quads {
 
-/// Areas asked of the quads round each point.
-struct Areas {
-    struct Asked {
+/// Areas asked of the quads around each point.
+struct TargetAreas {
+    struct Target {
         double area = 0, inverse = 0; ///< 0: none is asked
     };
     double weight = 0;
-    std::vector<Asked> asked; ///< of each point; empty: of none
+    std::vector<Target> asked; ///< of each point; empty: of none
 };
 
-/// Energy of the corners at one point, with its slope and curvature as the point moves.
+/// Energy of the quads around one point, with its gradient and curvature as the point moves.
 ///
-/// f² summed over the corners that change with the point, f = (|a|² + |b|²) / 2 det, so that what is bad counts for
-/// more; and where an area h² is asked, (det / h² + h² / det) / 2.
-struct Around {
+/// The sum over the corners that change with the point of f², f = (|a|² + |b|²) / 2 det, the square so that
+/// bad corners count for more; and where an area h² is asked, of (det / h² + h² / det) / 2.
+struct StarEnergy {
     double value = 0;
     Vec2 slope{0, 0};
     double xx = 0, xy = 0, yy = 0;
@@ -36,7 +36,7 @@ public:
     static constexpr std::size_t kLanes = 4;
 
     SpokeLanes(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t first, std::size_t p,
-               const Areas& areas)
+               const TargetAreas& areas)
         : has_area_(!areas.asked.empty())
     {
         const std::size_t last = star.size() - 1;
@@ -44,7 +44,7 @@ public:
             const auto i = static_cast<Eigen::Index>(k);
             const Spoke& spoke = star[std::min(first + k, last)];
             const auto n = static_cast<std::size_t>(spoke.next), r = static_cast<std::size_t>(spoke.before);
-            const Vec2 &pn = points[n], &po = points[static_cast<std::size_t>(spoke.across)], &pr = points[r];
+            const Vec2 &pn = points[n], &po = points[index(spoke.across)], &pr = points[r];
             nx_[i] = pn.x();
             ny_[i] = pn.y();
             ox_[i] = po.x();
@@ -63,8 +63,8 @@ public:
         inverse_p_.setConstant(areas.asked[p].inverse);
     }
 
-    /// Add what the corners of these quads have. @return false where one is folded
-    bool add_to(Around& around, const Vec2& x, double weight) const
+    /// Add the energy of these quads and its derivatives. @return false where a corner is folded
+    bool add_to(StarEnergy& around, const Vec2& x, double weight) const
     {
         const Lanes ax = nx_ - x.x(), ay = ny_ - x.y(), bx = rx_ - x.x(), by = ry_ - x.y();
         const Lanes cx = ox_ - nx_, cy = oy_ - ny_, dx = ox_ - rx_, dy = oy_ - ry_;
@@ -88,7 +88,7 @@ public:
         return true;
     }
 
-    /// Add their energy alone. @return false where a corner is folded, or its sine squared is less than `least`
+    /// Add the energy alone. @return false where a corner is folded, or its sine squared is less than `least`
     bool add_to(double& value, const Vec2& x, double weight, double least) const
     {
         const Lanes ax = nx_ - x.x(), ay = ny_ - x.y(), bx = rx_ - x.x(), by = ry_ - x.y();
@@ -156,9 +156,9 @@ private:
     bool has_area_;
 };
 
-/// @return false where a corner is folded
-inline bool look_around(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t p,
-                        const Vec2& x, const Areas& areas, Around& around)
+/// The energy with its derivatives. @return false where a corner is folded
+inline bool differentiate(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t p,
+                          const Vec2& x, const TargetAreas& areas, StarEnergy& around)
 {
     around = {};
     for (std::size_t i = 0; i < star.size(); i += SpokeLanes::kLanes) {
@@ -169,7 +169,7 @@ inline bool look_around(std::span<const Vec2> points, std::span<const Spoke> sta
 
 /// The energy alone; infinite where a corner is folded, or its sine squared is less than `least`.
 inline double energy_around(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t p,
-                            const Vec2& x, const Areas& areas, double least)
+                            const Vec2& x, const TargetAreas& areas, double least)
 {
     double value = 0;
     for (std::size_t i = 0; i < star.size(); i += SpokeLanes::kLanes) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Quads whose connections are changed; only sources of this folder include it.
+/// Quads whose connections are changed; for those that stay see `Stars`.
 
 #include <lacuna/core/types.h>
 
@@ -11,16 +11,16 @@
 
 namespace lacuna::quads {
 
-/// Quads with their neighbours. Side i of quad q has the number 4q + i and runs from corner i to corner i + 1.
+/// Quads with their neighbours. Side i of quad q has the number 4q + i, from corner i to corner i + 1.
 class QuadNet {
 public:
     /// @pre  sides are used once, or twice in opposite directions
     QuadNet(std::size_t points, std::vector<Quad> quads);
 
-    [[nodiscard]] const Quad& quad(Index q) const { return quads_[static_cast<std::size_t>(q)]; }
+    [[nodiscard]] const Quad& quad(Index q) const { return quads_[index(q)]; }
     [[nodiscard]] std::size_t quad_slots() const { return quads_.size(); }
     [[nodiscard]] std::size_t points() const { return out_.size(); }
-    [[nodiscard]] bool is_used(Index point) const { return out_[static_cast<std::size_t>(point)] >= 0; }
+    [[nodiscard]] bool is_used(Index point) const { return out_[index(point)] >= 0; }
     [[nodiscard]] bool is_live(Index q) const { return quad(q)[0] >= 0; }
     [[nodiscard]] Index from(Index side) const
     {
@@ -33,21 +33,18 @@ public:
         return quads_[i / 4][(i + 1) % 4];
     }
     /// The same side in the neighbour, or -1.
-    [[nodiscard]] Index opposite(Index side) const { return opposite_[static_cast<std::size_t>(side)]; }
+    [[nodiscard]] Index opposite(Index side) const { return opposite_[index(side)]; }
     [[nodiscard]] static Index before(Index side) { return (side & ~3) + ((side + 3) & 3); }
     [[nodiscard]] static Index after(Index side) { return (side & ~3) + ((side + 1) & 3); }
 
-    [[nodiscard]] bool on_boundary(Index point) const
-    {
-        return opposite(out_[static_cast<std::size_t>(point)]) < 0;
-    }
+    [[nodiscard]] bool on_boundary(Index point) const { return opposite(out_[index(point)]) < 0; }
     /// Quads at a point.
-    [[nodiscard]] int valence(Index point) const { return valence_[static_cast<std::size_t>(point)]; }
+    [[nodiscard]] int valence(Index point) const { return valence_[index(point)]; }
     /// Call `visit(side)` with the side that leaves the point in each of its quads, counter-clockwise.
     template <class Visit>
     void for_sides(Index point, const Visit& visit) const
     {
-        const Index first = out_[static_cast<std::size_t>(point)];
+        const Index first = out_[index(point)];
         Index side = first;
         while (side >= 0) {
             visit(side);
@@ -62,7 +59,8 @@ public:
         valence_.push_back(0);
         return static_cast<Index>(out_.size()) - 1;
     }
-    /// Put quads in the place of others with the same outline. @return the new quads' numbers.
+    /// Replace quads by others with the same outline. @return the numbers of the new quads; the numbers of
+    /// removed ones are given again, the last removed first.
     std::vector<Index> replace(std::span<const Index> removed, std::span<const Quad> added);
 
 private:

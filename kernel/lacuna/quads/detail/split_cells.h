@@ -1,18 +1,33 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/quads/detail/quad_repair.h>
+#include <lacuna/core/types.h>
+
+#include <cstddef>
+#include <vector>
 
 namespace lacuna::quads {
 
-/// Cut convex cells into convex quads without touching the boundary: what no rows, cuts or pairs can fill is
-/// filled by this, always.
+/// Quads and triangles of the plane, counter-clockwise; a triangle has its last corner twice. The first
+/// `fixed` points are the boundary's and stay where they are.
+struct MixedMesh {
+    std::vector<Vec2> points;
+    std::vector<Quad> cells;
+    std::size_t fixed = 0;
+
+    [[nodiscard]] static bool is_triangle(const Quad& cell) { return cell[2] == cell[3]; }
+    [[nodiscard]] const Vec2& at(Index p) const { return points[index(p)]; }
+};
+
+/// Cut convex cells into convex quads without touching the boundary. It never fails, so it fills what no rows
+/// and cuts can fill.
 ///
-/// Every inner side is halved but for some, chosen so that each cell has an even number of whole ones: along short
-/// ways through the mesh from one cell with an odd number of boundary sides to another. A cell with halved sides alone
-/// becomes four quads, or three of a triangle; with two whole ones, two, three or, a triangle, five. All corners are below a
-/// straight angle as long as the cells' are.
-/// @pre  the boundary has an even number of sides; cells are convex, side to side, in one piece.
+/// Every inner edge is halved except those of a T-join in the dual graph, whose terminals are the cells with
+/// an odd number of boundary edges: each cell then has an even number of whole edges. A near-shortest T-join
+/// is found by growing breadth-first trees from all terminals at once and joining them by a minimum spanning
+/// tree. A cell without whole edges becomes four quads, a triangle three; with two whole edges it becomes two
+/// or three, a triangle five. All corners stay below a straight angle as long as the cells' are.
+/// @pre   the boundary has an even number of edges; cells are convex, conforming and in one piece.
 /// @note  Deterministic. O(cells log cells).
 MixedMesh split_cells(const MixedMesh& mesh);
 

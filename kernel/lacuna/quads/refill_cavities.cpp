@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/detail/pave_refill.h>
+#include <lacuna/quads/detail/refill_cavities.h>
 
 #include <lacuna/geometry/triangulate.h>
-#include <lacuna/quads/detail/pave_repair.h>
+#include <lacuna/quads/detail/corner_sine.h>
+#include <lacuna/quads/detail/open_corners.h>
 #include <lacuna/quads/detail/quad_net.h>
 #include <lacuna/quads/detail/triangle_quads.h>
 #include <lacuna/quads/measure_plane.h>
@@ -15,16 +16,20 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Rings of quads taken out with the folded ones: nodes next to them were put where they fold.
+/// Closed loops of point numbers, the outer one first.
+using Loops = std::vector<std::vector<Index>>;
+
+/// Rings of quads removed with the folded ones, whose nodes lie where they fold. A choice, not a measurement.
 constexpr int kRings = 2;
 
-class Refiller {
+class CavityFinder {
 public:
-    explicit Refiller(PlanarQuads& mesh)
+    explicit CavityFinder(PlanarQuads& mesh)
         : mesh_(mesh), net_(mesh.points.size(), mesh.quads), out_(mesh.quads.size(), false)
     {
     }
 
+    /// Mark the flat quads and the rings around them. @return whether there are any
     bool mark(double flat)
     {
         for (std::size_t q = 0; q < out_.size(); ++q)
@@ -34,17 +39,18 @@ public:
         return true;
     }
 
-    /// Take out more until every hole can be filled. @return the holes' outlines, the outer loop first
-    std::vector<Loops> find_holes()
+    /// Remove more until every cavity can be filled. @return the outlines of the cavities, the outer loop
+    /// first
+    std::vector<Loops> find_cavities()
     {
         while (true) {
-            std::vector<Loops> holes;
+            std::vector<Loops> cavities;
             std::vector<bool> from(mesh_.points.size(), false);
             bool bad = false;
             for (const std::vector<Index>& part : parts()) {
                 auto outline = outline_of(part);
                 if (outline) {
-                    holes.push_back(std::move(*outline));
+                    cavities.push_back(std::move(*outline));
                     continue;
                 }
                 bad = true;
@@ -52,12 +58,12 @@ public:
                     for (const Index p : net_.quad(q)) from[index(p)] = true;
                 }
             }
-            // What is taken out whole has the region's own outline, which is known to be good.
-            if (!bad || !grow(from)) return holes;
+            // Where all quads are removed, the outline is the region's own, which is known to be good.
+            if (!bad || !grow(from)) return cavities;
         }
     }
 
-    void take_out()
+    void remove_quads()
     {
         std::vector<Quad> kept;
         for (std::size_t q = 0; q < out_.size(); ++q) {
@@ -67,7 +73,8 @@ public:
     }
 
 private:
-    /// Take out the quads at these nodes of quads that are out. @return whether there were any more.
+    /// Remove the quads at those nodes of removed quads that `from` allows. @return whether there were any
+    /// more
     bool grow(const std::vector<bool>& from)
     {
         std::vector<bool> reached(mesh_.points.size(), false);
@@ -87,7 +94,7 @@ private:
         return more;
     }
 
-    /// The quads that are out, by side to side.
+    /// The removed quads in groups that hang together by edges.
     [[nodiscard]] std::vector<std::vector<Index>> parts() const
     {
         std::vector<std::vector<Index>> result;
@@ -108,7 +115,8 @@ private:
         return result;
     }
 
-    /// The loops round a part, the outer one first; nothing where they are pinched, cross, or are turned over.
+    /// The loops around a part, the outer one first; nothing where they are pinched, cross or run the wrong
+    /// way.
     [[nodiscard]] std::optional<Loops> outline_of(const std::vector<Index>& part) const
     {
         std::unordered_map<Index, Index> next;
@@ -150,17 +158,17 @@ private:
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const Vec2 a = mesh_.points[index(loop[i])] - origin,
                        b = mesh_.points[index(loop[(i + 1) % loop.size()])] - origin;
-            sum += a.x() * b.y() - a.y() * b.x();
+            sum += cross(a, b);
         }
         return sum;
     }
 
     PlanarQuads& mesh_;
     QuadNet net_;
-    std::vector<bool> out_; ///< quads to be taken out
+    std::vector<bool> out_; ///< quads to be removed
 };
 
-/// The region within some of the mesh's loops, and which point of the mesh each of its points is.
+/// The region within loops of the mesh, and the point of the mesh that each of its points is.
 std::pair<PlanarRegion, std::vector<Index>> region_within(const PlanarQuads& mesh, const Loops& loops,
                                                           const std::function<double(const Vec2&)>& size)
 {
@@ -180,16 +188,16 @@ std::pair<PlanarRegion, std::vector<Index>> region_within(const PlanarQuads& mes
 
 } // namespace
 
-int refill_folds(PlanarQuads& mesh, const PlanarRegion& region, double flat,
-                 const std::function<double(const Vec2&)>& size)
+int refill_cavities(PlanarQuads& mesh, const PlanarRegion& region, double flat,
+                    const std::function<double(const Vec2&)>& size)
 {
-    Refiller refiller(mesh);
-    if (!refiller.mark(flat)) return 0;
-    const std::vector<Loops> holes = refiller.find_holes();
-    refiller.take_out();
-    for (const Loops& loops : holes) {
-        auto [hole, own] = region_within(mesh, loops, size);
-        const PlanarQuads filling = quads_of_triangles(hole, TriangleWay::split);
+    CavityFinder finder(mesh);
+    if (!finder.mark(flat)) return 0;
+    const std::vector<Loops> cavities = finder.find_cavities();
+    finder.remove_quads();
+    for (const Loops& loops : cavities) {
+        auto [cavity, own] = region_within(mesh, loops, size);
+        const PlanarQuads filling = quads_of_triangles(cavity);
         for (std::size_t p = own.size(); p < filling.points.size(); ++p) {
             own.push_back(static_cast<Index>(mesh.points.size()));
             mesh.points.push_back(filling.points[p]);
@@ -200,7 +208,7 @@ int refill_folds(PlanarQuads& mesh, const PlanarRegion& region, double flat,
         }
     }
     drop_loose_points(mesh, region.points.size());
-    return static_cast<int>(holes.size());
+    return static_cast<int>(cavities.size());
 }
 
 } // namespace lacuna::quads::paving

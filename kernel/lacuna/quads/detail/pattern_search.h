@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+
+#include <array>
+
+namespace lacuna::quads {
+
+/// Steps of `pattern_search()`.
+struct PatternSteps {
+    double scale;       ///< a length of the neighbourhood
+    double first, last; ///< the longest step, and a bound below all [of `scale`]
+    double least_gain;  ///< in the value, for a step as long as `scale`, >= 0
+};
+
+/// Move a point to where a value is larger, by pattern search: eight directions, the step halved where none
+/// wins.
+/// @param best   the value at `x`.
+/// @param value  of a place, called as value(const Vec2&).
+/// @return the value at the new `x`, at least `best`.
+template <class Value>
+double pattern_search(Vec2& x, double best, const PatternSteps& steps, const Value& value)
+{
+    constexpr double kDiagonal = 0.70710678118654752; // √½
+    static const std::array<Vec2, 8> kDirections{
+        Vec2(1, 0),  Vec2(kDiagonal, kDiagonal),   Vec2(0, 1),  Vec2(-kDiagonal, kDiagonal),
+        Vec2(-1, 0), Vec2(-kDiagonal, -kDiagonal), Vec2(0, -1), Vec2(kDiagonal, -kDiagonal)};
+    for (double step = steps.first * steps.scale; step > steps.last * steps.scale; step /= 2) {
+        for (bool better = true; better;) {
+            better = false;
+            const Vec2 from = x;
+            for (const Vec2& direction : kDirections) {
+                const Vec2 to = from + step * direction;
+                const double found = value(to);
+                if (found <= best + steps.least_gain * step / steps.scale) continue;
+                best = found;
+                x = to;
+                better = true;
+            }
+        }
+    }
+    return best;
+}
+
+} // namespace lacuna::quads

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/quads/region.h>
+
+#include <functional>
+
+namespace lacuna::quads::paving {
+
+/// Row height correction: move the nodes of the first row so that its quads stand upright on the boundary, as
+/// high as asked. Smoothing alone lets rows grow where sides bend away.
+///
+/// Only the inner neighbour of a boundary node with two quads is moved, and only where the worst quad around
+/// it stays good or gets no worse.
+void correct_row_heights(PlanarQuads& mesh, const PlanarRegion& region,
+                         const std::function<double(const Vec2&)>& height);
+
+} // namespace lacuna::quads::paving

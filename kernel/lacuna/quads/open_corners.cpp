@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/open_corners.h>
+
+#include <lacuna/quads/detail/corner_sine.h>
+#include <lacuna/quads/detail/quad_net.h>
+#include <lacuna/quads/measure_plane.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+namespace lacuna::quads::paving {
+namespace {
+
+/// Four nodes inside a quad that is not convex, with which the inner quad and the four around it are convex.
+/// None where no point is known that sees all its corners.
+std::optional<std::array<Vec2, 4>> small_within(const std::array<Vec2, 4>& outer)
+{
+    // The diagonal from the corner that turns in is seen from all corners.
+    std::size_t inward = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Vec2 out = outer[(k + 1) % 4] - outer[k], back = outer[(k + 3) % 4] - outer[k];
+        const double sine = corner_sine(cross(out, back), out.norm() * back.norm());
+        if (sine < least) {
+            least = sine;
+            inward = k;
+        }
+    }
+    const Vec2 centre = (outer[inward] + outer[(inward + 2) % 4]) / 2;
+    double room = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Vec2 side = outer[(k + 1) % 4] - outer[k];
+        room = std::min(room, corner_sine(cross(side, centre - outer[k]), side.norm()));
+    }
+    if (!(room > 0)) return std::nullopt;
+    constexpr double kOfRoom = 0.4; // well inside the circle that touches the nearest side; a choice
+    std::array<Vec2, 4> inner;
+    for (std::size_t k = 0; k < 4; ++k) inner[k] = centre + kOfRoom * room * (outer[k] - centre).normalized();
+    return inner;
+}
+
+/// A smaller quad inside a quad, and four around it. Their four nodes are added to the points.
+std::array<Quad, 5> pillow(std::vector<Vec2>& points, const Quad& outer)
+{
+    std::array<Vec2, 4> corner;
+    for (std::size_t k = 0; k < 4; ++k) corner[k] = points[index(outer[k])];
+    const Vec2 centre = (corner[0] + corner[1] + corner[2] + corner[3]) / 4;
+    std::array<Vec2, 4> place;
+    for (std::size_t k = 0; k < 4; ++k) place[k] = (corner[k] + centre) / 2;
+    constexpr double kFlat = 0.1; // a flatter quad leaves no room half way to its middle
+    if (least_sine(corner[0], corner[1], corner[2], corner[3]) < kFlat)
+        place = small_within(corner).value_or(place);
+    const auto first = static_cast<Index>(points.size());
+    points.insert(points.end(), place.begin(), place.end());
+    std::array<Quad, 5> quads{Quad{first, first + 1, first + 2, first + 3}};
+    for (std::size_t k = 0; k < 4; ++k)
+        quads[k + 1] = {outer[k], outer[(k + 1) % 4], quads[0][(k + 1) % 4], quads[0][k]};
+    return quads;
+}
+
+class CornerOpener {
+public:
+    CornerOpener(PlanarQuads& mesh, const PlanarRegion& region)
+        : mesh_(mesh), fixed_(region.points.size()), net_(mesh.points.size(), mesh.quads)
+    {
+        constexpr double kWidest = 0.9 * std::numbers::pi; // leaves a sine of 0.3
+        constexpr double kWide = 0.78 * std::numbers::pi;  // 140°: a sine of 0.64
+        needed_.assign(fixed_, 0);
+        better_.assign(fixed_, 0);
+        for (const auto& loop : region.loops) {
+            for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
+                const Vec2& p = at(loop[i]);
+                const double angle = turn_between(at(loop[(i + 1) % n]) - p, at(loop[(i + n - 1) % n]) - p);
+                needed_[index(loop[i])] = static_cast<int>(std::ceil(angle / kWidest));
+                better_[index(loop[i])] = static_cast<int>(std::ceil(angle / kWide));
+            }
+        }
+    }
+
+    int run()
+    {
+        constexpr int kMostTries = 4; // each change adds a quad at the node, and no angle needs more
+        constexpr double kGood = 0.5; // least sine that a quad that is not needed may leave; a choice
+        int changes = 0;
+        for (Index p = 0; index(p) < fixed_; ++p) {
+            if (!net_.is_used(p)) continue;
+            for (int tries = 0; tries < kMostTries && net_.valence(p) < needed(p); ++tries) {
+                if (!swap_edge(p, 0)) pillow_widest(p);
+                ++changes;
+            }
+            // A wide node gets another quad where it costs the quads around little.
+            if (net_.valence(p) < better_[index(p)] && swap_edge(p, kGood)) ++changes;
+        }
+        for (std::size_t q = 0; q < net_.quad_slots(); ++q) {
+            if (q == mesh_.quads.size()) mesh_.quads.emplace_back();
+            mesh_.quads[q] = net_.quad(static_cast<Index>(q));
+        }
+        return changes;
+    }
+
+private:
+    [[nodiscard]] const Vec2& at(Index p) const { return mesh_.points[index(p)]; }
+    /// Quads a node cannot do without; inner ones need three.
+    [[nodiscard]] int needed(Index p) const { return index(p) < fixed_ ? needed_[index(p)] : 3; }
+    [[nodiscard]] double sine(const Quad& q) const { return scaled_jacobian(mesh_.points, q); }
+
+    /// Swap an edge opposite the node in one of its quads, so that it runs from the node.
+    /// @param least  least sine the two new quads must exceed
+    bool swap_edge(Index p, double least)
+    {
+        double best = least;
+        std::array<Index, 2> pair{-1, -1};
+        std::array<Quad, 2> made{};
+        net_.for_sides(p, [&](Index side) {
+            const Index second = QuadNet::after(side), third = QuadNet::after(second);
+            const Index v1 = net_.to(side), v2 = net_.to(second), v3 = net_.to(third);
+            for (const bool first : {true, false}) {
+                const Index a = first ? v1 : v2, b = first ? v2 : v3;
+                if (net_.valence(a) <= needed(a) || net_.valence(b) <= needed(b)) continue;
+                const Index other = net_.opposite(first ? second : third);
+                if (other < 0) continue;
+                const Index c = net_.to(QuadNet::after(other)),
+                            d = net_.to(QuadNet::after(QuadNet::after(other)));
+                // The outline of both quads: p, v1, (c, d) between a and b, v3.
+                if (c == p || d == p) continue;
+                const std::array<Quad, 2> swapped =
+                    first ? std::array<Quad, 2>{Quad{p, v1, c, d}, Quad{p, d, v2, v3}}
+                          : std::array<Quad, 2>{Quad{p, v1, v2, c}, Quad{p, c, d, v3}};
+                const double quality = std::min(sine(swapped[0]), sine(swapped[1]));
+                if (quality <= best) continue;
+                best = quality;
+                pair = {other / 4, side / 4};
+                made = swapped;
+            }
+        });
+        if (pair[0] < 0) return false;
+        net_.replace(pair, made);
+        return true;
+    }
+
+    void pillow_widest(Index p)
+    {
+        Index widest = -1;
+        double most = -1;
+        net_.for_sides(p, [&](Index side) {
+            const double angle = turn_between(at(net_.to(side)) - at(p),
+                                              at(net_.from(QuadNet::before(side))) - at(p));
+            if (angle <= most) return;
+            most = angle;
+            widest = side / 4;
+        });
+        const std::array<Quad, 5> made = pillow(mesh_.points, net_.quad(widest));
+        while (net_.points() < mesh_.points.size()) net_.add_point();
+        net_.replace(std::array{widest}, made);
+    }
+
+    PlanarQuads& mesh_; ///< its quads are those of `net_` at the end
+    std::size_t fixed_;
+    QuadNet net_;
+    std::vector<int> needed_, better_; ///< quads at a boundary node: what must be, and what would be good
+};
+
+} // namespace
+
+int open_corners(PlanarQuads& mesh, const PlanarRegion& region) { return CornerOpener(mesh, region).run(); }
+
+int pillow_folds(PlanarQuads& mesh, double least)
+{
+    int count = 0;
+    for (std::size_t q = 0, n = mesh.quads.size(); q < n; ++q) {
+        if (scaled_jacobian(mesh.points, mesh.quads[q]) > least) continue;
+        const std::array<Quad, 5> made = pillow(mesh.points, mesh.quads[q]);
+        mesh.quads[q] = made[0];
+        mesh.quads.insert(mesh.quads.end(), made.begin() + 1, made.end());
+        ++count;
+    }
+    return count;
+}
+
+void drop_loose_points(PlanarQuads& mesh, std::size_t fixed)
+{
+    std::vector<Index> number(mesh.points.size(), -1);
+    std::iota(number.begin(), number.begin() + static_cast<std::ptrdiff_t>(fixed), Index{0});
+    std::vector<Vec2> points(mesh.points.begin(), mesh.points.begin() + static_cast<std::ptrdiff_t>(fixed));
+    for (Quad& quad : mesh.quads) {
+        for (Index& p : quad) {
+            Index& own = number[index(p)];
+            if (own < 0) {
+                own = static_cast<Index>(points.size());
+                points.push_back(mesh.points[index(p)]);
+            }
+            p = own;
+        }
+    }
+    mesh.points = std::move(points);
+}
+
+} // namespace lacuna::quads::paving

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/raise_flat_quads.h>
+
+#include <lacuna/quads/detail/pattern_search.h>
+#include <lacuna/quads/detail/plane_stars.h>
+#include <lacuna/quads/measure_plane.h>
+
+namespace lacuna::quads::paving {
+namespace {
+
+/// Move a point to where the worst quad around it is better. @return whether it is
+bool raise(std::vector<Vec2>& points, std::span<const Spoke> star, std::size_t p)
+{
+    // Steps of the mean distance to the neighbours; choices, not measurements.
+    constexpr double kFirst = 1.0 / 2, kLast = 1.0 / 17, kLeastGain = 1e-3;
+    if (star.empty()) return false;
+    const auto worst_at = [&](const Vec2& x) {
+        double worst = 1;
+        for (const Spoke& spoke : star)
+            worst = std::min(worst, least_sine(x, points[index(spoke.next)], points[index(spoke.across)],
+                                               points[index(spoke.before)]));
+        return worst;
+    };
+    Vec2 mean = Vec2::Zero(), x = points[p];
+    double distance = 0;
+    for (const Spoke& spoke : star) {
+        for (const Index other : {spoke.next, spoke.across, spoke.before}) {
+            mean += points[index(other)];
+            distance += (points[index(other)] - x).norm();
+        }
+    }
+    const double count = 3 * static_cast<double>(star.size());
+    mean /= count;
+    const double before = worst_at(x);
+    double worst = before;
+    // Small steps do not bring back a point far outside its neighbours.
+    for (const Vec2& to : {mean, Vec2((mean + x) / 2)}) {
+        const double found = worst_at(to);
+        if (found <= worst) continue;
+        worst = found;
+        points[p] = to;
+    }
+    worst = pattern_search(points[p], worst, {distance / count, kFirst, kLast, 0}, worst_at);
+    return worst > before + kLeastGain;
+}
+
+} // namespace
+
+void raise_flat_quads(PlanarQuads& mesh, std::size_t fixed)
+{
+    constexpr double kFlat = 0.15; // better quads are left to the smoother; a choice, not a measurement
+    constexpr int kSweeps = 12;    // at most; a choice too
+    const Stars stars(mesh.points.size(), mesh.quads);
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+        std::vector<char> flat(mesh.points.size(), 0);
+        for (const Quad& quad : mesh.quads) {
+            if (scaled_jacobian(mesh.points, quad) > kFlat) continue;
+            for (const Index p : quad) flat[index(p)] = 1;
+        }
+        bool moved = false;
+        for (std::size_t p = fixed; p < mesh.points.size(); ++p) {
+            if (flat[p] != 0 && raise(mesh.points, stars[p], p)) moved = true;
+        }
+        if (!moved) return;
+    }
+}
+
+} // namespace lacuna::quads::paving
