@@ -187,3 +187,24 @@ TEST_CASE("sides that do not fit are refused")
     CHECK_THROWS_AS(grid_of(bad), InvalidInput);
     CHECK_NOTHROW(grid_of(good));
 }
+
+TEST_CASE("a grid in the plane is that in space, and the patch passes through its nodes where sides agree")
+{
+    const auto bumpy = [](double s, double t) { return Vec3(s + 0.1 * std::sin(7 * t), t + 0.1 * s * s, 0); };
+    const Sides sides = sides_of(bumpy, spacing(5, 1.2), spacing(4, 1));
+    const auto flat = [](const Grid& side) {
+        std::vector<Vec2> points;
+        for (const Vec3& p : side) points.emplace_back(p.x(), p.y());
+        return points;
+    };
+    const std::vector<Vec2> bottom = flat(sides.bottom), right = flat(sides.right), top = flat(sides.top),
+                            left = flat(sides.left);
+    const std::vector<Vec2> plane = transfinite(bottom, right, top, left);
+    CHECK(plane == flat(grid_of(sides)));
+    const CoonsPatch<Vec2> patch(bottom, right, top, left);
+    for (std::size_t i = 0; i < 6; ++i) {
+        CHECK((patch({patch.bottom(i), 0}) - bottom[i]).norm() < 1e-14);
+        CHECK((patch({patch.top(i), 1}) - top[i]).norm() < 1e-14);
+    }
+    CHECK((patch(patch.crossing(2, 2, 1, 1)) - plane[1 * 6 + 2]).norm() < 0.02);
+}

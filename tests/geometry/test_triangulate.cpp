@@ -449,3 +449,20 @@ TEST_CASE("the same region gives the same triangles, and refinement stops at max
     const auto few = triangulate(region.points, region.loops, {.grading = 0, .max_points = 5});
     CHECK(few.points.size() == region.points.size() + 5);
 }
+
+TEST_CASE("a point is inside a polygon whichever way it runs and whichever point comes first")
+{
+    const std::vector<Vec2> u{{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
+    for (std::size_t first = 0; first < u.size(); ++first) {
+        for (const bool reversed : {false, true}) {
+            std::vector<Vec2> polygon = u;
+            std::rotate(polygon.begin(), polygon.begin() + static_cast<std::ptrdiff_t>(first), polygon.end());
+            if (reversed) std::reverse(polygon.begin(), polygon.end());
+            for (const Vec2& p : {Vec2(0.5, 1), Vec2(2.5, 3 - 1e-15), Vec2(1.5, 0.5), Vec2(1 - 1e-16, 2)})
+                CHECK(lies_inside(polygon, p));
+            for (const Vec2& p :
+                 {Vec2(1.5, 1 + 1e-15), Vec2(1.5, 2), Vec2(-1, 1), Vec2(4, 3), Vec2(2 - 1e-15, 1.5)})
+                CHECK_FALSE(lies_inside(polygon, p));
+        }
+    }
+}
