@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "made_files.h"
 
+#include <lacuna/cad/detail/worker.h>
 #include <lacuna/cad_worker/session.h>
 
 #include <doctest/doctest.h>
@@ -12,6 +13,9 @@
 #include <map>
 #include <numbers>
 #include <random>
+
+#include <csignal>
+#include <sys/wait.h>
 
 namespace lacuna::test {
 
@@ -36,6 +40,14 @@ void with_gmsh(const std::string& path, const std::function<void()>& build)
 }
 
 } // namespace
+
+void kill_worker()
+{
+    const pid_t pid = cad::Worker::current()->pid();
+    ::kill(pid, SIGKILL);
+    siginfo_t info{};
+    ::waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOWAIT); // left for its owner to collect
+}
 
 TempFolder::TempFolder()
 {

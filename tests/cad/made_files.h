@@ -31,6 +31,9 @@ private:
     std::filesystem::path folder_;
 };
 
+/// Kill the CAD process, started if need be, and wait until it is dead.
+void kill_worker();
+
 /// A shape with what is known about it.
 struct KnownShape {
     std::string name;

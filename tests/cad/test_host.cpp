@@ -77,12 +77,16 @@ TEST_CASE("streams, locale, environment and descriptors stay as they were")
     ::setenv("PYTHONPATH", "/some/where", 1);
     std::ostringstream printed;
     std::streambuf* cout = std::cout.rdbuf(printed.rdbuf());
+    struct Restore {
+        std::streambuf* before;
+        ~Restore() { std::cout.rdbuf(before); }
+    } const restore{cout};
     (void)cad::load({path});
     const std::size_t descriptors = open_descriptors();
     for (int i = 0; i < 5; ++i) {
         (void)cad::load({path});
         CHECK_THROWS_AS(cad::load({folder.write("bad.step", "ISO-10303-21;\n")}), Error);
-        ::kill(cad::Worker::current()->pid(), SIGKILL);
+        test::kill_worker();
     }
     (void)cad::load({path});
     CHECK(open_descriptors() == descriptors);
@@ -182,7 +186,7 @@ TEST_CASE("facets need no CAD process")
     const test::TempFolder folder;
     const std::string path = folder.write("two.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
     const std::string step = folder.gmsh("box.step", [] { occ::addBox(0, 0, 0, 1, 1, 1); });
-    ::kill(cad::Worker::current()->pid(), SIGKILL);
+    test::kill_worker();
     const std::string program = std::getenv("LACUNA_CAD");
     ::setenv("LACUNA_CAD", "/no/such/program", 1);
     CHECK(cad::load({path}).faces.size() == 1);

@@ -174,7 +174,7 @@ std::shared_ptr<Worker> Worker::current(const RunContext* context)
 {
     Current& current = current_of_process();
     const std::lock_guard lock(current.mutex);
-    if (current.worker) {
+    if (current.worker && !current.worker->spent_) {
         const std::unique_lock busy(current.worker->busy_, std::try_to_lock);
         // One that works is alive; of one that idles, see whether it still is.
         if (busy && !current.worker->ended_) {
@@ -343,6 +343,7 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
             }
             if (frame.opcode != Opcode::failed) throw ProtocolError("an answer that is none");
             const auto failure = decode<Failure>(frame.bytes);
+            spent_ = spent_ || opcode == Opcode::load;
             switch (failure.kind) {
             case Failure::invalid_input:
                 throw InvalidInput(failure.code, failure.message);

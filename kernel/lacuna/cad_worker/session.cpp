@@ -135,6 +135,7 @@ void Session::fail(const std::string& message) const
         const std::vector<std::string> errors = logged_errors();
         words = errors.empty() ? "it gave no reason" : errors.back();
     }
+    if (words.starts_with("Out of memory")) throw std::bad_alloc(); // Gmsh's own allocator says so in words
     throw BackendError("cad.gmsh",
                        (subject_.empty() ? "" : subject_ + ": ") + std::string("Gmsh failed: ") + words);
 }

@@ -7,6 +7,7 @@
 
 #include <sys/types.h>
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -31,8 +32,8 @@ struct Task {
 /// The CAD process of this process: lacuna-cad, started when it is first needed and kept.
 ///
 /// It may end at any time (a crash, a limit, someone's kill). Then the request under way is a BackendError that
-/// says how, and so is every later request to this object; `current()` starts another. Safe for several threads:
-/// requests wait for each other. A child made by fork() starts a process of its own.
+/// says how, and so is every later request to this object; `current()` starts another. One that failed to load a file
+/// serves the models it has and loads no more. Safe for several threads: requests wait for each other. A child made by fork() starts a process of its own.
 class Worker {
 public:
     /// The living one, started if need be.
@@ -95,6 +96,7 @@ private:
     bool ended_ = false;         ///< by itself or by us; under `busy_`
     int status_ = 0;             ///< how, as wait() says
     std::string end_;            ///< why, where we ended it
+    std::atomic<bool> spent_ = false; ///< it failed to load, which may leave Gmsh's parsers in any state
     std::mutex released_mutex_;
     std::vector<std::uint64_t> released_;
     std::unordered_map<std::uint64_t, std::uint64_t> charged_;
