@@ -12,8 +12,8 @@ namespace {
 
 using geometry::orient2d;
 
-constexpr double kLeastAngle = kRightAngle /
-                               6; ///< 15°: a line closer to the outline makes a sliver; a choice
+/// A line closer to the outline than 15° makes a sliver. A choice, not a measurement.
+constexpr double kLeastAngle = kRightAngle / 6;
 
 /// How far an angle is from the nearest multiple of a right angle, in half right angles, squared.
 double angle_cost(double angle)

@@ -10,8 +10,8 @@ namespace lacuna::quads::paving {
 namespace {
 
 constexpr int kMostQuads = 4; ///< at a node: a reversal, for no angle is wider than four right ones
-constexpr double kLeastSine =
-    0.1; ///< 6°: a flatter quad of a row counts as a fold; a choice, not a measurement
+/// A quad of a row with a flatter corner (6°) counts as folded. A choice, not a measurement.
+constexpr double kLeastSine = 0.1;
 
 Vec2 rotated(const Vec2& v, double angle)
 {
@@ -86,7 +86,7 @@ private:
     /// Each end takes a node off the sides on either hand, so that sides of at least three edges keep one.
     [[nodiscard]] bool ends_far_apart() const
     {
-        constexpr std::size_t kApart = 3;
+        constexpr std::size_t kApart = 3; // edges between two ends
         std::size_t first = n_, last = n_;
         for (std::size_t i = 0; i < n_; ++i) {
             if (kind(i) != 1) continue;

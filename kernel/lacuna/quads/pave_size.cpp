@@ -114,8 +114,8 @@ std::function<double(const Vec2&)> size_with_boundary(const PlanarRegion& region
     for (const BoundarySide& side : sides) sum += side.length;
     std::function<double(const Vec2&)> asked = region.size;
     if (!asked) asked = [mean = sum / static_cast<double>(sides.size())](const Vec2&) { return mean; };
-    constexpr double kAlike =
-        1.6; // sides within this factor have the length asked; a choice, not a measurement
+    // Sides within this factor have the length asked. A choice, not a measurement.
+    constexpr double kAlike = 1.6;
     const bool alike = std::all_of(sides.begin(), sides.end(), [&](const BoundarySide& side) {
         const double size = asked(side.middle);
         return side.length < kAlike * size && size < kAlike * side.length;
