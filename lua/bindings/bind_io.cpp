@@ -106,7 +106,7 @@ const Format& format_of(const std::string& path, const WriteArguments& arguments
     std::string known;
     for (const Format& format : kFormats) {
         known += std::string(" ") + format.ending;
-        if (ending_of(path) != format.ending) continue;
+        if (io::ending_of(path) != format.ending) continue;
         const bool idle_version = arguments.version_given && !format.has_version;
         if (idle_version || (arguments.binary_given && !format.has_binary))
             throw InvalidInput("lua.idle_option",

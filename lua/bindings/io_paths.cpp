@@ -3,15 +3,12 @@
 
 #include "bindings/lacuna_lua.h"
 
-#include <algorithm>
-#include <cctype>
+#include <lacuna/io/load_facets.h>
+
 #include <cstring>
-#include <filesystem>
 #include <optional>
 
 namespace lacuna::lua {
-
-namespace fs = std::filesystem;
 
 io::OutputPath output_path(const Host& host, const std::string& path)
 {
@@ -25,16 +22,11 @@ io::OutputPath output_path(const Host& host, const std::string& path)
 void check_input_path(const Host& host, const std::string& path)
 {
     if (!host.sandboxed) return;
-    // A .geo is a program, and so are the options Gmsh looks for beside a file it opens.
-    const std::string ending = ending_of(path);
-    if (ending == ".geo" || ending == ".geo_unrolled" || ending == ".opt" || ending == ".pos" ||
-        ending == ".script")
+    // A .geo is a program. It is confined where it runs, and the sandbox runs none but the recipe.
+    const std::string ending = io::ending_of(path);
+    if (ending == ".geo" || ending == ".geo_unrolled")
         throw InvalidInput("sandbox.script",
-                           "the sandbox does not read " + path + ": Gmsh would run it as a script");
-    std::error_code error;
-    if (fs::exists(path + ".opt", error))
-        throw InvalidInput("sandbox.script", "the sandbox does not read " + path + ": Gmsh would run " +
-                                                 path + ".opt, which lies beside it");
+                           "the sandbox does not read " + path + ": it is a script, not a file of shapes");
 }
 
 const io::OutputPath& push_output_path(lua_State* L, int index, const char* call)
@@ -47,14 +39,6 @@ const io::OutputPath& push_output_path(lua_State* L, int index, const char* call
     auto& place = temporary<std::optional<io::OutputPath>>(L);
     guard(L, [&] { place = output_path(lent, path); });
     return *place;
-}
-
-std::string ending_of(const std::string& path)
-{
-    std::string ending = fs::path(path).extension().string();
-    std::ranges::transform(ending, ending.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return ending;
 }
 
 } // namespace lacuna::lua

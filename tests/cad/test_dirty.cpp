@@ -107,8 +107,8 @@ void plate(const std::vector<Vec3>& corners, int& seed)
     occ::addPlaneSurface({occ::addCurveLoop(lines)});
 }
 
-/// A block of 2 × 1 × 1 as nobody should write one: a bottom in two, a top listed twice and turned over the second
-/// time, a wall with a corner cut off by less than the tolerance, everything loose and shifted.
+/// A block of 2 × 1 × 1 as nobody should write one: a bottom in two, a top listed twice and turned over the
+/// second time, a wall with a corner cut off by less than the tolerance, everything loose and shifted.
 void dirty_block()
 {
     int seed = 0;

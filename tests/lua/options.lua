@@ -108,8 +108,10 @@ wrong("sweep", "min_scaled_jacobian", { -0.1, 1.1 }, "[0, 1]")
 wrong("sweep", "threads", { 0, -1, 1.5 }, "a positive whole number")
 wrong("sweep", "threads", { 1025 }, "to 1024")
 for _, quads in ipairs { "mapped", "gmsh", "keep" } do
-  check.fails(function() volume():sweep { layers = 1, rows = 2, quads = quads } end, "sweep:", "'rows'", "paved")
-  check.fails(function() volume():sweep { layers = 1, row_height = 0.1, quads = quads } end, "sweep:", "'rows'", "paved")
+  check.fails(function() volume():sweep { layers = 1, rows = 2, quads = quads } end, "sweep:", "'rows'",
+      "paved")
+  check.fails(function() volume():sweep { layers = 1, row_height = 0.1, quads = quads } end, "sweep:",
+      "'rows'", "paved")
 end
 -- Ten times 0.1 is 1 but for rounding.
 local steps, sum = {}, 0

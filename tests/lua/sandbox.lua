@@ -88,14 +88,20 @@ for _, name in ipairs { "out/x.msh", "out/deeper/y.msh", "out/z.msh" } do
   check.that(check.exists(folder .. "/" .. name), name)
 end
 
--- Files that Gmsh would run as a script.
-if lacuna.gmsh_version ~= "none" then
-  check.write(folder .. "/script.geo", 'SystemCall "touch touched";\n')
-  refused("require 'lacuna'.load 'script.geo'", { "script.geo", "script" })
-  check.write(folder .. "/part.stl", "solid\nendsolid\n")
-  check.write(folder .. "/part.stl.opt", 'SystemCall "touch touched";\n')
-  refused("require 'lacuna'.load 'part.stl'", { "part.stl.opt" })
-  check.that(not check.exists(folder .. "/touched"))
+-- Scripts are not read, whatever lies beside a file is left alone, and an ending makes no script of a file.
+check.write(folder .. "/script.geo", 'SystemCall "touch touched";\n')
+refused("require 'lacuna'.load 'script.geo'", { "script.geo", "script" })
+check.write(folder .. "/part.stl", "solid\nendsolid\n")
+check.write(folder .. "/part.stl.opt", 'SystemCall "touch touched";\n')
+refused("require 'lacuna'.load 'part.stl'", { "part.stl" })
+for _, name in ipairs { "p.Stl", "p.StL", "p.Bdf", "p.Nas", "p.Mesh", "p.step", "p.IGS", "p.brep", "p.vtk",
+    "p.unv" } do
+  for _, text in ipairs { 'SystemCall "touch touched";\n',
+      'MeshVersion = 1;\nSystemCall "touch touched";\n' } do
+    check.write(folder .. "/" .. name, text)
+    refused(("require 'lacuna'.load '%s'"):format(name), { name })
+  end
 end
+check.that(not check.exists(folder .. "/touched"))
 
 check.done()

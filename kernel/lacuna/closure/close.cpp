@@ -58,7 +58,7 @@ void add_void_walls(OpenVolume& volume, const Tools& tools, Closure& closure)
     note(closure, "Algorithm 3");
 }
 
-/// A loop with no wall at all hangs on void edges alone.
+/// A loop with no wall at all is connected by void edges alone.
 void check_matched(const OpenVolume& volume, const matching::Match& match)
 {
     const auto uses = edge_uses(volume.model);

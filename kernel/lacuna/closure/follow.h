@@ -11,7 +11,7 @@
 
 namespace lacuna::closure {
 
-/// How the given walls carry the source's section up to the target's: what void edges and faces follow.
+/// How the given walls morph the source's section into the target's: what void edges and faces follow.
 ///
 /// The walls are cut at even heights, and an affine map is fitted from the source's section and from the
 /// target's to each (as the sweep itself places the inside of a layer, Roca and Sarrate 2010).

@@ -31,7 +31,7 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 /// Coons patch over arc length. Departure from the paper: a bent four-sided face is transfinite at once, so
 /// that its facets and its mesh are the same surface. What remains, minimal area.
 /// @param follower  null, or what a bent four-sided face follows instead: the source side as the given
-///                  walls carry it up and the target side as they carry it down, blended, and moved to meet
+///                  walls move it up and the target side as they move it down, blended, and shifted to meet
 ///                  the sides.
 /// @param name  of the face, for messages.
 /// @throw NotClosed  names the face and the edges that cross.

@@ -123,7 +123,7 @@ void scale_to_area(const Facets& facets, Positions& positions)
 
 Positions conformal(const Facets& facets)
 {
-    // Two points of the outer boundary, far apart, hold the map; their distance is mended by scaling.
+    // Two points of the outer boundary, far apart, hold the map; their distance is corrected by scaling.
     const std::vector<Index>& rim = facets.loops.front();
     const auto farthest = [&](const Vec3& from) {
         return *std::max_element(rim.begin(), rim.end(), [&](Index a, Index b) {
@@ -299,7 +299,7 @@ private:
         const Triangle& c = facets_.triangles[t];
         const Shape& shape = facets_.shapes[t];
         const Matrix2d j = jacobian(facets_, t, positions), r = rotation_of(j);
-        // J = (J Rᵀ) R, the first factor symmetric and positive: its own axes carry the weights.
+        // J = (J Rᵀ) R, the first factor symmetric and positive: the weights go with its own axes.
         const auto [large, small] = stretches(j);
         const auto weight = [](double s) { return 2 * (s + 1) * (s * s + 1) / (s * s * s); };
         const Matrix2d stretch = j * r.transpose();

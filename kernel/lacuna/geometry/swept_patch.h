@@ -12,7 +12,7 @@ namespace lacuna::geometry {
 ///
 /// A Coons patch adds up displacements in fixed axes, so half a tube along a bent path comes out squeezed
 /// where the path has turned away from both ends. Here what the bottom and top deviate from their chords is
-/// carried in a frame that follows the chord between left and right and the way the sides lead: x(s, t) =
+/// expressed in a frame that follows the chord between left and right and the way the sides lead: x(s, t) =
 /// (1−s) left(t) + s right(t) + size(t) F(t) [(1−t) b(s) + t e(s)], b and e the deviations of bottom and
 /// top in the frames F(0) and F(1), over their lengths. All four sides are met; where the frame does not
 /// turn and the lengths agree it is the Coons patch.

@@ -51,7 +51,7 @@ EdgeTrack::EdgePosition EdgeTrack::on_segment(const Vec3& p, std::size_t i) cons
 void EdgeTrack::refine(std::span<const Vec3> points, std::span<EdgePosition> places, double reach) const
 {
     if (!curve_) return;
-    constexpr int kSteps = 8; // at most; a choice, not a measurement
+    constexpr int kSteps = 8;            // at most; a choice, not a measurement
     constexpr double kDifference = 1e-4; // of a side: the tangent's error is then that squared
     std::vector<std::size_t> active;
     for (std::size_t i = 0; i < places.size(); ++i)

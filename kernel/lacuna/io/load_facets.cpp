@@ -234,7 +234,7 @@ topology::Model import_facets(const std::vector<std::string>& paths, const LoadO
     check_cancelled(context);
     for (Vec3& p : all.soup.points) p *= options.scale;
     if (!options.keep_mesh) split_quads(all.soup);
-    // Names may be alike or missing: faces carry the label's number through the cutting.
+    // Names may be alike or missing: faces keep the label's number through the cutting.
     const std::vector<std::string> names = std::exchange(all.soup.label_name, {});
     for (std::size_t label = 0; label < names.size(); ++label)
         all.soup.label_name.push_back(std::to_string(label));

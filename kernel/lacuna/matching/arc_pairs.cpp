@@ -233,7 +233,7 @@ private:
         return shorter ? std::min(before, after) : std::max(before, after);
     }
 
-    /// Corners within a stretch of the loops.
+    /// Corners within a segment of the loops.
     void pair_corners(double from, double run, bool whole)
     {
         std::vector<std::pair<double, std::size_t>> low, high;
@@ -268,7 +268,7 @@ private:
         }
     }
 
-    /// A loop hangs on one void edge at least.
+    /// A loop is connected by one void edge at least.
     void add_one(ArcPairs& found) const
     {
         std::size_t best = kNone;

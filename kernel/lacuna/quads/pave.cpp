@@ -4,8 +4,8 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/predicates.h>
 #include <lacuna/geometry/triangulate.h>
-#include <lacuna/quads/detail/pave_choice.h>
 #include <lacuna/quads/detail/open_corners.h>
+#include <lacuna/quads/detail/pave_choice.h>
 #include <lacuna/quads/detail/pave_rows.h>
 #include <lacuna/quads/detail/pave_size.h>
 

@@ -10,7 +10,7 @@ namespace lacuna::quads {
 
 /// How `pave()` filled a region.
 struct PaveReport {
-    int rows = 0;      ///< rows of quads laid inward, over all loops
+    int rows = 0;      ///< rows of quads paved inward, over all loops
     int mapped = 0;    ///< parts filled by a template, with at most a few irregular nodes
     int cuts = 0;      ///< splitting lines drawn
     int templates = 0; ///< loops of six nodes or fewer closed
@@ -35,11 +35,11 @@ struct Paved {
     PaveReport report;
 };
 
-/// Fill a region of the plane with quads by paving: rows laid inward from the loops, the rest cut in two
+/// Fill a region of the plane with quads by paving: rows placed inward from the loops, the rest cut in two
 /// along the best line, again and again, until templates can fill the parts (CSALF-Q).
 ///
 /// 1. A region of right angles is submapped (`submap()`). Where that grid is good, it is the result.
-/// 2. Rows are laid along loops that turn without corners and have room for them.
+/// 2. Rows are placed along loops that turn without corners and have room for them.
 /// 3. A cut is straight. It meets the outline at right angles where it can, its nodes are spaced as the size
 ///    asks, and its number of edges leaves even parts whose sides agree. A part that is a good patch of 3 to
 ///    5 sides is filled with grids that meet in one or two irregular nodes.

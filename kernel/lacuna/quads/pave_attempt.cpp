@@ -45,8 +45,8 @@ bool is_conforming(const PlanarQuads& mesh)
 
 /// Open folded quads by moving nodes, then with more nodes (pillows). Quads that stay inverted are removed
 /// together with two rings of neighbours, and the cavity is remeshed.
-void open_folds(Attempt& attempt, const PlanarRegion& region, const PartialMesh& partial, const PaveOptions& options,
-                const RunContext& context)
+void open_folds(Attempt& attempt, const PlanarRegion& region, const PartialMesh& partial,
+                const PaveOptions& options, const RunContext& context)
 {
     for (int round = 0; round < 2; ++round) {
         Attempt tried = attempt;
@@ -122,12 +122,13 @@ void judge(Attempt& attempt)
     }
 }
 
-Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style, const CutWeights& weights,
-                 double flat, const RunContext& context)
+Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style,
+                 const CutWeights& weights, double flat, const RunContext& context)
 {
     Attempt attempt;
     attempt.style = style;
-    PartialMesh partial{region.points, {}, region.points.size(), size_with_boundary(region), flat, {}, weights};
+    PartialMesh partial{region.points, {}, region.points.size(), size_with_boundary(region), flat, {},
+                        weights};
     if (style == RowStyle::triangles) {
         attempt.mesh = quads_of_triangles(region);
         attempt.report.used = "triangles";

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/split_cells.h>
 
+#include <lacuna/geometry/union_find.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/corner_sine.h>
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <tuple>
 #include <unordered_map>
 
@@ -94,17 +94,11 @@ private:
             return std::tie(a.steps, a.one, a.two) < std::tie(b.steps, b.one, b.two);
         });
         // The minimum spanning tree over the groups (Kruskal).
-        std::vector<Index> group(root_.size());
-        std::iota(group.begin(), group.end(), Index{0});
-        const auto find = [&](Index c) {
-            while (group[index(c)] != c) c = group[index(c)] = group[index(group[index(c)])];
-            return c;
-        };
+        geometry::UnionFind groups(root_.size());
         std::vector<std::vector<Meeting>> tree(root_.size());
         for (const Meeting& m : meetings) {
             const Index a = root_[index(m.one)], b = root_[index(m.two)];
-            if (find(a) == find(b)) continue;
-            group[index(find(a))] = find(b);
+            if (!groups.unite(b, a)) continue;
             tree[index(a)].push_back(m);
             tree[index(b)].push_back({m.steps, m.two, m.one});
         }

@@ -13,7 +13,7 @@ using SizeField = std::function<double(const Vec3&)>;
 /// Lengths asked for on faces.
 struct SizeFields {
     SizeField edge;  ///< of the quads' sides
-    SizeField row{}; ///< height of rows along the loops that stay as they are laid; empty: none are asked for
+    SizeField row{}; ///< height of rows along the loops that smoothing keeps; empty: none are asked for
 };
 
 } // namespace lacuna::surface

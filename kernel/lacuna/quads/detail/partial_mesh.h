@@ -4,6 +4,7 @@
 /// What the parts of the paver share: the mesh while it is built, cycles of its nodes, angles along them.
 /// Only sources of this folder include it.
 
+#include <lacuna/core/edge_key.h>
 #include <lacuna/quads/detail/corner_sine.h>
 #include <lacuna/quads/region.h>
 
@@ -50,14 +51,8 @@ struct PartialMesh {
     std::unordered_set<std::uint64_t> links{};
     CutWeights weights{};
 
-    static std::uint64_t link_key(Index a, Index b)
-    {
-        const auto [low, high] = std::minmax(a, b);
-        return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(low)) << 32) |
-               static_cast<std::uint32_t>(high);
-    }
-    void link(Index a, Index b) { links.insert(link_key(a, b)); }
-    [[nodiscard]] bool linked(Index a, Index b) const { return links.contains(link_key(a, b)); }
+    void link(Index a, Index b) { links.insert(edge_key(a, b)); }
+    [[nodiscard]] bool linked(Index a, Index b) const { return links.contains(edge_key(a, b)); }
 
     [[nodiscard]] const Vec2& at(Index p) const { return points[static_cast<std::size_t>(p)]; }
     [[nodiscard]] bool is_fixed(Index p) const { return static_cast<std::size_t>(p) < fixed; }

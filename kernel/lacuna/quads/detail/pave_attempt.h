@@ -31,7 +31,7 @@ void judge(Attempt& attempt);
 
 /// Fill a region in one way, by rows, cuts and patches or by triangles; then open folds, clean and smooth.
 /// @param flat  quads with a smaller sine count as folded.
-Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style, const CutWeights& weights,
-                 double flat, const RunContext& context);
+Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style,
+                 const CutWeights& weights, double flat, const RunContext& context);
 
 } // namespace lacuna::quads::paving
