@@ -122,7 +122,8 @@ WrittenCad write_cad(const OpenVolume& volume, const std::string& path, const Wr
     check_sealed(volume);
     io::WholeFile file(path);
     const bool step = ending != ".brep";
-    const Descriptor result(::memfd_create("lacuna-cad output", MFD_CLOEXEC));
+    const auto in_memory = [] { return Descriptor(::memfd_create("lacuna-cad output", MFD_CLOEXEC)); };
+    const Descriptor source = in_memory(), all = in_memory(), result = in_memory();
 
     Task task;
     task.subject = path;
@@ -135,7 +136,7 @@ WrittenCad write_cad(const OpenVolume& volume, const std::string& path, const Wr
     const std::shared_ptr<Worker> worker = sources.worker ? sources.worker : Worker::current(&context);
     const auto found = worker->ask<BeginSolidReply>(
         Opcode::begin_solid, BeginSolidRequest{path, step ? "solid.step" : "solid.brep", sources.wanted}, task,
-        {result.get()});
+        {source.get(), all.get(), result.get()});
     const BegunSolid begun(worker, found.solid);
     if (found.sources.size() != sources.order.size())
         throw BackendError("cad.protocol", path + ": the CAD process answered for other files");
