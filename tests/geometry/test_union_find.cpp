@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/point_in_polygon.h>
+#include <lacuna/geometry/predicates.h>
 #include <lacuna/geometry/union_find.h>
 
 #include <doctest/doctest.h>
@@ -8,7 +8,7 @@
 #include <vector>
 
 using namespace lacuna;
-using geometry::point_in_polygon;
+using geometry::lies_inside;
 using geometry::UnionFind;
 
 TEST_CASE("unite keeps the root of the first set, and says whether the two were apart")
@@ -35,18 +35,18 @@ TEST_CASE("a point a rounding error to either side of a polygon's side is told a
     // arithmetic's.
     const std::vector<Vec2> triangle{{0, 0}, {3, 1}, {0, 1}};
     const double x = 1.5, y = 0.5;
-    CHECK(point_in_polygon(Vec2(std::nextafter(x, 0.0), y), triangle));
-    CHECK_FALSE(point_in_polygon(Vec2(std::nextafter(x, 3.0), y), triangle));
+    CHECK(lies_inside(triangle, Vec2(std::nextafter(x, 0.0), y)));
+    CHECK_FALSE(lies_inside(triangle, Vec2(std::nextafter(x, 3.0), y)));
 }
 
 TEST_CASE("a ray through a corner counts it once, in either direction of the polygon")
 {
     std::vector<Vec2> kite{{0, 0}, {2, 0}, {1, 1}, {3, 1}, {2, 2}, {0, 2}};
     for (int turn = 0; turn < 2; ++turn) {
-        CHECK(point_in_polygon(Vec2(0.5, 1), kite));
-        CHECK_FALSE(point_in_polygon(Vec2(-0.5, 1), kite));
-        CHECK_FALSE(point_in_polygon(Vec2(-0.5, 0), kite));
-        CHECK_FALSE(point_in_polygon(Vec2(3.5, 1), kite));
+        CHECK(lies_inside(kite, Vec2(0.5, 1)));
+        CHECK_FALSE(lies_inside(kite, Vec2(-0.5, 1)));
+        CHECK_FALSE(lies_inside(kite, Vec2(-0.5, 0)));
+        CHECK_FALSE(lies_inside(kite, Vec2(3.5, 1)));
         kite = {kite.rbegin(), kite.rend()};
     }
 }

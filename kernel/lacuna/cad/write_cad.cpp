@@ -67,7 +67,8 @@ std::string bytes_of(int descriptor, bool step)
     std::string bytes(static_cast<std::size_t>(std::max<off_t>(0, size)), '\0');
     std::size_t got = 0;
     while (got < bytes.size()) {
-        const ssize_t now = ::pread(descriptor, bytes.data() + got, bytes.size() - got, static_cast<off_t>(got));
+        const ssize_t now = ::pread(descriptor, bytes.data() + got, bytes.size() - got,
+                                    static_cast<off_t>(got));
         if (now <= 0) break;
         got += static_cast<std::size_t>(now);
     }
@@ -122,7 +123,8 @@ WrittenCad write_cad(const OpenVolume& volume, const io::OutputPath& path, const
     check_sealed(volume);
     io::WholeFile file(path);
     const bool step = ending != ".brep";
-    const Descriptor result(::memfd_create("lacuna-cad output", MFD_CLOEXEC));
+    const auto in_memory = [] { return Descriptor(::memfd_create("lacuna-cad output", MFD_CLOEXEC)); };
+    const Descriptor source = in_memory(), all = in_memory(), result = in_memory();
 
     Task task;
     task.subject = path.text();
@@ -134,8 +136,9 @@ WrittenCad write_cad(const OpenVolume& volume, const io::OutputPath& path, const
     const SolidSources sources = sources_of(volume.model);
     const std::shared_ptr<Worker> worker = sources.worker ? sources.worker : Worker::current(&context);
     const auto found = worker->ask<BeginSolidReply>(
-        Opcode::begin_solid, BeginSolidRequest{path.text(), step ? "solid.step" : "solid.brep", sources.wanted}, task,
-        {result.get()});
+        Opcode::begin_solid,
+        BeginSolidRequest{path.text(), step ? "solid.step" : "solid.brep", sources.wanted}, task,
+        {source.get(), all.get(), result.get()});
     const BegunSolid begun(worker, found.solid);
     if (found.sources.size() != sources.order.size())
         throw BackendError("cad.protocol", path.text() + ": the CAD process answered for other files");

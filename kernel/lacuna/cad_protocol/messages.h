@@ -122,14 +122,15 @@ struct RecombineReply {
     std::vector<Quad> quads;
 };
 
-/// Entities of loaded models a solid is to be made with.
+/// Entities of loaded models a solid is to be made with. Three files in memory come along: two it goes through on its
+/// way, and the result.
 struct SolidSource {
     std::uint64_t model = 0;
     std::vector<std::int32_t> faces, curves;
 };
 struct BeginSolidRequest {
     std::string subject; ///< the file to be written, for messages
-    std::string result;  ///< its name without a folder; the descriptor comes with the message
+    std::string result;  ///< its name without a folder, whose ending says the format
     std::vector<SolidSource> sources;
 };
 /// Which of them there are in the workshop; of each curve its begin, middle and end [model length].

@@ -372,7 +372,7 @@ std::string offer(const std::string& folder, const std::string& name, int descri
     const std::string path = kFolder + folder + "/" + name;
     for (Offered& file : offered_files) {
         if (file.descriptor >= 0) continue;
-        if (path.size() >= file.path.size()) break;
+        if (descriptor < 0 || path.size() >= file.path.size()) break;
         std::memcpy(file.path.data(), path.c_str(), path.size() + 1);
         file.descriptor = descriptor;
         return path;

@@ -10,8 +10,6 @@
 #include <map>
 #include <utility>
 
-#include <sys/mman.h>
-
 namespace lacuna::cad_worker {
 
 using namespace cad_protocol;
@@ -106,12 +104,12 @@ std::string Desk::State::project(ProjectRequest request) const
 std::string Desk::State::begin_solid(Frame& frame)
 {
     const auto request = decode<BeginSolidRequest>(frame.bytes);
-    if (frame.descriptors.size() != 1) throw ProtocolError("a solid needs one file to be written to");
+    if (frame.descriptors.size() != 3) throw ProtocolError("a solid needs three files to go through");
     const std::uint64_t handle = ++last;
     Folder folder("solid" + std::to_string(handle));
-    const auto scratch = [] { return Descriptor(::memfd_create("lacuna-cad", MFD_CLOEXEC)); };
-    const SolidFiles files{folder.add("source.brep", scratch()), folder.add("all.brep", scratch()),
-                           folder.add(request.result, std::move(frame.descriptors.front()))};
+    const SolidFiles files{folder.add("source.brep", std::move(frame.descriptors[0])),
+                           folder.add("all.brep", std::move(frame.descriptors[1])),
+                           folder.add("result-" + request.result, std::move(frame.descriptors[2]))};
     auto solid = std::make_unique<Solid>(std::move(folder), request.subject, files);
     BeginSolidReply reply;
     reply.solid = handle;

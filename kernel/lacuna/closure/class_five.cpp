@@ -3,7 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/point_in_polygon.h>
+#include <lacuna/geometry/predicates.h>
 
 #include <algorithm>
 #include <array>
@@ -125,7 +125,7 @@ void face_the_void(OpenVolume& volume, std::vector<Tube>& tubes)
     for (std::size_t i = 1; i < tubes.size(); ++i) {
         std::size_t depth = 0;
         for (std::size_t j = 0; j < tubes.size(); ++j)
-            depth += j != i && geometry::point_in_polygon(flat[i].front(), flat[j]) ? 1 : 0;
+            depth += j != i && geometry::lies_inside(flat[j], flat[i].front()) ? 1 : 0;
         if (depth != 1) {
             throw NotClosed("closure.nested_loops",
                             "the walls " + names(volume.model, tubes[i].walls) +

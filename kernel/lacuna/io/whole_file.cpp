@@ -109,6 +109,7 @@ WholeFile::WholeFile(const OutputPath& path) : path_(path.text())
     struct stat before = {};
     const bool exists = ::fstatat(folder_->descriptor(), name_.empty() ? "." : name_.c_str(), &before,
                                   AT_SYMLINK_NOFOLLOW) == 0;
+    if (!exists && errno != ENOENT) fail(errno); // too long a name, a folder that may not be searched
     if (name_.empty() || (exists && S_ISDIR(before.st_mode)))
         throw InvalidInput("io.not_a_file", "cannot write '" + path_ + "': it is a folder; add a file name");
     if (exists && !S_ISREG(before.st_mode))
