@@ -76,7 +76,8 @@ expect({ "-i" }, 0, { "3\n", "yes", lacuna.version }, { "prompt:1:" },
 check.write(folder .. "/make.lua", [[
 local lacuna = require "lacuna"
 local p = lacuna.params { output = "" }
-local void = lacuna.synthetic.prism({ sides = 4, drop = "walls" }):open_volume { source = "source", target = "target" }
+local prism = lacuna.synthetic.prism { sides = 4, drop = "walls" }
+local void = prism:open_volume { source = "source", target = "target" }
 void:sweep({ layers = 2, size = 0.5 }):write(p.output)
 ]])
 expect({ "make.lua", "output=good.msh" }, 0, {}, {})
@@ -121,7 +122,9 @@ local endless = {
   [[local lacuna = require 'lacuna'
     local p = lacuna.synthetic.plate { drop = 'walls' }
     while true do
-      pcall(function() p:open_volume({ source = 'source', target = 'target' }):sweep { layers = 40, size = 0.02 } end)
+      pcall(function()
+        p:open_volume({ source = 'source', target = 'target' }):sweep { layers = 40, size = 0.02 }
+      end)
     end]],
 }
 for i, source in ipairs(endless) do

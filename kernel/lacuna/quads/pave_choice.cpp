@@ -12,8 +12,8 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Up to this many quads a region is paved in several ways: for 3000 that takes 0.5 s at most, measured on the
-/// named outlines.
+/// Up to this many quads a region is paved in several ways: for 3000 that takes 0.5 s at most, measured on
+/// the named outlines.
 constexpr std::size_t kSmall = 4000;
 /// Quads made in all with every row of weights: some eight meshes of a region of kSmall. Where the worst quad
 /// stays poor the outline is the cause more than the cuts, and less is spent. Choices, not measurements.
