@@ -25,7 +25,7 @@ const char* const kHelp = R"(usage: lacuna [option ...] RECIPE [key=value ...]
   --verbose               what the kernel notes as it works, and tracebacks, on standard error
   --version, --help
 
-exit codes: 0 done, 1 the recipe failed, 2 bad usage, 130 interrupted
+exit codes: 0 done, 1 the recipe failed, 2 bad usage, 130 interrupted, 143 terminated
 )";
 
 namespace {
