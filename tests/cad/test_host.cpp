@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-// What a program that hosts Lacuna may rely on: its own Gmsh, streams, locale, descriptors and children are its own.
+// SPDX-License-Identifier: GPL-2.0-or-later What a program that hosts Lacuna may rely on: its own Gmsh,
+// streams, locale, descriptors and children are its own.
 #include "made_files.h"
 
 #include <lacuna/cad/detail/worker.h>
@@ -103,8 +103,9 @@ TEST_CASE("what a script sets does not outlast the load")
     const test::TempFolder folder;
     const std::string box = folder.gmsh("box.brep", [] { occ::addBox(0, 0, 0, 1, 1, 1); });
     const std::string path = folder.write(
-        "loud.geo", "Mesh.MeshSizeMax = 0.125; Mesh.Algorithm = 5; General.Terminal = 1; Geometry.Tolerance = 0.1;\n"
-                    "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1};\n");
+        "loud.geo",
+        "Mesh.MeshSizeMax = 0.125; Mesh.Algorithm = 5; General.Terminal = 1; Geometry.Tolerance = 0.1;\n"
+        "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1};\n");
     quads::PlanarRegion square;
     square.points = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}};
     square.loops = {{0, 1, 2, 3, 4, 5}};
@@ -184,7 +185,8 @@ TEST_CASE("the memory of the CAD process stays flat over a thousand loads")
 TEST_CASE("facets need no CAD process")
 {
     const test::TempFolder folder;
-    const std::string path = folder.write("two.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
+    const std::string path = folder.write("two.obj",
+                                          "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
     const std::string step = folder.gmsh("box.step", [] { occ::addBox(0, 0, 0, 1, 1, 1); });
     test::kill_worker();
     const std::string program = std::getenv("LACUNA_CAD");

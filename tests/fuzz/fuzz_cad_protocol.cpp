@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Bytes as a message between the kernel and the CAD process; the first says which. A message that is understood is
-// written again as it came; any other is a ProtocolError. Without libFuzzer:
-//   fuzz_cad_protocol [SECONDS [SEED]]
+// Bytes as a message between the kernel and the CAD process; the first says which. A message that is
+// understood is written again as it came; any other is a ProtocolError. Without libFuzzer:
+// fuzz_cad_protocol [SECONDS [SEED]]
 #include <lacuna/cad_protocol/messages.h>
 
 #include <algorithm>
@@ -34,10 +34,10 @@ void read_as(int which, std::string_view bytes)
 {
     using Read = void (*)(std::string_view);
     constexpr Read kReads[kMessages] = {
-        read<Hello>,           read<Progress>,         read<Failure>,          read<LoadRequest>,
-        read<LoadReply>,       read<EvaluateRequest>,  read<EvaluateReply>,    read<ProjectRequest>,
-        read<ProjectReply>,    read<RecombineRequest>, read<RecombineReply>,   read<BeginSolidRequest>,
-        read<BeginSolidReply>, read<MakeSolidRequest>, read<MakeSolidReply>,   read<ReleaseRequest>};
+        read<Hello>,           read<Progress>,         read<Failure>,        read<LoadRequest>,
+        read<LoadReply>,       read<EvaluateRequest>,  read<EvaluateReply>,  read<ProjectRequest>,
+        read<ProjectReply>,    read<RecombineRequest>, read<RecombineReply>, read<BeginSolidRequest>,
+        read<BeginSolidReply>, read<MakeSolidRequest>, read<MakeSolidReply>, read<ReleaseRequest>};
     kReads[which % kMessages](bytes);
 }
 
@@ -67,28 +67,51 @@ std::string sample(int which)
     solid.edges = {{SolidEdge::lines, -1, 0, {0, 1}, {}},
                    {SolidEdge::spline, -1, 0, {}, {axis, {Vec3(0, 0, 0), Vec3(1, 1, 1)}}}};
     solid.faces = {{SolidFace::plane, "face 1", -1, 0, {{{0, 1}, {1, 0}}}, {}, {}, 0},
-                   {SolidFace::patches, "face 2", -1, 0, {}, {{axis, axis, std::vector<Vec3>(4, Vec3::Ones())}}, {2}, 1}};
+                   {SolidFace::patches,
+                    "face 2",
+                    -1,
+                    0,
+                    {},
+                    {{axis, axis, std::vector<Vec3>(4, Vec3::Ones())}},
+                    {2},
+                    1}};
     solid.first_tolerance = solid.last_tolerance = 1;
     RecombineRequest region{{Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)}, {{0, 1, 2, 3}}, {}};
     region.size.columns = 2;
     region.size.sizes = {1, 1, 1, 1};
     switch (which % kMessages) {
-    case 0: return encode(Hello{"4.8.4", "Landlock"});
-    case 1: return encode(Progress{0.5});
-    case 2: return encode(Failure{Failure::backend, "cad.gmsh", "words"});
-    case 3: return encode(LoadRequest{{{LoadFile::step, "a/b.step", {{"b.step"}, {"c"}}}}, 0, 1});
-    case 4: return encode(model);
-    case 5: return encode(EvaluateRequest{1, 2, {0, 0.5, 1}});
-    case 6: return encode(EvaluateReply{model.points});
-    case 7: return encode(ProjectRequest{1, 2, {Vec3(1, 2, 3)}, {Vec2(1, 2)}});
-    case 8: return encode(ProjectReply{{Vec3(1, 2, 3)}, {Vec2(1, 2)}});
-    case 9: return encode(region);
-    case 10: return encode(RecombineReply{region.points, {{0, 1, 2, 3}}});
-    case 11: return encode(BeginSolidRequest{"a.step", "solid.step", {{1, {1, 2}, {3}}}});
-    case 12: return encode(BeginSolidReply{1, {{{1, 2}, {3}, {{}}}}});
-    case 13: return encode(solid);
-    case 14: return encode(MakeSolidReply{1, 2, 3});
-    default: return encode(ReleaseRequest{1});
+    case 0:
+        return encode(Hello{"4.8.4", "Landlock"});
+    case 1:
+        return encode(Progress{0.5});
+    case 2:
+        return encode(Failure{Failure::backend, "cad.gmsh", "words"});
+    case 3:
+        return encode(LoadRequest{{{LoadFile::step, "a/b.step", {{"b.step"}, {"c"}}}}, 0, 1});
+    case 4:
+        return encode(model);
+    case 5:
+        return encode(EvaluateRequest{1, 2, {0, 0.5, 1}});
+    case 6:
+        return encode(EvaluateReply{model.points});
+    case 7:
+        return encode(ProjectRequest{1, 2, {Vec3(1, 2, 3)}, {Vec2(1, 2)}});
+    case 8:
+        return encode(ProjectReply{{Vec3(1, 2, 3)}, {Vec2(1, 2)}});
+    case 9:
+        return encode(region);
+    case 10:
+        return encode(RecombineReply{region.points, {{0, 1, 2, 3}}});
+    case 11:
+        return encode(BeginSolidRequest{"a.step", "solid.step", {{1, {1, 2}, {3}}}});
+    case 12:
+        return encode(BeginSolidReply{1, {{{1, 2}, {3}, {{}}}}});
+    case 13:
+        return encode(solid);
+    case 14:
+        return encode(MakeSolidReply{1, 2, 3});
+    default:
+        return encode(ReleaseRequest{1});
     }
 }
 
@@ -101,7 +124,8 @@ int main(int argc, char** argv)
     const auto below = [&](std::size_t n) { return n == 0 ? 0 : dice() % n; };
     const auto start = std::chrono::steady_clock::now();
     std::size_t runs = 0;
-    for (; std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < seconds; ++runs) {
+    for (; std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < seconds;
+         ++runs) {
         const auto which = static_cast<int>(below(kMessages));
         // A sample as it is is understood, so mutations begin at something.
         std::string bytes = sample(which);
@@ -109,12 +133,21 @@ int main(int argc, char** argv)
         for (std::size_t k = below(5); k > 0; --k) {
             const std::size_t at = below(bytes.size());
             switch (below(5)) {
-            case 0: bytes.insert(at, below(12), static_cast<char>(dice())); break;
-            case 1: bytes.erase(at, 1 + below(12)); break;
-            case 2: bytes.replace(at, std::min<std::size_t>(8, bytes.size() - at), 8, static_cast<char>(0xff)); break;
-            case 3: bytes.insert(at, bytes.substr(below(bytes.size()), below(64))); break;
+            case 0:
+                bytes.insert(at, below(12), static_cast<char>(dice()));
+                break;
+            case 1:
+                bytes.erase(at, 1 + below(12));
+                break;
+            case 2:
+                bytes.replace(at, std::min<std::size_t>(8, bytes.size() - at), 8, static_cast<char>(0xff));
+                break;
+            case 3:
+                bytes.insert(at, bytes.substr(below(bytes.size()), below(64)));
+                break;
             default:
-                if (!bytes.empty()) bytes[at] = static_cast<char>(below(2) == 0 ? dice() : bytes[at] ^ (1 << below(8)));
+                if (!bytes.empty())
+                    bytes[at] = static_cast<char>(below(2) == 0 ? dice() : bytes[at] ^ (1 << below(8)));
             }
         }
         bytes.insert(bytes.begin(), static_cast<char>(which));

@@ -13,8 +13,8 @@ using namespace cad_protocol;
 
 namespace {
 
-/// Crossings of the size raster along the longer side of a region: a choice, fine enough that sizes which change over
-/// a tenth of the region are met to a percent.
+/// Crossings of the size raster along the longer side of a region: a choice, fine enough that sizes which
+/// change over a tenth of the region are met to a percent.
 constexpr int kCrossings = 96;
 
 std::size_t side_count(const quads::PlanarRegion& region)
@@ -30,27 +30,34 @@ std::vector<double> cuts_at(const quads::PlanarRegion& region, double y)
     std::vector<double> cuts;
     for (const std::vector<Index>& loop : region.loops) {
         for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec2 &a = region.points[index(loop[i])], &b = region.points[index(loop[(i + 1) % loop.size()])];
-            if ((a.y() <= y) != (b.y() <= y)) cuts.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+            const Vec2 &a = region.points[index(loop[i])],
+                       &b = region.points[index(loop[(i + 1) % loop.size()])];
+            if ((a.y() <= y) != (b.y() <= y))
+                cuts.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
         }
     }
     std::sort(cuts.begin(), cuts.end());
     return cuts;
 }
 
-/// The region's sizes on a raster over it. They are asked within the region alone; crossings outside take the mean of
-/// their neighbours, from the border outwards.
-SizeRaster size_raster(const quads::PlanarRegion& region, const Eigen::AlignedBox2d& box, const RunContext& context)
+/// The region's sizes on a raster over it. They are asked within the region alone; crossings outside take
+/// the mean of their neighbours, from the border outwards.
+SizeRaster size_raster(const quads::PlanarRegion& region, const Eigen::AlignedBox2d& box,
+                       const RunContext& context)
 {
     SizeRaster raster;
     raster.origin = box.min();
     raster.step = box.sizes().maxCoeff() / (kCrossings - 1);
-    const auto lines = [&](double length) { return std::max(2, static_cast<int>(std::ceil(length / raster.step)) + 1); };
+    const auto lines = [&](double length) {
+        return std::max(2, static_cast<int>(std::ceil(length / raster.step)) + 1);
+    };
     raster.columns = lines(box.sizes().x());
     const int columns = raster.columns, rows = lines(box.sizes().y());
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
     raster.sizes.assign(index(columns) * index(rows), kUnknown);
-    const auto at = [&](int i, int j) -> double& { return raster.sizes[index(j) * index(columns) + index(i)]; };
+    const auto at = [&](int i, int j) -> double& {
+        return raster.sizes[index(j) * index(columns) + index(i)];
+    };
     bool any = false;
     for (int j = 0; j < rows; ++j) {
         check_cancelled(context);
@@ -58,14 +65,16 @@ SizeRaster size_raster(const quads::PlanarRegion& region, const Eigen::AlignedBo
         const std::vector<double> cuts = cuts_at(region, y);
         for (std::size_t c = 0; c + 1 < cuts.size(); c += 2) {
             const auto first = static_cast<int>(std::ceil((cuts[c] - raster.origin.x()) / raster.step));
-            for (int i = std::max(0, first); i < columns && raster.origin.x() + i * raster.step <= cuts[c + 1]; ++i) {
+            for (int i = std::max(0, first);
+                 i < columns && raster.origin.x() + i * raster.step <= cuts[c + 1]; ++i) {
                 at(i, j) = region.size(Vec2(raster.origin.x() + i * raster.step, y));
                 any = true;
             }
         }
     }
     if (!any) { // thinner than the raster
-        raster.sizes.assign(raster.sizes.size(), region.size(region.points[index(region.loops.front().front())]));
+        raster.sizes.assign(raster.sizes.size(),
+                            region.size(region.points[index(region.loops.front().front())]));
         return raster;
     }
     for (bool missing = true; missing;) {

@@ -81,7 +81,8 @@ public:
             source.number = static_cast<Index>(s);
             const BeginSolidReply::Found& own = found.sources[s];
             source.faces.insert(own.faces.begin(), own.faces.end());
-            for (std::size_t c = 0; c < own.curves.size(); ++c) source.curves[own.curves[c]] = own.curve_points[c];
+            for (std::size_t c = 0; c < own.curves.size(); ++c)
+                source.curves[own.curves[c]] = own.curve_points[c];
         }
     }
 
@@ -194,7 +195,8 @@ private:
             made.surfaces.push_back({data_of(surface.u), data_of(surface.v), surface.poles});
     }
 
-    /// A smooth surface over the outer loop, led through points of the facets and of inner loops, which divide it.
+    /// A smooth surface over the outer loop, led through points of the facets and of inner loops, which
+    /// divide it.
     void filling(FaceId id, SolidFace& made)
     {
         made.kind = SolidFace::filling;
@@ -235,8 +237,9 @@ private:
         }
         if (!is_void) {
             throw InvalidInput("cad.facets_alone",
-                               made.name + " is bent and has facets alone, no exact surface a CAD file could hold; "
-                                           "write the volume with write_facets (.stl, .msh, .obj)");
+                               made.name +
+                                   " is bent and has facets alone, no exact surface a CAD file could hold; "
+                                   "write the volume with write_facets (.stl, .msh, .obj)");
         }
         ++plan_.fitted;
         const auto sides = face.loops.size() == 1 ? closure::logical_sides(volume_, face.loops.front())
@@ -270,9 +273,10 @@ SolidSources sources_of(const Model& model)
         if (surface == nullptr) continue;
         const CadSource* source = surface->source().get();
         if (sources.worker && sources.worker != source->worker)
-            throw InvalidInput("cad.worker_ended", sources.order.front()->path + " and " + source->path +
-                                                       " were read by two CAD processes, as one of them ended; load "
-                                                       "the files again");
+            throw InvalidInput("cad.worker_ended",
+                               sources.order.front()->path + " and " + source->path +
+                                   " were read by two CAD processes, as one of them ended; load "
+                                   "the files again");
         sources.worker = source->worker;
         const std::size_t place = place_of(source);
         if (place == sources.order.size()) {

@@ -31,8 +31,8 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-/// Seconds for a request, and more for each million bytes of files and for each thousand points. The shared CAD cases
-/// (10 to 86 kB) take 0.1 to 1 s; files made to hang must not hold a person for over 20 s.
+/// Seconds for a request, and more for each million bytes of files and for each thousand points. The shared
+/// CAD cases (10 to 86 kB) take 0.1 to 1 s; files made to hang must not hold a person for over 20 s.
 constexpr double kSeconds = 12, kSecondsPerMegabyte = 100, kSecondsPerThousand = 0.5;
 constexpr double kMostSeconds = 3600;
 /// Address space for a request: libraries take some 0.6 GB of it, a model of 86 kB less than 0.2 GB.
@@ -73,7 +73,8 @@ struct TimeOver {};
 
 Channel::Patience patience_of(const RunContext* context, double seconds)
 {
-    const auto last = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    const auto last = Clock::now() +
+                      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     return [context, last] {
         if (context != nullptr) check_cancelled(*context);
         if (Clock::now() > last) throw TimeOver();
@@ -134,10 +135,11 @@ pid_t spawn(const std::string& program, int socket, int words)
     std::string name = "lacuna-cad";
     std::array<char*, 2> arguments{name.data(), nullptr};
     pid_t pid = 0;
-    const int error = ::posix_spawn(&pid, program.c_str(), &actions.files, &actions.attributes, arguments.data(),
-                                    environment.data());
+    const int error = ::posix_spawn(&pid, program.c_str(), &actions.files, &actions.attributes,
+                                    arguments.data(), environment.data());
     if (error != 0)
-        throw BackendError("cad.no_worker", "the CAD process " + program + " does not start: " + std::strerror(error));
+        throw BackendError("cad.no_worker",
+                           "the CAD process " + program + " does not start: " + std::strerror(error));
     return pid;
 }
 
@@ -195,11 +197,13 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
     const std::string program = find_worker_program();
     std::array<int, 2> ends{};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-        throw BackendError("cad.no_worker", std::string("the CAD process does not start: ") + std::strerror(errno));
+        throw BackendError("cad.no_worker",
+                           std::string("the CAD process does not start: ") + std::strerror(errno));
     Descriptor ours = raised(ends[0]), theirs = raised(ends[1]);
     // Large enough that a bulk call is a few waits, not hundreds.
     constexpr int kBuffer = 1 << 20;
-    for (const int end : {ours.get(), theirs.get()}) ::setsockopt(end, SOL_SOCKET, SO_SNDBUF, &kBuffer, sizeof(kBuffer));
+    for (const int end : {ours.get(), theirs.get()})
+        ::setsockopt(end, SOL_SOCKET, SO_SNDBUF, &kBuffer, sizeof(kBuffer));
     words_ = raised(::memfd_create("lacuna-cad words", MFD_CLOEXEC));
     pid_ = spawn(program, theirs.get(), words_.get());
     process_ = Descriptor(static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0)));
@@ -207,7 +211,8 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
     if (!process_) {
         ::kill(pid_, SIGKILL);
         ::waitpid(pid_, nullptr, 0);
-        throw BackendError("cad.no_worker", "the CAD process needs a kernel with pidfd_open (Linux 5.3 or later)");
+        throw BackendError("cad.no_worker",
+                           "the CAD process needs a kernel with pidfd_open (Linux 5.3 or later)");
     }
     channel_ = std::make_unique<Channel>(std::move(ours));
     try {
@@ -220,11 +225,12 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
         hello_ = decode<Hello>(frame.bytes);
     } catch (const TimeOver&) {
         end();
-        throw BackendError("cad.no_worker", program + " did not answer within " + plain(kStartSeconds) + " s");
+        throw BackendError("cad.no_worker",
+                           program + " did not answer within " + plain(kStartSeconds) + " s");
     } catch (const ProtocolError& error) {
         end();
-        throw BackendError("cad.no_worker", program + " is no CAD process of this Lacuna: " + error.what() + " (" +
-                                                how_it_ended() + last_words() + ")");
+        throw BackendError("cad.no_worker", program + " is no CAD process of this Lacuna: " + error.what() +
+                                                " (" + how_it_ended() + last_words() + ")");
     } catch (...) {
         end();
         throw;
@@ -245,8 +251,7 @@ void Worker::end() noexcept
     // It may just have ended by itself: how, says more than our signal.
     if (process_ && ::waitid(P_PIDFD, id, &info, WEXITED | WNOHANG) == 0 && info.si_pid == 0) {
         ::syscall(SYS_pidfd_send_signal, process_.get(), SIGKILL, nullptr, 0);
-        while (::waitid(P_PIDFD, id, &info, WEXITED) != 0 && errno == EINTR) {
-        }
+        while (::waitid(P_PIDFD, id, &info, WEXITED) != 0 && errno == EINTR) {}
     }
     status_ = info.si_code == CLD_EXITED ? info.si_status : info.si_code == 0 ? 0 : -info.si_status;
     channel_.reset();
@@ -279,7 +284,8 @@ void Worker::died(const Task& task)
         siginfo_t info{};
         constexpr int kTries = 100; // of 10 ms: writing out a large process takes a while
         for (int i = 0; i < kTries; ++i) {
-            if (::waitid(P_PIDFD, static_cast<id_t>(process_.get()), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+            if (::waitid(P_PIDFD, static_cast<id_t>(process_.get()), &info, WEXITED | WNOHANG | WNOWAIT) !=
+                    0 ||
                 info.si_pid != 0)
                 break;
             ::usleep(10'000);
@@ -287,8 +293,8 @@ void Worker::died(const Task& task)
         end();
     }
     end_ = "it crashed over " + task.subject;
-    throw BackendError("cad.worker_ended", task.subject + ": the CAD process ended while " + task.doing + ": " +
-                                               how_it_ended() + last_words() +
+    throw BackendError("cad.worker_ended", task.subject + ": the CAD process ended while " + task.doing +
+                                               ": " + how_it_ended() + last_words() +
                                                "; the file is damaged, or Open CASCADE cannot cope with it: "
                                                "repair it in the CAD system or export it anew");
 }
@@ -297,23 +303,24 @@ void Worker::give_up(const Task& task, const ProtocolError& error)
 {
     end_ = "it made no sense over " + task.subject;
     end();
-    throw BackendError("cad.protocol", task.subject + ": the CAD process made no sense while " + task.doing + ": " +
-                                           error.what());
+    throw BackendError("cad.protocol", task.subject + ": the CAD process made no sense while " + task.doing +
+                                           ": " + error.what());
 }
 
 std::unique_lock<std::timed_mutex> Worker::enter(const Task& task)
 {
     if (owner_ != ::getpid())
-        throw BackendError("cad.worker_ended", task.subject + ": the CAD process belongs to the process this one was "
-                                                              "forked from; load the file again");
+        throw BackendError("cad.worker_ended", task.subject +
+                                                   ": the CAD process belongs to the process this one was "
+                                                   "forked from; load the file again");
     std::unique_lock lock(busy_, std::defer_lock);
     constexpr auto kTick = std::chrono::milliseconds(50);
     while (!lock.try_lock_for(kTick))
         if (task.context != nullptr) check_cancelled(*task.context);
     if (ended_) {
-        throw BackendError("cad.worker_ended", task.subject + ": the CAD process that held the model has ended" +
-                                                   (end_.empty() ? "" : " (" + end_ + ")") +
-                                                   "; load the file again");
+        throw BackendError("cad.worker_ended",
+                           task.subject + ": the CAD process that held the model has ended" +
+                               (end_.empty() ? "" : " (" + end_ + ")") + "; load the file again");
     }
     return lock;
 }
@@ -353,10 +360,11 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
                 // What it still holds of the attempt is not known, so it goes.
                 end_ = "it ran out of memory over " + task.subject;
                 end();
-                throw BackendError("cad.memory_limit", task.subject + ": " + task.doing + " took more than the " +
-                                                           std::to_string(memory >> 20) +
-                                                           " MiB the CAD process may use; repair the file, or allow "
-                                                           "more with LACUNA_CAD_MEGABYTES");
+                throw BackendError("cad.memory_limit",
+                                   task.subject + ": " + task.doing + " took more than the " +
+                                       std::to_string(memory >> 20) +
+                                       " MiB the CAD process may use; repair the file, or allow "
+                                       "more with LACUNA_CAD_MEGABYTES");
             default:
                 throw BackendError(failure.code, failure.message);
             }
@@ -364,9 +372,10 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
     } catch (const TimeOver&) {
         end_ = "it took too long over " + task.subject;
         end();
-        throw BackendError("cad.time_limit", task.subject + ": " + task.doing + " took longer than " + plain(seconds) +
-                                                 " s, and the CAD process was ended; repair the file, or allow more "
-                                                 "with LACUNA_CAD_SECONDS");
+        throw BackendError("cad.time_limit",
+                           task.subject + ": " + task.doing + " took longer than " + plain(seconds) +
+                               " s, and the CAD process was ended; repair the file, or allow more "
+                               "with LACUNA_CAD_SECONDS");
     } catch (const ChannelClosed&) {
         died(task);
     } catch (const ProtocolError& error) {
@@ -408,7 +417,8 @@ void Worker::flush_released()
     for (const std::uint64_t handle : handles) {
         charged_.erase(handle);
         constexpr double kSecondsToSend = 5; // it is idle, and the message is small
-        channel_->send(Opcode::release, encode(ReleaseRequest{handle}), {}, patience_of(nullptr, kSecondsToSend));
+        channel_->send(Opcode::release, encode(ReleaseRequest{handle}), {},
+                       patience_of(nullptr, kSecondsToSend));
     }
 }
 

@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kProgram = "lacuna-cad";
-/// Folders above a program or library that may be the root of its installation: lib/<machine>/lua/5.4 is the deepest.
+/// Folders above a program or library that may be the root of its installation: lib/<machine>/lua/5.4 is
+/// the deepest.
 constexpr int kMostLevels = 4;
 
 /// Beside a binary, and in libexec of the installation it is in.
@@ -45,17 +46,19 @@ std::string find_worker_program()
     std::vector<fs::path> places;
     add_around("/proc/self/exe", places);
     Dl_info here{};
-    if (::dladdr(reinterpret_cast<const void*>(&find_worker_program), &here) != 0 && here.dli_fname != nullptr)
+    if (::dladdr(reinterpret_cast<const void*>(&find_worker_program), &here) != 0 &&
+        here.dli_fname != nullptr)
         add_around(here.dli_fname, places);
 #ifdef LACUNA_CAD_LIBEXEC
     places.emplace_back(LACUNA_CAD_LIBEXEC);
 #endif
     for (const fs::path& place : places)
         if (::access(place.c_str(), X_OK) == 0) return place.string();
-    throw BackendError("cad.no_worker", "CAD files are read by the program lacuna-cad, which is not beside this program "
-                                        "(" +
-                                            places.front().string() +
-                                            ") nor in its libexec/lacuna; install it, or name it in LACUNA_CAD");
+    throw BackendError("cad.no_worker",
+                       "CAD files are read by the program lacuna-cad, which is not beside this program "
+                       "(" +
+                           places.front().string() +
+                           ") nor in its libexec/lacuna; install it, or name it in LACUNA_CAD");
 }
 
 } // namespace lacuna::cad

@@ -67,7 +67,8 @@ std::string bytes_of(int descriptor, bool step)
     std::string bytes(static_cast<std::size_t>(std::max<off_t>(0, size)), '\0');
     std::size_t got = 0;
     while (got < bytes.size()) {
-        const ssize_t now = ::pread(descriptor, bytes.data() + got, bytes.size() - got, static_cast<off_t>(got));
+        const ssize_t now = ::pread(descriptor, bytes.data() + got, bytes.size() - got,
+                                    static_cast<off_t>(got));
         if (now <= 0) break;
         got += static_cast<std::size_t>(now);
     }
@@ -135,8 +136,8 @@ WrittenCad write_cad(const OpenVolume& volume, const std::string& path, const Wr
     const SolidSources sources = sources_of(volume.model);
     const std::shared_ptr<Worker> worker = sources.worker ? sources.worker : Worker::current(&context);
     const auto found = worker->ask<BeginSolidReply>(
-        Opcode::begin_solid, BeginSolidRequest{path, step ? "solid.step" : "solid.brep", sources.wanted}, task,
-        {source.get(), all.get(), result.get()});
+        Opcode::begin_solid, BeginSolidRequest{path, step ? "solid.step" : "solid.brep", sources.wanted},
+        task, {source.get(), all.get(), result.get()});
     const BegunSolid begun(worker, found.solid);
     if (found.sources.size() != sources.order.size())
         throw BackendError("cad.protocol", path + ": the CAD process answered for other files");

@@ -46,12 +46,12 @@ struct Frame {
 
 /// One end of a stream socket that carries whole frames, each with descriptors if need be.
 ///
-/// A frame is a head of 24 bytes (magic, version, opcode, number of descriptors, length) and its bytes. Neither a
-/// length nor a number of descriptors is believed: memory grows as bytes arrive.
+/// A frame is a head of 24 bytes (magic, version, opcode, number of descriptors, length) and its bytes.
+/// Neither a length nor a number of descriptors is believed: memory grows as bytes arrive.
 class Channel {
 public:
-    /// Called at least every 50 ms while the channel waits; may throw to give up, after which the channel is of
-    /// no more use.
+    /// Called at least every 50 ms while the channel waits; may throw to give up, after which the channel
+    /// is of no more use.
     using Patience = std::function<void()>;
 
     explicit Channel(Descriptor socket);

@@ -49,8 +49,8 @@ const Offered* find_offered(const char* path)
 
 // --- the trap -----------------------------------------------------------------------------------------
 
-/// What a call carries in its unused sixth argument when it is this file's own. Whoever knows it can open files
-/// to read, no more, and Landlock still holds.
+/// What a call carries in its unused sixth argument when it is this file's own. Whoever knows it can open
+/// files to read, no more, and Landlock still holds.
 std::uint64_t own_mark;
 
 /// Flags an open that only reads does not have.
@@ -81,7 +81,8 @@ long open_path(long folder, const char* path, long flags, long mode)
     std::size_t end = std::strlen(own.data());
     std::array<char, 12> digits{};
     std::size_t count = 0;
-    for (int n = file->descriptor; count == 0 || n > 0; n /= 10) digits[count++] = static_cast<char>('0' + n % 10);
+    for (int n = file->descriptor; count == 0 || n > 0; n /= 10)
+        digits[count++] = static_cast<char>('0' + n % 10);
     while (count > 0) own[end++] = digits[--count];
     return own_call(SYS_openat, AT_FDCWD, reinterpret_cast<long>(own.data()), O_RDONLY | O_CLOEXEC, 0);
 }
@@ -116,8 +117,7 @@ long answer(long number, const std::array<long, 6>& a)
     case SYS_faccessat:
     case SYS_faccessat2:
         return look_at(
-            path(a[1]), [](int) { return 0L; },
-            [&] { return own_call(SYS_faccessat, a[0], a[1], a[2], 0); });
+            path(a[1]), [](int) { return 0L; }, [&] { return own_call(SYS_faccessat, a[0], a[1], a[2], 0); });
 #ifdef SYS_open
     case SYS_open:
         return open_path(AT_FDCWD, path(a[0]), a[1], a[2]);
@@ -217,7 +217,8 @@ public:
 private:
     static std::uint32_t lower(int argument) // half of an argument, on a little-endian machine
     {
-        return static_cast<std::uint32_t>(offsetof(seccomp_data, args)) + 8 * static_cast<std::uint32_t>(argument);
+        return static_cast<std::uint32_t>(offsetof(seccomp_data, args)) +
+               8 * static_cast<std::uint32_t>(argument);
     }
     void add(int code, std::uint32_t value, std::uint8_t if_true, std::uint8_t if_false)
     {
@@ -239,7 +240,8 @@ bool install_filter()
     filter.trap(SYS_faccessat, own_mark);
     filter.always(SYS_faccessat2, SECCOMP_RET_TRAP);
 #ifdef SYS_open
-    for (const long number : {SYS_open, SYS_stat, SYS_lstat, SYS_access}) filter.always(number, SECCOMP_RET_TRAP);
+    for (const long number : {SYS_open, SYS_stat, SYS_lstat, SYS_access})
+        filter.always(number, SECCOMP_RET_TRAP);
     filter.allow({SYS_poll, SYS_select, SYS_time, SYS_arch_prctl});
 #endif
     // Threads, but no processes. clone3 hides its flags in memory; without it, clone is used.
@@ -252,20 +254,62 @@ bool install_filter()
     filter.when(SYS_prlimit64, 2, ~0U, 0, kAllow, kRefuse);
     filter.when(SYS_ioctl, 1, ~0U, 0x5401 /* TCGETS */, kAllow, kRefuse);
     filter.when(SYS_prctl, 0, ~0U, PR_SET_NAME, kAllow, kRefuse);
-    filter.allow({SYS_read,          SYS_write,        SYS_readv,          SYS_writev,
-                  SYS_pread64,       SYS_pwrite64,     SYS_lseek,          SYS_close,
-                  SYS_fstat,         SYS_ftruncate,    SYS_dup,            SYS_fcntl,
-                  SYS_mmap,          SYS_munmap,       SYS_mprotect,       SYS_mremap,
-                  SYS_madvise,       SYS_brk,          SYS_rt_sigprocmask, SYS_rt_sigreturn,
-                  SYS_sigaltstack,   SYS_futex,        SYS_sched_yield,    SYS_sched_getaffinity,
-                  SYS_getpid,        SYS_gettid,       SYS_getppid,        SYS_getuid,
-                  SYS_geteuid,       SYS_getgid,       SYS_getegid,        SYS_getrusage,
-                  SYS_times,         SYS_clock_gettime, SYS_clock_getres,  SYS_gettimeofday,
-                  SYS_nanosleep,     SYS_clock_nanosleep, SYS_ppoll,       SYS_pselect6,
-                  SYS_sendmsg,       SYS_recvmsg,      SYS_exit,           SYS_exit_group,
-                  SYS_set_robust_list, SYS_getrandom,  SYS_uname,          SYS_sysinfo,
-                  SYS_set_tid_address, SYS_membarrier, SYS_getcwd,         SYS_readlinkat,
-                  SYS_getdents64,    SYS_rt_sigtimedwait, SYS_restart_syscall, SYS_getcpu});
+    filter.allow({SYS_read,
+                  SYS_write,
+                  SYS_readv,
+                  SYS_writev,
+                  SYS_pread64,
+                  SYS_pwrite64,
+                  SYS_lseek,
+                  SYS_close,
+                  SYS_fstat,
+                  SYS_ftruncate,
+                  SYS_dup,
+                  SYS_fcntl,
+                  SYS_mmap,
+                  SYS_munmap,
+                  SYS_mprotect,
+                  SYS_mremap,
+                  SYS_madvise,
+                  SYS_brk,
+                  SYS_rt_sigprocmask,
+                  SYS_rt_sigreturn,
+                  SYS_sigaltstack,
+                  SYS_futex,
+                  SYS_sched_yield,
+                  SYS_sched_getaffinity,
+                  SYS_getpid,
+                  SYS_gettid,
+                  SYS_getppid,
+                  SYS_getuid,
+                  SYS_geteuid,
+                  SYS_getgid,
+                  SYS_getegid,
+                  SYS_getrusage,
+                  SYS_times,
+                  SYS_clock_gettime,
+                  SYS_clock_getres,
+                  SYS_gettimeofday,
+                  SYS_nanosleep,
+                  SYS_clock_nanosleep,
+                  SYS_ppoll,
+                  SYS_pselect6,
+                  SYS_sendmsg,
+                  SYS_recvmsg,
+                  SYS_exit,
+                  SYS_exit_group,
+                  SYS_set_robust_list,
+                  SYS_getrandom,
+                  SYS_uname,
+                  SYS_sysinfo,
+                  SYS_set_tid_address,
+                  SYS_membarrier,
+                  SYS_getcwd,
+                  SYS_readlinkat,
+                  SYS_getdents64,
+                  SYS_rt_sigtimedwait,
+                  SYS_restart_syscall,
+                  SYS_getcpu});
 #ifdef SYS_rseq
     filter.allow({SYS_rseq});
 #endif
@@ -313,12 +357,13 @@ std::string confine()
     struct sigaction action {};
     action.sa_sigaction = on_trap;
     action.sa_flags = SA_SIGINFO | SA_NODEFER;
-    if (::getrandom(&own_mark, sizeof(own_mark), 0) != sizeof(own_mark) || ::sigaction(SIGSYS, &action, nullptr) != 0 ||
-        ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
+    if (::getrandom(&own_mark, sizeof(own_mark), 0) != sizeof(own_mark) ||
+        ::sigaction(SIGSYS, &action, nullptr) != 0 || ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
         throw BackendError("cad.no_wall", "the CAD process cannot be confined");
     const bool landlock = restrict_files();
     if (!install_filter())
-        throw BackendError("cad.no_wall", "the CAD process cannot be confined: the kernel has no seccomp filters");
+        throw BackendError("cad.no_wall",
+                           "the CAD process cannot be confined: the kernel has no seccomp filters");
     return landlock ? "" : "Landlock, which keeps the CAD process from reading other files";
 }
 

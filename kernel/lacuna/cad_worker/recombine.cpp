@@ -22,7 +22,8 @@ std::size_t side_count(const RecombineRequest& region)
     return sides;
 }
 
-/// Draw the loops as lines that Gmsh does not divide. @return the face, and the Gmsh point of each region point on a loop.
+/// Draw the loops as lines that Gmsh does not divide. @return the face, and the Gmsh point of each region
+/// point on a loop.
 std::pair<int, std::unordered_map<Index, int>> draw(const RecombineRequest& region, const Vec2& origin,
                                                     double scale)
 {
@@ -47,7 +48,7 @@ std::pair<int, std::unordered_map<Index, int>> draw(const RecombineRequest& regi
 
 /// The cells Gmsh made, counter-clockwise, the region's own points first.
 RecombineReply read_quads(const RecombineRequest& region, int face,
-                              const std::unordered_map<Index, int>& drawn, const Vec2& origin, double scale)
+                          const std::unordered_map<Index, int>& drawn, const Vec2& origin, double scale)
 {
     RecombineReply mesh{region.points, {}};
     std::unordered_map<std::size_t, Index> number;
@@ -117,8 +118,8 @@ RecombineReply recombine(const RecombineRequest& region)
     const double scale = box.sizes().maxCoeff();
 
     Session session("a region to be filled with quads");
-    // 6, frontal: 8, which is made for quads, gives other coordinates each time, since its cross field is solved in an
-    // order that depends on addresses.
+    // 6, frontal: 8, which is made for quads, gives other coordinates each time, since its cross field is
+    // solved in an order that depends on addresses.
     session.set("Mesh.Algorithm", 6);
     session.set("Mesh.RecombinationAlgorithm", 1); // Blossom
     session.set("Mesh.CrossFieldClosestPoint", 0); // without ANN the default crashes

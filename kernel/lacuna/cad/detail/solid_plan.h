@@ -21,8 +21,8 @@ struct SolidSources {
 /// @throw InvalidInput  the faces are from CAD processes of which some have ended.
 SolidSources sources_of(const topology::Model& model);
 
-/// How a sealed volume is to be made as a solid: every face an exact one, a plane, spline patches or a filling, with
-/// the edges those need.
+/// How a sealed volume is to be made as a solid: every face an exact one, a plane, spline patches or a
+/// filling, with the edges those need.
 struct SolidPlan {
     std::vector<Vec3> points;
     std::vector<cad_protocol::SolidEdge> edges;

@@ -26,14 +26,15 @@ struct Task {
     std::uint64_t bytes = 0;  ///< of files sent along
     std::uint64_t points = 0; ///< sent along
     const RunContext* context = nullptr;
-    const char* stage = "";   ///< of the context's progress
+    const char* stage = ""; ///< of the context's progress
 };
 
 /// The CAD process of this process: lacuna-cad, started when it is first needed and kept.
 ///
-/// It may end at any time (a crash, a limit, someone's kill). Then the request under way is a BackendError that
-/// says how, and so is every later request to this object; `current()` starts another. One that failed to load a file
-/// serves the models it has and loads no more. Safe for several threads: requests wait for each other. A child made by fork() starts a process of its own.
+/// It may end at any time (a crash, a limit, someone's kill). Then the request under way is a BackendError
+/// that says how, and so is every later request to this object; `current()` starts another. One that failed
+/// to load a file serves the models it has and loads no more. Safe for several threads: requests wait for
+/// each other. A child made by fork() starts a process of its own.
 class Worker {
 public:
     /// The living one, started if need be.
@@ -92,10 +93,10 @@ private:
     cad_protocol::Descriptor words_;   ///< what it printed
     cad_protocol::Hello hello_;
     pid_t pid_ = 0;
-    pid_t owner_ = 0;            ///< the process that started it
-    bool ended_ = false;         ///< by itself or by us; under `busy_`
-    int status_ = 0;             ///< how, as wait() says
-    std::string end_;            ///< why, where we ended it
+    pid_t owner_ = 0;                 ///< the process that started it
+    bool ended_ = false;              ///< by itself or by us; under `busy_`
+    int status_ = 0;                  ///< how, as wait() says
+    std::string end_;                 ///< why, where we ended it
     std::atomic<bool> spent_ = false; ///< it failed to load, which may leave Gmsh's parsers in any state
     std::mutex released_mutex_;
     std::vector<std::uint64_t> released_;
