@@ -21,7 +21,8 @@ LoadReply triangle()
     reply.diagonal = 1;
     reply.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     reply.vertex_tags = {1, 2, 3};
-    for (int k = 0; k < 3; ++k) reply.edges.push_back({k + 1, k + 1, k, (k + 1) % 3, {0, 1}, {k, (k + 1) % 3}});
+    for (int k = 0; k < 3; ++k)
+        reply.edges.push_back({k + 1, k + 1, k, (k + 1) % 3, {0, 1}, {k, (k + 1) % 3}});
     reply.faces.push_back({1, "face", "plane", {{0, 1, 2}}, {{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}}});
     reply.solids = {{0}};
     return reply;
@@ -59,7 +60,8 @@ int main()
             const Frame request = channel.receive();
             if (request.opcode == Opcode::evaluate) {
                 const auto asked = decode<EvaluateRequest>(request.bytes);
-                std::string bytes = encode(EvaluateReply{std::vector<Vec3>(asked.params.size(), Vec3(1, 0, 0))});
+                std::string bytes = encode(
+                    EvaluateReply{std::vector<Vec3>(asked.params.size(), Vec3(1, 0, 0))});
                 if (dice() % 4 == 0) bytes[dice() % bytes.size()] = char(dice());
                 channel.send(Opcode::done, bytes);
             }

@@ -41,6 +41,8 @@ void with_gmsh(const std::string& path, const std::function<void()>& build)
 
 } // namespace
 
+std::string shared_data() { return std::string(LACUNA_SOURCE_DIR) + "/../shared/data"; }
+
 void kill_worker()
 {
     const pid_t pid = cad::Worker::current()->pid();

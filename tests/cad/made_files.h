@@ -31,6 +31,9 @@ private:
     std::filesystem::path folder_;
 };
 
+/// Folder of real and hostile files beside the project; may be missing.
+std::string shared_data();
+
 /// Kill the CAD process, started if need be, and wait until it is dead.
 void kill_worker();
 

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-// What a program that hosts Lacuna may rely on: its own Gmsh, streams, locale, descriptors and children are
-// its own.
+// SPDX-License-Identifier: GPL-2.0-or-later What a program that hosts Lacuna may rely on: its own Gmsh,
+// streams, locale, descriptors and children are its own.
 #include "made_files.h"
 
 #include <lacuna/cad/detail/worker.h>

@@ -61,7 +61,8 @@ std::string run_unseen(const std::string& text)
     LoadRequest request;
     request.files.push_back({LoadFile::script, "unseen.geo", {{"unseen.geo"}}});
     return failure([&] {
-        (void)cad::Worker::current()->ask<LoadReply>(Opcode::load, request, {"unseen.geo", "reading it"}, {file.get()});
+        (void)cad::Worker::current()->ask<LoadReply>(Opcode::load, request, {"unseen.geo", "reading it"},
+                                                     {file.get()});
     });
 }
 
@@ -183,11 +184,11 @@ TEST_CASE("a script that asks for more than geometry is refused, with the line")
     folder.write("other/two.geo", "Point(8) = {0, 0, 0};\n");
     for (const std::string& line :
          {"SystemCall \"touch " + made + "\";", "NonBlockingSystemCall \"touch " + made + "\";",
-          std::string("Exit;"), "Printf(\"x\") > \"" + made + "\";", "Printf(\"%g\", (1 + 2)) >> \"" + made + "\";",
-          "Save \"" + made + "\";", "Print \"" + made + "\";", std::string("Include \"other/two.geo\";"),
-          std::string("Merge \"/etc/passwd\";"), std::string("Merge \"../x.step\";"),
-          std::string("Merge Str(\"a\", \"b\");"), std::string("Include \"absent.geo\";"),
-          std::string("Plugin(Warp).Run;")}) {
+          std::string("Exit;"), "Printf(\"x\") > \"" + made + "\";",
+          "Printf(\"%g\", (1 + 2)) >> \"" + made + "\";", "Save \"" + made + "\";", "Print \"" + made + "\";",
+          std::string("Include \"other/two.geo\";"), std::string("Merge \"/etc/passwd\";"),
+          std::string("Merge \"../x.step\";"), std::string("Merge Str(\"a\", \"b\");"),
+          std::string("Include \"absent.geo\";"), std::string("Plugin(Warp).Run;")}) {
         CAPTURE(line);
         const std::string path = folder.write("asks.geo", "Point(1) = {0, 0, 0}; /* Save\n*/ " + line + "\n");
         const std::string words = failure([&] { (void)cad::load({path}); });
@@ -197,7 +198,8 @@ TEST_CASE("a script that asks for more than geometry is refused, with the line")
     }
     // An included script is looked through as well.
     folder.write("asking.geo", "\n\nSystemCall \"touch " + made + "\";\n");
-    const std::string words = failure([&] { (void)cad::load({folder.write("in.geo", "Include \"asking.geo\";\n")}); });
+    const std::string words = failure(
+        [&] { (void)cad::load({folder.write("in.geo", "Include \"asking.geo\";\n")}); });
     CHECK(has(words, folder.path("asking.geo") + ", line 3"));
 }
 
@@ -214,7 +216,8 @@ TEST_CASE("a script may include and merge what lies beside it")
     CHECK(test::total_area(model) == doctest::Approx(10 + 4 * 3.14159265).epsilon(0.01));
 }
 
-TEST_CASE("the CAD process starts nothing, writes nothing and reads nothing it was not given, whatever it is told")
+TEST_CASE(
+    "the CAD process starts nothing, writes nothing and reads nothing it was not given, whatever it is told")
 {
     const test::TempFolder folder;
     const std::string made = folder.path("made.txt");
@@ -222,7 +225,8 @@ TEST_CASE("the CAD process starts nothing, writes nothing and reads nothing it w
     (void)run_unseen("SystemCall \"touch " + made + "\";\n");
     (void)run_unseen("NonBlockingSystemCall \"touch " + made + "\";\n");
     (void)run_unseen("Printf(\"x\") > \"" + made + "\";\n");
-    (void)run_unseen("SetFactory(\"OpenCASCADE\"); Box(1) = {0,0,0,1,1,1}; Save \"" + folder.path("made.brep") + "\";\n");
+    (void)run_unseen("SetFactory(\"OpenCASCADE\"); Box(1) = {0,0,0,1,1,1}; Save \"" +
+                     folder.path("made.brep") + "\";\n");
     CHECK(!fs::exists(made));
     CHECK(!fs::exists(folder.path("made.brep")));
     if (!has(cad::gmsh_version(), "without Landlock")) {
@@ -259,7 +263,8 @@ TEST_CASE("a CAD process that lies does no harm")
         const Fake fake(how);
         CHECK(has(failure([&] { (void)cad::load({path}); }), "cad.no_worker"));
     }
-    for (const std::string how : {"length", "opcode", "descriptors", "indices", "edges", "solids", "nan", "text", "half"}) {
+    for (const std::string how :
+         {"length", "opcode", "descriptors", "indices", "edges", "solids", "nan", "text", "half"}) {
         CAPTURE(how);
         const Fake fake(how);
         const std::string words = failure([&] { (void)cad::load({path}); });
@@ -281,8 +286,8 @@ TEST_CASE("a CAD process that lies does no harm")
 TEST_CASE("the CAD process survives a host that lies")
 {
     const test::TempFolder folder;
-    const topology::Model model =
-        cad::load({folder.gmsh("ball.step", [] { occ::addSphere(0, 0, 0, 1); })}); // keeps it
+    const topology::Model model = cad::load(
+        {folder.gmsh("ball.step", [] { occ::addSphere(0, 0, 0, 1); })}); // keeps it
     const std::shared_ptr<cad::Worker> worker = cad::Worker::current();
     const cad::Task task{"nothing", "lying"};
     const auto ask = [&](Opcode opcode, const auto& request) {
@@ -305,4 +310,28 @@ TEST_CASE("the CAD process survives a host that lies")
         for (int k = 0; k < 3; ++k) bytes[dice() % bytes.size()] = char(dice());
         (void)failure([&] { (void)decode<LoadRequest>(bytes); });
     }
+}
+
+TEST_CASE("damaged CAD files are errors that name the file, or sound readings, and the host lives")
+{
+    const fs::path hostile = fs::path(test::shared_data()) / "hostile";
+    if (!fs::exists(hostile)) {
+        MESSAGE("left out: there is no " << hostile.string());
+        return;
+    }
+    std::size_t files = 0, read = 0;
+    for (const auto& entry : fs::directory_iterator(hostile)) {
+        const std::string path = entry.path().string();
+        const std::string ending = entry.path().extension();
+        if (ending != ".step" && ending != ".iges" && ending != ".brep" && ending != ".geo") continue;
+        CAPTURE(path);
+        ++files;
+        const auto start = std::chrono::steady_clock::now();
+        const std::string words = failure(
+            [&] { test::check_model(cad::load({path}, {}, {}, {.seconds = 2})); });
+        CHECK(seconds_since(start) < 20);
+        read += words == "no error" ? 1 : 0;
+        if (words != "no error") CHECK(has(words, path));
+    }
+    MESSAGE(files << " files, " << read << " of them read");
 }

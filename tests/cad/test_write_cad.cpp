@@ -3,8 +3,8 @@
 #include "support/refusal.h"
 #include "support/volumes.h"
 
-#include <lacuna/cad_worker/session.h>
 #include <lacuna/cad/write_cad.h>
+#include <lacuna/cad_worker/session.h>
 #include <lacuna/closure/close.h>
 #include <lacuna/io/facets.h>
 #include <lacuna/matching/match.h>

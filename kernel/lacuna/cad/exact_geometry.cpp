@@ -16,7 +16,8 @@ constexpr std::size_t kAtOnce = 100'000;
 void require_same(std::size_t asked, std::size_t came, const CadSource& source)
 {
     if (asked != came)
-        throw BackendError("cad.protocol", source.path + ": the CAD process answered for another number of points");
+        throw BackendError("cad.protocol",
+                           source.path + ": the CAD process answered for another number of points");
 }
 
 } // namespace
@@ -31,7 +32,8 @@ void CadSurface::project(std::span<Vec3> points, std::span<Vec2> uv) const
         task.points = count;
         const auto reply = source_->worker->ask<ProjectReply>(
             Opcode::project,
-            ProjectRequest{source_->handle, tag_, {some.begin(), some.end()}, {places.begin(), places.end()}}, task);
+            ProjectRequest{source_->handle, tag_, {some.begin(), some.end()}, {places.begin(), places.end()}},
+            task);
         require_same(count, reply.points.size(), *source_);
         std::copy(reply.points.begin(), reply.points.end(), some.begin());
         std::copy(reply.uv.begin(), reply.uv.end(), places.begin());

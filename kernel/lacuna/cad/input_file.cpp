@@ -23,7 +23,7 @@ using io::ending_of;
 
 namespace {
 
-constexpr std::size_t kHead = 4096;         // bytes at the beginning, in which a file says what it is
+constexpr std::size_t kHead = 4096; // bytes at the beginning, in which a file says what it is
 constexpr std::size_t kBlock = std::size_t{1} << 20;
 /// Scripts longer than this are not written by hand, nor by Gmsh. A choice, not a measurement.
 constexpr std::size_t kLongestScript = std::size_t{64} << 20;
@@ -70,7 +70,8 @@ std::string text_of(const Descriptor& file, std::size_t most)
     std::string text(std::min(most, static_cast<std::size_t>(size)), '\0');
     std::size_t got = 0;
     while (got < text.size()) {
-        const ssize_t now = ::pread(file.get(), text.data() + got, text.size() - got, static_cast<off_t>(got));
+        const ssize_t now = ::pread(file.get(), text.data() + got, text.size() - got,
+                                    static_cast<off_t>(got));
         if (now <= 0) break;
         got += static_cast<std::size_t>(now);
     }
@@ -81,7 +82,8 @@ std::string text_of(const Descriptor& file, std::size_t most)
 bool is_step(const std::string& head) { return head.find("ISO-10303-21") != std::string::npos; }
 bool is_brep(const std::string& head)
 {
-    return head.find("CASCADE Topology") != std::string::npos || head.find("DBRep_DrawableShape") != std::string::npos;
+    return head.find("CASCADE Topology") != std::string::npos ||
+           head.find("DBRep_DrawableShape") != std::string::npos;
 }
 /// Every line of an IGES file has its section's letter in column 73.
 bool is_iges(const std::string& head)
@@ -115,8 +117,8 @@ LoadFile::Format format_of(const std::string& path, const std::string& head)
     }
     // A script is a program: its ending is meant, not met by chance.
     const std::string written = path.substr(path.size() - ending.size());
-    const bool meant = written == ending ||
-                       std::none_of(written.begin(), written.end(), [](unsigned char c) { return std::islower(c); });
+    const bool meant = written == ending || std::none_of(written.begin(), written.end(),
+                                                         [](unsigned char c) { return std::islower(c); });
     if (!meant || is_step(head) || is_brep(head) || head.find('\0') != std::string::npos)
         throw_not_of_kind(path, "Gmsh script");
     return LoadFile::script;
@@ -148,8 +150,9 @@ void add_merged(InputFile& input, const std::string& path, const RunContext& con
             if (known != input.file.contents.end()) continue;
             const std::string beside = path.substr(0, path.size() - name_of(path).size()) + wanted.name;
             if (::access(beside.c_str(), F_OK) != 0 || input.descriptors.size() == kMostContents) {
-                throw InvalidInput("cad.script", own + ", line " + std::to_string(wanted.line) + ": the script asks for " +
-                                                     wanted.name + ", which is not beside it");
+                throw InvalidInput("cad.script", own + ", line " + std::to_string(wanted.line) +
+                                                     ": the script asks for " + wanted.name +
+                                                     ", which is not beside it");
             }
             input.descriptors.push_back(copy_to_memory(beside, O_NOFOLLOW, input.bytes, context));
             input.file.contents.push_back({wanted.name});

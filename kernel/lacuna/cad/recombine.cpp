@@ -40,8 +40,8 @@ std::vector<double> cuts_at(const quads::PlanarRegion& region, double y)
     return cuts;
 }
 
-/// The region's sizes on a raster over it. They are asked within the region alone; crossings outside take the
-/// mean of their neighbours, from the border outwards.
+/// The region's sizes on a raster over it. They are asked within the region alone; crossings outside take
+/// the mean of their neighbours, from the border outwards.
 SizeRaster size_raster(const quads::PlanarRegion& region, const Eigen::AlignedBox2d& box,
                        const RunContext& context)
 {

@@ -28,7 +28,8 @@ constexpr std::array kRefused{
     Word{"Exit", "ends Gmsh"},
 };
 /// Words a file name follows.
-constexpr std::array<std::string_view, 5> kFiles{"Include", "Merge", "MergeFile", "ShapeFromFile", "ListFromFile"};
+constexpr std::array<std::string_view, 5> kFiles{"Include", "Merge", "MergeFile", "ShapeFromFile",
+                                                 "ListFromFile"};
 
 class Scanner {
 public:
@@ -57,8 +58,9 @@ private:
 
     [[noreturn]] void refuse(const std::string& what) const
     {
-        throw InvalidInput("cad.script", path_ + ", line " + std::to_string(line_) + ": " + what +
-                                             "; a script may make geometry, and include and merge files beside it");
+        throw InvalidInput("cad.script",
+                           path_ + ", line " + std::to_string(line_) + ": " + what +
+                               "; a script may make geometry, and include and merge files beside it");
     }
     void step()
     {

@@ -17,8 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kProgram = "lacuna-cad";
-/// Folders above a program or library that may be the root of its installation: lib/<machine>/lua/5.4 is the
-/// deepest.
+/// Folders above a program or library that may be the root of its installation: lib/<machine>/lua/5.4 is
+/// the deepest.
 constexpr int kMostLevels = 4;
 
 /// Beside a binary, and in libexec of the installation it is in.

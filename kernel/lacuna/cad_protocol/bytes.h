@@ -24,13 +24,17 @@ public:
 
 /// Values whose bytes are their meaning: numbers, and fixed arrays of numbers.
 template <class T>
-struct IsPlain : std::bool_constant<std::is_arithmetic_v<T> && !std::is_same_v<T, bool>> {};
+struct IsPlain : std::bool_constant<std::is_arithmetic_v<T> && !std::is_same_v<T, bool>> {
+};
 template <class T, std::size_t n>
-struct IsPlain<std::array<T, n>> : IsPlain<T> {};
+struct IsPlain<std::array<T, n>> : IsPlain<T> {
+};
 template <>
-struct IsPlain<Vec2> : std::true_type {};
+struct IsPlain<Vec2> : std::true_type {
+};
 template <>
-struct IsPlain<Vec3> : std::true_type {};
+struct IsPlain<Vec3> : std::true_type {
+};
 
 static_assert(std::endian::native == std::endian::little, "the wire is little-endian and never swapped");
 static_assert(sizeof(Vec2) == 2 * sizeof(double) && sizeof(Vec3) == 3 * sizeof(double));
@@ -39,11 +43,7 @@ static_assert(sizeof(Vec2) == 2 * sizeof(double) && sizeof(Vec3) == 3 * sizeof(d
 class Writer {
 public:
     template <class T>
-        requires IsPlain<T>::value
-    void operator()(const T& value)
-    {
-        append(&value, sizeof(T));
-    }
+    requires IsPlain<T>::value void operator()(const T& value) { append(&value, sizeof(T)); }
     void operator()(const std::string& text)
     {
         (*this)(static_cast<std::uint64_t>(text.size()));
@@ -75,8 +75,7 @@ public:
     explicit Reader(std::string_view bytes) : left_(bytes) {}
 
     template <class T>
-        requires IsPlain<T>::value
-    void operator()(T& value)
+    requires IsPlain<T>::value void operator()(T& value)
     {
         std::memcpy(static_cast<void*>(&value), take(sizeof(T)), sizeof(T));
     }
@@ -91,7 +90,8 @@ public:
         if constexpr (IsPlain<T>::value) {
             const std::size_t count = length(sizeof(T));
             values.resize(count);
-            if (count > 0) std::memcpy(static_cast<void*>(values.data()), take(count * sizeof(T)), count * sizeof(T));
+            if (count > 0)
+                std::memcpy(static_cast<void*>(values.data()), take(count * sizeof(T)), count * sizeof(T));
         } else {
             // Every element takes a byte at least, so the loop ends with the bytes.
             const std::size_t count = length(1);

@@ -90,7 +90,8 @@ void Channel::send(Opcode opcode, std::string_view bytes, const std::vector<int>
         if (sent < sizeof(head))
             parts[count++] = {reinterpret_cast<char*>(&head) + sent, sizeof(head) - sent};
         const std::size_t from = sent < sizeof(head) ? 0 : sent - sizeof(head);
-        if (from < bytes.size()) parts[count++] = {const_cast<char*>(bytes.data()) + from, bytes.size() - from};
+        if (from < bytes.size())
+            parts[count++] = {const_cast<char*>(bytes.data()) + from, bytes.size() - from};
         msghdr message{};
         message.msg_iov = parts.data();
         message.msg_iovlen = count;
@@ -141,7 +142,8 @@ Frame Channel::receive(const Patience& patience)
     };
     while (got < sizeof(head)) got += read_into(reinterpret_cast<char*>(&head) + got, sizeof(head) - got);
     if (head.magic != kMagic) throw ProtocolError("what came is no frame");
-    if (head.version != kVersion) throw ProtocolError("the other side speaks another version of the protocol");
+    if (head.version != kVersion)
+        throw ProtocolError("the other side speaks another version of the protocol");
     if (head.length > kMostBytes) throw ProtocolError("a frame longer than any may be");
     if (head.descriptors > kMostDescriptors) throw ProtocolError("more descriptors than a frame may carry");
     const auto length = static_cast<std::size_t>(head.length);
@@ -150,7 +152,8 @@ Frame Channel::receive(const Patience& patience)
         if (frame.bytes.size() == got) frame.bytes.resize(std::min(length, std::max(2 * got, got + kGrowth)));
         got += read_into(frame.bytes.data() + got, frame.bytes.size() - got);
     }
-    if (frame.descriptors.size() != head.descriptors) throw ProtocolError("descriptors that were announced are missing");
+    if (frame.descriptors.size() != head.descriptors)
+        throw ProtocolError("descriptors that were announced are missing");
     frame.opcode = static_cast<Opcode>(head.opcode);
     return frame;
 }

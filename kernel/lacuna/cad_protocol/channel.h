@@ -50,8 +50,8 @@ struct Frame {
 /// Neither a length nor a number of descriptors is believed: memory grows as bytes arrive.
 class Channel {
 public:
-    /// Called at least every 50 ms while the channel waits; may throw to give up, after which the channel is
-    /// of no more use.
+    /// Called at least every 50 ms while the channel waits; may throw to give up, after which the channel
+    /// is of no more use.
     using Patience = std::function<void()>;
 
     explicit Channel(Descriptor socket);

@@ -131,12 +131,13 @@ void check(const LoadReply& m)
 {
     require(std::isfinite(m.diagonal), "a diagonal that is no number");
     require_finite(m.points, "a point that is none");
-    require(m.points.size() <= 0x7fffffff && m.vertex_tags.size() <= m.points.size(), "more vertices than points");
+    require(m.points.size() <= 0x7fffffff && m.vertex_tags.size() <= m.points.size(),
+            "more vertices than points");
     for (const LoadReply::Edge& edge : m.edges) {
         require_below(std::array{edge.from, edge.to}, m.vertex_tags.size(), "an edge between no vertices");
         require_below(edge.points, m.points.size(), "an edge through no points");
-        require(edge.points.size() >= 2 && edge.points.front() == edge.from && edge.points.back() == edge.to &&
-                    edge.params.size() == edge.points.size(),
+        require(edge.points.size() >= 2 && edge.points.front() == edge.from &&
+                    edge.points.back() == edge.to && edge.params.size() == edge.points.size(),
                 "an edge that does not run between its ends");
         for (const double t : edge.params) require(std::isfinite(t), "a parameter that is no number");
     }
@@ -207,7 +208,8 @@ void check_axis(const SplineAxisData& axis)
 {
     constexpr int kMostDegree = 25; // Open CASCADE's own limit
     require(axis.degree >= 1 && axis.degree <= kMostDegree, "a spline of no degree");
-    require(axis.knots.size() >= 2 && axis.knots.size() == axis.multiplicities.size(), "a spline without knots");
+    require(axis.knots.size() >= 2 && axis.knots.size() == axis.multiplicities.size(),
+            "a spline without knots");
     for (const std::int32_t m : axis.multiplicities)
         require(m >= 1 && m <= axis.degree + 1, "a knot of no multiplicity");
 }
@@ -234,12 +236,14 @@ void check(const MakeSolidRequest& m)
         if (edge.kind != SolidEdge::spline) continue;
         check_axis(edge.curve_data.axis);
         require_finite(edge.curve_data.poles, "a pole that is none");
-        require(edge.curve_data.poles.size() == poles_of(edge.curve_data.axis), "poles that are too many or few");
+        require(edge.curve_data.poles.size() == poles_of(edge.curve_data.axis),
+                "poles that are too many or few");
     }
     for (const SolidFace& face : m.faces) {
         require(face.kind < SolidFace::count, "a face of no kind");
         for (const auto& loop : face.loops) {
-            for (const auto& use : loop) require_below(std::array{use[0]}, m.edges.size(), "a loop of no edges");
+            for (const auto& use : loop)
+                require_below(std::array{use[0]}, m.edges.size(), "a loop of no edges");
         }
         const bool bordered = face.kind == SolidFace::plane || face.kind == SolidFace::filling;
         require(!bordered || !face.loops.empty(), "a face without a border");

@@ -11,8 +11,9 @@
 
 /// What the kernel and the CAD worker say to each other: plain arrays, no pointers, no callbacks.
 ///
-/// The kernel asks, the worker answers every request with `progress` any number of times and then with `done`
-/// or `failed`. `release` alone has no answer. The worker says `hello` once, before it is asked anything.
+/// The kernel asks, the worker answers every request with `progress` any number of times and then with
+/// `done` or `failed`. `release` alone has no answer. The worker says `hello` once, before it is asked
+/// anything.
 namespace lacuna::cad_protocol {
 
 enum class Opcode : std::uint16_t {
@@ -122,8 +123,8 @@ struct RecombineReply {
     std::vector<Quad> quads;
 };
 
-/// Entities of loaded models a solid is to be made with. Three files in memory come along: two it goes through on its
-/// way, and the result.
+/// Entities of loaded models a solid is to be made with. Three files in memory come along: two it goes
+/// through on its way, and the result.
 struct SolidSource {
     std::uint64_t model = 0;
     std::vector<std::int32_t> faces, curves;

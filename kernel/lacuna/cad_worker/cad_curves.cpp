@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <lacuna/cad_worker/detail/cad_curves.h>
 
-#include <lacuna/cad_worker/exact_geometry.h>
 #include <lacuna/cad_worker/detail/gmsh_api.h>
+#include <lacuna/cad_worker/exact_geometry.h>
 #include <lacuna/geometry/union_find.h>
 
 #include <algorithm>

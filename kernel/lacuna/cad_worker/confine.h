@@ -5,9 +5,10 @@
 
 namespace lacuna::cad_worker {
 
-/// Take from the process, for good, what reading and writing CAD needs not: starting programs, processes and
-/// sockets, changing its limits, opening any file for writing; where the kernel has Landlock, also reading
-/// any file but the system's libraries. Files of a request are opened by the names `offer()` gave them.
+/// Take from the process, for good, what reading and writing CAD needs not: starting programs, processes
+/// and sockets, changing its limits, opening any file for writing; where the kernel has Landlock, also
+/// reading any file but the system's libraries. Files of a request are opened by the names `offer()` gave
+/// them.
 ///
 /// Every path that is opened or looked at is trapped by a seccomp filter (no library needed for it) and
 /// decided in a SIGSYS handler: names of offered files lead to their descriptors, other files can be opened

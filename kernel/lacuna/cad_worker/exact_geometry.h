@@ -27,8 +27,8 @@ struct ParameterBox {
 struct CadSource {
     std::unique_ptr<const GmshModel> model;
     std::string path;
-    double scale = 1;    ///< model length / file length
-    double diagonal = 0; ///< of the bounding box [file length]
+    double scale = 1;                            ///< model length / file length
+    double diagonal = 0;                         ///< of the bounding box [file length]
     std::unordered_map<int, ParameterBox> boxes; ///< of every face
 };
 

@@ -27,7 +27,8 @@ void watch_host(pid_t host)
         pollfd socket{kSocket, POLLRDHUP, 0};
         constexpr int kPause = 1000; // [ms]: a forked child of the host may hold the socket open
         ::poll(&socket, 1, kPause);
-        if ((socket.revents & (POLLRDHUP | POLLHUP | POLLERR | POLLNVAL)) != 0 || ::getppid() != host) ::_exit(0);
+        if ((socket.revents & (POLLRDHUP | POLLHUP | POLLERR | POLLNVAL)) != 0 || ::getppid() != host)
+            ::_exit(0);
     }
 }
 
@@ -38,7 +39,8 @@ int main()
     int type = 0;
     socklen_t size = sizeof(type);
     if (::getsockopt(kSocket, SOL_SOCKET, SO_TYPE, &type, &size) != 0) {
-        constexpr std::string_view kWords = "lacuna-cad is started by Lacuna when a CAD file is read, not by hand\n";
+        constexpr std::string_view kWords =
+            "lacuna-cad is started by Lacuna when a CAD file is read, not by hand\n";
         return ::write(2, kWords.data(), kWords.size()) < 0 ? 2 : 1;
     }
     ::syscall(SYS_close_range, kSocket + 1, ~0U, 0); // what the host let slip

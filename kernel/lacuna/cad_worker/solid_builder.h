@@ -32,7 +32,8 @@ public:
 
     /// Make every face, sew them, write the solid to the result file and read it back.
     /// @throw BackendError  names the face that cannot be made, or says why no solid came of it.
-    cad_protocol::MakeSolidReply make(const cad_protocol::MakeSolidRequest& request, const Progress& progress);
+    cad_protocol::MakeSolidReply make(const cad_protocol::MakeSolidRequest& request,
+                                      const Progress& progress);
 
 private:
     std::vector<int> make_face(const cad_protocol::SolidFace& face);

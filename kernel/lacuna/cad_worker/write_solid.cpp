@@ -103,7 +103,7 @@ void write_alone(Session& session, int solid, const SolidFiles& files)
 
 /// Read back what was written. @return number of faces and volume.
 std::pair<std::size_t, double> read_back(Session& session, const MakeSolidRequest& request,
-                                          const SolidFiles& files, double expected)
+                                         const SolidFiles& files, double expected)
 {
     const GmshModel again(session);
     return session.run([&] {
@@ -120,8 +120,7 @@ std::pair<std::size_t, double> read_back(Session& session, const MakeSolidReques
         if (!(std::abs(volume - expected) <= kSameVolume * expected)) {
             throw BackendError("cad.reads_back", "the solid reads back with a volume of " +
                                                      std::to_string(volume) + ", not " +
-                                                     std::to_string(expected) +
-                                                     "; write it as .brep");
+                                                     std::to_string(expected) + "; write it as .brep");
         }
         return std::pair(tags_of(2).size(), volume);
     });

@@ -19,11 +19,11 @@ struct InputFile {
     std::uint64_t bytes = 0;                           ///< of all of them
 };
 
-/// Open a CAD file and look whether it is what its ending promises. A script's text is looked through: it may
-/// include and merge files that lie beside it, which come along, and nothing else that leaves Gmsh's
+/// Open a CAD file and look whether it is what its ending promises. A script's text is looked through: it
+/// may include and merge files that lie beside it, which come along, and nothing else that leaves Gmsh's
 /// geometry.
-/// @throw InvalidInput  not a regular file, no file of its kind, a script that asks for more; names file and
-///     line.
+/// @throw InvalidInput  not a regular file, no file of its kind, a script that asks for more; names file
+///                      and line.
 /// @throw BackendError  it cannot be read. Cancelled.
 InputFile open_input(const std::string& path, const RunContext& context);
 
