@@ -90,7 +90,7 @@ SplineAxis SplineAxis::even(std::size_t count)
     axis.degree = static_cast<int>(std::min<std::size_t>(3, count - 1));
     const std::vector<double> at = evenly(count - 1);
     axis.knots.push_back(0);
-    // Not-a-knot: the first and last inner parameters of a cubic carry none.
+    // Not-a-knot: the first and last inner parameters of a cubic give none.
     for (std::size_t i = 2; axis.degree == 3 && i + 2 < at.size(); ++i) axis.knots.push_back(at[i]);
     axis.knots.push_back(1);
     axis.multiplicities.assign(axis.knots.size(), 1);

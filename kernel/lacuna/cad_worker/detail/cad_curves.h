@@ -21,7 +21,7 @@ struct CadCurveInfo {
     std::vector<std::size_t> pieces; ///< in CadWire::pieces, as the curve runs; empty where it is but a point
 };
 
-/// A stretch of a curve between two vertices, and the edge of the model it belongs to. Curves that lie on
+/// A part of a curve between two vertices, and the edge of the model it belongs to. Curves that lie on
 /// each other within tolerance have pieces of one edge.
 struct CadPiece {
     std::size_t curve = 0;
