@@ -143,7 +143,7 @@ for i = 1, 6 do
 end
 """
 WRITES_CAD = """
-local m = lacuna.synthetic.prism { sides = 40, holes = 3 }
+local m = lacuna.synthetic.prism { sides = 14, holes = 3 }
 local v = m:open_volume { source = "source", target = "target", walls = "auto" }
 v:write_cad "old.step" v:write_cad "new.step"
 """
@@ -426,7 +426,7 @@ STAGES = {
     "close": (PREPARE, "open():close()"),
     "sweep": (PREPARE + "v:close()", "v:sweep { layers = 40, size = 0.02 }"),
     "load of facets": (PREPARE + 'v:close() v:write_facets "big.stl"', 'lacuna.load "big.stl"'),
-    "load of CAD": ('local p = lacuna.synthetic.prism { sides = 40, holes = 3 } '
+    "load of CAD": ('local p = lacuna.synthetic.prism { sides = 14, holes = 3 } '
                     'p:open_volume { source = "source", target = "target", walls = "auto" }'
                     ':write_cad "big.step"',
                     'lacuna.load "big.step"'),
