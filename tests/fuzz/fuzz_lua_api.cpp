@@ -40,6 +40,14 @@ void* operator new(std::size_t size)
     held += malloc_usable_size(place);
     return place;
 }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept
+{
+    try {
+        return operator new(size);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
 void operator delete(void* place) noexcept
 {
     if (place != nullptr) held -= malloc_usable_size(place);
