@@ -97,8 +97,7 @@ int match(lua_State* L)
     guard(L, [&] {
         const Busy busy(state, "match");
         if (state.closure && (asked || !state.match))
-            throw InvalidInput("lua.sealed",
-                               "match: the volume is sealed already; match it before close()");
+            throw InvalidInput("lua.sealed", "match: the volume is sealed already; match it before close()");
         std::optional<matching::Match> before = std::exchange(state.match, std::nullopt);
         if (!asked && before) {
             state.match = std::move(before);

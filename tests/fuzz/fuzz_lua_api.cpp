@@ -183,7 +183,8 @@ void run_state(std::uint64_t most_calls, Clock::time_point end, std::uint64_t st
     lua_sethook(L, stop_hook, LUA_MASKCOUNT, kHookInstructions);
     luaL_openlibs(L);
     lacuna::lua::set_host(L, &host);
-    const luaL_Reg functions[] = {{"call", call}, {"count", count}, {"fault", report_fault}, {nullptr, nullptr}};
+    const luaL_Reg functions[] = {
+        {"call", call}, {"count", count}, {"fault", report_fault}, {nullptr, nullptr}};
     luaL_newlib(L, functions);
     lua_pushlightuserdata(L, &host);
     lua_setfield(L, 1, "light");
@@ -249,7 +250,8 @@ int main(int argc, char** argv)
     std::atomic<bool> over{false};
     std::thread watcher(watch, std::cref(over));
     const auto start = Clock::now();
-    const auto end = start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    const auto end = start +
+                     std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     std::uint64_t states = 0;
     for (; calls < most_calls && Clock::now() < end; ++states)
         run_state(most_calls, end, seed * 1'000'003 + states, shows, summary);

@@ -122,12 +122,13 @@ check.fails(function() lacuna.synthetic.elbow { facets = 1000000, angle = 359 } 
 -- Finalizers that change the volume or the model while a result is put together or arguments are read.
 -- Collection is started right before, so that it falls somewhere in the call: `from` moves the place.
 local function while_collecting(from, change, call)
+  local before = collectgarbage("incremental", 10, 1000, 5)
+  collectgarbage()
   setmetatable({}, { __gc = change })
-  local step = collectgarbage("incremental", 10, 100, 5)
   local junk = {}
   for i = 1, from do junk[i] = { i } end
   local results = table.pack(pcall(call))
-  collectgarbage(step)
+  collectgarbage(before, 200, 100, 13)
   return table.unpack(results, 1, results.n)
 end
 local function same(a, b)
