@@ -8,7 +8,7 @@ math.randomseed(seed)
 function pick(list) return list[random(#list)] end
 local function chance(p) return random() < p end
 
--- --- objects in every state -----------------------------------------------------------------------------
+-- --- objects in every state -----------------------------------------------------------------
 
 local kMostObjects = 12 -- of a class, so that memory stays flat and states are met again
 local pool = { Model = {}, Face = {}, Volume = {}, Mesh = {}, Quality = {} }
@@ -46,7 +46,7 @@ local function release(object) -- as the end of a <close> variable
   end
 end
 
--- --- values -------------------------------------------------------------------------------------------------
+-- --- values -----------------------------------------------------------------
 
 local numbers = { 0, -0.0, 1, 2, 3, 4, 7, -1, -3, 0.5, 0.1, 1e-9, 1e-300, 5e-324, 1e9, 1e308, -1e308, 1 / 0,
   -1 / 0, 0 / 0, 2 ^ 31, 2147483647, -2147483648, 2 ^ 53, math.maxinteger, math.mininteger, 100000 }
@@ -98,7 +98,7 @@ function value(depth)
   return odd_table(depth)
 end
 
--- --- callbacks that misbehave -----------------------------------------------------------------------------
+-- --- callbacks that misbehave -----------------------------------------------------------------
 
 local depth = 0
 -- Does something it should not while the binding works, then returns what `result` makes.
@@ -176,7 +176,7 @@ local function litter()
   end
 end
 
--- --- arguments ------------------------------------------------------------------------------------------------
+-- --- arguments -----------------------------------------------------------------
 
 local files = { "a.msh", "b.msh", "a.stl", "b.obj", "c.vtk", "c.vtu", "d.inp", "sub/a.msh", "none/a.msh", "a.html",
   "", "a", ".msh", "a\0.msh", "b.unv", "b.bdf", ("n"):rep(300) .. ".msh" }
@@ -297,7 +297,7 @@ local function arguments(name)
   return table.pack(options(name))
 end
 
--- --- what there is to call --------------------------------------------------------------------------------------
+-- --- what there is to call -----------------------------------------------------------------
 
 local targets, names = {}, {}
 local function target(name, class, call, short)
@@ -332,7 +332,7 @@ target("lacuna.gmsh_version", nil, function() return lacuna.gmsh_version end, "g
 
 local heavy = { __gc = true, __close = true } -- release objects: seldom, or none would live
 
--- --- a step -----------------------------------------------------------------------------------------------------
+-- --- a step -----------------------------------------------------------------
 
 local function makes_fault(message)
   if type(message) ~= "string" then return false end
