@@ -90,26 +90,28 @@ int match(lua_State* L)
     lua_settop(L, 2);
     auto& state = hold<VolumeState>(L, 1);
     const bool asked = has_options(L, 2, "match");
-    if (state.closure && (asked || !state.match))
-        fail(L, "match: the volume is sealed already; match it before close()");
     auto& options = temporary<MatchOptions>(L);
     read_options(L, 2, "match", kMatchOptions, options);
     RunContext& context = push_context(L);
+    auto& found = temporary<matching::Match>(L); // a finalizer may match anew while this one is pushed
     guard(L, [&] {
         const Busy busy(state, "match");
+        if (state.closure && (asked || !state.match))
+            throw InvalidInput("lua.sealed", "match: the volume is sealed already; match it before close()");
         std::optional<matching::Match> before = std::exchange(state.match, std::nullopt);
         if (!asked && before) {
             state.match = std::move(before);
-            return;
+        } else {
+            try {
+                match_volume(state, options, context);
+            } catch (...) {
+                state.match = std::move(before);
+                throw;
+            }
         }
-        try {
-            match_volume(state, options, context);
-        } catch (...) {
-            state.match = std::move(before);
-            throw;
-        }
+        found = *state.match;
     });
-    push_match(L, state.volume.model, *state.match);
+    push_match(L, state.volume.model, found);
     return 1;
 }
 

@@ -157,10 +157,11 @@ int override_class(lua_State* L)
     lua_settop(L, 2);
     auto& state = hold<VolumeState>(L, 1);
     const VolumeClass wanted = read_word(L, 2, {"override_class", nullptr}, kClasses);
-    if (state.closure)
-        fail(L, "override_class: the volume is sealed already; override its class before close()");
     guard(L, [&] {
         const Busy busy(state, "override_class");
+        if (state.closure)
+            throw InvalidInput("lua.sealed", "override_class: the volume is sealed already; override its "
+                                             "class before close()");
         const std::optional<VolumeClass> before = state.volume.override_class;
         state.volume.override_class = wanted;
         try {
@@ -183,11 +184,10 @@ int free_edges(lua_State* L)
     guard(L, [&] { edges = topology::free_edges(state.volume); });
     lua_createtable(L, static_cast<int>(edges.size()), 0);
     for (std::size_t i = 0; i < edges.size(); ++i) {
-        const topology::Edge& edge = model[edges[i]];
-        lua_createtable(L, 0, 4);
-        set_count(L, "tag", static_cast<std::size_t>(edge.tag));
-        set_count(L, "from", static_cast<std::size_t>(model[edge.from].tag));
-        set_count(L, "to", static_cast<std::size_t>(model[edge.to].tag));
+        lua_createtable(L, 0, 4); // a finalizer may close the volume, which moves its edges: no reference
+        set_count(L, "tag", static_cast<std::size_t>(model[edges[i]].tag));
+        set_count(L, "from", static_cast<std::size_t>(model[model[edges[i]].from].tag));
+        set_count(L, "to", static_cast<std::size_t>(model[model[edges[i]].to].tag));
         set_number(L, "length", topology::edge_length(model, edges[i]));
         lua_rawseti(L, -2, to_lua(i));
     }

@@ -131,7 +131,10 @@ void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelS
     if (const Box<FaceHandle>* handle = test_box<FaceHandle>(L, index)) {
         if (!*handle || (*handle)->model != state) fail_option(L, where, "is a face of another model");
         const FaceId face = (*handle)->face;
-        guard(L, [&] { faces.push_back(face); });
+        guard(L, [&] {
+            refresh(*state); // a finalizer may have added the face since the call began
+            faces.push_back(face);
+        });
         return;
     }
     auto& wanted = temporary<Selector>(L);

@@ -119,4 +119,49 @@ end
 check.fails(function() lacuna.synthetic.prism { twist = 1e308 } end, "'twist'", "facets")
 check.fails(function() lacuna.synthetic.elbow { facets = 1000000, angle = 359 } end, "facets")
 
+-- Finalizers that change the volume or the model while a result is put together or arguments are read.
+-- Collection is started right before, so that it falls somewhere in the call: `from` moves the place.
+local function while_collecting(from, change, call)
+  local before = collectgarbage("incremental", 10, 1000, 5)
+  collectgarbage()
+  setmetatable({}, { __gc = change })
+  local junk = {}
+  for i = 1, from do junk[i] = { i } end
+  local results = table.pack(pcall(call))
+  collectgarbage(before, 200, 100, 13)
+  return table.unpack(results, 1, results.n)
+end
+local function same(a, b)
+  if type(a) ~= "table" or type(b) ~= "table" then return a == b end
+  for key in pairs(a) do if not same(a[key], b[key]) then return false end end
+  for key in pairs(b) do if a[key] == nil then return false end end
+  return true
+end
+local wanted = volume():free_edges()
+for from = 0, 600, 3 do
+  local v = volume()
+  local fine, edges = while_collecting(from, function() v:close() end, function() return v:free_edges() end)
+  check.that(fine and (#edges == 0 or same(edges, wanted)), fine and "free_edges" or tostring(edges))
+end
+for from = 0, 600, 3 do
+  local v = volume()
+  local fine, found = while_collecting(from, function() v:match { method = "nearest" } end,
+      function() return v:match() end)
+  check.that(fine and #found.vertices == 5 and #found.loops == 1, fine and "match" or tostring(found))
+end
+-- A face that is added while the list it stands in is read.
+for from = 0, 900, 3 do
+  local model, list = lacuna.model(), { 1 }
+  model:add_face { name = "a", points = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, cells = { { 1, 2, 3 } } }
+  local fine, message = while_collecting(from, function()
+    list[1] = model:add_face { points = { { 5, 0, 0 }, { 6, 0, 0 }, { 5, 1, 0 } }, cells = { { 1, 2, 3 } } }
+  end, function() return model:open_volume { faces = list } end)
+  check.that(not fine, "open_volume")
+  fine, message = while_collecting(from, function()
+    list[1] = model:add_face { points = { { 9, 0, 0 }, { 8, 0, 0 }, { 9, 1, 0 } }, cells = { { 1, 2, 3 } } }
+    list[2] = list[1]
+  end, function() return model:face(list) end)
+  check.that(fine or tostring(message):find("one face is wanted", 1, true), tostring(message))
+end
+
 check.done()
