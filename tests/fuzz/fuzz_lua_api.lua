@@ -167,7 +167,8 @@ local function litter()
       if kind == 2 and volume then pcall(volume.close, volume) end
       if kind == 3 and volume then pcall(volume.override_class, volume, pick { "I", "III", "V" }) end
       if kind == 4 and model then
-        pcall(model.add_face, model, { points = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, cells = { { 1, 2, 3 } } })
+        pcall(model.add_face, model,
+            { points = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, cells = { { 1, 2, 3 } } })
         pcall(model.faces, model)
       end
       if kind == 5 and mesh then release(mesh) end
@@ -178,7 +179,8 @@ end
 
 -- --- arguments -----------------------------------------------------------------
 
-local files = { "a.msh", "b.msh", "a.stl", "b.obj", "c.vtk", "c.vtu", "d.inp", "sub/a.msh", "none/a.msh", "a.html",
+local files = { "a.msh", "b.msh", "a.stl", "b.obj", "c.vtk", "c.vtu", "d.inp", "sub/a.msh", "none/a.msh",
+    "a.html",
   "", "a", ".msh", "a\0.msh", "b.unv", "b.bdf", ("n"):rep(300) .. ".msh" }
 local function path() return pick(files) end
 local function list_of(make, most)
@@ -197,7 +199,9 @@ local function small() return random(1, 5) end
 local function length() return pick { 0.2, 0.3, 0.5, 1, 3 } end
 local function flag() return chance(0.5) end
 local function pair() return { random(0, 12), random(0, 12) } end
-local function drop() return pick { "target", "source", "walls", "wall_1", { "target", "wall_1" }, { "wall_2" }, {} } end
+local function drop()
+  return pick { "target", "source", "walls", "wall_1", { "target", "wall_1" }, { "wall_2" }, {} }
+end
 local function facets() return random(1, 3) end
 local function metric()
   return pick { "scaled_jacobian", "shape", "volume", "oddy", "distortion", "edge_ratio", "none" }
@@ -205,9 +209,11 @@ end
 
 -- What each call takes: key -> a maker of values that may be right.
 local keys = {
-  load = { tolerance = length, feature_angle = function() return random(0, 180) end, keep_mesh = flag, scale = length },
+  load = { tolerance = length, feature_angle = function() return random(0, 180) end, keep_mesh = flag,
+      scale = length },
   faces = { tags = function() return chance(0.5) and random(8) or list_of(small) end,
-    name = function() return pick(words) end, kind = function() return pick { "plane", "discrete", "torus" } end,
+    name = function() return pick(words) end,
+        kind = function() return pick { "plane", "discrete", "torus" } end,
     facing = vector, near = vector, area = function() return { 0, pick(numbers) } end },
   add_face = { name = function() return pick(words) end,
     points = function() return list_of(vector, 6) end, keep_mesh = flag,
@@ -216,7 +222,8 @@ local keys = {
     walls = function() return chance(0.6) and "auto" or face_refs() end,
     class = function() return pick { "I", "II", "III", "IV", "V", "closed" } end },
   match = { vertices = function() return list_of(pair) end, loops = function() return list_of(pair) end,
-    flip = function() return list_of(small) end, method = function() return pick { "aligned", "nearest" } end },
+    flip = function() return list_of(small) end,
+        method = function() return pick { "aligned", "nearest" } end },
   close = { edge_shape = function() return pick { "auto", "straight", "follow" } end },
   sweep = { layers = function()
       return pick { 2, 3, { 0.3, 1 }, { 0.5, 0.2 }, { count = 3, bias = 2, mode = "bell" }, { count = 2 }, 1 }
@@ -237,7 +244,8 @@ local keys = {
     holes = function() return random(0, 2) end, hole_radius = function() return 0.1 end, twist = length,
     taper = length, bend = length, facets = facets, drop = drop },
   annulus = { inner = length, outer = length, height = length, facets = facets, drop = drop },
-  elbow = { radius = length, inner = length, bend_radius = length, angle = length, facets = facets, drop = drop },
+  elbow = { radius = length, inner = length, bend_radius = length, angle = length, facets = facets,
+      drop = drop },
   barrel = { radius = length, height = length, bulge = length, facets = facets, drop = drop },
   plate = { length = length, width = length, height = length, holes = function() return random(0, 2) end,
     hole_radius = function() return 0.1 end, facets = facets, drop = drop },
@@ -261,13 +269,16 @@ function options(name)
     end
   end
   if chance(0.02) then made[pick(words)] = value(1) end
-  if chance(0.02) then made = setmetatable({}, { __index = made, __pairs = function() return act(pairs, made) end }) end
+  if chance(0.02) then
+    made = setmetatable({}, { __index = made, __pairs = function() return act(pairs, made) end })
+  end
   return made
 end
 
 -- Arguments after the object, for the call of that name.
 local right = {
-  load = function() return chance(0.8) and path() or list_of(path), chance(0.3) and options("load") or nil end,
+  load = function() return chance(0.8) and path() or list_of(path),
+      chance(0.3) and options("load") or nil end,
   check = path,
   params = function() return { width = 1, name = "x", flag = true, sub = odd_table(2) } end,
   model = function() end,
@@ -301,7 +312,8 @@ end
 
 local targets, names = {}, {}
 local function target(name, class, call, short)
-  targets[#targets + 1] = { name = name, class = class, call = call, short = short, reached = 0, returned = 0 }
+  targets[#targets + 1] = { name = name, class = class, call = call, short = short, reached = 0,
+      returned = 0 }
 end
 local function sorted(t)
   local list = {}
@@ -321,7 +333,9 @@ for _, class in ipairs(sorted(names)) do
   for _, key in ipairs(sorted(meta)) do
     if type(meta[key]) == "function" then target(class .. "." .. key, class, meta[key], key) end
   end
-  for _, key in ipairs(sorted(meta.methods or {})) do target(class .. ":" .. key, class, meta.methods[key], key) end
+  for _, key in ipairs(sorted(meta.methods or {})) do
+    target(class .. ":" .. key, class, meta.methods[key], key)
+  end
   local _, fields = debug.getupvalue(meta.__index, 3)
   for _, key in ipairs(sorted(fields or {})) do
     target(class .. "." .. key, class, function(object) return object[key] end, key)
@@ -336,7 +350,8 @@ local heavy = { __gc = true, __close = true } -- release objects: seldom, or non
 
 local function makes_fault(message)
   if type(message) ~= "string" then return false end
-  for _, sign in ipairs { "vector::", "basic_string", "unknown error inside", "std::", "map::at", "bad_", "deque::" } do
+  for _, sign in ipairs { "vector::", "basic_string", "unknown error inside", "std::", "map::at", "bad_",
+      "deque::" } do
     if message:find(sign, 1, true) then return true end
   end
   return depth == 0 and message:find("[lua.busy]", 1, true) and true or false
@@ -406,7 +421,9 @@ function host.reseed(n)
   if #pool.Volume < 4 or #pool.Mesh < 2 then host.sow() end
   math.randomseed(seed, n)
   arg = pick { nil, {}, { "width=3" }, { "sub=1", "=", "name=" }, { "nothing=1" }, { 7, {} } }
-  if chance(0.5) then collectgarbage("incremental", 100, 400) else collectgarbage("incremental", 10, 1000, 1) end
+  if chance(0.5) then
+    collectgarbage("incremental", 100, 400) else collectgarbage("incremental", 10, 1000, 1)
+  end
   if chance(0.1) then collectgarbage("generational") end
 end
 

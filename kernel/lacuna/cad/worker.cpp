@@ -253,9 +253,8 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
                            program + " did not answer within " + plain(kStartSeconds) + " s");
     } catch (const ChannelClosed&) {
         end();
-        throw BackendError("cad.worker_ended",
-                           program + " ended while it was started (" + how_it_ended() + last_words() +
-                               "); try again");
+        throw BackendError("cad.worker_ended", program + " ended while it was started (" + how_it_ended() +
+                                                   last_words() + "); try again");
     } catch (const ProtocolError& error) {
         end();
         throw BackendError("cad.no_worker", program + " is no CAD process of this Lacuna: " + error.what() +
@@ -401,10 +400,11 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
     } catch (const TimeOver&) {
         end_ = "it took too long over " + task.subject;
         end();
-        throw BackendError("cad.time_limit",
-                           task.subject + ": " + task.doing + " took longer than " + plain(seconds) +
-                               " s of processor time, and the CAD process was ended; repair the file, or allow more "
-                               "with LACUNA_CAD_SECONDS");
+        throw BackendError(
+            "cad.time_limit",
+            task.subject + ": " + task.doing + " took longer than " + plain(seconds) +
+                " s of processor time, and the CAD process was ended; repair the file, or allow more "
+                "with LACUNA_CAD_SECONDS");
     } catch (const ChannelClosed&) {
         died(task);
     } catch (const ProtocolError& error) {
