@@ -40,26 +40,40 @@ const char* push_found(lua_State* L, int index);
 
 // --- temporaries ------------------------------------------------------------------------------------
 
+/// Push the metatable by which Lua lets go of a userdata of type T, made at first need: `release` is its
+/// `__gc`, and with `closes` its `__close` as well.
+template <class T>
+void push_release_table(lua_State* L, lua_CFunction release, bool closes)
+{
+    static const char key = 0; // its address is the registry's key
+    if (lua_rawgetp(L, LUA_REGISTRYINDEX, &key) == LUA_TTABLE) return;
+    lua_pop(L, 1);
+    lua_createtable(L, 0, 2);
+    lua_pushcfunction(L, release);
+    lua_setfield(L, -2, "__gc");
+    if (closes) {
+        lua_pushcfunction(L, release);
+        lua_setfield(L, -2, "__close");
+    }
+    lua_pushvalue(L, -1);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &key);
+}
+
 /// A default-made T on the stack that Lua destroys when it collects it.
 template <class T>
 T& temporary(lua_State* L)
 {
     static_assert(alignof(T) <= alignof(lua_Number), "Lua aligns userdata no further");
-    static const char key = 0; // its address is the registry's key of the type's metatable
     if constexpr (!std::is_trivially_destructible_v<T>) {
         // Before the value is made: making the metatable may raise, and would leave a value without its
         // destructor.
-        if (lua_rawgetp(L, LUA_REGISTRYINDEX, &key) != LUA_TTABLE) {
-            lua_pop(L, 1);
-            lua_createtable(L, 0, 1);
-            lua_pushcfunction(L, [](lua_State* state) {
+        push_release_table<T>(
+            L,
+            [](lua_State* state) {
                 static_cast<T*>(lua_touserdata(state, 1))->~T();
                 return 0;
-            });
-            lua_setfield(L, -2, "__gc");
-            lua_pushvalue(L, -1);
-            lua_rawsetp(L, LUA_REGISTRYINDEX, &key);
-        }
+            },
+            false);
     }
     T* value = new (lua_newuserdatauv(L, sizeof(T), 0)) T();
     if constexpr (!std::is_trivially_destructible_v<T>) {
@@ -200,20 +214,13 @@ const Box<T>& hold_box(lua_State* L, int index)
         Box<T> object;
     };
     index = lua_absindex(L, index);
-    static const char key = 0;
-    if (lua_rawgetp(L, LUA_REGISTRYINDEX, &key) != LUA_TTABLE) {
-        lua_pop(L, 1);
-        lua_createtable(L, 0, 2);
-        for (const char* event : {"__close", "__gc"}) {
-            lua_pushcfunction(L, [](lua_State* state) {
-                static_cast<Share*>(lua_touserdata(state, 1))->object.reset();
-                return 0;
-            });
-            lua_setfield(L, -2, event);
-        }
-        lua_pushvalue(L, -1);
-        lua_rawsetp(L, LUA_REGISTRYINDEX, &key);
-    }
+    push_release_table<Share>(
+        L,
+        [](lua_State* state) {
+            static_cast<Share*>(lua_touserdata(state, 1))->object.reset();
+            return 0;
+        },
+        true);
     auto* share = new (lua_newuserdatauv(L, sizeof(Share), 0)) Share();
     lua_insert(L, -2);
     lua_setmetatable(L, -2);

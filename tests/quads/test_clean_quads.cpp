@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "patch_outline.h"
 #include "plane_grids.h"
 #include "support/plane_domains.h"
 #include "support/quad_meshers.h"
@@ -19,25 +20,10 @@
 #include <vector>
 
 using namespace lacuna;
+using test::outline;
 using test::PlaneGrid;
 
 namespace {
-
-/// A regular polygon with so many pieces on each side.
-std::vector<Vec2> outline(const std::vector<int>& sides, std::vector<std::size_t>& corners)
-{
-    std::vector<Vec2> loop;
-    const double turn = 2 * std::numbers::pi / static_cast<double>(sides.size());
-    const auto corner = [&](std::size_t i) {
-        return Vec2(std::cos(turn * static_cast<double>(i)), std::sin(turn * static_cast<double>(i)));
-    };
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-        corners.push_back(loop.size());
-        for (int k = 0; k < sides[i]; ++k)
-            loop.push_back(corner(i) + (corner(i + 1) - corner(i)) * k / sides[i]);
-    }
-    return loop;
-}
 
 std::vector<quads::TemplateMesh> fillings(const std::vector<Vec2>& loop,
                                           const std::vector<std::size_t>& corners, std::size_t most)

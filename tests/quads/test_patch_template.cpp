@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "patch_outline.h"
+
 #include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/measure_plane.h>
 
@@ -9,27 +11,7 @@
 #include <numbers>
 
 using namespace lacuna;
-
-namespace {
-
-/// A regular polygon with so many edges on each side.
-std::vector<Vec2> outline(const std::vector<int>& sides, std::vector<std::size_t>& corners)
-{
-    std::vector<Vec2> loop;
-    corners.clear();
-    const double turn = 2 * std::numbers::pi / static_cast<double>(sides.size());
-    const auto corner = [&](std::size_t i) {
-        return Vec2(std::cos(turn * static_cast<double>(i)), std::sin(turn * static_cast<double>(i)));
-    };
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-        corners.push_back(loop.size());
-        for (int k = 0; k < sides[i]; ++k)
-            loop.push_back(corner(i) + (corner(i + 1) - corner(i)) * k / sides[i]);
-    }
-    return loop;
-}
-
-} // namespace
+using test::outline;
 
 TEST_CASE("what can be filled without a cut has one quad at corners, two at other points of the loop")
 {
