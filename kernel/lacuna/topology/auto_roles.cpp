@@ -6,6 +6,7 @@
 #include <lacuna/topology/auto_roles.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/marks.h>
 #include <lacuna/topology/detail/patches.h>
 
 #include <algorithm>
@@ -41,25 +42,6 @@ std::size_t number_of(EdgeUse use) { return 2 * use.edge.index() + (use.reversed
 struct Reading {
     std::size_t source = kNone, target = kNone;
     double cost = 0;
-};
-
-/// Sets over a range of numbers that are emptied in no time.
-class Marks {
-public:
-    explicit Marks(std::size_t count) : mark_(count, 0) {}
-    void clear() { ++now_; }
-    [[nodiscard]] bool has(std::size_t i) const { return mark_[i] == now_; }
-    /// @return true where `i` was not in the set.
-    bool add(std::size_t i)
-    {
-        if (has(i)) return false;
-        mark_[i] = now_;
-        return true;
-    }
-
-private:
-    std::vector<std::size_t> mark_;
-    std::size_t now_ = 1;
 };
 
 /// The walls of one reading that hang together.

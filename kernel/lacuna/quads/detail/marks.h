@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Sets and tables of point and quad numbers, for searches over parts of a mesh.
+/// Tables of point and quad numbers, for searches over parts of a mesh.
 
+#include <lacuna/core/marks.h>
 #include <lacuna/core/types.h>
 
 #include <cstddef>
@@ -10,28 +11,6 @@
 #include <vector>
 
 namespace lacuna::quads {
-
-/// A set of numbers that is emptied at no cost.
-class Marks {
-public:
-    void clear(std::size_t count)
-    {
-        of_.resize(count, 0);
-        ++now_;
-    }
-    [[nodiscard]] bool has(Index i) const { return index(i) < of_.size() && of_[index(i)] == now_; }
-    /// @return true where it was not there
-    bool add(Index i)
-    {
-        if (has(i)) return false;
-        of_[index(i)] = now_;
-        return true;
-    }
-
-private:
-    std::vector<unsigned> of_;
-    unsigned now_ = 0;
-};
 
 /// A table from numbers to numbers that is emptied at no cost.
 class Numbers {
