@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "support/cancelling.h"
+
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/minimal_area.h>
 
@@ -275,4 +277,19 @@ TEST_CASE("loops that cannot bound a surface are refused by number")
     outline.loops[1] = {5, 6, 7};
     CHECK_THROWS_WITH_AS(minimal_area(outline.points, outline.loops), doctest::Contains("does not exist"),
                          InvalidInput);
+}
+
+TEST_CASE("a large patch stops within half a second, wherever it is")
+{
+    Outline rim;
+    add_loop(rim, 2000, [](double t) { return Vec3(std::cos(t), std::sin(t), 0.2 * std::cos(2 * t)); });
+    for (const int wait : {10, 50, 100, 150, 200, 250}) {
+        CAPTURE(wait);
+        const auto seconds = test::stops_within(std::chrono::milliseconds(wait),
+                                                [&](const RunContext& context) {
+                                                    for (;;) minimal_area(rim.points, rim.loops, {}, context);
+                                                });
+        REQUIRE(seconds);
+        CHECK(*seconds < 0.5);
+    }
 }

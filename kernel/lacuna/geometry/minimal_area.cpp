@@ -280,7 +280,7 @@ MinimalArea minimal_area(std::span<const Vec3> points, std::span<const std::vect
             check_cancelled(context);
             patch.relax();
             patch.make_delaunay();
-            patch.place_harmonic();
+            patch.place_harmonic(context);
         }
         patch.make_delaunay();
     }

@@ -2,8 +2,8 @@
 #include <lacuna/geometry/detail/patch_mesh.h>
 
 #include <lacuna/core/edge_key.h>
+#include <lacuna/geometry/sparse_factor.h>
 
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
@@ -308,7 +308,7 @@ void PatchMesh::relax()
     }
 }
 
-void PatchMesh::place_harmonic()
+void PatchMesh::place_harmonic(const RunContext& context)
 {
     std::vector<Index> row(points_.size(), -1);
     Index rows = 0;
@@ -337,8 +337,8 @@ void PatchMesh::place_harmonic()
     }
     Eigen::SparseMatrix<double> matrix(rows, rows);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-    if (solver.info() != Eigen::Success) return; // a point held by no weight: the surface stays as it is
+    const SparseFactor solver(matrix, context);
+    if (!solver.good()) return; // a point held by no weight: the surface stays as it is
     const Eigen::MatrixX3d placed = solver.solve(right);
     if (!placed.allFinite()) return;
     for (std::size_t p = 0; p < points_.size(); ++p) {

@@ -38,7 +38,7 @@ public:
     void relax();
 
     /// Place inner points so that the surface is harmonic for the present triangles, with cotangent weights.
-    void place_harmonic();
+    void place_harmonic(const RunContext& context);
 
     [[nodiscard]] double area() const;
     [[nodiscard]] const std::vector<Vec3>& points() const { return points_; }

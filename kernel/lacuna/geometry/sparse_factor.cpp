@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/geometry/sparse_factor.h>
+
+#include <Eigen/OrderingMethods>
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <utility>
+
+namespace lacuna::geometry {
+
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+/// Multiplications between two looks at the context: a ten thousandth of a second or so, and a look costs
+/// next to nothing beside them.
+constexpr long kWorkBetweenPolls = 100'000;
+
+/// Which rows of L each row of a matrix fills, found along the elimination tree.
+class RowPattern {
+public:
+    explicit RowPattern(int size) : parent_(index(size), -1), met_(index(size), -1), row_(index(size)) {}
+
+    /// Columns of row k of L in an order in which each comes after those it depends on, the last part of
+    /// `row_`. @param tells  called with each entry of column k of the upper triangle.
+    template <class Tell>
+    std::span<const int> of(const Matrix& upper, int k, const Tell& tell)
+    {
+        met_[index(k)] = k;
+        std::size_t top = row_.size();
+        for (Matrix::InnerIterator entry(upper, k); entry; ++entry) {
+            int i = static_cast<int>(entry.index());
+            if (i > k) continue;
+            tell(i, entry.value());
+            path_.clear();
+            for (; i >= 0 && met_[index(i)] != k; i = parent_[index(i)]) {
+                path_.push_back(i);
+                met_[index(i)] = k;
+            }
+            while (!path_.empty()) {
+                row_[--top] = path_.back();
+                path_.pop_back();
+            }
+        }
+        return std::span(row_).subspan(top);
+    }
+
+    /// Grow the tree by row k.
+    /// @return through `count`, one more for each column with an entry in row k.
+    void grow(const Matrix& upper, int k, std::vector<int>& count)
+    {
+        met_[index(k)] = k;
+        for (Matrix::InnerIterator entry(upper, k); entry; ++entry) {
+            for (int i = static_cast<int>(entry.index()); i < k && met_[index(i)] != k;
+                 i = parent_[index(i)]) {
+                if (parent_[index(i)] < 0) parent_[index(i)] = k;
+                ++count[index(i)];
+                met_[index(i)] = k;
+            }
+        }
+    }
+    void forget() { std::fill(met_.begin(), met_.end(), -1); }
+
+private:
+    std::vector<int> parent_, met_, row_, path_;
+};
+
+} // namespace
+
+SparseFactor::SparseFactor(const Matrix& lower, const RunContext& context)
+{
+    const auto size = static_cast<int>(lower.cols());
+    check_cancelled(context);
+    Eigen::PermutationMatrix<Eigen::Dynamic> back;
+    {
+        const Matrix whole = lower.selfadjointView<Eigen::Lower>();
+        Eigen::AMDOrdering<int>()(whole, back);
+    }
+    order_ = back.inverse();
+    Matrix upper(size, size);
+    upper.selfadjointView<Eigen::Upper>() = lower.selfadjointView<Eigen::Lower>().twistedBy(order_);
+
+    RowPattern pattern(size);
+    std::vector<int> count(index(size), 0);
+    check_cancelled(context);
+    for (int k = 0; k < size; ++k) pattern.grow(upper, k, count);
+    pattern.forget();
+
+    lower_.resize(size, size);
+    int* const begin = lower_.outerIndexPtr();
+    begin[0] = 0;
+    std::partial_sum(count.begin(), count.end(), begin + 1);
+    lower_.resizeNonZeros(begin[size]);
+    int* const inner = lower_.innerIndexPtr();
+    double* const value = lower_.valuePtr();
+    diagonal_.resize(size);
+
+    std::vector<double> row(index(size), 0.0);
+    std::vector<int> filled(begin, begin + size); // where the next entry of each column goes
+    long work = 0;
+    for (int k = 0; k < size; ++k) {
+        double pivot = 0;
+        const auto columns = pattern.of(upper, k, [&](int i, double a) { row[index(i)] += a; });
+        std::swap(pivot, row[index(k)]);
+        for (const int i : columns) {
+            double above = 0;
+            std::swap(above, row[index(i)]);
+            const double entry = above / diagonal_[i];
+            int& end = filled[index(i)];
+            for (int p = begin[i]; p < end; ++p) row[index(inner[p])] -= value[p] * above;
+            pivot -= entry * above;
+            work += end - begin[i] + 1;
+            inner[end] = k;
+            value[end++] = entry;
+        }
+        diagonal_[k] = pivot;
+        if (pivot == 0) {
+            good_ = false;
+            return;
+        }
+        if (work < kWorkBetweenPolls) continue;
+        check_cancelled(context);
+        work = 0;
+    }
+}
+
+Eigen::MatrixXd SparseFactor::solve(const Eigen::Ref<const Eigen::MatrixXd>& right) const
+{
+    Eigen::MatrixXd x = order_ * right;
+    lower_.triangularView<Eigen::UnitLower>().solveInPlace(x);
+    x = diagonal_.asDiagonal().inverse() * x;
+    lower_.transpose().triangularView<Eigen::UnitUpper>().solveInPlace(x);
+    return order_.inverse() * x;
+}
+
+} // namespace lacuna::geometry
