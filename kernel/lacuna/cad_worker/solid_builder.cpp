@@ -207,10 +207,7 @@ std::vector<int> SolidBuilder::make_curves(const SolidEdge& edge)
 std::vector<int> SolidBuilder::curves_of(Index edge)
 {
     const auto [place, fresh] = curves_.try_emplace(edge);
-    if (fresh) {
-        place->second = make_curves(request_->edges[index(edge)]);
-        gmsh::model::occ::synchronize();
-    }
+    if (fresh) place->second = make_curves(request_->edges[index(edge)]);
     return place->second;
 }
 
