@@ -23,6 +23,9 @@ constexpr double kMaxCellsOfFace = 16'000;
 constexpr double kMinCellsOfFace = 100;
 /// How often borders are divided anew, twice as fine, where they cross themselves.
 constexpr int kDivisions = 6;
+/// Points all edges may have together where they are divided anew: a face is triangulated over its border, so
+/// that this bounds time and memory. A model of 1,000 faces has some 20,000 before that.
+constexpr std::size_t kMostDivided = 400'000;
 
 /// Tags and coordinates must be those of a plain import.
 void set_import_defaults(Session& session)
@@ -119,14 +122,24 @@ struct Cut {
     std::size_t point_count = 0;
 };
 
+[[noreturn]] void throw_not_cut(const std::string& path, int face)
+{
+    throw BackendError("cad.face_failed",
+                       path + ": face " + std::to_string(face) +
+                           " could not be cut into facets, however fine: its boundary crosses itself or "
+                           "does not close; repair the face in the CAD system");
+}
+
 /// Divide the edges and cut the faces, finer around those whose border crosses itself.
 Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const Progress& progress)
 {
     std::vector<double> refinement(wire.edges.size(), 1.0);
     options.max_cells = std::clamp(kMaxCells / static_cast<double>(wire.faces.size()), kMinCellsOfFace,
                                    kMaxCellsOfFace);
+    int failed_tag = 0;
     for (int division = 1;; ++division) {
         divide(wire, options.fineness, refinement);
+        if (division > 1 && wire.points.size() > kMostDivided) throw_not_cut(path, failed_tag);
         Cut cut;
         cut.point_count = wire.points.size();
         const CadFaceInfo* failed = nullptr;
@@ -145,13 +158,8 @@ Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const 
             progress(static_cast<double>(cut.faces.size()) / static_cast<double>(wire.faces.size()));
         }
         if (failed == nullptr) return cut;
-        if (division == kDivisions) {
-            throw BackendError(
-                "cad.face_failed",
-                path + ": face " + std::to_string(failed->tag) +
-                    " could not be cut into facets: its boundary crosses itself or does not close; "
-                    "repair the face in the CAD system");
-        }
+        failed_tag = failed->tag;
+        if (division == kDivisions) throw_not_cut(path, failed_tag);
     }
 }
 
