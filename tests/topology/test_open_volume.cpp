@@ -236,3 +236,12 @@ TEST_CASE("a description has a line a face, with its tag and name")
           prism.model.faces.size() + 1);
     CHECK(text.find("a floor with a rather long name") != std::string::npos);
 }
+
+TEST_CASE("a description gives no normal to a face that goes all round")
+{
+    for (const bool round : {false, true}) {
+        const auto prism = test::prism({.sides = round ? 0 : 4});
+        const std::string text = describe(prism.model);
+        CHECK((text.find("  -  ") != std::string::npos) == round);
+    }
+}

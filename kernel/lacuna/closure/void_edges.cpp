@@ -13,17 +13,34 @@ namespace {
 /// Segments of a void edge at most: a bend by 90° turns by less than 1.5° at each.
 constexpr int kMostSegments = 64;
 
-/// Mean spacing of the facet points on the edges at a vertex.
-double spacing_at(const Model& model, VertexId vertex)
-{
-    double sum = 0;
+/// Facet points on the edges at a vertex: their mean spacing is length / segments.
+struct Spacing {
+    double length = 0;
     std::size_t segments = 0;
-    for (std::size_t e = 0; e < model.edges.size(); ++e) {
-        if (model.edges[e].from != vertex && model.edges[e].to != vertex) continue;
-        sum += edge_length(model, EdgeId(e));
-        segments += model.edges[e].points.size() - 1;
+
+    void add(double more_length, std::size_t more_segments)
+    {
+        length += more_length;
+        segments += more_segments;
     }
-    return segments > 0 ? sum / static_cast<double>(segments) : 0;
+    [[nodiscard]] double mean() const { return segments > 0 ? length / static_cast<double>(segments) : 0; }
+};
+
+/// Count an edge at its ends.
+void add_edge(const Model& model, EdgeId id, std::vector<Spacing>& at)
+{
+    const Edge& edge = model[id];
+    const double length = edge_length(model, id);
+    at[edge.from.index()].add(length, edge.points.size() - 1);
+    if (edge.to != edge.from) at[edge.to.index()].add(length, edge.points.size() - 1);
+}
+
+/// Of every vertex.
+std::vector<Spacing> spacing_of(const Model& model)
+{
+    std::vector<Spacing> at(model.vertices.size());
+    for (std::size_t e = 0; e < model.edges.size(); ++e) add_edge(model, EdgeId(e), at);
+    return at;
 }
 
 } // namespace
@@ -33,12 +50,13 @@ std::vector<EdgeId> make_void_edges(OpenVolume& volume, const matching::Match& m
 {
     Model& model = volume.model;
     const std::vector<bool> on_wall = volume.on_wall();
+    std::vector<Spacing> spacing_at = spacing_of(model);
     std::vector<EdgeId> made;
     for (const auto& [source, target] : match.vertices) {
         if (on_wall[source.index()] || on_wall[target.index()]) continue;
         const Vec3 from = model.at(model[source].point);
         const Vec3 to = model.at(model[target].point);
-        const double spacing = spacing_at(model, source);
+        const double spacing = spacing_at[source.index()].mean();
         const double wanted = spacing > 0 ? (to - from).norm() / spacing : 1;
         int segments = static_cast<int>(
             std::clamp(std::round(wanted), 1.0, static_cast<double>(kMostSegments)));
@@ -60,6 +78,7 @@ std::vector<EdgeId> make_void_edges(OpenVolume& volume, const matching::Match& m
         edge.points.push_back(model[target].point);
         made.emplace_back(model.edges.size());
         model.edges.push_back(std::move(edge));
+        add_edge(model, made.back(), spacing_at);
     }
     return made;
 }

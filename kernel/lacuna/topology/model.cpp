@@ -294,7 +294,7 @@ void orient_consistently(Model& model)
 
     std::vector<FaceId> all;
     for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
-    std::vector<bool> settled(model.faces.size(), false);
+    std::vector<bool> settled(model.faces.size(), false), flipped(model.faces.size(), false);
     for (const std::vector<FaceId>& part : connected_parts(model, all)) {
         bool open = false;
         settled[part.front().index()] = true;
@@ -310,14 +310,9 @@ void orient_consistently(Model& model)
                     }
                     const FaceId other = both[0].face == face ? both[1].face : both[0].face;
                     if (other == face) continue;
-                    // The uses were listed before any flip: read the neighbour's from its loops as they are
-                    // now.
-                    bool agrees = true;
-                    for (const Loop& theirs : model[other].loops) {
-                        for (const EdgeUse& their : theirs.uses) {
-                            if (their.edge == use.edge) agrees = their.reversed != use.reversed;
-                        }
-                    }
+                    // The uses were listed before any flip: `use` is of now.
+                    const FaceUse& their = both[0].face == other ? both[0] : both[1];
+                    const bool agrees = (their.reversed != flipped[other.index()]) != use.reversed;
                     if (settled[other.index()]) {
                         if (!agrees) {
                             throw InvalidInput(
@@ -328,7 +323,10 @@ void orient_consistently(Model& model)
                         }
                         continue;
                     }
-                    if (!agrees) flip(model[other]);
+                    if (!agrees) {
+                        flip(model[other]);
+                        flipped[other.index()] = true;
+                    }
                     settled[other.index()] = true;
                     front.push_back(other);
                 }
