@@ -24,6 +24,8 @@
 ---@field feature_angle? number where facets are cut into faces [degrees]; default 40
 ---@field keep_mesh? boolean given quads and nodes stay as they are; default true
 ---@field scale? number every coordinate times this; default 1
+---@field cad_seconds? number processor time the CAD process may take over it; in the sandbox it only lowers
+---@field cad_megabytes? number address space the CAD process may take; in the sandbox it only lowers
 
 ---@class lacuna.NewFace
 ---@field name? string
@@ -204,7 +206,7 @@ function Volume:sweep_to(path, options) end
 function Volume:write_facets(path, options) end
 --- The sealed volume as one CAD solid: given CAD faces exact, void faces as planes or fitted surfaces.
 ---@param path string .step, .stp or .brep
----@param options? { tolerance: number, deviation: number } gaps sewn up [model length]; how far the solid's volume may be from the facets' (default 0.05)
+---@param options? { tolerance: number, deviation: number, cad_seconds: number, cad_megabytes: number } gaps sewn up [model length]; how far the solid's volume may be from the facets' (default 0.05)
 ---@return { volume: number, faces: integer, planes: integer, fitted: integer, tolerance: number }
 function Volume:write_cad(path, options) end
 

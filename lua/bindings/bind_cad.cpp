@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "bindings/cad_limits.h"
 #include "bindings/classes.h"
 #include "bindings/io_paths.h"
 #include "bindings/lacuna_lua.h"
@@ -14,6 +15,8 @@ namespace {
 const Option<cad::WriteCadOptions> kWriteOptions[] = {
     {"tolerance", positive<&cad::WriteCadOptions::tolerance>},
     {"deviation", positive<&cad::WriteCadOptions::deviation>},
+    {"cad_seconds", read_cad_seconds},
+    {"cad_megabytes", read_cad_megabytes},
 };
 
 /// { volume=, faces=, planes=, fitted=, tolerance= } = volume:write_cad(path [, options])
@@ -24,6 +27,7 @@ int write_cad(lua_State* L)
     const io::OutputPath& path = push_output_path(L, 2, "write_cad");
     cad::WriteCadOptions options;
     read_options(L, 3, "write_cad", kWriteOptions, options);
+    options.limits.may_raise = !host(L).sandboxed;
     RunContext& context = push_context(L);
     cad::WrittenCad written;
     guard(L, [&] { written = cad::write_cad(state.volume, path, options, context); });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "bindings/bind_quality.h"
+#include "bindings/cad_limits.h"
 #include "bindings/io_paths.h"
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
@@ -165,17 +166,36 @@ int write_facets(lua_State* L)
     return 0;
 }
 
-void read_feature_angle(lua_State* L, int index, const Where& where, io::LoadOptions& options)
+struct LoadArguments {
+    io::LoadOptions load;
+    cad::Limits limits{};
+};
+
+void read_tolerance(lua_State* L, int index, const Where& where, LoadArguments& arguments)
 {
-    options.feature_angle = read_positive(L, index, where);
-    if (options.feature_angle > 180) fail_value(L, where, "degrees in (0, 180]", index);
+    arguments.load.tolerance = read_positive(L, index, where);
 }
 
-const Option<io::LoadOptions> kLoadOptions[] = {
-    {"tolerance", positive<&io::LoadOptions::tolerance>},
-    {"feature_angle", read_feature_angle},
-    {"keep_mesh", boolean<&io::LoadOptions::keep_mesh>},
-    {"scale", positive<&io::LoadOptions::scale>},
+void read_feature_angle(lua_State* L, int index, const Where& where, LoadArguments& arguments)
+{
+    arguments.load.feature_angle = read_positive(L, index, where);
+    if (arguments.load.feature_angle > 180) fail_value(L, where, "degrees in (0, 180]", index);
+}
+
+void read_keep_mesh(lua_State* L, int index, const Where& where, LoadArguments& arguments)
+{
+    arguments.load.keep_mesh = read_boolean(L, index, where);
+}
+
+void read_scale(lua_State* L, int index, const Where& where, LoadArguments& arguments)
+{
+    arguments.load.scale = read_positive(L, index, where);
+}
+
+const Option<LoadArguments> kLoadOptions[] = {
+    {"tolerance", read_tolerance},     {"feature_angle", read_feature_angle},
+    {"keep_mesh", read_keep_mesh},     {"scale", read_scale},
+    {"cad_seconds", read_cad_seconds}, {"cad_megabytes", read_cad_megabytes},
 };
 
 /// The path or the array of paths at `index`, as a temporary.
@@ -196,27 +216,22 @@ std::vector<std::string>& push_paths(lua_State* L, int index)
     return paths;
 }
 
-topology::Model load_model(const std::vector<std::string>& paths, const io::LoadOptions& options,
-                           const RunContext& context)
-{
-    return cad::load(paths, options, context);
-}
-
 /// model = lacuna.load(path | {paths} [, options])
 int load(lua_State* L)
 {
     lua_settop(L, 2);
     auto& paths = push_paths(L, 1);
-    io::LoadOptions options;
-    read_options(L, 2, "load", kLoadOptions, options);
+    LoadArguments arguments;
+    read_options(L, 2, "load", kLoadOptions, arguments);
     const Host& lent = host(L);
+    arguments.limits.may_raise = !lent.sandboxed;
     RunContext& context = push_context(L);
     lua_gc(L, LUA_GCCOLLECT); // to Lua a model is a few bytes: it would let old ones pile up
     auto& box = new_box<ModelState>(L);
     guard(L, [&] {
         for (const std::string& path : paths) check_input_path(lent, path);
         box = std::make_shared<ModelState>();
-        box->model = load_model(paths, options, context);
+        box->model = cad::load(paths, arguments.load, context, arguments.limits);
     });
     return 1;
 }

@@ -145,8 +145,8 @@ TEST_CASE("a child of fork() starts a CAD process of its own and leaves its pare
             std::vector<Vec3> points{{1, 0, 0}};
             std::vector<Vec2> uv{{0, 0}};
             model.faces[0].surface->project(points, uv);
-        } catch (const BackendError& error) {
-            right += std::string(error.what()).find(path) != std::string::npos ? 1 : 0;
+            ++right; // read again, by the child's own
+        } catch (const Error&) {
         }
         try {
             right += cad::load({path}).faces.size() == 1 && cad::Worker::current()->pid() != worker ? 1 : 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What becomes of the CAD process, and what the host gets to know of it.
 #include "made_files.h"
+#include "support/cancelling.h"
 
 #include <lacuna/cad/detail/worker.h>
 #include <lacuna/cad/write_cad.h>
@@ -13,6 +14,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <thread>
 
@@ -97,7 +99,7 @@ private:
 
 } // namespace
 
-TEST_CASE("a CAD process killed between calls costs its models their exact geometry, no more")
+TEST_CASE("a CAD process killed between calls costs its models nothing while their files stay as they are")
 {
     const test::TempFolder folder;
     const std::string path = folder.gmsh("ball.step", [] { occ::addSphere(0, 0, 0, 1); });
@@ -106,15 +108,59 @@ TEST_CASE("a CAD process killed between calls costs its models their exact geome
     test::kill_worker();
     std::vector<Vec3> points{{1, 0, 0}};
     std::vector<Vec2> uv{{0, 0}};
-    for (int i = 0; i < 2; ++i) {
-        const std::string words = failure([&] { model.faces[0].surface->project(points, uv); });
-        CHECK(has(words, "cad.worker_ended"));
-        CHECK(has(words, path));
-    }
-    const topology::Model again = cad::load({path});
+    const auto project = [&] {
+        points.assign(1, {2, 0, 0});
+        model.faces[0].surface->project(points, uv);
+    };
+    CHECK(failure(project) == "no error");
+    CHECK(points[0].norm() == doctest::Approx(1));
     CHECK(cad::Worker::current()->pid() != first);
-    CHECK(failure([&] { again.faces[0].surface->project(points, uv); }) == "no error");
-    CHECK(has(failure([&] { model.faces[0].surface->project(points, uv); }), "load the file again"));
+
+    test::kill_worker();
+    std::ofstream(path, std::ios::app) << "\n";
+    for (int i = 0; i < 2; ++i) {
+        const std::string words = failure(project);
+        CHECK(has(words, "cad.file_changed"));
+        CHECK(has(words, path + " has changed"));
+        CHECK(has(words, "load the file again"));
+    }
+    fs::remove(path);
+    CHECK(has(failure(project), "cad.file_changed"));
+    CHECK(has(failure(project), path));
+}
+
+TEST_CASE("of several models that a CAD process held, only the one it ended over gets an error")
+{
+    const test::TempFolder folder;
+    const topology::Model ball = cad::load({folder.gmsh("ball.step", [] { occ::addSphere(0, 0, 0, 1); })});
+    const topology::Model other = cad::load({folder.gmsh("other.step", [] { occ::addSphere(0, 0, 0, 2); })},
+                                            {.scale = 3});
+    CHECK(has(failure([&] { (void)cad::load({endless(folder)}, {}, {}, {.seconds = 0.5}); }),
+              "cad.time_limit"));
+    for (const auto& [model, radius] : {std::pair(&ball, 1.0), std::pair(&other, 6.0)}) {
+        std::vector<Vec3> points{{1.1 * radius, 0, 0}};
+        std::vector<Vec2> uv{{0, 0}};
+        CHECK(failure([&] { model->faces[0].surface->project(points, uv); }) == "no error");
+        CHECK(points[0].norm() == doctest::Approx(radius));
+    }
+}
+
+TEST_CASE("cancelling a long projection stops within half a second, and the model stays whole")
+{
+    const test::TempFolder folder;
+    const topology::Model model = cad::load({folder.gmsh("ball.step", [] { occ::addSphere(0, 0, 0, 1); })});
+    std::vector<Vec3> points(2'000'000, Vec3(1.1, 0.2, 0.1));
+    std::vector<Vec2> uv(points.size(), Vec2(0.1, 0.1));
+    for (const int wait : {20, 200, 500}) {
+        const auto seconds = test::stops_within(
+            std::chrono::milliseconds(wait),
+            [&](const RunContext& context) { model.faces[0].surface->project(points, uv, context); });
+        REQUIRE(seconds);
+        CHECK(*seconds < 0.5);
+    }
+    points.assign(1, {1.1, 0, 0});
+    uv.assign(1, {0, 0});
+    CHECK(failure([&] { model.faces[0].surface->project(points, uv); }) == "no error");
 }
 
 TEST_CASE("a CAD process that dies, stops or works for ever ends alone, and the error says how")
@@ -155,6 +201,22 @@ TEST_CASE("a file that takes too much memory is an error that says so")
     CHECK((has(words, "cad.memory_limit") || has(words, "cad.worker_ended")));
     CHECK(has(words, path));
     CHECK(cad::load({folder.gmsh("box.step", [] { occ::addBox(0, 0, 0, 1, 1, 1); })}).faces.size() == 6);
+}
+
+TEST_CASE("limits that may not raise only lower what a request may take")
+{
+    const test::TempFolder folder;
+    const std::string path = endless(folder);
+    ::setenv("LACUNA_CAD_SECONDS", "0.3", 1);
+    for (const double seconds : {0.2, 0.3, 1000.0}) {
+        const auto start = std::chrono::steady_clock::now();
+        const std::string words = failure(
+            [&] { (void)cad::load({path}, {}, {}, {.seconds = seconds, .may_raise = false}); });
+        CHECK(has(words, "cad.time_limit"));
+        CHECK(has(words, seconds < 0.3 ? "0.2 s" : "0.3 s"));
+        CHECK(seconds_since(start) < 10);
+    }
+    ::unsetenv("LACUNA_CAD_SECONDS");
 }
 
 TEST_CASE("cancelling ends the CAD process within half a second")
@@ -261,7 +323,9 @@ TEST_CASE("a CAD process that lies does no harm")
     for (const std::string how : {"ends", "garbage", "version"}) {
         CAPTURE(how);
         const Fake fake(how);
-        CHECK(has(failure([&] { (void)cad::load({path}); }), "cad.no_worker"));
+        const std::string words = failure([&] { (void)cad::load({path}); });
+        CHECK(has(words, "cad.no_worker"));
+        CHECK(has(words, path));
     }
     for (const std::string how :
          {"length", "opcode", "descriptors", "indices", "edges", "solids", "nan", "text", "half"}) {

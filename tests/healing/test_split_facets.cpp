@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "support/cancelling.h"
+
 #include <lacuna/core/error.h>
 #include <lacuna/healing/detail/weld.h>
 #include <lacuna/healing/split_facets.h>
+#include <lacuna/healing/stitch.h>
 #include <lacuna/topology/model.h>
 
 #include <doctest/doctest.h>
@@ -432,4 +435,23 @@ TEST_CASE("scanned parts: faces, bores and a watertight skin")
         if (name == std::string("bracket_01.stl")) CHECK(bores == 5);
         CHECK_NOTHROW(orient_consistently(model));
     }
+}
+
+TEST_CASE("splitting and stitching stop within half a second, and leave the model alone")
+{
+    const healing::FacetSoup soup = box(150, false); // 270,000 facets
+    for (const int wait : {0, 50, 150, 300}) {
+        CAPTURE(wait);
+        const auto seconds = test::stops_within(std::chrono::milliseconds(wait),
+                                                [&](const RunContext& context) {
+                                                    for (;;) (void)healing::split_facets(soup, {}, context);
+                                                });
+        REQUIRE(seconds);
+        CHECK(*seconds < 0.5);
+    }
+    Model model = healing::split_facets(box(4, true));
+    const std::size_t points = model.points.size();
+    CHECK(
+        test::heeds_cancel([&](const RunContext& context) { (void)healing::stitch(model, 1e-6, context); }));
+    CHECK(model.points.size() == points);
 }

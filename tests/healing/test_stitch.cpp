@@ -110,7 +110,8 @@ double area_of(const Model& model)
 class Circle final : public geometry::ExactCurve {
 public:
     Circle(double radius, double z) : radius_(radius), z_(z) {}
-    void evaluate(std::span<const double> params, std::span<Vec3> points) const override
+    void evaluate(std::span<const double> params, std::span<Vec3> points,
+                  const RunContext& /*context*/) const override
     {
         for (std::size_t i = 0; i < params.size(); ++i)
             points[i] = {radius_ * std::cos(params[i]), radius_ * std::sin(params[i]), z_};

@@ -13,7 +13,7 @@ local square = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }
 -- call = { how to call it with these options, { option = a good value, ... } }
 local calls = {
   load = { function(o) lacuna.load("nowhere.step", o) end,
-      { "tolerance", "feature_angle", "keep_mesh", "scale" } },
+      { "tolerance", "feature_angle", "keep_mesh", "scale", "cad_seconds", "cad_megabytes" } },
   add_face = { function(o) lacuna.model():add_face(o) end, { "name", "points", "cells", "keep_mesh" } },
   faces = { function(o) lacuna.model():faces(o) end, { "tags", "name", "kind", "facing", "near", "area" } },
   open_volume = { function(o) lacuna.synthetic.barrel():open_volume(o) end,
@@ -61,6 +61,8 @@ end
 local huge, nan = math.huge, 0 / 0
 wrong("load", "tolerance", { 0, -1, nan, huge, "1", true, {} }, "a positive number")
 wrong("load", "scale", { 0, -1, nan, huge, "1" }, "a positive number")
+wrong("load", "cad_seconds", { 0, -1, nan, "1" }, "a positive number")
+wrong("load", "cad_megabytes", { 0, -1, nan, "1" }, "a positive number")
 wrong("load", "feature_angle", { 0, -1, nan, "1" }, "a positive number")
 wrong("load", "feature_angle", { 181 }, "degrees")
 wrong("load", "keep_mesh", { 1, "true" }, "true or false")

@@ -22,7 +22,8 @@ bool same_bits(const Vec3& a, const Vec3& b)
 /// The unit circle about z, by angle.
 class Circle final : public geometry::ExactCurve {
 public:
-    void evaluate(std::span<const double> params, std::span<Vec3> points) const override
+    void evaluate(std::span<const double> params, std::span<Vec3> points,
+                  const RunContext& /*context*/) const override
     {
         for (std::size_t i = 0; i < params.size(); ++i)
             points[i] = Vec3(std::cos(params[i]), std::sin(params[i]), 0);

@@ -28,7 +28,7 @@ public:
     {
         return Vec3(-p_ * uv.x(), -q_ * uv.y(), 1).normalized();
     }
-    void project(std::span<Vec3> points, std::span<Vec2> uv) const override
+    void project(std::span<Vec3> points, std::span<Vec2> uv, const RunContext& /*context*/) const override
     {
         for (std::size_t i = 0; i < points.size(); ++i) {
             for (int step = 0; step < 50; ++step) {
@@ -50,7 +50,8 @@ private:
 class Rim final : public geometry::ExactCurve {
 public:
     explicit Rim(std::shared_ptr<const Graph> graph) : graph_(std::move(graph)) {}
-    void evaluate(std::span<const double> params, std::span<Vec3> points) const override
+    void evaluate(std::span<const double> params, std::span<Vec3> points,
+                  const RunContext& /*context*/) const override
     {
         for (std::size_t i = 0; i < params.size(); ++i)
             points[i] = graph_->at({std::cos(params[i]), std::sin(params[i])});

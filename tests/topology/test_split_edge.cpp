@@ -23,7 +23,8 @@ namespace {
 /// A quarter turn by its angle, or a whole one.
 class Circle : public geometry::ExactCurve {
 public:
-    void evaluate(std::span<const double> params, std::span<Vec3> points) const override
+    void evaluate(std::span<const double> params, std::span<Vec3> points,
+                  const RunContext& /*context*/) const override
     {
         for (std::size_t i = 0; i < params.size(); ++i)
             points[i] = {std::cos(params[i]), std::sin(params[i]), 0};

@@ -9,46 +9,124 @@ using namespace cad_protocol;
 
 namespace {
 
-/// Points of one request: large enough that asking costs nothing beside the answer, small enough that other
-/// threads need not wait long. Measured on a million points: no slower than in one.
-constexpr std::size_t kAtOnce = 100'000;
+/// Points of one request: large enough that asking costs nothing beside the answer, small enough that a
+/// cancel and other threads need not wait for more than a quarter of a second. Measured on a million points.
+constexpr std::size_t kAtOnce = 20'000;
+/// How long a request for points may go on once it is cancelled [s]. Most end by themselves within that, and
+/// the process with all it holds lives on.
+constexpr double kGrace = 0.3;
 
 void require_same(std::size_t asked, std::size_t came, const CadSource& source)
 {
     if (asked != came)
         throw BackendError("cad.protocol",
-                           source.path + ": the CAD process answered for another number of points");
+                           source.path() + ": the CAD process answered for another number of points");
+}
+
+Task points_task(const CadSource& source, std::string doing, std::size_t points, const RunContext& context)
+{
+    Task task{source.path(), std::move(doing)};
+    task.points = points;
+    task.context = &context;
+    task.grace = kGrace;
+    return task;
 }
 
 } // namespace
 
-void CadSurface::project(std::span<Vec3> points, std::span<Vec2> uv) const
+// --- the process that holds the model ---------------------------------------------------------------
+
+CadSource::Held CadSource::now() const
+{
+    const std::lock_guard lock(mutex_);
+    return held_;
+}
+
+std::shared_ptr<Worker> CadSource::worker() const
+{
+    const Held held = now();
+    return held.worker->lives() ? held.worker : nullptr;
+}
+
+std::uint64_t CadSource::handle_in(const std::shared_ptr<Worker>& worker, const RunContext& context) const
+{
+    const std::lock_guard lock(mutex_);
+    if (held_.worker == worker) return held_.handle;
+    const Held before = held_;
+    held_ = load_again(worker, path_ + " is needed by another CAD process", context);
+    before.worker->release(before.handle);
+    return held_.handle;
+}
+
+void CadSource::renew(const Held& gone, const std::string& why, const RunContext& context) const
+{
+    const std::lock_guard lock(mutex_);
+    if (held_.worker != gone.worker) return; // another thread has
+    held_ = load_again(Worker::current(&context, path_), why, context);
+}
+
+CadSource::Held CadSource::load_again(std::shared_ptr<Worker> worker, const std::string& why,
+                                      const RunContext& context) const
+{
+    RunContext quiet = context; // the work under way has a progress of its own
+    quiet.progress = {};
+    std::string trouble;
+    try {
+        const CadFiles files = open_cad_files(order_, quiet);
+        if (files.digest == digest_) {
+            const LoadReply reply = read_cad_files(*worker, order_, files, quiet);
+            return {std::move(worker), reply.model};
+        }
+        trouble = path_ + " has changed since";
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const WorkerGone&) {
+        throw;
+    } catch (const Error& error) {
+        trouble = error.what();
+    }
+    throw BackendError("cad.file_changed", why + ", and could not be read again: " + trouble +
+                                               "; load the file again for its exact geometry");
+}
+
+// --- points ---------------------------------------------------------------------------------------------
+
+void CadSurface::project(std::span<Vec3> points, std::span<Vec2> uv, const RunContext& context) const
 {
     for (std::size_t from = 0; from < points.size(); from += kAtOnce) {
+        check_cancelled(context);
         const std::size_t count = std::min(kAtOnce, points.size() - from);
         const std::span<Vec3> some = points.subspan(from, count);
         const std::span<Vec2> places = uv.subspan(from, count);
-        Task task{source_->path, "projecting points onto face " + std::to_string(tag_)};
-        task.points = count;
-        const auto reply = source_->worker->ask<ProjectReply>(
-            Opcode::project,
-            ProjectRequest{source_->handle, tag_, {some.begin(), some.end()}, {places.begin(), places.end()}},
-            task);
+        const auto request = [&](std::uint64_t handle) {
+            return ProjectRequest{handle, tag_, {some.begin(), some.end()}, {places.begin(), places.end()}};
+        };
+        const auto reply = source_->ask<ProjectReply>(
+            Opcode::project, request,
+            points_task(*source_, "projecting points onto face " + std::to_string(tag_), count, context));
         require_same(count, reply.points.size(), *source_);
         std::copy(reply.points.begin(), reply.points.end(), some.begin());
         std::copy(reply.uv.begin(), reply.uv.end(), places.begin());
     }
 }
 
-void CadCurve::evaluate(std::span<const double> params, std::span<Vec3> points) const
+void CadCurve::evaluate(std::span<const double> params, std::span<Vec3> points,
+                        const RunContext& context) const
 {
-    if (points.empty()) return;
-    Task task{source_->path, "evaluating curve " + std::to_string(tag_)};
-    task.points = params.size();
-    const auto reply = source_->worker->ask<EvaluateReply>(
-        Opcode::evaluate, EvaluateRequest{source_->handle, tag_, {params.begin(), params.end()}}, task);
-    require_same(points.size(), reply.points.size(), *source_);
-    std::copy(reply.points.begin(), reply.points.end(), points.begin());
+    for (std::size_t from = 0; from < points.size(); from += kAtOnce) {
+        check_cancelled(context);
+        const std::size_t count = std::min(kAtOnce, points.size() - from);
+        const std::span<const double> some = params.subspan(from, count);
+        const auto request = [&](std::uint64_t handle) {
+            return EvaluateRequest{handle, tag_, {some.begin(), some.end()}};
+        };
+        const auto reply = source_->ask<EvaluateReply>(
+            Opcode::evaluate, request,
+            points_task(*source_, "evaluating curve " + std::to_string(tag_), count, context));
+        require_same(count, reply.points.size(), *source_);
+        std::copy(reply.points.begin(), reply.points.end(),
+                  points.begin() + static_cast<std::ptrdiff_t>(from));
+    }
 }
 
 } // namespace lacuna::cad

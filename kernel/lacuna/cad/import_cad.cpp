@@ -2,7 +2,6 @@
 #include <lacuna/cad/detail/import_cad.h>
 
 #include <lacuna/cad/detail/exact_geometry.h>
-#include <lacuna/cad/detail/input_file.h>
 #include <lacuna/healing/orient_groups.h>
 
 #include <utility>
@@ -75,7 +74,7 @@ void compact(topology::Model& model)
 topology::Model build_model(LoadReply reply, double scale, const std::shared_ptr<const CadSource>& source)
 {
     topology::Model model;
-    model.source = source->path;
+    model.source = source->path();
     model.points = std::move(reply.points);
     add_edges(model, reply, source);
     for (LoadReply::Face& cad : reply.faces) {
@@ -98,28 +97,11 @@ topology::Model build_model(LoadReply reply, double scale, const std::shared_ptr
 topology::Model import_cad(const std::vector<std::string>& paths, const LoadOptions& options,
                            const RunContext& context, const Limits& limits)
 {
-    LoadRequest request;
-    request.tolerance = options.tolerance;
-    request.scale = options.scale;
-    Task task;
-    std::vector<Descriptor> files;
-    for (const std::string& path : paths) {
-        InputFile input = open_input(path, context);
-        task.subject += (task.subject.empty() ? "" : ", ") + path;
-        task.bytes += input.bytes;
-        request.files.push_back(std::move(input.file));
-        for (Descriptor& file : input.descriptors) files.push_back(std::move(file));
-    }
-    task.doing = "reading it";
-    task.limits = limits;
-    task.context = &context;
-    task.stage = "load";
-    std::vector<int> descriptors;
-    for (const Descriptor& file : files) descriptors.push_back(file.get());
-    const std::shared_ptr<Worker> worker = Worker::current(&context);
-    auto reply = worker->ask<LoadReply>(Opcode::load, request, task, descriptors);
-    const auto source = std::make_shared<const CadSource>(worker, reply.model, task.subject);
-    worker->charge(reply.model, task.bytes);
+    const CadOrder order{paths, options.tolerance, options.scale, limits};
+    const CadFiles files = open_cad_files(order, context);
+    const std::shared_ptr<Worker> worker = Worker::current(&context, subject_of(order));
+    LoadReply reply = read_cad_files(*worker, order, files, context);
+    const auto source = std::make_shared<const CadSource>(worker, reply.model, order, files.digest);
 
     std::vector<std::vector<std::size_t>> solids;
     for (const std::vector<Index>& faces : reply.solids) solids.emplace_back(faces.begin(), faces.end());

@@ -35,8 +35,11 @@ constexpr std::size_t kMostContents = 100;
     throw BackendError("cad.unreadable", path + " cannot be read: " + std::strerror(error));
 }
 
-/// Copy a regular file to memory that no one can change any more.
-Descriptor copy_to_memory(const std::string& path, int flags, std::uint64_t& bytes, const RunContext& context)
+std::string name_of(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
+
+/// Copy a regular file to memory that no one can change any more, to the end of an input.
+void add_copy(InputFile& input, const std::string& name, const std::string& path, int flags,
+              const RunContext& context)
 {
     // Not to wait for a writer where it is a pipe.
     const Descriptor from(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | flags));
@@ -48,6 +51,7 @@ Descriptor copy_to_memory(const std::string& path, int flags, std::uint64_t& byt
     Descriptor copy(::memfd_create("lacuna-cad input", MFD_CLOEXEC | MFD_ALLOW_SEALING));
     if (!copy) fail(path, errno);
     std::vector<char> block(kBlock);
+    std::uint64_t digest = digest_of(name, 0);
     for (;;) {
         check_cancelled(context);
         const ssize_t got = ::read(from.get(), block.data(), block.size());
@@ -58,10 +62,14 @@ Descriptor copy_to_memory(const std::string& path, int flags, std::uint64_t& byt
             if (now < 0 && errno != EINTR) fail(path, errno);
             if (now > 0) put += now;
         }
-        bytes += static_cast<std::uint64_t>(std::max<ssize_t>(got, 0));
+        const std::size_t count = got > 0 ? static_cast<std::size_t>(got) : 0;
+        digest = digest_of(std::span(block).first(count), digest);
+        input.bytes += count;
     }
     ::fcntl(copy.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE | F_SEAL_SEAL);
-    return copy;
+    input.descriptors.push_back(std::move(copy));
+    input.digests.push_back(digest);
+    input.file.contents.push_back({name});
 }
 
 std::string text_of(const Descriptor& file, std::size_t most)
@@ -124,8 +132,6 @@ LoadFile::Format format_of(const std::string& path, const std::string& head)
     return LoadFile::script;
 }
 
-std::string name_of(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
-
 /// What Gmsh would run as a script when a script merges it.
 bool runs_as_script(const std::string& name, const std::string& head)
 {
@@ -154,21 +160,37 @@ void add_merged(InputFile& input, const std::string& path, const RunContext& con
                                                      ": the script asks for " + wanted.name +
                                                      ", which is not beside it");
             }
-            input.descriptors.push_back(copy_to_memory(beside, O_NOFOLLOW, input.bytes, context));
-            input.file.contents.push_back({wanted.name});
+            add_copy(input, wanted.name, beside, O_NOFOLLOW, context);
         }
     }
 }
 
 } // namespace
 
+std::uint64_t digest_of(std::uint64_t word, std::uint64_t before)
+{
+    constexpr std::uint64_t kOffset = 0xcbf29ce484222325ULL, kPrime = 0x100000001b3ULL;
+    const std::uint64_t mixed = ((before ^ kOffset) ^ word) * kPrime;
+    return mixed ^ (mixed >> 32); // a word's upper half would move no lower bit
+}
+
+std::uint64_t digest_of(std::span<const char> bytes, std::uint64_t before)
+{
+    std::uint64_t digest = digest_of(bytes.size(), before);
+    for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, bytes.data() + i, std::min(sizeof(word), bytes.size() - i));
+        digest = digest_of(word, digest);
+    }
+    return digest;
+}
+
 InputFile open_input(const std::string& path, const RunContext& context)
 {
     InputFile input;
-    input.descriptors.push_back(copy_to_memory(path, 0, input.bytes, context));
+    add_copy(input, name_of(path), path, 0, context);
     input.file.path = path;
     input.file.format = format_of(path, text_of(input.descriptors.front(), kHead));
-    input.file.contents.push_back({name_of(path)});
     if (input.file.format == LoadFile::script) add_merged(input, path, context);
     return input;
 }

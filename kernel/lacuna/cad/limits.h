@@ -13,6 +13,7 @@ namespace lacuna::cad {
 struct Limits {
     double seconds = 0;       ///< of processor time; four times as many by the clock
     std::uint64_t memory = 0; ///< address space of the process [bytes]
+    bool may_raise = true;    ///< false: no more than without them, whatever they say
 };
 
 } // namespace lacuna::cad

@@ -125,7 +125,8 @@ quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext
     Task task{"a region of " + std::to_string(sides) + " boundary sides", "filling it with quads"};
     task.context = &context;
     task.points = sides * sides / 16; // as many quads as a round region of so many sides has
-    auto reply = Worker::current(&context)->ask<RecombineReply>(Opcode::recombine, request, task);
+    auto reply =
+        Worker::current(&context, task.subject)->ask<RecombineReply>(Opcode::recombine, request, task);
     if (reply.points.size() < region.points.size() ||
         !std::equal(region.points.begin(), region.points.end(), reply.points.begin()))
         throw BackendError("cad.protocol", "the CAD process moved nodes of the boundary of a region");

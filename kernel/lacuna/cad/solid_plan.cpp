@@ -68,8 +68,9 @@ SplineAxisData data_of(const SplineAxis& axis)
 
 class Planner {
 public:
-    Planner(const OpenVolume& volume, const SolidSources& sources, const BeginSolidReply& found)
-        : volume_(volume), model_(volume.model), edge_at_(model_.edges.size(), -1)
+    Planner(const OpenVolume& volume, const SolidSources& sources, const BeginSolidReply& found,
+            const RunContext& context)
+        : volume_(volume), model_(volume.model), context_(context), edge_at_(model_.edges.size(), -1)
     {
         Eigen::AlignedBox3d box;
         for (const Vec3& p : model_.points) box.extend(p);
@@ -86,10 +87,10 @@ public:
         }
     }
 
-    SolidPlan run(const RunContext& context)
+    SolidPlan run()
     {
         for (std::size_t f = 0; f < model_.faces.size(); ++f) {
-            check_cancelled(context);
+            check_cancelled(context_);
             try {
                 plan_.faces.push_back(plan(FaceId(f)));
             } catch (const BackendError& error) {
@@ -122,7 +123,7 @@ private:
         const double first = edge.params.front(), last = edge.params.back();
         const std::array<double, 3> params{first, (first + last) / 2, last};
         std::array<Vec3, 3> own;
-        curve->evaluate(params, own);
+        curve->evaluate(params, own, context_);
         const auto near = [&](std::size_t a, std::size_t b) {
             return (own[a] - Eigen::Map<const Vec3>(known->second.data() + 3 * b)).norm() <= 10 * precision_;
         };
@@ -253,6 +254,7 @@ private:
 
     const OpenVolume& volume_;
     const Model& model_;
+    const RunContext& context_;
     double precision_ = 0;
     std::map<const CadSource*, Source> source_;
     std::vector<Index> edge_at_; ///< in the plan, of every edge of the model; -1: not yet there
@@ -261,7 +263,25 @@ private:
 
 } // namespace
 
-SolidSources sources_of(const Model& model)
+namespace {
+
+/// Have all sources in one process.
+void hold_in_one(SolidSources& sources, const RunContext& context)
+{
+    if (sources.order.empty()) return;
+    sources.worker = sources.order.front()->worker();
+    const bool together = std::all_of(
+        sources.order.begin(), sources.order.end(),
+        [&](const CadSource* source) { return source->worker() == sources.worker; });
+    if (!sources.worker || !together)
+        sources.worker = Worker::current(&context, sources.order.front()->path());
+    for (std::size_t s = 0; s < sources.order.size(); ++s)
+        sources.wanted[s].model = sources.order[s]->handle_in(sources.worker, context);
+}
+
+} // namespace
+
+SolidSources sources_of(const Model& model, const RunContext& context)
 {
     SolidSources sources;
     const auto place_of = [&](const CadSource* source) {
@@ -272,16 +292,10 @@ SolidSources sources_of(const Model& model)
         const auto* surface = dynamic_cast<const CadSurface*>(face.surface.get());
         if (surface == nullptr) continue;
         const CadSource* source = surface->source().get();
-        if (sources.worker && sources.worker != source->worker)
-            throw InvalidInput("cad.worker_ended",
-                               sources.order.front()->path + " and " + source->path +
-                                   " were read by two CAD processes, as one of them ended; load "
-                                   "the files again");
-        sources.worker = source->worker;
         const std::size_t place = place_of(source);
         if (place == sources.order.size()) {
             sources.order.push_back(source);
-            sources.wanted.push_back({source->handle, {}, {}});
+            sources.wanted.emplace_back();
         }
         sources.wanted[place].faces.push_back(surface->tag());
     }
@@ -291,13 +305,14 @@ SolidSources sources_of(const Model& model)
         const std::size_t place = place_of(curve->source().get());
         if (place < sources.order.size()) sources.wanted[place].curves.push_back(curve->tag());
     }
+    hold_in_one(sources, context);
     return sources;
 }
 
 SolidPlan plan_solid(const OpenVolume& volume, const SolidSources& sources, const BeginSolidReply& found,
                      const RunContext& context)
 {
-    return Planner(volume, sources, found).run(context);
+    return Planner(volume, sources, found, context).run();
 }
 
 } // namespace lacuna::cad

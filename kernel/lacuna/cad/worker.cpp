@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <sstream>
 
 #include <fcntl.h>
@@ -53,10 +54,22 @@ double from_environment(const char* name)
 
 double seconds_for(const Task& task)
 {
-    if (task.limits.seconds > 0) return task.limits.seconds;
-    if (const double given = from_environment("LACUNA_CAD_SECONDS"); given > 0) return given;
-    return std::min(kMostSeconds, kSeconds + kSecondsPerMegabyte * static_cast<double>(task.bytes) / 1e6 +
-                                      kSecondsPerThousand * static_cast<double>(task.points) / 1e3);
+    double seconds = from_environment("LACUNA_CAD_SECONDS");
+    if (seconds == 0)
+        seconds = std::min(kMostSeconds, kSeconds +
+                                             kSecondsPerMegabyte * static_cast<double>(task.bytes) / 1e6 +
+                                             kSecondsPerThousand * static_cast<double>(task.points) / 1e3);
+    if (task.limits.seconds == 0) return seconds;
+    return task.limits.may_raise ? task.limits.seconds : std::min(task.limits.seconds, seconds);
+}
+
+/// @param charged  what files and points that the process holds ask for beyond the least [bytes].
+std::uint64_t memory_for(const Task& task, std::uint64_t charged)
+{
+    auto memory = static_cast<std::uint64_t>(from_environment("LACUNA_CAD_MEGABYTES") * 1e6);
+    if (memory == 0) memory = kMemory + charged;
+    if (task.limits.memory == 0) return memory;
+    return task.limits.may_raise ? task.limits.memory : std::min(task.limits.memory, memory);
 }
 
 /// A number as a person writes it.
@@ -71,13 +84,20 @@ std::string plain(double value)
 /// Thrown out of a wait whose time is over.
 struct TimeOver {};
 
-/// Wait by the clock on the wall.
-Channel::Patience patience_of(const RunContext* context, double seconds)
+Clock::time_point after(double seconds)
 {
-    const auto last = Clock::now() +
-                      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-    return [context, last] {
-        if (context != nullptr) check_cancelled(*context);
+    return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+/// Wait by the clock on the wall; once cancelled, for `grace` seconds more.
+Channel::Patience patience_of(const RunContext* context, double seconds, double grace = 0)
+{
+    std::optional<Clock::time_point> cancelled;
+    return [context, last = after(seconds), grace, cancelled]() mutable {
+        const bool asked = context != nullptr && context->cancel != nullptr &&
+                           context->cancel->load(std::memory_order_relaxed);
+        if (asked && !cancelled) cancelled = after(grace);
+        if (asked && Clock::now() >= *cancelled) throw Cancelled();
         if (Clock::now() > last) throw TimeOver();
     };
 }
@@ -96,10 +116,10 @@ double processor_seconds(pid_t process)
 /// not a measurement.
 constexpr double kWallFactor = 4;
 
-Channel::Patience patience_of(const RunContext* context, double seconds, pid_t worker)
+Channel::Patience patience_of(const RunContext* context, double seconds, double grace, pid_t worker)
 {
     const double last = processor_seconds(worker) + seconds;
-    return [wall = patience_of(context, kWallFactor * seconds), worker, last] {
+    return [wall = patience_of(context, kWallFactor * seconds, grace), worker, last] {
         wall();
         if (processor_seconds(worker) > last) throw TimeOver();
     };
@@ -196,24 +216,40 @@ Current& current_of_process()
 
 } // namespace
 
-std::shared_ptr<Worker> Worker::current(const RunContext* context)
+std::shared_ptr<Worker> Worker::current(const RunContext* context, const std::string& subject)
 {
     Current& current = current_of_process();
     const std::lock_guard lock(current.mutex);
     if (current.worker && !current.worker->spent_) {
         const std::unique_lock busy(current.worker->busy_, std::try_to_lock);
         // One that works is alive; of one that idles, see whether it still is.
-        if (busy && !current.worker->ended_) {
-            siginfo_t info{};
-            const auto id = static_cast<id_t>(current.worker->process_.get());
-            if (::waitid(P_PIDFD, id, &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != 0)
-                current.worker->end();
-        }
+        if (busy) current.worker->notice_end();
         if (!busy || !current.worker->ended_) return current.worker;
     }
     current.worker.reset();
-    current.worker = std::shared_ptr<Worker>(new Worker(context));
+    try {
+        current.worker = std::shared_ptr<Worker>(new Worker(context));
+    } catch (const BackendError& error) {
+        throw BackendError(error.code(), (subject.empty() ? "" : subject + ": ") + error.what());
+    }
     return current.worker;
+}
+
+void Worker::notice_end() noexcept
+{
+    if (ended_) return;
+    siginfo_t info{};
+    const auto id = static_cast<id_t>(process_.get());
+    if (::waitid(P_PIDFD, id, &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != 0) end();
+}
+
+bool Worker::lives()
+{
+    if (owner_ != ::getpid()) return false;
+    const std::unique_lock lock(busy_, std::try_to_lock);
+    if (!lock) return true; // it works
+    notice_end();
+    return !ended_;
 }
 
 Worker::Worker(const RunContext* context) : owner_(::getpid())
@@ -338,17 +374,17 @@ void Worker::give_up(const Task& task, const ProtocolError& error)
 std::unique_lock<std::timed_mutex> Worker::enter(const Task& task)
 {
     if (owner_ != ::getpid())
-        throw BackendError("cad.worker_ended", task.subject +
-                                                   ": the CAD process belongs to the process this one was "
-                                                   "forked from; load the file again");
+        throw WorkerGone("cad.worker_ended", task.subject +
+                                                 ": the CAD process belongs to the process this one was "
+                                                 "forked from");
     std::unique_lock lock(busy_, std::defer_lock);
     constexpr auto kTick = std::chrono::milliseconds(50);
     while (!lock.try_lock_for(kTick))
         if (task.context != nullptr) check_cancelled(*task.context);
+    notice_end();
     if (ended_) {
-        throw BackendError("cad.worker_ended",
-                           task.subject + ": the CAD process that held the model has ended" +
-                               (end_.empty() ? "" : " (" + end_ + ")") + "; load the file again");
+        const std::string how = end_.empty() ? how_it_ended() : end_;
+        throw WorkerGone("cad.worker_ended", task.subject + ": the CAD process had ended (" + how + ")");
     }
     return lock;
 }
@@ -361,11 +397,9 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
     try {
         flush_released();
         for (const auto& [handle, size] : charged_) charged += size * kMemoryPerByte;
-        std::uint64_t memory = task.limits.memory;
-        if (memory == 0) memory = static_cast<std::uint64_t>(from_environment("LACUNA_CAD_MEGABYTES") * 1e6);
-        if (memory == 0) memory = kMemory + charged;
+        const std::uint64_t memory = memory_for(task, charged);
         limit_memory(memory);
-        const Channel::Patience patience = patience_of(task.context, seconds, pid_);
+        const Channel::Patience patience = patience_of(task.context, seconds, task.grace, pid_);
         channel_->send(opcode, bytes, descriptors, patience);
         for (;;) {
             Frame frame = channel_->receive(patience);

@@ -133,8 +133,9 @@ WrittenCad write_cad(const OpenVolume& volume, const io::OutputPath& path, const
     task.points = volume.model.points.size();
     task.context = &context;
     task.stage = "write_cad";
-    const SolidSources sources = sources_of(volume.model);
-    const std::shared_ptr<Worker> worker = sources.worker ? sources.worker : Worker::current(&context);
+    const SolidSources sources = sources_of(volume.model, context);
+    const std::shared_ptr<Worker> worker = sources.worker ? sources.worker
+                                                          : Worker::current(&context, task.subject);
     const auto found = worker->ask<BeginSolidReply>(
         Opcode::begin_solid,
         BeginSolidRequest{path.text(), step ? "solid.step" : "solid.brep", sources.wanted}, task,

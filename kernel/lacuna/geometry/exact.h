@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
 
 #include <span>
@@ -19,8 +20,9 @@ public:
     /// @param uv      in: a start parameter for each point (as that of the closest facet); out: the point's
     ///         own.
     /// @pre  points.size() == uv.size().
-    /// @throw BackendError where the projection does not converge.
-    virtual void project(std::span<Vec3> points, std::span<Vec2> uv) const = 0;
+    /// @throw BackendError where the projection does not converge; Cancelled.
+    virtual void project(std::span<Vec3> points, std::span<Vec2> uv,
+                         const RunContext& context = {}) const = 0;
 };
 
 /// The curve an edge was faceted from.
@@ -29,7 +31,8 @@ public:
     virtual ~ExactCurve() = default;
 
     /// Points of the curve at its own parameters. @pre params.size() == points.size().
-    virtual void evaluate(std::span<const double> params, std::span<Vec3> points) const = 0;
+    virtual void evaluate(std::span<const double> params, std::span<Vec3> points,
+                          const RunContext& context = {}) const = 0;
 };
 
 } // namespace lacuna::geometry

@@ -18,7 +18,7 @@ struct Samples {
     double sagitta = 0; ///< how far facets are from the surface
 };
 
-Samples samples_of(const topology::Model& model, const topology::Face& face)
+Samples samples_of(const topology::Model& model, const topology::Face& face, const RunContext& context)
 {
     Samples samples;
     std::vector<Vec2> uv;
@@ -32,7 +32,7 @@ Samples samples_of(const topology::Model& model, const topology::Face& face)
     }
     if (!face.surface) return samples;
     const std::vector<Vec3> before = samples.points;
-    face.surface->project(samples.points, uv);
+    face.surface->project(samples.points, uv, context);
     for (std::size_t i = 0; i < before.size(); ++i)
         samples.sagitta = std::max(samples.sagitta, (before[i] - samples.points[i]).norm());
     return samples;
@@ -40,7 +40,7 @@ Samples samples_of(const topology::Model& model, const topology::Face& face)
 
 /// Are the samples within `reach` of the facets and, with an exact surface, within the tolerance of that?
 bool lie_on(const Samples& samples, const topology::Model& model, const topology::Face& face, double reach,
-            double tolerance)
+            double tolerance, const RunContext& context)
 {
     const geometry::FacetTree tree(model.points, face.triangles);
     std::vector<Vec2> uv;
@@ -54,7 +54,7 @@ bool lie_on(const Samples& samples, const topology::Model& model, const topology
     }
     if (!face.surface) return true;
     std::vector<Vec3> at = samples.points;
-    face.surface->project(at, uv);
+    face.surface->project(at, uv, context);
     for (std::size_t i = 0; i < at.size(); ++i)
         if ((at[i] - samples.points[i]).norm() > tolerance) return false;
     return true;
@@ -63,7 +63,7 @@ bool lie_on(const Samples& samples, const topology::Model& model, const topology
 } // namespace
 
 bool faces_coincide(const topology::Model& model, const topology::Face& a, const topology::Face& b,
-                    double tolerance)
+                    double tolerance, const RunContext& context)
 {
     const bool exact = a.surface && b.surface && a.uv.size() == a.triangles.size() &&
                        b.uv.size() == b.triangles.size();
@@ -72,13 +72,15 @@ bool faces_coincide(const topology::Model& model, const topology::Face& a, const
         topology::Face plain_a = a;
         topology::Face plain_b = b;
         plain_a.surface = plain_b.surface = nullptr;
-        return faces_coincide(model, plain_a, plain_b, tolerance);
+        return faces_coincide(model, plain_a, plain_b, tolerance, context);
     }
+    check_cancelled(context);
     try {
-        const Samples of_a = samples_of(model, a);
-        const Samples of_b = samples_of(model, b);
+        const Samples of_a = samples_of(model, a, context);
+        const Samples of_b = samples_of(model, b, context);
         const double reach = tolerance + 2 * (of_a.sagitta + of_b.sagitta);
-        return lie_on(of_a, model, b, reach, tolerance) && lie_on(of_b, model, a, reach, tolerance);
+        return lie_on(of_a, model, b, reach, tolerance, context) &&
+               lie_on(of_b, model, a, reach, tolerance, context);
     } catch (const BackendError&) {
         return false; // a surface that cannot be projected on proves nothing
     }

@@ -9,7 +9,7 @@
 
 namespace lacuna::healing {
 
-EdgeTrack::EdgeTrack(const topology::Model& model, EdgeId id)
+EdgeTrack::EdgeTrack(const topology::Model& model, EdgeId id, const RunContext& context)
 {
     const topology::Edge& edge = model[id];
     for (const Index p : edge.points) points_.push_back(model.at(p));
@@ -20,7 +20,7 @@ EdgeTrack::EdgeTrack(const topology::Model& model, EdgeId id)
         for (std::size_t i = 0; i + 1 < edge.params.size(); ++i)
             middle_params.push_back((edge.params[i] + edge.params[i + 1]) / 2);
         std::vector<Vec3> middles(middle_params.size());
-        curve_->evaluate(middle_params, middles);
+        curve_->evaluate(middle_params, middles, context);
         std::vector<Vec3> points;
         for (std::size_t i = 0; i < points_.size(); ++i) {
             points.push_back(points_[i]);
@@ -48,7 +48,8 @@ EdgeTrack::EdgePosition EdgeTrack::on_segment(const Vec3& p, std::size_t i) cons
 }
 
 /// Gauss-Newton along the curve for the places within reach, all at once; the tangent by differences.
-void EdgeTrack::refine(std::span<const Vec3> points, std::span<EdgePosition> places, double reach) const
+void EdgeTrack::refine(std::span<const Vec3> points, std::span<EdgePosition> places, double reach,
+                       const RunContext& context) const
 {
     if (!curve_) return;
     constexpr int kSteps = 8;            // at most; a choice, not a measurement
@@ -77,7 +78,7 @@ void EdgeTrack::refine(std::span<const Vec3> points, std::span<EdgePosition> pla
             asked[3 * k + 1] = std::clamp(t[k] - h[k], low, high);
             asked[3 * k + 2] = std::clamp(t[k] + h[k], low, high);
         }
-        curve_->evaluate(asked, at);
+        curve_->evaluate(asked, at, context);
         bool still = true;
         for (std::size_t k = 0; k < t.size(); ++k) {
             const Vec3& p = points[active[k]];
@@ -105,22 +106,25 @@ void EdgeTrack::refine(std::span<const Vec3> points, std::span<EdgePosition> pla
     }
 }
 
-std::vector<EdgeTrack::EdgePosition> EdgeTrack::locate(std::span<const Vec3> points, double tolerance) const
+std::vector<EdgeTrack::EdgePosition> EdgeTrack::locate(std::span<const Vec3> points, double tolerance,
+                                                       const RunContext& context) const
 {
     std::vector<EdgePosition> places(points.size());
     for (std::size_t q = 0; q < points.size(); ++q) {
+        check_cancelled(context);
         places[q].distance = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
             const EdgePosition place = on_segment(points[q], i);
             if (place.distance < places[q].distance) places[q] = place;
         }
     }
-    refine(points, places, tolerance + sagitta_);
+    refine(points, places, tolerance + sagitta_, context);
     return places;
 }
 
 std::optional<std::vector<EdgeTrack::EdgePosition>> EdgeTrack::follow(std::span<const Vec3> points,
-                                                                      double tolerance) const
+                                                                      double tolerance,
+                                                                      const RunContext& context) const
 {
     const double reach = tolerance + sagitta_;
     std::vector<EdgePosition> places(points.size());
@@ -145,7 +149,7 @@ std::optional<std::vector<EdgeTrack::EdgePosition>> EdgeTrack::follow(std::span<
         from = best;
         before = points[q];
     }
-    refine(points, places, reach);
+    refine(points, places, reach, context);
     for (EdgePosition& place : places) {
         if (place.distance > tolerance) return std::nullopt;
         least = place.s = std::max(place.s, least);
@@ -153,12 +157,12 @@ std::optional<std::vector<EdgeTrack::EdgePosition>> EdgeTrack::follow(std::span<
     return places;
 }
 
-double greatest_gap(const EdgeTrack& a, const EdgeTrack& b, double tolerance)
+double greatest_gap(const EdgeTrack& a, const EdgeTrack& b, double tolerance, const RunContext& context)
 {
     double gap = 0;
-    for (const EdgeTrack::EdgePosition& place : b.locate(a.samples(), tolerance))
+    for (const EdgeTrack::EdgePosition& place : b.locate(a.samples(), tolerance, context))
         gap = std::max(gap, place.distance);
-    for (const EdgeTrack::EdgePosition& place : a.locate(b.samples(), tolerance))
+    for (const EdgeTrack::EdgePosition& place : a.locate(b.samples(), tolerance, context))
         gap = std::max(gap, place.distance);
     return gap;
 }

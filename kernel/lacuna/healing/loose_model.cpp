@@ -271,7 +271,7 @@ void LooseModel::part_shortcuts()
 }
 
 /// Surface parameters at corners whose points are new or were moved.
-void LooseModel::renew_parameters()
+void LooseModel::renew_parameters(const RunContext& context)
 {
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
         topology::Face& face = model_.faces[f];
@@ -290,7 +290,7 @@ void LooseModel::renew_parameters()
         }
         if (corners.empty()) continue;
         try {
-            face.surface->project(at, uv);
+            face.surface->project(at, uv, context);
         } catch (const BackendError&) {
             continue; // what lies between the neighbours' parameters is close enough to start from
         }
@@ -324,11 +324,11 @@ void LooseModel::drop_bare_edges()
     }
 }
 
-topology::Model LooseModel::settled()
+topology::Model LooseModel::settled(const RunContext& context)
 {
     if (folded_) drop_bare_edges();
     part_shortcuts();
-    renew_parameters();
+    renew_parameters(context);
     compact();
     for (topology::Face& face : model_.faces) face.loops.clear();
     topology::build_loops(model_);

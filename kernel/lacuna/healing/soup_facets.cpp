@@ -54,7 +54,8 @@ std::array<Triangle, 2> halves_of(const std::vector<Vec3>& points, const Quad& q
 }
 
 /// Keep the points in use, weld them, and number those that remain as they are first met.
-std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& facets)
+std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& facets,
+                             const RunContext& context)
 {
     std::vector<bool> used(soup.points.size(), false);
     for (const Triangle& t : soup.triangles)
@@ -77,7 +78,7 @@ std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& fa
     facets.diagonal = (high - low).norm();
     facets.tolerance = tolerance > 0 ? tolerance : 1e-6 * facets.diagonal;
 
-    const std::vector<Index> joined = weld(points, facets.tolerance);
+    const std::vector<Index> joined = weld(points, facets.tolerance, context);
     std::vector<Index> kept(points.size(), -1);
     for (std::size_t p = 0; p < points.size(); ++p) {
         if (joined[p] == static_cast<Index>(p)) {
@@ -172,7 +173,7 @@ void close_tees(Facets& facets)
     }
 }
 
-Facets welded(const FacetSoup& soup, double tolerance)
+Facets welded(const FacetSoup& soup, double tolerance, const RunContext& context)
 {
     if (soup.triangles.empty() && soup.quads.empty()) {
         throw InvalidInput("topology.no_facets", "there are no facets to make faces of");
@@ -180,7 +181,7 @@ Facets welded(const FacetSoup& soup, double tolerance)
     check_cells(soup, soup.triangles, soup.triangle_label, "triangle");
     check_cells(soup, soup.quads, soup.quad_label, "quad");
     Facets facets;
-    const std::vector<Index> number = weld_used(soup, tolerance, facets);
+    const std::vector<Index> number = weld_used(soup, tolerance, facets, context);
     const auto add = [&](const Triangle& t, int label, Index quad) {
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return;
         facets.corner.push_back(t);
@@ -220,10 +221,12 @@ Vec3 area_vector(const std::vector<Vec3>& points, const Triangle& t)
     return (points[index(t[1])] - a).cross(points[index(t[2])] - a) / 2;
 }
 
-Facets facets_of(const FacetSoup& soup, double tolerance)
+Facets facets_of(const FacetSoup& soup, double tolerance, const RunContext& context)
 {
-    Facets facets = welded(soup, tolerance);
+    Facets facets = welded(soup, tolerance, context);
+    check_cancelled(context);
     drop_repeated(facets);
+    check_cancelled(context);
     close_tees(facets);
     return facets;
 }

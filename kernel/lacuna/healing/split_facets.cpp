@@ -22,6 +22,8 @@ namespace {
 // A turn of exactly the feature angle must fall on one side everywhere; files of 32-bit floats give angles
 // no finer than this [radians].
 constexpr double kAngleSlack = 1e-6;
+/// Facets between two looks at the context: a millisecond or so.
+constexpr std::size_t kFacetsBetweenPolls = 4096;
 
 std::string place(const Vec3& p)
 {
@@ -91,7 +93,8 @@ private:
 
 /// Unit normals as given. A facet so thin that moving its points by the tolerance could turn it by the
 /// feature angle has no normal of its own: it takes that of its neighbour across its longest side.
-std::vector<Vec3> normals_of(const Facets& facets, const Sides& sides, double feature)
+std::vector<Vec3> normals_of(const Facets& facets, const Sides& sides, double feature,
+                             const RunContext& context)
 {
     const double least_height = facets.tolerance / std::sin(std::min(feature, std::numbers::pi / 2));
     std::vector<Vec3> normal(facets.count(), Vec3::Zero());
@@ -115,6 +118,7 @@ std::vector<Vec3> normals_of(const Facets& facets, const Sides& sides, double fe
     }
     // Thin facets may lie side by side: go on while some learn.
     for (bool learnt = true; learnt && !thin.empty();) {
+        check_cancelled(context);
         learnt = false;
         std::vector<std::pair<Index, Vec3>> found;
         for (const Index f : thin) {
@@ -136,9 +140,9 @@ struct Flood {
     Index faces = 0;
 };
 
-Flood flood_faces(const Facets& facets, const Sides& sides, double feature)
+Flood flood_faces(const Facets& facets, const Sides& sides, double feature, const RunContext& context)
 {
-    const std::vector<Vec3> normal = normals_of(facets, sides, feature);
+    const std::vector<Vec3> normal = normals_of(facets, sides, feature, context);
     const double least_cosine = std::cos(std::min(feature + kAngleSlack, std::numbers::pi));
     Flood flood{std::vector<Index>(facets.count(), -1), std::vector<bool>(facets.count(), false), 0};
     std::vector<Index> front;
@@ -149,6 +153,7 @@ Flood flood_faces(const Facets& facets, const Sides& sides, double feature)
         front.assign(1, static_cast<Index>(seed));
         double as_given = 0; // area that keeps the direction it was given, less what is turned
         for (std::size_t i = 0; i < front.size(); ++i) {
+            if (i % kFacetsBetweenPolls == 0) check_cancelled(context);
             const Index f = front[i];
             as_given += (flood.flipped[index(f)] ? -1 : 1) *
                         area_vector(facets.points, facets.corner[index(f)]).norm();
@@ -376,7 +381,7 @@ private:
 
 } // namespace
 
-topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options)
+topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options, const RunContext& context)
 {
     if (!(options.feature_angle > 0 && options.feature_angle <= 180)) {
         throw InvalidInput("topology.bad_angle", "feature_angle is " + std::to_string(options.feature_angle) +
@@ -387,9 +392,11 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options)
                            "tolerance is " + std::to_string(options.tolerance) + "; it must be 0 or above");
     }
     const double feature = options.feature_angle * std::numbers::pi / 180;
-    const Facets facets = facets_of(soup, options.tolerance);
+    const Facets facets = facets_of(soup, options.tolerance, context);
+    check_cancelled(context);
     const Sides sides(facets);
-    const Flood flood = flood_faces(facets, sides, options.whole_labels ? std::numbers::pi : feature);
+    const Flood flood = flood_faces(facets, sides, options.whole_labels ? std::numbers::pi : feature,
+                                    context);
     topology::Model model;
     model.points = facets.points;
     model.tolerance = facets.tolerance;
@@ -400,7 +407,9 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options)
                               " listed twice; one of each stays");
     }
     add_faces(model, facets, flood, soup);
+    check_cancelled(context);
     Chains(model, sides, flood, feature).add_edges(flood);
+    check_cancelled(context);
     topology::build_loops(model);
     return model;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/topology/model.h>
 
 #include <string>
@@ -31,7 +32,8 @@ struct FacetSoup {
 /// turns by more than the feature angle, or, on a closed chain that has none, its first point. Tags count
 /// from 1 in the order faces are met, each kind of entity by itself. First, facets are cut at points on the
 /// inside of their free sides (T-junctions), and of facets listed twice in a label one stays, with a note.
-/// @throw InvalidInput  no facets; an edge of three or more facets inside one label.
-topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options = {});
+/// @throw InvalidInput  no facets; an edge of three or more facets inside one label. Cancelled.
+topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options = {},
+                             const RunContext& context = {});
 
 } // namespace lacuna::healing

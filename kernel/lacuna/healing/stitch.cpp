@@ -27,7 +27,10 @@ constexpr double kJoinOnCurve = 0.25;
 
 class Stitcher {
 public:
-    Stitcher(topology::Model model, double tolerance) : loose_(std::move(model)), tolerance_(tolerance) {}
+    Stitcher(topology::Model model, double tolerance, const RunContext& context)
+        : loose_(std::move(model)), tolerance_(tolerance), context_(context)
+    {
+    }
 
     StitchReport run()
     {
@@ -35,11 +38,11 @@ public:
         split_at_vertices();
         merge_edges();
         leave_out_thin_faces(loose_, tolerance_, report_);
-        leave_out_repeated_faces(loose_, tolerance_, report_);
-        note_gaps(loose_, tolerance_, report_);
+        leave_out_repeated_faces(loose_, tolerance_, report_, context_);
+        note_gaps(loose_, tolerance_, report_, context_);
         return std::move(report_);
     }
-    topology::Model result() { return loose_.settled(); }
+    topology::Model result() { return loose_.settled(context_); }
 
 private:
     /// A vertex on the inside of an edge.
@@ -87,12 +90,16 @@ private:
     const EdgeTrack& track(EdgeId e)
     {
         auto& track = tracks_[e];
-        if (!track) track.emplace(model(), e);
+        if (!track) {
+            check_cancelled(context_);
+            track.emplace(model(), e, context_);
+        }
         return *track;
     }
 
     LooseModel loose_;
     double tolerance_;
+    const RunContext& context_;
     StitchReport report_;
     std::map<EdgeId, std::optional<EdgeTrack>> tracks_; ///< of edges as they are now
 };
@@ -170,6 +177,7 @@ void Stitcher::settle_points()
                                 in_words(tolerance_) + "; give a smaller tolerance");
     }
     tracks_.clear();
+    check_cancelled(context_);
 }
 
 // --- T-junctions -------------------------------------------------------------------------------------------
@@ -263,7 +271,7 @@ std::map<EdgeId, std::vector<Stitcher::Stop>> Stitcher::find_stops()
     for (const auto& [e, on_edge] : close) {
         std::vector<Vec3> points;
         for (const VertexId v : on_edge) points.push_back(model().at(model()[v].point));
-        const std::vector<EdgeTrack::EdgePosition> places = track(e).locate(points, tolerance_);
+        const std::vector<EdgeTrack::EdgePosition> places = track(e).locate(points, tolerance_, context_);
         std::size_t i = 0;
         for (const VertexId v : on_edge) {
             if (places[i].distance <= tolerance_) stops[e].push_back({v, places[i]});
@@ -468,8 +476,8 @@ bool Stitcher::try_add(Bundle& bundle, EdgeId e)
             std::reverse(samples.begin(), samples.end());
             std::reverse(samples_along.begin(), samples_along.end());
         }
-        const auto places = along.follow(samples, tolerance_);
-        if (!places || !own.follow(samples_along, tolerance_)) continue;
+        const auto places = along.follow(samples, tolerance_, context_);
+        if (!places || !own.follow(samples_along, tolerance_, context_)) continue;
         std::vector<EdgeTrack::EdgePosition> at_nodes;
         const std::size_t stride = own.exact() ? 2 : 1;
         for (std::size_t i = 0; i < places->size(); i += stride) at_nodes.push_back((*places)[i]);
@@ -551,7 +559,7 @@ std::string StitchReport::summary() const
     return text.empty() ? text : "stitched: " + text;
 }
 
-StitchReport stitch(topology::Model& model, double tolerance)
+StitchReport stitch(topology::Model& model, double tolerance, const RunContext& context)
 {
     if (!(tolerance > 0)) {
         throw InvalidInput("topology.bad_tolerance",
@@ -560,7 +568,8 @@ StitchReport stitch(topology::Model& model, double tolerance)
     const bool has_loops = std::any_of(model.faces.begin(), model.faces.end(),
                                        [](const topology::Face& face) { return !face.loops.empty(); });
     if (!has_loops && !model.edges.empty()) topology::build_loops(model);
-    Stitcher stitcher(model, tolerance);
+    check_cancelled(context);
+    Stitcher stitcher(model, tolerance, context);
     StitchReport report = stitcher.run();
     if (!report.changed()) return report;
     try {

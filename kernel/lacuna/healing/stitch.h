@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/topology/model.h>
 
 #include <string>
@@ -47,7 +48,8 @@ struct StitchReport {
 /// @pre   build_loops() has run, or can.
 /// @post  loops are those of build_loops(); where gaps are well below the tolerance, a second call changes
 ///         nothing.
+/// @throw Cancelled  the model is then as it was.
 /// @note  O(n log n) in points; deterministic.
-StitchReport stitch(topology::Model& model, double tolerance);
+StitchReport stitch(topology::Model& model, double tolerance, const RunContext& context = {});
 
 } // namespace lacuna::healing

@@ -83,7 +83,8 @@ void leave_out_thin_faces(LooseModel& loose, double tolerance, StitchReport& rep
     }
 }
 
-void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport& report)
+void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport& report,
+                              const RunContext& context)
 {
     const topology::Model& model = loose.model();
     const std::vector<std::vector<EdgeId>> edges = loose.edges_of_faces();
@@ -117,7 +118,7 @@ void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport&
         if (rivals.size() < 2) continue;
         for (const FaceId other : rivals) {
             if (class_of[other.index()] >= 0 || !same_box(FaceId(f), other)) continue;
-            if (!faces_coincide(model, model.faces[f], model[other], tolerance)) continue;
+            if (!faces_coincide(model, model.faces[f], model[other], tolerance, context)) continue;
             class_of[other.index()] = class_of[f];
             classes.back().push_back(other);
         }
@@ -126,7 +127,7 @@ void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport&
         if (alike.size() > 1) leave_out_copies(loose, report, alike, class_of, edges);
 }
 
-void note_gaps(const LooseModel& loose, double tolerance, StitchReport& report)
+void note_gaps(const LooseModel& loose, double tolerance, StitchReport& report, const RunContext& context)
 {
     const topology::Model& model = loose.model();
     std::map<std::pair<VertexId, VertexId>, std::vector<EdgeId>> groups;
@@ -138,9 +139,10 @@ void note_gaps(const LooseModel& loose, double tolerance, StitchReport& report)
     for (const auto& [ends, group] : groups) {
         for (std::size_t i = 0; i < group.size(); ++i) {
             for (std::size_t k = i + 1; k < group.size(); ++k) {
-                const EdgeTrack a(model, group[i]);
-                const EdgeTrack b(model, group[k]);
-                const double gap = greatest_gap(a, b, tolerance);
+                check_cancelled(context);
+                const EdgeTrack a(model, group[i], context);
+                const EdgeTrack b(model, group[k], context);
+                const double gap = greatest_gap(a, b, tolerance, context);
                 if (gap <= tolerance || gap > kLooksLikeGap * std::min(a.length(), b.length())) continue;
                 report.notes.push_back(
                     edge_name(model, group[i]) + " of " + name_of(model, loose.users(group[i])[0]) + " and " +

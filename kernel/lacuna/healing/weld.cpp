@@ -76,10 +76,12 @@ std::vector<Index> weld_equal(std::span<const Vec3> points)
 // Cells this many tolerances wide: most points then need to look into few neighbours, and few points share
 // one.
 constexpr double kCellWidth = 8;
+/// Points between two looks at the context: a millisecond or so.
+constexpr std::size_t kPointsBetweenPolls = 4096;
 
 } // namespace
 
-std::vector<Index> weld(std::span<const Vec3> points, double tolerance)
+std::vector<Index> weld(std::span<const Vec3> points, double tolerance, const RunContext& context)
 {
     std::vector<Index> result = weld_equal(points);
     if (!(tolerance > 0) || points.empty()) return result;
@@ -94,6 +96,7 @@ std::vector<Index> weld(std::span<const Vec3> points, double tolerance)
     const double width = std::max(kCellWidth * tolerance, (high - low).maxCoeff() * std::ldexp(1.0, -52));
     CellTable table(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
+        if (i % kPointsBetweenPolls == 0) check_cancelled(context);
         if (result[i] != static_cast<Index>(i)) continue;
         Cell least, most;
         for (std::size_t k = 0; k < 3; ++k) {

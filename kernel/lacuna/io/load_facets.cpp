@@ -238,7 +238,8 @@ topology::Model import_facets(const std::vector<std::string>& paths, const LoadO
     const std::vector<std::string> names = std::exchange(all.soup.label_name, {});
     for (std::size_t label = 0; label < names.size(); ++label)
         all.soup.label_name.push_back(std::to_string(label));
-    topology::Model model = healing::split_facets(all.soup, {options.feature_angle, options.tolerance});
+    topology::Model model = healing::split_facets(all.soup, {options.feature_angle, options.tolerance},
+                                                  context);
     name_faces(model, names, all.label_tag);
     model.source = source;
     move_in(model.notes, all.notes);
@@ -255,7 +256,7 @@ void stitch(topology::Model& model, const RunContext& context)
                                                std::to_string(model.diagonal) +
                                                "), so faces would fall together; give a smaller one");
     }
-    const healing::StitchReport report = healing::stitch(model, model.tolerance);
+    const healing::StitchReport report = healing::stitch(model, model.tolerance, context);
     if (report.changed()) log_line(context, report.summary());
     model.notes.insert(model.notes.end(), report.notes.begin(), report.notes.end());
     for (const std::string& note : model.notes) log_line(context, note);

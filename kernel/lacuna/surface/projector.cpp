@@ -77,7 +77,7 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
             moved.push_back(points[i]);
             uv.emplace_back(w[0] * c[0] + w[1] * c[1] + w[2] * c[2]);
         }
-        f.surface->project(moved, uv);
+        f.surface->project(moved, uv, context);
         for (std::size_t k = 0; k < members.size(); ++k) points[members[k]] = moved[k];
     }
     return faces;

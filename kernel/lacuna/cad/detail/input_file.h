@@ -5,6 +5,7 @@
 #include <lacuna/core/run_context.h>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,8 +17,13 @@ namespace lacuna::cad {
 struct InputFile {
     cad_protocol::LoadFile file;                       ///< what it is, and the names of its contents
     std::vector<cad_protocol::Descriptor> descriptors; ///< of the contents
-    std::uint64_t bytes = 0;                           ///< of all of them
+    std::vector<std::uint64_t> digests;                ///< of names and contents
+    std::uint64_t bytes = 0;                           ///< of all contents
 };
+
+/// A number that stands for bytes read after `before`: the hash FNV-1a, over words of eight bytes.
+std::uint64_t digest_of(std::span<const char> bytes, std::uint64_t before);
+std::uint64_t digest_of(std::uint64_t word, std::uint64_t before);
 
 /// Open a CAD file and look whether it is what its ending promises. A script's text is looked through: it
 /// may include and merge files that lie beside it, which come along, and nothing else that leaves Gmsh's

@@ -14,12 +14,13 @@ namespace lacuna::cad {
 
 /// The models behind the exact faces of a volume, and what of each a solid needs.
 struct SolidSources {
-    std::shared_ptr<Worker> worker; ///< null where no face has an exact surface
+    std::shared_ptr<Worker> worker; ///< the one that holds them all; null where no face has an exact surface
     std::vector<const CadSource*> order;
     std::vector<cad_protocol::SolidSource> wanted; ///< of each
 };
-/// @throw InvalidInput  the faces are from CAD processes of which some have ended.
-SolidSources sources_of(const topology::Model& model);
+/// The models may be held by several processes, some of which have ended; then one reads what it has not.
+/// @throw BackendError  a file has changed since, or cannot be read. Cancelled.
+SolidSources sources_of(const topology::Model& model, const RunContext& context);
 
 /// How a sealed volume is to be made as a solid: every face an exact one, a plane, spline patches or a
 /// filling, with the edges those need.

@@ -3,6 +3,7 @@
 
 #include <lacuna/cad/limits.h>
 #include <lacuna/cad_protocol/channel.h>
+#include <lacuna/core/error.h>
 #include <lacuna/core/run_context.h>
 
 #include <sys/types.h>
@@ -26,20 +27,29 @@ struct Task {
     std::uint64_t bytes = 0;  ///< of files sent along
     std::uint64_t points = 0; ///< sent along
     const RunContext* context = nullptr;
+    double grace = 0;       ///< how long it may go on once it is cancelled [s]
     const char* stage = ""; ///< of the context's progress
+};
+
+/// The process had ended before it was asked: nothing was done, and another may be asked.
+class WorkerGone : public BackendError {
+public:
+    using BackendError::BackendError;
 };
 
 /// The CAD process of this process: lacuna-cad, started when it is first needed and kept.
 ///
 /// It may end at any time (a crash, a limit, someone's kill). Then the request under way is a BackendError
-/// that says how, and so is every later request to this object; `current()` starts another. One that failed
-/// to load a file serves the models it has and loads no more. Safe for several threads: requests wait for
-/// each other. A child made by fork() starts a process of its own.
+/// that says how, and every later request to this object is a WorkerGone; `current()` starts another. One
+/// that failed to load a file serves the models it has and loads no more. Safe for several threads: requests
+/// wait for each other. A child made by fork() starts a process of its own.
 class Worker {
 public:
     /// The living one, started if need be.
-    /// @throw BackendError  "cad.no_worker": the program is not found or does not start.
-    static std::shared_ptr<Worker> current(const RunContext* context = nullptr);
+    /// @param subject  what it is needed for, a file as a rule, for the message.
+    /// @throw BackendError  "cad.no_worker": the program is not found or does not start; names the subject.
+    static std::shared_ptr<Worker> current(const RunContext* context = nullptr,
+                                           const std::string& subject = {});
     ~Worker();
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
@@ -57,6 +67,8 @@ public:
     /// Have the worker forget a model or a solid, now or before the next request.
     void release(std::uint64_t handle) noexcept;
 
+    /// Whether it lives, as far as can be known.
+    [[nodiscard]] bool lives();
     [[nodiscard]] const cad_protocol::Hello& hello() const { return hello_; }
     [[nodiscard]] pid_t pid() const { return pid_; }
 
@@ -75,6 +87,8 @@ private:
             give_up(task, error);
         }
     }
+    /// End it where it has ended by itself. @pre `busy_` is held
+    void notice_end() noexcept;
     std::unique_lock<std::timed_mutex> enter(const Task& task);
     cad_protocol::Frame exchange(cad_protocol::Opcode opcode, const std::string& bytes, const Task& task,
                                  const std::vector<int>& descriptors);

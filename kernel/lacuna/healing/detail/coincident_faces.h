@@ -9,6 +9,6 @@ namespace lacuna::healing {
 /// else by their facets, which must then stay within the tolerance of each other.
 /// @pre  their borders lie on each other.
 bool faces_coincide(const topology::Model& model, const topology::Face& a, const topology::Face& b,
-                    double tolerance);
+                    double tolerance, const RunContext& context);
 
 } // namespace lacuna::healing

@@ -13,7 +13,7 @@ namespace lacuna::healing {
 class EdgeTrack {
 public:
     /// The track keeps what it needs; the model may change.
-    EdgeTrack(const topology::Model& model, EdgeId edge);
+    EdgeTrack(const topology::Model& model, EdgeId edge, const RunContext& context);
 
     /// A place of the edge.
     struct EdgePosition {
@@ -22,11 +22,13 @@ public:
         double distance = 0; ///< of the point asked about [model length]
     };
     /// The place closest to each point, wherever it is.
-    [[nodiscard]] std::vector<EdgePosition> locate(std::span<const Vec3> points, double tolerance) const;
+    [[nodiscard]] std::vector<EdgePosition> locate(std::span<const Vec3> points, double tolerance,
+                                                   const RunContext& context) const;
     /// The place close to each point, the points being met in order: each search goes on from the last
     /// place, so that `s` never falls. Nothing where a point is further than `tolerance`.
     [[nodiscard]] std::optional<std::vector<EdgePosition>> follow(std::span<const Vec3> points,
-                                                                  double tolerance) const;
+                                                                  double tolerance,
+                                                                  const RunContext& context) const;
 
     /// The polyline; with a curve, with a point of it in the middle of every side too.
     [[nodiscard]] const std::vector<Vec3>& samples() const { return points_; }
@@ -37,7 +39,8 @@ public:
 
 private:
     EdgePosition on_segment(const Vec3& p, std::size_t segment) const;
-    void refine(std::span<const Vec3> points, std::span<EdgePosition> places, double reach) const;
+    void refine(std::span<const Vec3> points, std::span<EdgePosition> places, double reach,
+                const RunContext& context) const;
 
     std::vector<Vec3> points_;
     std::vector<double> params_; ///< of the samples; empty without a curve
@@ -47,6 +50,6 @@ private:
 };
 
 /// How far apart two edges are at most: of the samples of each, the furthest from the other [model length].
-double greatest_gap(const EdgeTrack& a, const EdgeTrack& b, double tolerance);
+double greatest_gap(const EdgeTrack& a, const EdgeTrack& b, double tolerance, const RunContext& context);
 
 } // namespace lacuna::healing

@@ -56,14 +56,14 @@ public:
 
     /// What is left, compact, with loops.
     /// @throw InvalidInput  the facets are no surface any more.
-    topology::Model settled();
+    topology::Model settled(const RunContext& context);
 
 private:
     Index stays_as(Index p);
     bool shrink(FaceId f);
     void drop_bare_edges();
     void part_shortcuts();
-    void renew_parameters();
+    void renew_parameters(const RunContext& context);
     void compact();
 
     topology::Model model_;

@@ -28,7 +28,7 @@ Vec3 area_vector(const std::vector<Vec3>& points, const Triangle& facet);
 /// Weld the points of a soup, leave out what shrank and what a label lists twice, and cut facets where
 /// points lie on their free sides. Halves of quads are not cut.
 /// @param tolerance  points closer than this are one [model length]; 0: 1e-6 × the diagonal.
-/// @throw InvalidInput  no facets, or ones that use points that are not there or not finite.
-Facets facets_of(const FacetSoup& soup, double tolerance);
+/// @throw InvalidInput  no facets, or ones that use points that are not there or not finite. Cancelled.
+Facets facets_of(const FacetSoup& soup, double tolerance, const RunContext& context);
 
 } // namespace lacuna::healing

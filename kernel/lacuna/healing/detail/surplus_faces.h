@@ -14,10 +14,11 @@ namespace lacuna::healing {
 void leave_out_thin_faces(LooseModel& loose, double tolerance, StitchReport& report);
 
 /// Of faces that lie on each other everywhere remove all but one, or two where other faces go on from both.
-void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport& report);
+void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport& report,
+                              const RunContext& context);
 
 /// Note pairs of edges of one face alone that have the same ends and part a little between them.
-void note_gaps(const LooseModel& loose, double tolerance, StitchReport& report);
+void note_gaps(const LooseModel& loose, double tolerance, StitchReport& report, const RunContext& context);
 
 /// A length as messages give it.
 std::string in_words(double length);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
 
 #include <span>
@@ -14,7 +15,8 @@ namespace lacuna::healing {
 /// first of equals, else is kept. So result[result[i]] == result[i] <= i, and points kept are further apart
 /// than the tolerance. Equal points all become the same.
 /// @pre  every coordinate is finite; tolerance >= 0.
+/// @throw Cancelled.
 /// @note O(n) where points kept are not much closer to each other than the tolerance.
-std::vector<Index> weld(std::span<const Vec3> points, double tolerance);
+std::vector<Index> weld(std::span<const Vec3> points, double tolerance, const RunContext& context = {});
 
 } // namespace lacuna::healing
