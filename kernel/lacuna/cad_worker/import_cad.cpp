@@ -24,7 +24,7 @@ constexpr double kMinCellsOfFace = 100;
 /// How often borders are divided anew, twice as fine, where they cross themselves.
 constexpr int kDivisions = 6;
 /// Points all edges may have together where they are divided anew: a face is triangulated over its border, so
-/// that this bounds time and memory. A model of 1,000 faces has some 20,000 before that.
+/// that this bounds time and memory. A choice, not a measurement.
 constexpr std::size_t kMostDivided = 400'000;
 
 /// Tags and coordinates must be those of a plain import.

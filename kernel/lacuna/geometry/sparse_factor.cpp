@@ -14,8 +14,7 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-/// Multiplications between two looks at the context: a ten thousandth of a second or so, and a look costs
-/// next to nothing beside them.
+/// Multiplications between two looks at the context. A choice, not a measurement.
 constexpr long kWorkBetweenPolls = 100'000;
 
 /// Which rows of L each row of a matrix fills, found along the elimination tree.

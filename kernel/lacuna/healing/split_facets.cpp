@@ -22,7 +22,7 @@ namespace {
 // A turn of exactly the feature angle must fall on one side everywhere; files of 32-bit floats give angles
 // no finer than this [radians].
 constexpr double kAngleSlack = 1e-6;
-/// Facets between two looks at the context: a millisecond or so.
+/// Facets between two looks at the context. A choice, not a measurement.
 constexpr std::size_t kFacetsBetweenPolls = 4096;
 
 std::string place(const Vec3& p)

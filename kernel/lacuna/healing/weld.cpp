@@ -76,7 +76,7 @@ std::vector<Index> weld_equal(std::span<const Vec3> points)
 // Cells this many tolerances wide: most points then need to look into few neighbours, and few points share
 // one.
 constexpr double kCellWidth = 8;
-/// Points between two looks at the context: a millisecond or so.
+/// Points between two looks at the context. A choice, not a measurement.
 constexpr std::size_t kPointsBetweenPolls = 4096;
 
 } // namespace
