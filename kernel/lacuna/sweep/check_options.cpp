@@ -53,7 +53,7 @@ void check_heights(const LayerSpec& spec)
 void check(const LayerSpec& spec)
 {
     if (!spec.heights.empty()) return check_heights(spec);
-    if (spec.count < 1) {
+    if (spec.count < 0) {
         throw InvalidInput("sweep.layers", "sweep: option 'layers' must be at least 1, found " +
                                                std::to_string(spec.count) +
                                                ": set layers to a count or to a list of heights");

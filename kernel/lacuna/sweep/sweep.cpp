@@ -6,6 +6,8 @@
 #include <lacuna/quads/pave.h>
 #include <lacuna/quads/submap.h>
 #include <lacuna/quality/quality.h>
+#include <lacuna/surface/given_nodes.h>
+#include <lacuna/surface/given_target.h>
 #include <lacuna/surface/projector.h>
 #include <lacuna/surface/source_mesh.h>
 #include <lacuna/sweep/detail/normals.h>
@@ -21,6 +23,7 @@
 #include <cstdio>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace lacuna::sweep {
 
@@ -123,12 +126,13 @@ void check_amount(const OpenVolume& volume, const surface::SizeField& size, cons
 }
 
 RimColumns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
-                      const surface::SourceMesh& source, const std::vector<double>& heights,
-                      std::vector<surface::WallMesh>& walls, const RunContext& context)
+                      const std::vector<surface::GivenColumns>& given, const surface::SourceMesh& source,
+                      const std::vector<double>& heights, std::vector<surface::WallMesh>& walls,
+                      const RunContext& context)
 {
     RimColumns columns;
     columns.layers = static_cast<int>(heights.size()) - 1;
-    walls = surface::mesh_walls(volume, links, source.links, heights, context);
+    walls = surface::mesh_walls(volume, links, source.links, given, heights, context);
     for (std::size_t b = 0; b < links.size(); ++b) {
         for (std::size_t i = 0; i < source.links[b].source_at.size(); ++i)
             columns.rim.push_back(source.first[b] + static_cast<Index>(i));
@@ -218,8 +222,9 @@ std::vector<FaceId> faces_under_quads(const surface::Projector& projector, const
 
 /// @return  face of each patch.
 std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceMesh& source,
-                                const surface::Projector& target, const std::vector<surface::WallMesh>& walls,
-                                mesh::HexMesh& mesh)
+                                const surface::Projector& target,
+                                const std::optional<surface::GivenTarget>& given_target,
+                                const std::vector<surface::WallMesh>& walls, mesh::HexMesh& mesh)
 {
     SkinPatches patches(volume, mesh);
     for (const Index face : source.quads.face) mesh.source_patch.push_back(patches.of(FaceId(face)));
@@ -228,6 +233,8 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
                                     static_cast<std::size_t>(mesh.nodes_per_layer)};
     if (const std::vector<FaceId> faces = volume.faces(Role::target); faces.size() == 1) {
         mesh.target_patch.assign(mesh.quads.size(), patches.of(faces.front()));
+    } else if (given_target) {
+        for (const FaceId face : given_target->face) mesh.target_patch.push_back(patches.of(face));
     } else {
         for (const FaceId face : faces_under_quads(target, mesh.quads, top))
             mesh.target_patch.push_back(patches.of(face));
@@ -291,36 +298,112 @@ struct ProvedSweep {
     quality::Proof proof;
 };
 
+/// What the faces came with, as the sweep is to keep it.
+struct GivenMeshes {
+    std::vector<surface::GivenColumns> columns; ///< of each linking surface
+    std::vector<double> heights;                ///< of the layers; empty: nobody says
+    std::vector<std::string> notes;
+};
+
+/// Read the meshes of walls and rims; the segments of `links` are broken at given nodes.
+/// @param asked  heights that the options give; empty: none.
+GivenMeshes given_meshes(const OpenVolume& volume, std::vector<surface::LinkingSurface>& links,
+                         const std::vector<double>& asked, const SweepOptions& options)
+{
+    GivenMeshes given;
+    given.heights = asked;
+    const int layers = std::max(0, static_cast<int>(asked.size()) - 1);
+    given.columns = surface::given_columns(volume, links, layers, given.notes);
+    for (const surface::GivenColumns& columns : given.columns) {
+        if (columns.quads && layers > 0 && layers != columns.rows) {
+            throw NotSweepable("sweep.given_rows",
+                               "the walls came with " + std::to_string(columns.rows) +
+                                   " rows of quads between source and target, and " + std::to_string(layers) +
+                                   " layers were asked for; leave out 'layers', or load with "
+                                   "keep_mesh = false");
+        }
+    }
+    if (asked.empty() || options.layers.heights.empty()) {
+        const std::vector<double> heights = surface::given_heights(volume.model, given.columns);
+        if (!heights.empty()) given.heights = heights;
+    }
+    surface::keep_given_nodes(volume, given.columns, links, given.notes);
+    return given;
+}
+
+/// Layers about as high as the quads are wide: the mean distance of places on the rims that go together, over
+/// the size between them.
+std::vector<double> default_heights(const std::vector<surface::LinkingSurface>& links,
+                                    const surface::SizeField& size, LayerSpec spec)
+{
+    double sides = 0, segments = 0;
+    for (const surface::LinkingSurface& link : links) {
+        for (const surface::RimSegment& segment : link.segments) {
+            const std::array<double, 1> low{segment.source_from};
+            const double end = link.target.length();
+            const std::array<double, 1> high{segment.target_from >= end ? segment.target_from - end
+                                                                        : segment.target_from};
+            const Vec3 from = link.source.points(low).front(), to = link.target.points(high).front();
+            ++segments;
+            sides += (to - from).norm() / size((from + to) / 2);
+        }
+    }
+    const double count = segments > 0 ? sides / segments : 1;
+    if (!(count < std::numeric_limits<Index>::max() / 16.0)) {
+        throw InvalidInput("sweep.too_many",
+                           "about " + in_short(count) + " layers would be needed at the size; give 'layers'");
+    }
+    spec.count = std::max(1, static_cast<int>(std::lround(count)));
+    return layer_heights(spec);
+}
+
+/// Faces whose quads stay: their nodes take no part in improving.
+std::set<FaceId> given_faces(const OpenVolume& volume, std::set<FaceId> faces)
+{
+    for (const Role role : {Role::wall, Role::target}) {
+        for (const FaceId face : volume.faces(role)) {
+            if (volume.model[face].keeps_nodes && !volume.model[face].given_quads.empty()) faces.insert(face);
+        }
+    }
+    return faces;
+}
+
 /// Seeds, quads, walls, target, layers and proof between the rims of linking surfaces that say what goes with
 /// what.
-ProvedSweep sweep_between(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
-                          const std::vector<double>& heights, const surface::SizeField& size,
+ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::LinkingSurface> links,
+                          const std::vector<double>& asked, const surface::SizeField& size,
                           const SweepOptions& options, const RunContext& context)
 {
     Swept result;
+    GivenMeshes given = given_meshes(volume, links, asked, options);
+    const std::vector<double> heights = given.heights.empty() ? default_heights(links, size, options.layers)
+                                                              : given.heights;
+    for (std::string& note : given.notes) result.report.push_back("given: " + note);
     const surface::Seeds seeds = surface::seed_source(volume, links, size, style_of(options));
+    for (const std::string& note : seeds.notes) result.report.push_back("given: " + note);
     surface::SourceMesh source = surface::mesh_source(volume, links, seeds, size_fields(size, options),
                                                       mesher_of(options), context);
     for (std::string& note : source.notes) result.report.push_back("source " + note);
-    for (const Role role : {Role::target, Role::wall}) {
-        for (const FaceId face : volume.faces(role)) {
-            if (volume.model[face].given_quads.empty()) continue;
-            result.report.push_back((role == Role::wall ? "walls: " : "target: ") +
-                                    name_of(volume.model, face) +
-                                    " came with quads, which are not kept: only the source's are");
-        }
-    }
-
     std::vector<surface::WallMesh> walls;
-    const RimColumns columns = columns_of(volume, links, source, heights, walls, context);
+    const RimColumns columns = columns_of(volume, links, given.columns, source, heights, walls, context);
     for (const surface::WallMesh& wall : walls) {
         for (const std::string& note : wall.notes) result.report.push_back("walls: " + note);
     }
     check_cancelled(context);
 
     const surface::Projector target(volume.model, volume.faces(Role::target));
-    const Morphed morphed = morph(
-        source.quads, columns, [&](std::span<Vec3> points) { target.project(points, context); }, context);
+    std::string why;
+    const std::optional<surface::GivenTarget> given_target = surface::given_target(volume, links, source,
+                                                                                   why);
+    Morphed morphed;
+    if (given_target) {
+        morphed.nodes = given_target->nodes;
+        morphed.report = "its own quads are laid out as the source's and stay";
+    } else {
+        morphed = morph(
+            source.quads, columns, [&](std::span<Vec3> points) { target.project(points, context); }, context);
+        if (!why.empty()) result.report.push_back("target: the quads it came with are not kept: " + why);
+    }
     result.report.push_back("target: " + morphed.report);
     PlacementOptions placement;
     placement.straight_lines = options.interior == Interior::automatic && ruled(volume, links);
@@ -335,7 +418,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, const std::vector<surface::L
     mesh.quads = source.quads.quads;
     for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
         mesh.rim.push_back({side.from, side.to});
-    const std::vector<FaceId> faces = set_patches(volume, source, target, walls, mesh);
+    const std::vector<FaceId> faces = set_patches(volume, source, target, given_target, walls, mesh);
     for (const FaceId wall : volume.faces(Role::wall)) {
         if (volume.model[wall].origin != Origin::given ||
             std::find(faces.begin(), faces.end(), wall) != faces.end())
@@ -344,7 +427,8 @@ ProvedSweep sweep_between(const OpenVolume& volume, const std::vector<surface::L
             "walls: " + name_of(volume.model, wall) +
             " is smaller than the quads there and has none, nor a group; use a smaller size or more layers");
     }
-    quality::Proof proof = prove_or_improve(result, volume.model, faces, seeds.kept, options, context);
+    quality::Proof proof = prove_or_improve(result, volume.model, faces, given_faces(volume, seeds.kept),
+                                            options, context);
     const quality::Quality& quality = proof.quality;
     result.min_scaled_jacobian = quality.min_scaled_jacobian;
     result.report.push_back("cells: " + std::to_string(quality.hexes) + ", all certified, scaled Jacobian " +
@@ -411,7 +495,8 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
     check(options, context);
     const surface::SizeField size = checked_size(volume, options);
     check_amount(volume, size, options.layers);
-    std::vector<double> heights = layer_heights(options.layers);
+    const bool counted = options.layers.count > 0 || !options.layers.heights.empty();
+    std::vector<double> heights = counted ? layer_heights(options.layers) : std::vector<double>{};
     if (volume.turned_round) {
         std::reverse(heights.begin(), heights.end());
         for (double& h : heights) h = 1 - h;
