@@ -116,15 +116,18 @@ public:
         for (std::size_t i = 0; i < target.size(); ++i)
             target_sides_.insert(edge_key(target[i].point, target[(i + 1) % target.size()].point));
 
-        std::map<std::size_t, Column> column_at; // by number of the source node
+        std::vector<Strip> strips;
         for (std::size_t i = 0; i < source.size(); ++i) {
-            const std::size_t next = (i + 1) % source.size();
-            const Strip strip = walk(source[i].point, source[next].point);
-            if (!strip.whole) continue;
-            check_rows(strip);
-            join(column_at, i, strip.left, {});
-            join(column_at, next, strip.right, {});
-            column_at[i].faces = strip.faces;
+            strips.push_back(walk(source[i].point, source[(i + 1) % source.size()].point));
+            strips.back().first = i;
+            if (!strips.back().whole) strips.pop_back();
+        }
+        check_rows(strips);
+        std::map<std::size_t, Column> column_at; // by number of the source node
+        for (const Strip& strip : strips) {
+            join(column_at, strip.first, strip.left, {});
+            join(column_at, (strip.first + 1) % source.size(), strip.right, {});
+            column_at[strip.first].faces = strip.faces;
             for (const std::size_t q : strip.quads) quads_[q].kept = true;
         }
         // What ends before the target, from below or from above, is no column; it is not kept, and said.
@@ -154,6 +157,7 @@ private:
         std::vector<std::size_t> quads;
         std::vector<FaceId> faces;
         bool whole = false;
+        std::size_t first = 0; ///< number of the source node on its left
     };
     struct Column {
         std::vector<Index> points;
@@ -163,7 +167,7 @@ private:
     /// Over opposite sides from a side of a rim, as far as quads go.
     Strip walk(Index a, Index b)
     {
-        Strip strip{{a}, {b}, {}, {}, false};
+        Strip strip{{a}, {b}, {}, {}, false, 0};
         std::size_t last = quads_.size();
         while (strip.faces.size() <= quads_.size()) {
             const auto found = beside_.find(edge_key(a, b));
@@ -206,13 +210,31 @@ private:
                                place(points.front()) + " their columns part");
     }
 
-    void check_rows(const Strip& strip)
+    /// As many rows in all strips. Within one wall another number means that its quads are no rows; from wall
+    /// to wall, that they were meshed unlike.
+    void check_rows(const std::vector<Strip>& strips)
     {
-        const auto rows = static_cast<int>(strip.faces.size());
-        if (rows_ != 0 && rows_ != rows)
-            refuse_rows(name_of(model_, first_wall_), rows_, name_of(model_, strip.faces.front()), rows);
-        if (rows_ == 0) first_wall_ = strip.faces.front();
-        rows_ = rows;
+        std::map<FaceId, std::size_t> rows_of;
+        for (const Strip& strip : strips) {
+            const std::size_t rows = strip.faces.size();
+            const FaceId wall = strip.faces.front();
+            const std::size_t first = rows_of.try_emplace(wall, rows).first->second;
+            if (first == rows) continue;
+            throw NotSweepable("surface.wall_not_rows",
+                               "the quads that " + name_of(model_, wall) +
+                                   " came with are no rows: " + std::to_string(first) +
+                                   " of them lead from the source's rim to the target's in one column, and " +
+                                   std::to_string(rows) + " in the one that starts with the quad at " +
+                                   place_of(model_, quads_[strip.quads.front()].corners) +
+                                   "; mesh the wall in rows, or load with keep_mesh = false");
+        }
+        for (const auto& [wall, rows] : rows_of) {
+            const auto& [first_wall, first_rows] = *rows_of.begin();
+            if (rows == first_rows) continue;
+            refuse_rows(name_of(model_, first_wall), static_cast<int>(first_rows), name_of(model_, wall),
+                        static_cast<int>(rows));
+        }
+        rows_ = strips.empty() ? 0 : static_cast<int>(strips.front().faces.size());
     }
 
     void mark_short_strips(const std::vector<ChainNode>& rim)
@@ -266,7 +288,6 @@ private:
     std::unordered_map<Index, double> target_at_;
     std::set<std::uint64_t> target_sides_;
     int rows_ = 0;
-    FaceId first_wall_;
 };
 
 FaceId first_wall(const GivenColumns& columns)
@@ -330,7 +351,7 @@ void add_column(const Model& model, const LinkingLine& line, GivenColumns& colum
 /// A break of the segments: a place on both rims that belongs together.
 struct Break {
     double source = 0, target = 0; ///< running lengths; the target's may run past its length
-    bool given = false;            ///< the stretch up to the next break is one side of a quad
+    bool given = false;            ///< what lies between it and the next break is one side of a quad
 };
 
 /// The segments of one linking surface, with given nodes for breaks.
@@ -361,7 +382,7 @@ public:
         breaks = with_columns(breaks);
         breaks = with_pairs_between_lines(breaks);
         std::vector<Break> result;
-        for (std::size_t i = 0; i + 1 < breaks.size(); ++i) add_stretch(breaks[i], breaks[i + 1], result);
+        for (std::size_t i = 0; i + 1 < breaks.size(); ++i) add_between(breaks[i], breaks[i + 1], result);
         link_.segments.clear();
         result.push_back(breaks.back());
         for (std::size_t i = 0; i + 1 < result.size(); ++i) {
@@ -492,7 +513,7 @@ private:
         return result;
     }
 
-    /// Whether all edges of a stretch of a chain are kept.
+    /// Whether a chain is on kept edges alone from a running length to another.
     [[nodiscard]] bool covered(const Chain& chain, double from, double to) const
     {
         std::set<EdgeId> others;
@@ -502,7 +523,7 @@ private:
         return others.empty() || !meets(chain, from, to, others);
     }
 
-    /// Whether a stretch of a chain is partly on one of some edges.
+    /// Whether a chain is partly on one of some edges between two running lengths.
     [[nodiscard]] static bool meets(const Chain& chain, double from, double to, const std::set<EdgeId>& edges)
     {
         const double length = chain.length(), slack = kSamePlace * length;
@@ -532,7 +553,7 @@ private:
         return result;
     }
 
-    void add_stretch(const Break& from, const Break& to, std::vector<Break>& result)
+    void add_between(const Break& from, const Break& to, std::vector<Break>& result)
     {
         if (from.given) {
             result.push_back(from);

@@ -28,7 +28,8 @@ struct GivenColumns {
 /// @param notes   out: a line for each wall or side line whose nodes are not kept.
 /// @return  for each linking surface; all that have columns have the same number of rows.
 /// @throw NotSweepable "surface.wall_rows"  walls whose quads make different numbers of rows;
-///                     "surface.wall_not_rows"  quads that are in no row; names the walls, and the first quad.
+///                     "surface.wall_not_rows"  quads that are in no row; names the walls, and the first
+///                     quad.
 /// @note  O(quads).
 std::vector<GivenColumns> given_columns(const topology::OpenVolume& volume,
                                         std::span<const LinkingSurface> links, int layers,

@@ -486,8 +486,8 @@ LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vect
 }
 
 std::vector<WallMesh> mesh_walls(const OpenVolume& volume, std::span<const LinkingSurface> links,
-                                 std::span<const LinkingNodes> nodes, std::span<const GivenColumns> columns,
-                                 std::span<const double> heights, const RunContext& context)
+                                 std::span<const LinkingNodes> nodes, std::span<const double> heights,
+                                 std::span<const GivenColumns> columns, const RunContext& context)
 {
     const GivenColumns none;
     std::vector<WallMesh> meshes;

@@ -45,7 +45,7 @@ struct WallMesh {
 /// @param heights  layers + 1 numbers from 0 to 1.
 /// @post  nodes on given faces and edges lie on the exact geometry; rows 0 and last are points of the rims.
 std::vector<WallMesh> mesh_walls(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
-                                 std::span<const LinkingNodes> nodes, std::span<const GivenColumns> columns,
-                                 std::span<const double> heights, const RunContext& context = {});
+                                 std::span<const LinkingNodes> nodes, std::span<const double> heights,
+                                 std::span<const GivenColumns> columns = {}, const RunContext& context = {});
 
 } // namespace lacuna::surface

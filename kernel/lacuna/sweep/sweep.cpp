@@ -6,10 +6,10 @@
 #include <lacuna/quads/pave.h>
 #include <lacuna/quads/submap.h>
 #include <lacuna/quality/quality.h>
-#include <lacuna/surface/given_nodes.h>
 #include <lacuna/surface/given_target.h>
 #include <lacuna/surface/projector.h>
 #include <lacuna/surface/source_mesh.h>
+#include <lacuna/sweep/detail/given_meshes.h>
 #include <lacuna/sweep/detail/normals.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
 #include <lacuna/sweep/detail/words.h>
@@ -132,7 +132,7 @@ RimColumns columns_of(const OpenVolume& volume, const std::vector<surface::Linki
 {
     RimColumns columns;
     columns.layers = static_cast<int>(heights.size()) - 1;
-    walls = surface::mesh_walls(volume, links, source.links, given, heights, context);
+    walls = surface::mesh_walls(volume, links, source.links, heights, given, context);
     for (std::size_t b = 0; b < links.size(); ++b) {
         for (std::size_t i = 0; i < source.links[b].source_at.size(); ++i)
             columns.rim.push_back(source.first[b] + static_cast<Index>(i));
@@ -298,76 +298,6 @@ struct ProvedSweep {
     quality::Proof proof;
 };
 
-/// What the faces came with, as the sweep is to keep it.
-struct GivenMeshes {
-    std::vector<surface::GivenColumns> columns; ///< of each linking surface
-    std::vector<double> heights;                ///< of the layers; empty: nobody says
-    std::vector<std::string> notes;
-};
-
-/// Read the meshes of walls and rims; the segments of `links` are broken at given nodes.
-/// @param asked  heights that the options give; empty: none.
-GivenMeshes given_meshes(const OpenVolume& volume, std::vector<surface::LinkingSurface>& links,
-                         const std::vector<double>& asked, const SweepOptions& options)
-{
-    GivenMeshes given;
-    given.heights = asked;
-    const int layers = std::max(0, static_cast<int>(asked.size()) - 1);
-    given.columns = surface::given_columns(volume, links, layers, given.notes);
-    for (const surface::GivenColumns& columns : given.columns) {
-        if (columns.quads && layers > 0 && layers != columns.rows) {
-            throw NotSweepable("sweep.given_rows",
-                               "the walls came with " + std::to_string(columns.rows) +
-                                   " rows of quads between source and target, and " + std::to_string(layers) +
-                                   " layers were asked for; leave out 'layers', or load with "
-                                   "keep_mesh = false");
-        }
-    }
-    if (asked.empty() || options.layers.heights.empty()) {
-        const std::vector<double> heights = surface::given_heights(volume.model, given.columns);
-        if (!heights.empty()) given.heights = heights;
-    }
-    surface::keep_given_nodes(volume, given.columns, links, given.notes);
-    return given;
-}
-
-/// Layers about as high as the quads are wide: the mean distance of places on the rims that go together, over
-/// the size between them.
-std::vector<double> default_heights(const std::vector<surface::LinkingSurface>& links,
-                                    const surface::SizeField& size, LayerSpec spec)
-{
-    double sides = 0, segments = 0;
-    for (const surface::LinkingSurface& link : links) {
-        for (const surface::RimSegment& segment : link.segments) {
-            const std::array<double, 1> low{segment.source_from};
-            const double end = link.target.length();
-            const std::array<double, 1> high{segment.target_from >= end ? segment.target_from - end
-                                                                        : segment.target_from};
-            const Vec3 from = link.source.points(low).front(), to = link.target.points(high).front();
-            ++segments;
-            sides += (to - from).norm() / size((from + to) / 2);
-        }
-    }
-    const double count = segments > 0 ? sides / segments : 1;
-    if (!(count < std::numeric_limits<Index>::max() / 16.0)) {
-        throw InvalidInput("sweep.too_many",
-                           "about " + in_short(count) + " layers would be needed at the size; give 'layers'");
-    }
-    spec.count = std::max(1, static_cast<int>(std::lround(count)));
-    return layer_heights(spec);
-}
-
-/// Faces whose quads stay: their nodes take no part in improving.
-std::set<FaceId> given_faces(const OpenVolume& volume, std::set<FaceId> faces)
-{
-    for (const Role role : {Role::wall, Role::target}) {
-        for (const FaceId face : volume.faces(role)) {
-            if (volume.model[face].keeps_nodes && !volume.model[face].given_quads.empty()) faces.insert(face);
-        }
-    }
-    return faces;
-}
-
 /// Seeds, quads, walls, target, layers and proof between the rims of linking surfaces that say what goes with
 /// what.
 ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::LinkingSurface> links,
@@ -434,6 +364,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     result.report.push_back("cells: " + std::to_string(quality.hexes) + ", all certified, scaled Jacobian " +
                             std::to_string(quality.min_scaled_jacobian) + " at least, " +
                             std::to_string(quality.mean_scaled_jacobian) + " on average");
+    report_given(volume, result);
     return {std::move(result), std::move(proof)};
 }
 

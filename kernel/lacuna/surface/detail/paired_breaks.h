@@ -6,9 +6,9 @@
 
 namespace lacuna::surface {
 
-/// Pair breaks of two stretches in order: the pairs that lie nearest to each other in relative length, none
+/// Pair breaks of two segments in order: the pairs that lie nearest to each other in relative length, none
 /// crossing; the rest stay alone, -1 on the other side. As many on both go together whatever their place.
-/// @param a, b  shares of either stretch, rising, in (0, 1).
+/// @param a, b  shares of either segment, rising, in (0, 1).
 /// @note  Dynamic programming; time and memory a.size() × b.size().
 std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a,
                                                      const std::vector<double>& b);
