@@ -55,7 +55,8 @@
 ---@field mode? "geometric"|"bell"|"both_ends" default "geometric"
 
 ---@class lacuna.SweepOptions
----@field layers? integer|number[]|lacuna.Layers a count, rising heights in (0, 1] or a spacing
+---@field layers? integer|number[]|lacuna.Layers a count, rising heights in (0, 1] or a spacing; default as the
+---walls' own meshes have rows, else about as high as the quads are wide
 ---@field size? number|fun(x: number, y: number, z: number): number edge length on the source; default: the rim's spacing
 ---@field quads? "auto"|"paved"|"mapped"|"gmsh"|"keep" default "auto"; the report says which way each face was meshed
 ---@field rows? integer rows of quads from every loop of the source that stay as they are laid; default: what the paver finds good

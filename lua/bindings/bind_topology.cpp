@@ -86,6 +86,7 @@ void add(ModelState& state, const AddedFace& face)
     const auto offset = static_cast<Index>(soup.points.size());
     soup.points.insert(soup.points.end(), face.points.begin(), face.points.end());
     soup.label_name.push_back(face.name);
+    soup.label_keeps_nodes.push_back(face.keep_mesh ? 1 : 0);
     const auto add_triangle = [&](const Triangle& triangle) {
         soup.triangles.push_back(triangle);
         soup.triangle_label.push_back(label);

@@ -55,8 +55,7 @@ for _, size in ipairs { "0", "-0.5", "0/0", "math.huge", "'fine'" } do
   expect(void .. ":sweep { layers = 2, size = " .. size .. " }",
       { "sweep: option 'size'", "positive number" })
 end
-expect(void .. ":sweep { size = 0.5 }", { "layers" })
-expect(void .. ":sweep()", { "layers" })
+expect(void .. ":sweep { size = 0.5, layers = 0 }", { "layers" })
 
 -- Ends that cannot go together.
 expect("lacuna.check 'nowhere.msh'", { "nowhere.msh" })

@@ -467,7 +467,7 @@ TEST_CASE("bad options are refused")
     const auto volume = test::sealed({.sides = 4});
     const double nan = std::numeric_limits<double>::quiet_NaN(),
                  infinity = std::numeric_limits<double>::infinity();
-    for (const int count : {0, -1})
+    for (const int count : {-1, -7})
         CHECK(refusal([&] { sweep::sweep(volume, layers_of(count, 0.3)); }) == "sweep.layers");
     for (const double size : {0.0, -1.0, nan, infinity})
         CHECK(refusal([&] { sweep::sweep(volume, layers_of(2, size)); }) == "sweep.size");
@@ -504,7 +504,7 @@ TEST_CASE("every option out of range is refused by name, before and by the sweep
         std::function<void(SweepOptions&)> set;
     };
     std::vector<Wrong> wrongs{
-        {"sweep.layers", [](SweepOptions& o) { o.layers.count = 0; }},
+        {"sweep.layers", [](SweepOptions& o) { o.layers.count = -1; }},
         {"sweep.layer_heights",
          [](SweepOptions& o) {
              o.layers.heights = {0.5, 1};

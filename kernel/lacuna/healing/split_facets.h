@@ -25,6 +25,9 @@ struct FacetSoup {
     std::vector<int> triangle_label; ///< part each belongs to (element set, STL solid); empty: all 0
     std::vector<int> quad_label;
     std::vector<std::string> label_name; ///< name of each label; may be shorter than the labels used
+    /// Whether each label's triangles are a mesh whose nodes stay, too; may be shorter than the labels used.
+    /// Quads always are.
+    std::vector<char> label_keeps_nodes;
 };
 
 /// Cut facets into faces: by label first, then wherever they turn by more than the feature angle. Edges are

@@ -154,6 +154,7 @@ void append(FacetFile& all, FacetFile more)
     move_in(all.soup.quads, more.soup.quads);
     move_in(all.soup.quad_label, more.soup.quad_label);
     move_in(all.soup.label_name, more.soup.label_name);
+    move_in(all.soup.label_keeps_nodes, more.soup.label_keeps_nodes);
     move_in(all.label_tag, more.label_tag);
     move_in(all.notes, more.notes);
 }
@@ -229,7 +230,10 @@ topology::Model import_facets(const std::vector<std::string>& paths, const LoadO
     for (const std::string& path : paths) {
         check_cancelled(context);
         source += (source.empty() ? "" : ", ") + path;
-        append(all, read_facets(path));
+        FacetFile file = read_facets(path);
+        const bool is_mesh = !is_among(".stl .obj", ending_of(path));
+        file.soup.label_keeps_nodes.assign(file.label_tag.size(), options.keep_mesh && is_mesh ? 1 : 0);
+        append(all, std::move(file));
     }
     check_cancelled(context);
     for (Vec3& p : all.soup.points) p *= options.scale;

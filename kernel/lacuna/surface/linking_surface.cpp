@@ -5,6 +5,7 @@
 #include <lacuna/matching/corners.h>
 #include <lacuna/surface/detail/common_turn.h>
 #include <lacuna/surface/detail/linking_map.h>
+#include <lacuna/surface/detail/paired_breaks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -114,66 +115,6 @@ std::vector<double> corners_between(const Model& model, const Chain& chain, doub
     return result;
 }
 
-/// Pair the breaks of two segments in order: the pairs that lie nearest to each other in relative length,
-/// none crossing; the rest stay alone. Dynamic programming; a break alone costs as much as a pair this far
-/// apart.
-std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a,
-                                                     const std::vector<double>& b)
-{
-    constexpr double kAlone = 0.1; ///< of the whole length; a choice, not a measurement
-    const std::size_t n = a.size(), m = b.size();
-    std::vector<std::vector<double>> cost(n + 1, std::vector<double>(m + 1, 0));
-    for (std::size_t i = 0; i <= n; ++i) {
-        for (std::size_t j = 0; j <= m; ++j) {
-            if (i == 0 && j == 0) continue;
-            double best = std::numeric_limits<double>::infinity();
-            if (i > 0) best = std::min(best, cost[i - 1][j] + kAlone);
-            if (j > 0) best = std::min(best, cost[i][j - 1] + kAlone);
-            // As many breaks on both sides go together whatever their place.
-            const double apart = i > 0 && j > 0 ? (n == m ? 0.0 : 1.0) * std::abs(a[i - 1] - b[j - 1]) : 0;
-            if (i > 0 && j > 0) best = std::min(best, cost[i - 1][j - 1] + apart);
-            cost[i][j] = best;
-        }
-    }
-    std::vector<std::pair<double, double>> result;
-    for (std::size_t i = n, j = m; i > 0 || j > 0;) {
-        const double apart = i > 0 && j > 0 ? (n == m ? 0.0 : 1.0) * std::abs(a[i - 1] - b[j - 1]) : 0;
-        if (i > 0 && j > 0 && cost[i][j] == cost[i - 1][j - 1] + apart) {
-            result.emplace_back(a[--i], b[--j]);
-        } else if (i > 0 && cost[i][j] == cost[i - 1][j] + kAlone) {
-            result.emplace_back(a[--i], -1);
-        } else {
-            result.emplace_back(-1, b[--j]);
-        }
-    }
-    std::reverse(result.begin(), result.end());
-    return result;
-}
-
-/// Fill in the other side of breaks that stand alone, at the same share of the way between the pairs around
-/// them.
-void complete(std::vector<std::pair<double, double>>& breaks)
-{
-    std::vector<std::pair<double, double>> anchors{{0, 0}};
-    for (const auto& pair : breaks) {
-        if (pair.first >= 0 && pair.second >= 0) anchors.push_back(pair);
-    }
-    anchors.emplace_back(1, 1);
-    std::size_t k = 0;
-    for (auto& [a, b] : breaks) {
-        if (a >= 0 && b >= 0) {
-            ++k;
-            continue;
-        }
-        const auto& [a0, b0] = anchors[k];
-        const auto& [a1, b1] = anchors[k + 1];
-        if (a < 0)
-            a = a0 + (a1 - a0) * (b - b0) / (b1 - b0);
-        else
-            b = b0 + (b1 - b0) * (a - a0) / (a1 - a0);
-    }
-}
-
 void add_segments(const Model& model, LinkingSurface& link, double s0, double s1, double t0, double t1)
 {
     std::vector<double> a = corners_between(model, link.source, s0, s1, true);
@@ -182,7 +123,6 @@ void add_segments(const Model& model, LinkingSurface& link, double s0, double s1
     for (double& x : b) x = (x - t0) / (t1 - t0);
     std::vector<std::pair<double, double>> breaks = paired_breaks(a, b);
     complete(breaks);
-    std::sort(breaks.begin(), breaks.end());
     breaks.emplace_back(1, 1);
     double a0 = 0, b0 = 0;
     for (const auto& [a1, b1] : breaks) {

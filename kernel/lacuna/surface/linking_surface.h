@@ -17,6 +17,7 @@ struct RimSegment {
     double source_from = 0, source_to = 0;
     double target_from = 0, target_to = 0; ///< may run past the target chain's length: modulo it
     std::size_t use = 0;                   ///< of the source chain
+    bool given = false;                    ///< one side of a quad: it lies between nodes that were given
 };
 
 /// A side line as the linking surface sees it.

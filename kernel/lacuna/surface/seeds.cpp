@@ -64,7 +64,9 @@ public:
             }
         }
         for (auto& [edge, pieces] : seeds_.pieces) {
-            for (SeedPiece& piece : pieces) ask_size(edge, piece);
+            for (SeedPiece& piece : pieces) {
+                if (!piece.fixed) ask_size(edge, piece);
+            }
         }
         for (const FaceId face : seeds_.kept) {
             for (const Loop& loop : model_[face].loops) {
@@ -81,6 +83,7 @@ public:
             make_even();
             balance();
         }
+        divide_given_sides();
         check_even();
         return std::move(seeds_);
     }
@@ -100,6 +103,7 @@ private:
                 to = 1 - to;
             }
             seeds_.pieces[use.edge].push_back({from, to, segment.source_to - segment.source_from, 1});
+            seeds_.pieces[use.edge].back().fixed = segment.given;
             rim_.insert(use.edge);
         }
         for (auto& [edge, pieces] : seeds_.pieces) {
@@ -328,6 +332,32 @@ private:
         }
         for (auto face = order.rbegin(); face != order.rend(); ++face) {
             if (odd(*face)) raise({way_out.at(*face)}, 1);
+        }
+    }
+
+    /// No quads fill a rim with an odd number of sides. Where all are given, the longest of the rim's that no
+    /// kept quads of the source stand on is divided, and that is said.
+    void divide_given_sides()
+    {
+        for (const FaceId face : volume_.faces(Role::source)) {
+            if (!is_free(face) || !odd(face)) continue;
+            SeedPiece* longest = nullptr;
+            EdgeId at;
+            for (const EdgeId edge : rim_) {
+                const std::set<FaceId>& users = users_.at(edge);
+                if (!users.contains(face) || users.size() > 1) continue;
+                for (SeedPiece& piece : seeds_.pieces[edge]) {
+                    if (longest != nullptr && piece.length <= longest->length) continue;
+                    longest = &piece;
+                    at = edge;
+                }
+            }
+            if (longest == nullptr) continue;
+            seeds_.notes.push_back("the rim of " + name_of(model_, face) +
+                                   " came with an odd number of sides, which no quads fill: a side on " +
+                                   name_of(model_, at) + ", with what stands on it, is divided in two");
+            longest->kept.push_back((longest->from + longest->to) / 2);
+            longest->count = 2;
         }
     }
 

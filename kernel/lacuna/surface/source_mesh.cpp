@@ -70,10 +70,10 @@ private:
             const EdgeUse use = link.source.uses()[segment.use];
             const double middle =
                 link.source.position((segment.source_from + segment.source_to) / 2).fraction;
-            for (const SeedPiece& piece : seeds_.pieces.at(use.edge)) {
-                if (middle > piece.from && middle < piece.to)
-                    shares.push_back(shares_of(piece, use.reversed));
-            }
+            const std::vector<SeedPiece>& pieces = seeds_.pieces.at(use.edge);
+            const auto piece = std::upper_bound(pieces.begin(), pieces.end(), middle,
+                                                [](double at, const SeedPiece& p) { return at < p.to; });
+            shares.push_back(shares_of(*piece, use.reversed));
         }
         LinkingNodes nodes = linking_nodes(link, shares);
         const auto first = static_cast<Index>(result_.quads.nodes.size());

@@ -25,6 +25,8 @@ namespace {
 /// A patch this far from its face, as a share of the shorter rim, is no guide to where nodes belong on it. A
 /// choice, not a measurement.
 constexpr double kFarFromPatch = 0.05;
+/// Running lengths this near, as a share of the chain, are one: far below any side, far above rounding.
+constexpr double kSamePlace = 1e-9;
 
 /// The faces of the segment of walls after each side line.
 std::vector<std::vector<FaceId>> panel_faces(const Model& model, const LinkingSurface& link)
@@ -68,7 +70,7 @@ struct FollowedPanel {
 class WallMesher {
 public:
     WallMesher(const OpenVolume& volume, const LinkingSurface& link, const LinkingNodes& nodes,
-               std::span<const double> heights, const RunContext& context)
+               const GivenColumns& columns, std::span<const double> heights, const RunContext& context)
         : volume_(volume),
           model_(volume.model),
           link_(link),
@@ -76,16 +78,21 @@ public:
           heights_(heights.begin(), heights.end()),
           context_(context),
           count_(nodes.source_at.size()),
-          layers_(heights.size() - 1)
+          layers_(heights.size() - 1),
+          given_node_(count_, 0),
+          given_side_(count_, 0)
     {
         mesh_.points.resize(count_ * (layers_ + 1));
         mesh_.face.resize(count_ * layers_);
+        set_columns(columns);
     }
 
     WallMesh run()
     {
         set_row(0, link_.source.points(nodes_.source_at));
         set_row(layers_, link_.target.points(wrapped(nodes_.target_at, link_.target.length())));
+        if (std::all_of(given_side_.begin(), given_side_.end(), [](char given) { return given != 0; }))
+            return std::move(mesh_);
         const auto panels = panel_faces(model_, link_);
         const bool simple = !panels.empty() &&
                             std::all_of(panels.begin(), panels.end(),
@@ -99,6 +106,7 @@ public:
         for (std::size_t i = 0; i < panels.size(); ++i) {
             const std::size_t first = nodes_.line[i];
             const std::size_t last = i + 1 < panels.size() ? nodes_.line[i + 1] : count_;
+            if (is_given(first, last)) continue;
             if (follows(panels[i])) {
                 followed_.push_back({0, first, last});
                 set_faces(panels[i].front(), first, last);
@@ -118,6 +126,50 @@ private:
     {
         for (double& x : at) x = x >= length ? x - length : x;
         return at;
+    }
+
+    /// Take the nodes of columns as they are.
+    void set_columns(const GivenColumns& columns)
+    {
+        const double slack = kSamePlace * link_.source.length();
+        std::size_t c = 0;
+        for (std::size_t i = 0; i < count_ && columns.rows == static_cast<int>(layers_); ++i) {
+            while (c < columns.source_at.size() && columns.source_at[c] < nodes_.source_at[i] - slack) ++c;
+            if (c == columns.source_at.size() || columns.source_at[c] > nodes_.source_at[i] + slack) continue;
+            given_node_[i] = 1;
+            for (std::size_t k = 0; k <= layers_; ++k) point(k, i) = model_.at(columns.points[c][k]);
+            if (columns.faces[c].empty()) continue;
+            const bool last = c + 1 == columns.source_at.size();
+            const double next = last ? link_.source.length() : columns.source_at[c + 1];
+            set_given_sides(i, next - slack, columns.points[last ? 0 : c + 1], columns.faces[c]);
+        }
+    }
+
+    /// The quads from node `first` to the column before running length `end`. Nodes between divide them: an
+    /// odd rim was given one more.
+    void set_given_sides(std::size_t first, double end, const std::vector<Index>& next,
+                         const std::vector<FaceId>& faces)
+    {
+        std::size_t last = first;
+        while (last + 1 < count_ && nodes_.source_at[last + 1] < end) ++last;
+        const auto sides = static_cast<double>(last - first + 1);
+        for (std::size_t i = first; i <= last; ++i) {
+            given_side_[i] = 1;
+            for (std::size_t k = 0; k < layers_; ++k) mesh_.face[k * count_ + i] = faces[k];
+            if (i == first) continue;
+            given_node_[i] = 1;
+            const double share = static_cast<double>(i - first) / sides;
+            for (std::size_t k = 0; k <= layers_; ++k)
+                point(k, i) = (1 - share) * point(k, first) + share * model_.at(next[k]);
+        }
+    }
+
+    /// Whether all sides from a node to another are given quads.
+    [[nodiscard]] bool is_given(std::size_t first, std::size_t last) const
+    {
+        return std::all_of(given_side_.begin() + static_cast<std::ptrdiff_t>(first),
+                           given_side_.begin() + static_cast<std::ptrdiff_t>(last),
+                           [](char given) { return given != 0; });
     }
 
     [[nodiscard]] Vec3& point(std::size_t layer, std::size_t node)
@@ -222,6 +274,7 @@ private:
     void mesh_lines()
     {
         for (std::size_t i = 0; i < link_.lines.size(); ++i) {
+            if (given_node_[nodes_.line[i]] != 0) continue;
             const Chain chain(model_, link_.lines[i].line.uses);
             std::map<int, double> at_layer;
             for (std::size_t u = 1; u < chain.uses().size(); ++u) {
@@ -309,12 +362,13 @@ private:
         std::vector<double> before;
         for (std::size_t i = first; i <= last; ++i) {
             const std::vector<double> at = heights_at(s_of(i));
-            for (std::size_t k = 1; k < layers_ && i < last && !lines.contains(i); ++k) {
+            const bool settled = lines.contains(i) || (i < count_ && given_node_[i] != 0);
+            for (std::size_t k = 1; k < layers_ && i < last && !settled; ++k) {
                 const WallPosition place = map_->locate(s_of(i), at[k]);
                 on_face[place.face].first.push_back(place.at);
                 on_face[place.face].second.push_back(k * count_ + i);
             }
-            for (std::size_t k = 0; k < layers_ && i > first; ++k) {
+            for (std::size_t k = 0; k < layers_ && i > first && given_side_[i - 1] == 0; ++k) {
                 const double t = (at[k] + at[k + 1] + before[k] + before[k + 1]) / 4;
                 mesh_.face[k * count_ + i - 1] = map_->locate((s_of(i - 1) + s_of(i)) / 2, t).face;
             }
@@ -336,7 +390,9 @@ private:
     WallMesh mesh_;
     std::unique_ptr<LinkingMap> map_;
     std::vector<FollowedPanel> followed_;
-    std::vector<int> ring_layer_; ///< of each ring of the map; 0: none
+    std::vector<int> ring_layer_;  ///< of each ring of the map; 0: none
+    std::vector<char> given_node_; ///< nodes that are a column's
+    std::vector<char> given_side_; ///< sides of the rim that given quads stand on
 };
 
 /// The rows of the walls that are there, as a section each.
@@ -431,12 +487,13 @@ LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vect
 
 std::vector<WallMesh> mesh_walls(const OpenVolume& volume, std::span<const LinkingSurface> links,
                                  std::span<const LinkingNodes> nodes, std::span<const double> heights,
-                                 const RunContext& context)
+                                 std::span<const GivenColumns> columns, const RunContext& context)
 {
+    const GivenColumns none;
     std::vector<WallMesh> meshes;
     std::vector<FollowedPanel> followed;
     for (std::size_t b = 0; b < links.size(); ++b) {
-        WallMesher mesher(volume, links[b], nodes[b], heights, context);
+        WallMesher mesher(volume, links[b], nodes[b], columns.empty() ? none : columns[b], heights, context);
         meshes.push_back(mesher.run());
         for (FollowedPanel panel : mesher.followed()) {
             panel.link = b;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/surface/given_nodes.h>
 #include <lacuna/surface/linking_surface.h>
 
 #include <span>
@@ -37,11 +38,14 @@ struct WallMesh {
 /// runs round between stacked faces draws the nearest layer to it. Void faces that follow the given walls
 /// come last: two affine fits a row say where the rows of the other walls lead their nodes, so that rows stay
 /// level round the volume.
+///
+/// Columns of given nodes are taken as they are, and the quads between them with them.
 /// @param nodes    of each linking surface.
+/// @param columns  of each linking surface; empty: none.
 /// @param heights  layers + 1 numbers from 0 to 1.
 /// @post  nodes on given faces and edges lie on the exact geometry; rows 0 and last are points of the rims.
 std::vector<WallMesh> mesh_walls(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                                  std::span<const LinkingNodes> nodes, std::span<const double> heights,
-                                 const RunContext& context = {});
+                                 std::span<const GivenColumns> columns = {}, const RunContext& context = {});
 
 } // namespace lacuna::surface

@@ -53,10 +53,11 @@ void check_heights(const LayerSpec& spec)
 void check(const LayerSpec& spec)
 {
     if (!spec.heights.empty()) return check_heights(spec);
-    if (spec.count < 1) {
-        throw InvalidInput("sweep.layers", "sweep: option 'layers' must be at least 1, found " +
-                                               std::to_string(spec.count) +
-                                               ": set layers to a count or to a list of heights");
+    if (spec.count < 0) {
+        throw InvalidInput("sweep.layers",
+                           "sweep: option 'layers' must be at least 1, or 0 for a count of its own, found " +
+                               std::to_string(spec.count) +
+                               ": set layers to a count or to a list of heights");
     }
     if (!(spec.bias > 0) || !std::isfinite(spec.bias))
         refuse("bias", "a finite number above 0", in_full(spec.bias));

@@ -29,6 +29,10 @@ double exponent(const LayerSpec& spec, int layer)
 std::vector<double> layer_heights(const LayerSpec& spec)
 {
     check(spec);
+    if (spec.heights.empty() && spec.count < 1) {
+        throw InvalidInput("sweep.layers", "heights of layers need a count of at least 1, found " +
+                                               std::to_string(spec.count));
+    }
     if (!spec.heights.empty()) {
         std::vector<double> result{0.0};
         result.insert(result.end(), spec.heights.begin(), spec.heights.end());

@@ -6,8 +6,10 @@
 #include <lacuna/quads/pave.h>
 #include <lacuna/quads/submap.h>
 #include <lacuna/quality/quality.h>
+#include <lacuna/surface/given_target.h>
 #include <lacuna/surface/projector.h>
 #include <lacuna/surface/source_mesh.h>
+#include <lacuna/sweep/detail/given_meshes.h>
 #include <lacuna/sweep/detail/normals.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
 #include <lacuna/sweep/detail/words.h>
@@ -21,6 +23,7 @@
 #include <cstdio>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace lacuna::sweep {
 
@@ -123,12 +126,13 @@ void check_amount(const OpenVolume& volume, const surface::SizeField& size, cons
 }
 
 RimColumns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
-                      const surface::SourceMesh& source, const std::vector<double>& heights,
-                      std::vector<surface::WallMesh>& walls, const RunContext& context)
+                      const std::vector<surface::GivenColumns>& given, const surface::SourceMesh& source,
+                      const std::vector<double>& heights, std::vector<surface::WallMesh>& walls,
+                      const RunContext& context)
 {
     RimColumns columns;
     columns.layers = static_cast<int>(heights.size()) - 1;
-    walls = surface::mesh_walls(volume, links, source.links, heights, context);
+    walls = surface::mesh_walls(volume, links, source.links, heights, given, context);
     for (std::size_t b = 0; b < links.size(); ++b) {
         for (std::size_t i = 0; i < source.links[b].source_at.size(); ++i)
             columns.rim.push_back(source.first[b] + static_cast<Index>(i));
@@ -218,8 +222,9 @@ std::vector<FaceId> faces_under_quads(const surface::Projector& projector, const
 
 /// @return  face of each patch.
 std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceMesh& source,
-                                const surface::Projector& target, const std::vector<surface::WallMesh>& walls,
-                                mesh::HexMesh& mesh)
+                                const surface::Projector& target,
+                                const std::optional<surface::GivenTarget>& given_target,
+                                const std::vector<surface::WallMesh>& walls, mesh::HexMesh& mesh)
 {
     SkinPatches patches(volume, mesh);
     for (const Index face : source.quads.face) mesh.source_patch.push_back(patches.of(FaceId(face)));
@@ -228,6 +233,8 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
                                     static_cast<std::size_t>(mesh.nodes_per_layer)};
     if (const std::vector<FaceId> faces = volume.faces(Role::target); faces.size() == 1) {
         mesh.target_patch.assign(mesh.quads.size(), patches.of(faces.front()));
+    } else if (given_target) {
+        for (const FaceId face : given_target->face) mesh.target_patch.push_back(patches.of(face));
     } else {
         for (const FaceId face : faces_under_quads(target, mesh.quads, top))
             mesh.target_patch.push_back(patches.of(face));
@@ -293,34 +300,40 @@ struct ProvedSweep {
 
 /// Seeds, quads, walls, target, layers and proof between the rims of linking surfaces that say what goes with
 /// what.
-ProvedSweep sweep_between(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
-                          const std::vector<double>& heights, const surface::SizeField& size,
+ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::LinkingSurface> links,
+                          const std::vector<double>& asked, const surface::SizeField& size,
                           const SweepOptions& options, const RunContext& context)
 {
     Swept result;
+    GivenMeshes given = given_meshes(volume, links, asked, options);
+    const std::vector<double> heights = given.heights.empty() ? default_heights(links, size, options.layers)
+                                                              : given.heights;
+    for (std::string& note : given.notes) result.report.push_back("given: " + note);
     const surface::Seeds seeds = surface::seed_source(volume, links, size, style_of(options));
+    for (const std::string& note : seeds.notes) result.report.push_back("given: " + note);
     surface::SourceMesh source = surface::mesh_source(volume, links, seeds, size_fields(size, options),
                                                       mesher_of(options), context);
     for (std::string& note : source.notes) result.report.push_back("source " + note);
-    for (const Role role : {Role::target, Role::wall}) {
-        for (const FaceId face : volume.faces(role)) {
-            if (volume.model[face].given_quads.empty()) continue;
-            result.report.push_back((role == Role::wall ? "walls: " : "target: ") +
-                                    name_of(volume.model, face) +
-                                    " came with quads, which are not kept: only the source's are");
-        }
-    }
-
     std::vector<surface::WallMesh> walls;
-    const RimColumns columns = columns_of(volume, links, source, heights, walls, context);
+    const RimColumns columns = columns_of(volume, links, given.columns, source, heights, walls, context);
     for (const surface::WallMesh& wall : walls) {
         for (const std::string& note : wall.notes) result.report.push_back("walls: " + note);
     }
     check_cancelled(context);
 
     const surface::Projector target(volume.model, volume.faces(Role::target));
-    const Morphed morphed = morph(
-        source.quads, columns, [&](std::span<Vec3> points) { target.project(points, context); }, context);
+    std::string why;
+    const std::optional<surface::GivenTarget> given_target = surface::given_target(volume, links, source,
+                                                                                   why);
+    Morphed morphed;
+    if (given_target) {
+        morphed.nodes = given_target->nodes;
+        morphed.report = "its own quads are laid out as the source's and stay";
+    } else {
+        morphed = morph(
+            source.quads, columns, [&](std::span<Vec3> points) { target.project(points, context); }, context);
+        if (!why.empty()) result.report.push_back("target: the quads it came with are not kept: " + why);
+    }
     result.report.push_back("target: " + morphed.report);
     PlacementOptions placement;
     placement.straight_lines = options.interior == Interior::automatic && ruled(volume, links);
@@ -335,7 +348,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, const std::vector<surface::L
     mesh.quads = source.quads.quads;
     for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
         mesh.rim.push_back({side.from, side.to});
-    const std::vector<FaceId> faces = set_patches(volume, source, target, walls, mesh);
+    const std::vector<FaceId> faces = set_patches(volume, source, target, given_target, walls, mesh);
     for (const FaceId wall : volume.faces(Role::wall)) {
         if (volume.model[wall].origin != Origin::given ||
             std::find(faces.begin(), faces.end(), wall) != faces.end())
@@ -344,12 +357,14 @@ ProvedSweep sweep_between(const OpenVolume& volume, const std::vector<surface::L
             "walls: " + name_of(volume.model, wall) +
             " is smaller than the quads there and has none, nor a group; use a smaller size or more layers");
     }
-    quality::Proof proof = prove_or_improve(result, volume.model, faces, seeds.kept, options, context);
+    quality::Proof proof = prove_or_improve(result, volume.model, faces, given_faces(volume, seeds.kept),
+                                            options, context);
     const quality::Quality& quality = proof.quality;
     result.min_scaled_jacobian = quality.min_scaled_jacobian;
     result.report.push_back("cells: " + std::to_string(quality.hexes) + ", all certified, scaled Jacobian " +
                             std::to_string(quality.min_scaled_jacobian) + " at least, " +
                             std::to_string(quality.mean_scaled_jacobian) + " on average");
+    report_given(volume, result);
     return {std::move(result), std::move(proof)};
 }
 
@@ -411,7 +426,8 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
     check(options, context);
     const surface::SizeField size = checked_size(volume, options);
     check_amount(volume, size, options.layers);
-    std::vector<double> heights = layer_heights(options.layers);
+    const bool counted = options.layers.count > 0 || !options.layers.heights.empty();
+    std::vector<double> heights = counted ? layer_heights(options.layers) : std::vector<double>{};
     if (volume.turned_round) {
         std::reverse(heights.begin(), heights.end());
         for (double& h : heights) h = 1 - h;

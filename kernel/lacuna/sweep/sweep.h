@@ -18,7 +18,9 @@ namespace lacuna::sweep {
 enum class Spacing { geometric, bell, both_ends };
 
 struct LayerSpec {
-    int count = 0; ///< hexes along the sweep, >= 1; 0 with `heights`
+    /// Hexes along the sweep, >= 1; 0 with `heights`, or for as many as the walls' own meshes have rows, else
+    /// as the length of the sweep asks for at the size.
+    int count = 0;
     /// Ratio of layer heights, > 0 [-]: last / first (geometric), middle / end (bell), end / middle
     /// (both_ends).
     double bias = 1;
@@ -27,11 +29,12 @@ struct LayerSpec {
     std::vector<double> heights;
 };
 
-/// @throw InvalidInput  a count below 1, a bias that is not positive, heights that do not rise to 1.
+/// @throw InvalidInput  a count below 0, a bias that is not positive, heights that do not rise to 1.
 void check(const LayerSpec& spec);
 
 /// Heights in [0, 1] of every layer's nodes: layers + 1 numbers from 0 to 1.
 /// @throw InvalidInput  what `check()` refuses; a bias so far from 1 that layers have no height.
+/// @pre  a count of at least 1, or heights.
 std::vector<double> layer_heights(const LayerSpec& spec);
 
 /// How source faces are meshed.
@@ -72,6 +75,9 @@ struct Swept {
 };
 
 /// Fill a sealed volume with hexahedra. What goes with what is read off the sealed walls.
+///
+/// Meshes that faces came with stay, node for node: the source's quads, rows of quads on walls, the target's
+/// quads where they are laid out as the source's, and the nodes of all their rims. The report counts them.
 /// @throw InvalidInput   what `check()` refuses; a size that is no positive length, or too many cells to
 ///                       number.
 /// @throw NotSweepable   names the face, wall or cells, what was expected and found, and what to try.

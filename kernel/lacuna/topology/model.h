@@ -66,6 +66,7 @@ struct Face {
     std::vector<std::array<Vec2, 3>> uv; ///< surface parameters at the corners; empty without `surface`
     std::shared_ptr<const geometry::ExactSurface> surface; ///< null where the facets are all there is
     std::vector<Quad> given_quads; ///< the mesh the face came with, model points; may be empty
+    bool keeps_nodes = false;      ///< it came as a mesh, whose quads and whose rim's nodes stay
 
     std::vector<Loop> loops; ///< derived from the triangles by build_loops(); the longest first
 };

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/surface/source_mesh.h>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// The mesh that the target came with, in the numbers of the source's.
+struct GivenTarget {
+    std::vector<Vec3> nodes;  ///< where each source node goes, bit for bit the target's own
+    std::vector<FaceId> face; ///< target face of each source quad
+};
+
+/// The target's given quads, where they are the same graph as the source's: from the nodes of the rims, which
+/// go together by the linking surfaces, quads are paired over their sides.
+/// @param why  out: what differs, where nothing is returned and the target came with quads; else empty.
+/// @note  O(quads).
+std::optional<GivenTarget> given_target(const topology::OpenVolume& volume,
+                                        std::span<const LinkingSurface> links, const SourceMesh& source,
+                                        std::string& why);
+
+} // namespace lacuna::surface

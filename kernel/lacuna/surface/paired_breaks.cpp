@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/paired_breaks.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lacuna::surface {
+
+std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a,
+                                                     const std::vector<double>& b)
+{
+    // A break alone costs as much as a pair this far apart, as a share of the length; a choice.
+    constexpr double kAlone = 0.1;
+    const std::size_t n = a.size(), m = b.size();
+    std::vector<std::vector<double>> cost(n + 1, std::vector<double>(m + 1, 0));
+    for (std::size_t i = 0; i <= n; ++i) {
+        for (std::size_t j = 0; j <= m; ++j) {
+            if (i == 0 && j == 0) continue;
+            double best = std::numeric_limits<double>::infinity();
+            if (i > 0) best = std::min(best, cost[i - 1][j] + kAlone);
+            if (j > 0) best = std::min(best, cost[i][j - 1] + kAlone);
+            // As many breaks on both sides go together whatever their place.
+            const double apart = i > 0 && j > 0 ? (n == m ? 0.0 : 1.0) * std::abs(a[i - 1] - b[j - 1]) : 0;
+            if (i > 0 && j > 0) best = std::min(best, cost[i - 1][j - 1] + apart);
+            cost[i][j] = best;
+        }
+    }
+    std::vector<std::pair<double, double>> result;
+    for (std::size_t i = n, j = m; i > 0 || j > 0;) {
+        const double apart = i > 0 && j > 0 ? (n == m ? 0.0 : 1.0) * std::abs(a[i - 1] - b[j - 1]) : 0;
+        if (i > 0 && j > 0 && cost[i][j] == cost[i - 1][j - 1] + apart) {
+            result.emplace_back(a[--i], b[--j]);
+        } else if (i > 0 && cost[i][j] == cost[i - 1][j] + kAlone) {
+            result.emplace_back(a[--i], -1);
+        } else {
+            result.emplace_back(-1, b[--j]);
+        }
+    }
+    std::reverse(result.begin(), result.end());
+    return result;
+}
+
+void complete(std::vector<std::pair<double, double>>& breaks)
+{
+    std::vector<std::pair<double, double>> anchors{{0, 0}};
+    for (const auto& pair : breaks) {
+        if (pair.first >= 0 && pair.second >= 0) anchors.push_back(pair);
+    }
+    anchors.emplace_back(1, 1);
+    std::size_t k = 0;
+    for (auto& [a, b] : breaks) {
+        if (a >= 0 && b >= 0) {
+            ++k;
+            continue;
+        }
+        const auto& [a0, b0] = anchors[k];
+        const auto& [a1, b1] = anchors[k + 1];
+        if (a < 0)
+            a = a0 + (a1 - a0) * (b - b0) / (b1 - b0);
+        else
+            b = b0 + (b1 - b0) * (a - a0) / (a1 - a0);
+    }
+    std::sort(breaks.begin(), breaks.end());
+}
+
+} // namespace lacuna::surface

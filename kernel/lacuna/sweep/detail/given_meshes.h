@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/surface/given_nodes.h>
+#include <lacuna/sweep/sweep.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// What the faces came with, as the sweep is to keep it.
+struct GivenMeshes {
+    std::vector<surface::GivenColumns> columns; ///< of each linking surface
+    std::vector<double> heights;                ///< of the layers; empty: nobody says
+    std::vector<std::string> notes;
+};
+
+/// Read the meshes of walls and rims; the segments of `links` are broken at given nodes.
+/// @param asked  heights that the options give; empty: none.
+/// @throw NotSweepable "sweep.given_rows"  rows of quads on walls that are not as many as the layers asked
+///                     for; what `surface::given_columns()` throws.
+GivenMeshes given_meshes(const topology::OpenVolume& volume, std::vector<surface::LinkingSurface>& links,
+                         const std::vector<double>& asked, const SweepOptions& options);
+
+/// Layers about as high as the quads are wide: the mean distance of places on the rims that go together, over
+/// the size between them. @throw InvalidInput  more than can be numbered.
+std::vector<double> default_heights(const std::vector<surface::LinkingSurface>& links,
+                                    const surface::SizeField& size, LayerSpec spec);
+
+/// `faces`, and walls and targets with quads of their own: their nodes take no part in improving.
+std::set<FaceId> given_faces(const topology::OpenVolume& volume, std::set<FaceId> faces);
+
+/// A line of the report for each face that keeps its nodes: how many of them are nodes of the mesh.
+void report_given(const topology::OpenVolume& volume, Swept& swept);
+
+} // namespace lacuna::sweep
