@@ -55,7 +55,8 @@ void read_void_edges(lua_State* L, int index, const Where& where, CloseOptions& 
             const std::size_t between = length_of(L, points);
             guard(L, [&] { edge.points.resize(between); });
             std::size_t i = 0;
-            read_array(L, points, at, "an array of points {x, y, z}",
+            read_array(L, points, {at.call, lua_pushfstring(L, "%s[3]", at.key)},
+                       "an array of points {x, y, z}",
                        [&](int point, const Where& p) { edge.points[i++] = read_vector(L, point, p); });
         });
 }
