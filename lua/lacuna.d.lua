@@ -47,7 +47,9 @@
 ---@field method? "aligned"|"nearest" default "aligned"
 
 ---@class lacuna.CloseOptions
----@field edge_shape? "auto"|"straight"|"follow" how a void edge runs; default "auto"
+---@field edge_shape? "auto"|"straight"|"follow"|"smooth" how a void edge runs; default "auto"
+---@field void_edges? { [1]: integer, [2]: integer, [3]?: lacuna.Vector[] }[] given by hand: vertex tags from and to, points between
+---@field cap? "auto"|"flat"|"parallel" shape of a missing end; default "auto"
 
 ---@class lacuna.Layers
 ---@field count integer

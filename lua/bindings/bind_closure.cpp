@@ -6,21 +6,63 @@ namespace lacuna::lua {
 
 namespace {
 
+using closure::Cap;
 using closure::CloseOptions;
 using closure::EdgeShape;
 
 const Word<EdgeShape> kEdgeShapes[] = {
     {"straight", EdgeShape::straight},
     {"follow", EdgeShape::follow},
+    {"smooth", EdgeShape::smooth},
     {"auto", EdgeShape::automatic},
 };
+
+const Word<Cap> kCaps[] = {{"flat", Cap::flat}, {"parallel", Cap::parallel}, {"auto", Cap::automatic}};
 
 void read_edge_shape(lua_State* L, int index, const Where& where, CloseOptions& options)
 {
     options.edge_shape = read_word(L, index, where, kEdgeShapes);
 }
 
-const Option<CloseOptions> kCloseOptions[] = {{"edge_shape", read_edge_shape}};
+void read_cap(lua_State* L, int index, const Where& where, CloseOptions& options)
+{
+    options.cap = read_word(L, index, where, kCaps);
+}
+
+std::size_t length_of(lua_State* L, int index)
+{
+    return lua_type(L, index) == LUA_TTABLE ? lua_rawlen(L, index) : 0;
+}
+
+/// Void edges { from, to [, points] }: two vertex tags and an array of points {x, y, z}.
+void read_void_edges(lua_State* L, int index, const Where& where, CloseOptions& options)
+{
+    const std::size_t count = length_of(L, index);
+    guard(L, [&] { options.void_edges.resize(count); });
+    std::size_t next = 0;
+    read_array(
+        L, index, where, "an array of void edges { from, to, points }", [&](int element, const Where& at) {
+            const std::size_t size = length_of(L, element);
+            if (size != 2 && size != 3) fail_value(L, at, "a void edge { from, to, points }", element);
+            closure::VoidEdge& edge = options.void_edges[next++];
+            lua_rawgeti(L, element, 1);
+            lua_rawgeti(L, element, 2);
+            lua_rawgeti(L, element, 3);
+            const int points = lua_absindex(L, -1);
+            edge.from = read_whole(L, points - 2, at, 1);
+            edge.to = read_whole(L, points - 1, at, 1);
+            if (lua_isnil(L, points)) return;
+            const std::size_t between = length_of(L, points);
+            guard(L, [&] { edge.points.resize(between); });
+            std::size_t i = 0;
+            read_array(L, points, {at.call, lua_pushfstring(L, "%s[3]", at.key)},
+                       "an array of points {x, y, z}",
+                       [&](int point, const Where& p) { edge.points[i++] = read_vector(L, point, p); });
+        });
+}
+
+const Option<CloseOptions> kCloseOptions[] = {
+    {"edge_shape", read_edge_shape}, {"void_edges", read_void_edges}, {"cap", read_cap}};
 
 /// Tags of entities of the model, as an array in the table on top.
 template <class Id>
@@ -52,7 +94,7 @@ int close(lua_State* L)
     auto& state = hold<VolumeState>(L, 1);
     if (state.closure && has_options(L, 2, "close"))
         fail(L, "close: the volume is sealed already, by other options");
-    CloseOptions options;
+    auto& options = temporary<CloseOptions>(L);
     read_options(L, 2, "close", kCloseOptions, options);
     RunContext& context = push_context(L);
     guard(L, [&] {

@@ -26,6 +26,8 @@ const char* word(topology::Geometry geometry)
         return "annular strip";
     case topology::Geometry::followed:
         return "followed sides";
+    case topology::Geometry::parallel:
+        return "parallel to the other end";
     case topology::Geometry::minimal:
         return "minimal area";
     }
@@ -106,7 +108,11 @@ void match_volume(VolumeState& state, const matching::MatchOptions& options, con
 void close_volume(VolumeState& state, const closure::CloseOptions& options, const RunContext& context)
 {
     if (state.closure) return;
-    if (has_both_ends(state.volume)) match_volume(state, {}, context);
+    if (has_both_ends(state.volume)) {
+        matching::MatchOptions by_hand;
+        by_hand.vertices = closure::pairs_by_hand(state.volume, options);
+        match_volume(state, by_hand, context);
+    }
     topology::OpenVolume sealed = state.volume;
     state.closure = closure::close(sealed, state.match.value_or(matching::Match{}), options, context);
     state.volume = std::move(sealed);

@@ -224,7 +224,13 @@ local keys = {
   match = { vertices = function() return list_of(pair) end, loops = function() return list_of(pair) end,
     flip = function() return list_of(small) end,
         method = function() return pick { "aligned", "nearest" } end },
-  close = { edge_shape = function() return pick { "auto", "straight", "follow" } end },
+  close = { edge_shape = function() return pick { "auto", "straight", "follow", "smooth" } end,
+    cap = function() return pick { "auto", "flat", "parallel" } end,
+    void_edges = function()
+      return list_of(function()
+        return { small(), small(), chance(0.5) and list_of(vector) or nil }
+      end)
+    end },
   sweep = { layers = function()
       return pick { 2, 3, { 0.3, 1 }, { 0.5, 0.2 }, { count = 3, bias = 2, mode = "bell" }, { count = 2 }, 1 }
     end,

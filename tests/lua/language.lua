@@ -101,6 +101,24 @@ check.equal(#void:free_edges(), 0)
 check.fails(function() void:override_class "V" end, "before close()")
 check.fails(function() void:close { edge_shape = "straight" } end, "sealed already")
 
+-- Void edges: left smooth, and given by hand; a cap like the given end.
+local function bend(drop)
+  return lacuna.synthetic.prism { sides = 4, height = 4, bend = 90, facets = 8, drop = drop }
+end
+local straight = bend("walls"):open_volume { source = "source", target = "target" }
+check.equal(straight:close { edge_shape = "straight" }.void_edges, 4)
+local smooth = bend("walls"):open_volume { source = "source", target = "target" }
+check.equal(smooth:close { edge_shape = "smooth", cap = "auto" }.void_edges, 4)
+local sealed = smooth:sweep { layers = 12, size = 0.5 }
+check.near(sealed:quality().volume, 8, 8 * 0.03)
+check.that(straight:sweep { layers = 12, size = 0.5 }:quality().volume < 7)
+
+local by_hand = bend("walls"):open_volume { source = "source", target = "target" }
+local pair = by_hand:match().vertices[1]
+check.fails(function() by_hand:close { void_edges = { { pair[1], 99 } } } end, "vertex 99")
+check.fails(function() by_hand:close { cap = "flat" } end, "both given")
+check.equal(by_hand:close { void_edges = { { pair[2], pair[1], { { 0.5, 0, 2 } } } } }.void_edges, 4)
+
 -- A mesh: the count law, numbers from 1, groups that cover skin and volume.
 local mesh = void:sweep { layers = 3, size = 0.5 }
 check.equal(mesh.layers, 3)

@@ -19,7 +19,7 @@ local calls = {
   open_volume = { function(o) lacuna.synthetic.barrel():open_volume(o) end,
       { "source", "target", "walls", "faces", "class" } },
   match = { function(o) volume():match(o) end, { "method", "vertices", "loops", "flip" } },
-  close = { function(o) volume():close(o) end, { "edge_shape" } },
+  close = { function(o) volume():close(o) end, { "edge_shape", "void_edges", "cap" } },
   sweep = { function(o) volume():sweep(o) end,
             { "layers", "size", "quads", "order", "serendipity", "min_scaled_jacobian", "improve", "interior",
                 "threads" } },
@@ -94,6 +94,12 @@ wrong("match", "vertices", { 1, { 1 }, { { 1 } } }, "{ source, target }")
 wrong("match", "loops", { { { 0, 1 } } }, "a positive whole number")
 wrong("match", "flip", { 1, { 0 }, { 1.5 } }, "must be")
 wrong("close", "edge_shape", { "bent", 1 }, "straight, follow")
+wrong("close", "void_edges", { 1, { 1 }, { { 1 } }, { { 1, 2, {}, 4 } } }, "{ from, to, points }")
+wrong("close", "void_edges", { { { 0, 1 } }, { { 1, 1.5 } } }, "a positive whole number")
+wrong("close", "void_edges", { { { 1, 2, 3 } } }, "an array of points {x, y, z}")
+wrong("close", "void_edges", { { { 1, 2, { 3 } } }, { { 1, 2, { { 0, 0 } } } } }, "three numbers")
+wrong("close", "void_edges", { { { 1, 2, { { 0, 0, nan } } } } }, "void_edges[1][3][1]")
+wrong("close", "cap", { "round", 1 }, "flat, parallel")
 wrong("sweep", "layers", { 0, -3, 2.5, nan, huge, "8", true }, "a positive whole number")
 wrong("sweep", "layers", { { 0.5, 0.5, 1 }, { 0, 1 }, { 0.5, 1.5 } }, "a height that rises")
 wrong("sweep", "layers", { { 0.2, 0.5 } }, "must end with the height 1")

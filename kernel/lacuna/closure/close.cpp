@@ -26,27 +26,48 @@ void note(Closure& closure, const std::string& algorithm)
     if (std::find(list.begin(), list.end(), algorithm) == list.end()) list.push_back(algorithm);
 }
 
+/// One way to shape what is missing.
+struct Way {
+    EdgeShape edges = EdgeShape::straight; ///< not automatic
+    Cap cap = Cap::flat;                   ///< not automatic
+};
+
 /// What every way of closing needs.
 struct Tools {
-    const Follower* follower; ///< null: straight
+    Way way;
+    const Follower* follower; ///< null where the given walls lead nowhere
+    const std::vector<VoidEdge>& by_hand;
     const RunContext& context;
+
+    /// What void faces bend along beside their edges; null: nothing.
+    [[nodiscard]] const Follower* bending() const
+    {
+        return way.edges == EdgeShape::follow ? follower : nullptr;
+    }
 };
 
 void add_face(OpenVolume& volume, Closure& closure, const std::vector<Loop>& loops, Role role,
               const Tools& tools)
 {
     const std::string name = "void face " + std::to_string(closure.void_faces.size() + 1);
-    VoidFilling filling = fill(volume, loops, tools.follower, name, tools.context);
+    VoidFilling filling = fill(volume, loops, tools.bending(), name, tools.context);
     note(closure, filling.algorithm);
     closure.void_faces.push_back(add_void_face(volume, std::move(filling), role));
 }
 
-/// With no walls between them nothing but the match says how source and target face each other.
+/// With no walls between them nothing but the match says how source and target face each other. Walls that
+/// are connected to the target alone turn with it.
 void turn_target_to_source(OpenVolume& volume, const matching::Match& match)
 {
     if (match.loops.empty() || !match.loops.front().flipped) return;
-    for (const std::vector<FaceId>& part : connected_parts(volume.model, volume.faces(Role::target))) {
-        flip_faces(volume.model, part);
+    std::vector<FaceId> all;
+    for (std::size_t f = 0; f < volume.model.faces.size(); ++f) all.emplace_back(f);
+    for (const std::vector<FaceId>& part : connected_parts(volume.model, all)) {
+        const auto holds = [&](Role role) {
+            return std::any_of(part.begin(), part.end(),
+                               [&](FaceId face) { return volume.role[face.index()] == role; });
+        };
+        if (holds(Role::target) && !holds(Role::source)) flip_faces(volume.model, part);
     }
 }
 
@@ -80,20 +101,21 @@ void check_matched(const OpenVolume& volume, const matching::Match& match)
 }
 
 /// Class I has no algorithm of its own in the paper; its walls are those of class II with no wall given.
-void close_class_one_or_two(OpenVolume& volume, matching::Match match, const Tools& tools, Closure& closure)
+/// Class III is the same with every vertex on a wall: void edges only where its wall does not go all the way.
+void close_between_ends(OpenVolume& volume, matching::Match match, const Tools& tools, Closure& closure)
 {
     if (closure.value == VolumeClass::II) note(closure, "Algorithm 8");
+    if (closure.value == VolumeClass::III) note(closure, "Algorithm 9");
     turn_target_to_source(volume, match);
-    matching::apply_splits(volume, match);
-    check_matched(volume, match);
-    closure.void_edges = make_void_edges(volume, match, tools.follower);
-    note(closure, "Algorithm 2");
-    add_void_walls(volume, tools, closure);
-}
-
-void close_class_three(OpenVolume& volume, const Tools& tools, Closure& closure)
-{
-    note(closure, "Algorithm 9");
+    if (closure.value != VolumeClass::III) {
+        matching::apply_splits(volume, match);
+        check_matched(volume, match);
+    }
+    const bool smooth = tools.way.edges == EdgeShape::smooth;
+    closure.void_edges = make_void_edges(volume, match, tools.by_hand,
+                                         {tools.bending(), smooth, smooth ? tools.follower : nullptr},
+                                         tools.context);
+    if (!closure.void_edges.empty() || closure.value != VolumeClass::III) note(closure, "Algorithm 2");
     add_void_walls(volume, tools, closure);
 }
 
@@ -105,8 +127,39 @@ Loop reversed(const Rim& rim)
     return loop;
 }
 
+/// A missing target with the source's shape, moved to the walls' rim by the affine map that the walls'
+/// sections give.
+VoidFilling parallel_cap(const OpenVolume& volume, const std::vector<Loop>& loops, const std::string& name,
+                         const RunContext& context)
+{
+    const Model& model = volume.model;
+    OpenVolume capped = volume; // the walls say how they lead only between two ends
+    add_void_face(capped, fill(volume, loops, nullptr, name, context), Role::target);
+    const Follower follower(capped, context);
+    if (!follower.leads()) {
+        throw NotClosed("closure.nothing_parallel",
+                        name + " cannot be parallel to the given end: the walls do not say how it is "
+                               "carried to their rim; use cap = \"flat\"");
+    }
+    std::vector<Vec3> points;
+    for (const Vec3& p : model.points) points.push_back(follower.carried(p));
+    std::vector<Triangle> triangles;
+    double sides = 0;
+    for (const FaceId face : volume.faces(Role::source)) {
+        for (const Triangle& t : model[face].triangles) {
+            triangles.push_back(t);
+            for (std::size_t i = 0; i < 3; ++i)
+                sides += (points[static_cast<std::size_t>(t[(i + 1) % 3])] -
+                          points[static_cast<std::size_t>(t[i])])
+                             .norm();
+        }
+    }
+    return fill_as(volume, loops, geometry::FacetTree(points, triangles),
+                   sides / static_cast<double>(3 * triangles.size()), name, context);
+}
+
 /// Eq. (3) and (4): the free loops of source and walls are the target's.
-void close_class_four(OpenVolume& volume, const RunContext& context, Closure& closure)
+void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     note(closure, "Algorithm 10");
     const Model& model = volume.model;
@@ -135,16 +188,22 @@ void close_class_four(OpenVolume& volume, const RunContext& context, Closure& cl
                                                    " free loops for the target; a sweep needs as many on "
                                                    "both ends: check the walls, or name the target");
     }
-    add_face(volume, closure, loops, Role::target, {nullptr, context});
+    if (tools.way.cap == Cap::flat) {
+        add_face(volume, closure, loops, Role::target, tools);
+        return;
+    }
+    VoidFilling filling = parallel_cap(volume, loops, "void face 1", tools.context);
+    note(closure, filling.algorithm);
+    closure.void_faces.push_back(add_void_face(volume, std::move(filling), Role::target));
 }
 
 /// Eq. (5) to (8): the free loops, sorted into two subsets, are the source's and the target's.
-void close_class_five(OpenVolume& volume, const RunContext& context, Closure& closure)
+void close_class_five(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     note(closure, "Algorithm 11");
     const EndLoops ends = group_loops(volume);
-    add_face(volume, closure, ends.source, Role::source, {nullptr, context});
-    add_face(volume, closure, ends.target, Role::target, {nullptr, context});
+    add_face(volume, closure, ends.source, Role::source, tools);
+    add_face(volume, closure, ends.target, Role::target, tools);
 }
 
 Closure close_as(OpenVolume& volume, const matching::Match& match, VolumeClass value, const Tools& tools)
@@ -156,16 +215,14 @@ Closure close_as(OpenVolume& volume, const matching::Match& match, VolumeClass v
         break;
     case VolumeClass::I:
     case VolumeClass::II:
-        close_class_one_or_two(volume, match, tools, closure);
-        break;
     case VolumeClass::III:
-        close_class_three(volume, tools, closure);
+        close_between_ends(volume, match, tools, closure);
         break;
     case VolumeClass::IV:
-        close_class_four(volume, tools.context, closure);
+        close_class_four(volume, tools, closure);
         break;
     case VolumeClass::V:
-        close_class_five(volume, tools.context, closure);
+        close_class_five(volume, tools, closure);
         break;
     }
     if (enclosed_volume(volume) < 0) {
@@ -190,71 +247,209 @@ void prove_sealed(const OpenVolume& volume)
                             "the faces around it");
     }
     if (!(enclosed_volume(volume) > 0)) {
-        throw NotClosed("closure.no_volume", "the sealed faces enclose no volume; source and target may lie "
-                                             "in each other, or the match be twisted: try match{ flip = … }");
+        throw NotClosed("closure.no_volume", "the sealed faces enclose no volume: source and target may lie "
+                                             "in each other, or the match be twisted");
     }
 }
+
+bool has_two_ends(VolumeClass value)
+{
+    return value == VolumeClass::I || value == VolumeClass::II || value == VolumeClass::III;
+}
+
+/// @throw InvalidInput  an option that the class has no use for.
+void check_options(const OpenVolume& volume, VolumeClass value, const CloseOptions& options)
+{
+    if (!options.void_edges.empty() && !has_two_ends(value)) {
+        throw InvalidInput("closure.void_edges_unused",
+                           value == VolumeClass::closed
+                               ? "void_edges are for walls that are missing, and none is"
+                               : "void_edges join a given source and a given target, and a volume of class " +
+                                     std::string(to_string(value)) + " has not both");
+    }
+    if (options.cap == Cap::automatic || value == VolumeClass::IV) return;
+    if (value == VolumeClass::V && options.cap == Cap::flat) return;
+    throw InvalidInput(
+        "closure.cap_unused",
+        value == VolumeClass::V
+            ? "cap = \"parallel\" carries a given end's shape to the other, and both are "
+              "missing (class V); use \"flat\", or name the source"
+            : "cap shapes a missing end, and " + name_of(volume.model, volume.faces(Role::source).front()) +
+                  " and " + name_of(volume.model, volume.faces(Role::target).front()) + " are both given");
+}
+
+/// A volume being sealed as one of a class, in one way after another.
+class Sealer {
+public:
+    Sealer(const OpenVolume& volume, VolumeClass value, const CloseOptions& options,
+           const RunContext& context)
+        : volume_(volume), value_(value), options_(options), context_(context)
+    {
+        const bool has_walls = value == VolumeClass::II || value == VolumeClass::III;
+        if (has_walls && options.edge_shape != EdgeShape::straight) look_at_walls();
+        if (options.edge_shape == EdgeShape::follow && !leads()) {
+            throw NotClosed("closure.nothing_to_follow",
+                            "edge_shape = \"follow\" needs a given wall that joins source and "
+                            "target, and there is none; use \"straight\" or \"smooth\"");
+        }
+    }
+
+    /// Seal and prove it, in the first of the wanted ways that can be done.
+    Closure seal(const matching::Match& match)
+    {
+        std::optional<NotClosed> first;
+        for (const Way& way : wanted(match)) {
+            try {
+                return seal_as(way, match);
+            } catch (const NotClosed& error) {
+                if (!first) first = error;
+            }
+        }
+        throw NotClosed(first->code(), first->what() + what_helps(match));
+    }
+
+    [[nodiscard]] OpenVolume take() { return std::move(sealed_); }
+
+private:
+    void look_at_walls()
+    {
+        if (!follower_) follower_.emplace(volume_, context_);
+    }
+
+    [[nodiscard]] bool leads() const { return follower_ && follower_->leads(); }
+
+    /// Left to itself, a bent volume is closed bent, and a straight one straight unless that cuts through
+    /// what is given or encloses nothing.
+    std::vector<Way> wanted(const matching::Match& match) const
+    {
+        const bool flat_first = options_.cap != Cap::parallel;
+        if (value_ == VolumeClass::IV) {
+            std::vector<Way> ways{{EdgeShape::straight, flat_first ? Cap::flat : Cap::parallel}};
+            if (options_.cap == Cap::automatic) ways.push_back({EdgeShape::straight, Cap::parallel});
+            return ways;
+        }
+        if (options_.edge_shape != EdgeShape::automatic) return {{options_.edge_shape}};
+        if (!has_two_ends(value_)) return {{EdgeShape::straight}};
+        std::vector<Way> ways{{EdgeShape::straight}};
+        if (leads())
+            ways.insert(follower_->leads_astray(volume_, match) ? ways.begin() : ways.end(),
+                        {EdgeShape::follow});
+        ways.push_back({EdgeShape::smooth});
+        return ways;
+    }
+
+    Closure seal_as(const Way& way, const matching::Match& match)
+    {
+        OpenVolume sealed = volume_;
+        const Tools tools{way, leads() ? &*follower_ : nullptr, options_.void_edges, context_};
+        Closure closure = close_as(sealed, match, value_, tools);
+        if (const auto crossing = first_crossing(sealed, context_)) {
+            throw NotClosed("closure.faces_cross", name_of(sealed.model, crossing->first) + " would cross " +
+                                                       name_of(sealed.model, crossing->second));
+        }
+        prove_sealed(sealed);
+        closure.watertight = true;
+        sealed_ = std::move(sealed);
+        return closure;
+    }
+
+    bool would_seal(const Way& way, const matching::Match& match)
+    {
+        try {
+            seal_as(way, match);
+            return true;
+        } catch (const NotClosed&) {
+            return false;
+        }
+    }
+
+    /// What was tried after a failure and found to seal; what did not is not recommended.
+    std::string what_helps(const matching::Match& match)
+    {
+        const std::string otherwise = "; give the missing face, or another wall";
+        if (!has_two_ends(value_)) return otherwise;
+        if (options_.edge_shape != EdgeShape::automatic) {
+            if (value_ != VolumeClass::I) look_at_walls();
+            if (options_.edge_shape != EdgeShape::straight && would_seal({EdgeShape::straight}, match))
+                return "; close{ edge_shape = \"straight\" } seals it";
+            if (options_.edge_shape != EdgeShape::follow && leads() && would_seal({EdgeShape::follow}, match))
+                return "; close{ edge_shape = \"follow\" } seals it";
+            if (options_.edge_shape != EdgeShape::smooth && would_seal({EdgeShape::smooth}, match))
+                return "; close{ edge_shape = \"smooth\" } seals it";
+        }
+        matching::MatchOptions turned;
+        turned.vertices = pairs_by_hand(volume_, options_);
+        std::string loops;
+        for (const matching::LoopPair& pair : match.loops) {
+            turned.flip.push_back(pair.source);
+            loops += (loops.empty() ? "" : ", ") + std::to_string(pair.source + 1);
+        }
+        try {
+            const matching::Match other = matching::match(volume_, turned, context_);
+            for (const Way& way : wanted(other)) {
+                if (would_seal(way, other)) return "; match{ flip = { " + loops + " } } seals it";
+            }
+        } catch (const NotClosed&) {
+        } catch (const InvalidInput&) { // walls or pairs settle the direction
+        }
+        return otherwise;
+    }
+
+    const OpenVolume& volume_;
+    VolumeClass value_;
+    const CloseOptions& options_;
+    const RunContext& context_;
+    std::optional<Follower> follower_;
+    OpenVolume sealed_;
+};
 
 /// Seal a volume as one of a class, and prove it.
 Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value, const CloseOptions& options,
              const RunContext& context)
 {
-    const bool has_walls = value == VolumeClass::II || value == VolumeClass::III;
-    std::optional<Follower> follower;
-    if (has_walls && options.edge_shape != EdgeShape::straight) follower.emplace(volume, context);
-    const bool can_follow = follower && follower->leads();
-    const bool follow_at_once = options.edge_shape == EdgeShape::follow;
-    if (follow_at_once && !can_follow) {
-        throw NotClosed("closure.nothing_to_follow",
-                        "edge_shape = \"follow\" needs a given wall that joins source and "
-                        "target, and there is none; use \"straight\"");
-    }
-
-    // Left to itself, a bent volume is closed bent, and a straight one straight unless that cuts through
-    // what is given.
-    const bool bend_first = follow_at_once || (can_follow && follower->leads_astray(volume, match));
-    const Follower* const leader = can_follow ? &*follower : nullptr;
-    OpenVolume sealed = volume;
-    Closure closure = close_as(sealed, match, value, {bend_first ? leader : nullptr, context});
-    auto crossing = first_crossing(sealed, context);
-    if (crossing && can_follow && !follow_at_once) {
-        OpenVolume other = volume;
-        Closure otherwise = close_as(other, match, value, {bend_first ? nullptr : leader, context});
-        if (!first_crossing(other, context)) {
-            crossing.reset();
-            sealed = std::move(other);
-            closure = std::move(otherwise);
-        }
-    }
-    if (crossing) {
-        throw NotClosed(
-            "closure.faces_cross",
-            name_of(sealed.model, crossing->first) + " would cross " +
-                name_of(sealed.model, crossing->second) +
-                "; try close{ edge_shape = \"follow\" }, another match, or give the missing face");
-    }
-    prove_sealed(sealed);
-    closure.watertight = true;
-    volume = std::move(sealed);
+    Sealer sealer(volume, value, options, context);
+    Closure closure = sealer.seal(match);
+    volume = sealer.take();
     return closure;
 }
 
 } // namespace
+
+std::vector<std::pair<int, int>> pairs_by_hand(const OpenVolume& volume, const CloseOptions& options)
+{
+    const auto tags = [&](Role end) {
+        std::set<int> result;
+        for (const Rim& rim : rims(volume.model, volume.faces(end))) {
+            for (const EdgeUse& use : rim.uses) result.insert(volume.model[use_from(volume.model, use)].tag);
+        }
+        return result;
+    };
+    const std::set<int> source = tags(Role::source), target = tags(Role::target);
+    std::vector<std::pair<int, int>> pairs;
+    for (const VoidEdge& edge : options.void_edges) {
+        if (source.contains(edge.from) && target.contains(edge.to)) pairs.emplace_back(edge.from, edge.to);
+        if (source.contains(edge.to) && target.contains(edge.from)) pairs.emplace_back(edge.to, edge.from);
+    }
+    return pairs;
+}
 
 Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptions& options,
               const RunContext& context)
 {
     check_cancelled(context);
     const VolumeClass whole = classify(volume).value;
-    const bool two_ends = whole == VolumeClass::I || whole == VolumeClass::II || whole == VolumeClass::III;
-    if (!two_ends) return seal(volume, match, whole, options, context);
+    check_options(volume, whole, options);
+    if (!has_two_ends(whole)) return seal(volume, match, whole, options, context);
     OpenVolume lent = volume;
     const std::vector<FaceId> stubs = lend_stubs_to_ends(lent);
     if (stubs.empty()) return seal(volume, match, whole, options, context);
 
     // Part of a stack is missing: what is open lies between the stubs, and is matched there.
     lent.override_class.reset();
-    Closure closure = seal(lent, matching::match(lent, {}, context), classify(lent).value, options, context);
+    matching::MatchOptions by_hand;
+    by_hand.vertices = pairs_by_hand(lent, options);
+    Closure closure = seal(lent, matching::match(lent, by_hand, context), classify(lent).value, options,
+                           context);
     closure.value = whole;
     for (const FaceId stub : stubs) lent.role[stub.index()] = Role::wall;
     lent.override_class = volume.override_class;

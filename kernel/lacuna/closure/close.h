@@ -6,19 +6,38 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lacuna::closure {
 
 /// How a void edge runs between its two vertices.
 enum class EdgeShape {
-    automatic, ///< straight; `follow` where straight would stray from the walls or cross the given faces
-    straight,  ///< the paper's
-    follow,    ///< as the side edges next to it
+    /// Straight; `follow` where straight would stray from the walls. Where that crosses the given faces or
+    /// encloses no volume, the first of straight, `follow` and `smooth` that seals.
+    automatic,
+    straight, ///< the paper's
+    follow,   ///< as the side edges next to it
+    smooth,   ///< a cubic that leaves both ends along the walls there, else along the faces' normals
+};
+
+/// How a missing end (class IV) is shaped.
+enum class Cap {
+    automatic, ///< flat; parallel where flat would cross the given faces
+    flat,      ///< in the plane of its rim, or between its rim's heights (Algorithm 4)
+    parallel,  ///< the given end's shape, moved to the rim as the walls lead
+};
+
+/// A void edge given by hand.
+struct VoidEdge {
+    int from = 0, to = 0;     ///< tags of vertices on the free rims
+    std::vector<Vec3> points; ///< between the two, in that order; none: straight [model length]
 };
 
 struct CloseOptions {
     EdgeShape edge_shape = EdgeShape::automatic;
+    std::vector<VoidEdge> void_edges{}; ///< given by hand, with those of the match that are not
+    Cap cap = Cap::automatic;
 };
 
 /// What was added to seal the volume, and how.
@@ -33,13 +52,22 @@ struct Closure {
 /// Seal the volume: add void edges and faces with their geometry, and give every face its role.
 ///
 /// Algorithms 2–6 and one closer a class, 8–11. Classes IV and V have no target before, and both ends after.
+/// Departure: where walls stand for part of the way between source and target, a void edge joins what they
+/// leave open of each matched pair; the paper joins only vertices that are on no wall.
 /// @param volume  out: with the void entities added.
 /// @param match   of source and target; not read for classes IV and V, which have no two ends to match.
-/// @throw NotClosed  names the free loop, face or edge that cannot be sealed, and why.
+/// @throw NotClosed  names the free loop, face or edge that cannot be sealed, and why; and another shape or
+///         direction that was found to seal it.
+/// @throw InvalidInput  a void edge given by hand that cannot be one; names its vertices.
 /// @throw Cancelled
 /// @post  every edge is used twice, in opposite directions, and the volume enclosed is positive.
 Closure close(topology::OpenVolume& volume, const matching::Match& match, const CloseOptions& options = {},
               const RunContext& context = {});
+
+/// The void edges given by hand that join the rims of source and target, as pairs (source, target) of vertex
+/// tags: what a match has to keep to.
+std::vector<std::pair<int, int>> pairs_by_hand(const topology::OpenVolume& volume,
+                                               const CloseOptions& options);
 
 /// True when every edge is used twice in opposite directions and the facets enclose a positive volume.
 bool is_watertight(const topology::OpenVolume& volume);

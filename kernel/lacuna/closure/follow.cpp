@@ -60,6 +60,16 @@ Vec3 Follower::morph(const Vec3& source, const Vec3& target, double t) const
     return (1 - t) * up + t * down;
 }
 
+Vec3 Follower::leaving(const Vec3& source) const
+{
+    return (from_source_[1](source) - source).stableNormalized();
+}
+
+Vec3 Follower::arriving(const Vec3& target) const
+{
+    return (target - from_target_[kLevels - 1](target)).stableNormalized();
+}
+
 bool Follower::leads_astray(const topology::OpenVolume& volume, const matching::Match& match) const
 {
     const topology::Model& model = volume.model;

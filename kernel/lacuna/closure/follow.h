@@ -25,6 +25,13 @@ public:
     /// Where the point that starts at `source` and ends at `target` is at height t in [0, 1]. @pre leads()
     [[nodiscard]] Vec3 morph(const Vec3& source, const Vec3& target, double t) const;
 
+    /// Unit directions in which the walls move a point off the source, and onto the target. @pre leads()
+    [[nodiscard]] Vec3 leaving(const Vec3& source) const;
+    [[nodiscard]] Vec3 arriving(const Vec3& target) const;
+
+    /// Where the walls' motion alone, from the source up, takes a point of the source. @pre leads()
+    [[nodiscard]] Vec3 carried(const Vec3& source) const { return from_source_.back()(source); }
+
     /// True where a straight line between two matched vertices without walls would run further than a
     /// quarter of the rims' radius from where the walls lead: what it closes would be squeezed on one side.
     /// @pre leads()

@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/void_edges.h>
 
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/polyline.h>
+
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
 
 namespace lacuna::closure {
 
@@ -12,6 +20,121 @@ namespace {
 
 /// Segments of a void edge at most: a bend by 90° turns by less than 1.5° at each.
 constexpr int kMostSegments = 64;
+/// Cosine of the turn below which an edge goes on with a climb (45°): a wall's top turns by about 90°.
+/// A choice, not a measurement.
+constexpr double kOnward = 0.7071;
+/// A smooth curve's tangents turn by 3/4 of a circle over the chord at most: its handles go to infinity at a
+/// full one. A choice, not a measurement.
+constexpr double kMostTurn = 1.5 * std::numbers::pi;
+/// The ends face each other if their normals lean towards each other by more than this share of the chords.
+/// A choice, not a measurement.
+constexpr double kFacing = 1e-6;
+
+// --- gaps ---------------------------------------------------------------------------------------------
+
+/// Unit tangent at the end of a chain of points that is walked away from its start; as if the points lay
+/// on an arc.
+Vec3 end_tangent(const std::vector<Vec3>& points)
+{
+    const std::size_t n = points.size();
+    const Vec3 last = (points[n - 1] - points[n - 2]).stableNormalized();
+    if (n < 3) return last;
+    const Vec3 before = (points[n - 2] - points[n - 3]).stableNormalized();
+    return (1.5 * last - 0.5 * before).stableNormalized();
+}
+
+std::vector<Vec3> places(const Model& model, EdgeUse use)
+{
+    std::vector<Vec3> result;
+    for (const Index p : use_points(model, use)) result.push_back(model.at(p));
+    return result;
+}
+
+/// Walks up wall edges from a rim.
+class Climber {
+public:
+    explicit Climber(const OpenVolume& volume) : model_(volume.model)
+    {
+        std::set<EdgeId> of_ends;
+        for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+            for (const Loop& loop : model_.faces[f].loops) {
+                for (const EdgeUse& use : loop.uses) {
+                    const bool wall = volume.role[f] == Role::wall;
+                    (wall ? walls_ : of_ends).insert(use.edge);
+                    if (!wall) on_end_.insert(use_from(model_, use));
+                }
+            }
+        }
+        for (const EdgeId edge : walls_) {
+            if (of_ends.contains(edge)) continue;
+            for (const bool reversed : {false, true})
+                leaving_[use_from(model_, {edge, reversed})].push_back({edge, reversed});
+        }
+    }
+
+    /// The edges from a rim vertex as far up as they go; the last may end on the other rim.
+    [[nodiscard]] std::vector<EdgeUse> climb(VertexId start) const
+    {
+        std::vector<EdgeUse> way;
+        std::set<VertexId> passed{start};
+        Vec3 onward = off_rim(start);
+        for (VertexId at = start; way.empty() || !on_end_.contains(at);) {
+            const std::optional<EdgeUse> next = straightest(at, onward, way.empty() ? -1 : kOnward);
+            if (!next || !passed.insert(use_to(model_, *next)).second) break;
+            way.push_back(*next);
+            at = use_to(model_, *next);
+            onward = end_tangent(places(model_, *next));
+        }
+        return way;
+    }
+
+private:
+    /// The mean way of the wall edges that leave a rim vertex.
+    [[nodiscard]] Vec3 off_rim(VertexId at) const
+    {
+        Vec3 sum = Vec3::Zero();
+        const auto found = leaving_.find(at);
+        if (found == leaving_.end()) return sum;
+        for (const EdgeUse& use : found->second) sum += start_of(use);
+        return sum.stableNormalized();
+    }
+
+    [[nodiscard]] Vec3 start_of(EdgeUse use) const
+    {
+        const std::vector<Index> points = use_points(model_, use);
+        return (model_.at(points[1]) - model_.at(points[0])).stableNormalized();
+    }
+
+    [[nodiscard]] std::optional<EdgeUse> straightest(VertexId at, const Vec3& onward, double least) const
+    {
+        std::optional<EdgeUse> best;
+        const auto found = leaving_.find(at);
+        if (found == leaving_.end()) return best;
+        for (const EdgeUse& use : found->second) {
+            const double along = start_of(use).dot(onward);
+            if (along < least || (best && along <= start_of(*best).dot(onward))) continue;
+            best = use;
+        }
+        return best;
+    }
+
+    const Model& model_;
+    std::set<EdgeId> walls_;
+    std::set<VertexId> on_end_;
+    std::map<VertexId, std::vector<EdgeUse>> leaving_;
+};
+
+std::set<VertexId> free_vertices(const OpenVolume& volume)
+{
+    std::set<VertexId> vertices;
+    for (const EdgeId edge : free_edges(volume)) {
+        vertices.insert(volume.model[edge].from);
+        vertices.insert(volume.model[edge].to);
+    }
+    return vertices;
+}
+
+// --- the course of one void edge ------------------------------------------------------------------------
 
 /// Facet points on the edges at a vertex: their mean spacing is length / segments.
 struct Spacing {
@@ -43,44 +166,325 @@ std::vector<Spacing> spacing_of(const Model& model)
     return at;
 }
 
-} // namespace
-
-std::vector<EdgeId> make_void_edges(OpenVolume& volume, const matching::Match& match,
-                                    const Follower* follower)
+/// @param spacing  of the facet points at the gap's start; 0: there are none.
+std::vector<Vec3> straight_course(const Model& model, const Gap& gap, double spacing)
 {
-    Model& model = volume.model;
-    const std::vector<bool> on_wall = volume.on_wall();
-    std::vector<Spacing> spacing_at = spacing_of(model);
-    std::vector<EdgeId> made;
-    for (const auto& [source, target] : match.vertices) {
-        if (on_wall[source.index()] || on_wall[target.index()]) continue;
-        const Vec3 from = model.at(model[source].point);
-        const Vec3 to = model.at(model[target].point);
-        const double spacing = spacing_at[source.index()].mean();
-        const double wanted = spacing > 0 ? (to - from).norm() / spacing : 1;
-        int segments = static_cast<int>(
-            std::clamp(std::round(wanted), 1.0, static_cast<double>(kMostSegments)));
-        if (follower != nullptr) segments = kMostSegments;
+    const Vec3 from = model.at(model[gap.from].point), to = model.at(model[gap.to].point);
+    const double wanted = spacing > 0 ? (to - from).norm() / spacing : 1;
+    const int segments = static_cast<int>(
+        std::clamp(std::round(wanted), 1.0, static_cast<double>(kMostSegments)));
+    std::vector<Vec3> points;
+    for (int i = 1; i < segments; ++i) {
+        const double f = static_cast<double>(i) / segments;
+        points.push_back((1 - f) * from + f * to);
+    }
+    return points;
+}
 
+/// As the walls lead between the heights where the gap begins and ends, moved to meet its ends.
+std::vector<Vec3> followed_course(const Model& model, const Gap& gap, const Follower& follower)
+{
+    const auto at = [&](VertexId v) { return model.at(model[v].point); };
+    const Vec3 source = at(gap.source), target = at(gap.target), from = at(gap.from), to = at(gap.to);
+    const auto total = [&](const std::vector<EdgeUse>& uses) {
+        double sum = 0;
+        for (const EdgeUse& use : uses) sum += edge_length(model, use.edge);
+        return sum;
+    };
+    const double below = total(gap.below), above = total(gap.above);
+    const double all = below + (to - from).norm() + above;
+    const double low = below / all, high = 1 - above / all;
+    const Vec3 off_from = from - follower.morph(source, target, low);
+    const Vec3 off_to = to - follower.morph(source, target, high);
+    std::vector<Vec3> points;
+    for (int i = 1; i < kMostSegments; ++i) {
+        const double f = static_cast<double>(i) / kMostSegments;
+        points.push_back(follower.morph(source, target, low + f * (high - low)) + (1 - f) * off_from +
+                         f * off_to);
+    }
+    return points;
+}
+
+/// Normal of an end's faces at a vertex, by its facets' angles there; outward or inward as the faces are.
+Vec3 normal_at(const OpenVolume& volume, Role end, VertexId vertex)
+{
+    const Model& model = volume.model;
+    const Index point = model[vertex].point;
+    Vec3 sum = Vec3::Zero();
+    for (const FaceId face : volume.faces(end)) {
+        for (const Triangle& t : model[face].triangles) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                if (t[i] != point) continue;
+                const Vec3 a = model.at(t[(i + 1) % 3]) - model.at(point);
+                const Vec3 b = model.at(t[(i + 2) % 3]) - model.at(point);
+                const Vec3 area = a.cross(b);
+                sum += std::atan2(area.norm(), a.dot(b)) * area.stableNormalized();
+            }
+        }
+    }
+    return sum.stableNormalized();
+}
+
+/// Unit directions in which a smooth void edge leaves its first end and arrives at its last.
+struct Tangents {
+    Vec3 leave, arrive;
+};
+
+/// @param side  1 or -1: which side of the ends' faces the void is on.
+Tangents tangents_of(const OpenVolume& volume, const Gap& gap, const Follower* walls, double side)
+{
+    const Model& model = volume.model;
+    const Vec3 source = model.at(model[gap.source].point), target = model.at(model[gap.target].point);
+    Tangents result;
+    if (!gap.below.empty()) {
+        result.leave = end_tangent(places(model, gap.below.back()));
+    } else if (walls != nullptr) {
+        result.leave = walls->leaving(source);
+    } else {
+        result.leave = side * normal_at(volume, Role::source, gap.source);
+    }
+    if (!gap.above.empty()) {
+        result.arrive = -end_tangent(places(model, gap.above.back()));
+    } else if (walls != nullptr) {
+        result.arrive = walls->arriving(target);
+    } else {
+        result.arrive = -side * normal_at(volume, Role::target, gap.target);
+    }
+    return result;
+}
+
+/// On which side of the ends' faces the void is: where the normals lean towards the other end.
+double side_of_void(const OpenVolume& volume, const std::vector<Gap>& gaps, const Follower* walls)
+{
+    const Model& model = volume.model;
+    double lean = 0, length = 0;
+    bool asked = false;
+    for (const Gap& gap : gaps) {
+        const Vec3 chord = model.at(model[gap.to].point) - model.at(model[gap.from].point);
+        length += chord.norm();
+        if (gap.below.empty() && walls == nullptr) {
+            lean += chord.dot(normal_at(volume, Role::source, gap.source));
+            asked = true;
+        }
+        if (gap.above.empty() && walls == nullptr) {
+            lean -= chord.dot(normal_at(volume, Role::target, gap.target));
+            asked = true;
+        }
+    }
+    if (asked && !(std::abs(lean) > kFacing * length)) {
+        throw NotClosed("closure.no_side",
+                        name_of(model, volume.faces(Role::source).front()) + " and " +
+                            name_of(model, volume.faces(Role::target).front()) +
+                            " do not face each other, so smooth void edges could leave them to either side; "
+                            "give one by hand with close{ void_edges = … }");
+    }
+    return lean < 0 ? -1 : 1;
+}
+
+std::vector<Vec3> smooth_course(const Model& model, const Gap& gap, const Tangents& tangents)
+{
+    const Vec3 from = model.at(model[gap.from].point), to = model.at(model[gap.to].point);
+    const Vec3 chord = to - from;
+    const auto turn = [&](const Vec3& tangent) {
+        return std::atan2(tangent.cross(chord).norm(), tangent.dot(chord));
+    };
+    const double theta = std::min(turn(tangents.leave) + turn(tangents.arrive), kMostTurn);
+    const double handle = chord.norm() / (3 * std::pow(std::cos(theta / 4), 2));
+    const Vec3 a = from + handle * tangents.leave, b = to - handle * tangents.arrive;
+    std::vector<Vec3> points;
+    for (int i = 1; i < kMostSegments; ++i) {
+        const double f = static_cast<double>(i) / kMostSegments, g = 1 - f;
+        points.push_back(g * g * g * from + 3 * g * g * f * a + 3 * g * f * f * b + f * f * f * to);
+    }
+    return points;
+}
+
+// --- given by hand --------------------------------------------------------------------------------------
+
+std::string named(const VoidEdge& edge)
+{
+    return "the void edge from vertex " + std::to_string(edge.from) + " to vertex " + std::to_string(edge.to);
+}
+
+VertexId vertex_on_rim(const OpenVolume& volume, const VoidEdge& edge, int tag,
+                       const std::set<VertexId>& free)
+{
+    const Model& model = volume.model;
+    bool known = false;
+    std::string list;
+    for (const VertexId v : free) {
+        if (model[v].tag == tag) return v;
+        list += (list.empty() ? "" : ", ") + std::to_string(model[v].tag);
+    }
+    for (const Vertex& vertex : model.vertices) known = known || vertex.tag == tag;
+    throw InvalidInput("closure.void_edge_vertex",
+                       named(edge) + ": vertex " + std::to_string(tag) +
+                           (known ? " is on no free rim" : " is none of the volume's") +
+                           "; the vertices of the free rims are " + list);
+}
+
+/// The way of a void edge given by hand, its ends left out where the person gave them too.
+std::vector<Vec3> course_by_hand(const Model& model, const VoidEdge& edge, VertexId from, VertexId to)
+{
+    std::vector<Vec3> points;
+    const Vec3 last = model.at(model[to].point);
+    Vec3 before = model.at(model[from].point);
+    for (std::size_t i = 0; i < edge.points.size(); ++i) {
+        const Vec3& p = edge.points[i];
+        if (!p.allFinite())
+            throw InvalidInput("closure.void_edge_point",
+                               named(edge) + ": point " + std::to_string(i + 1) + " is not finite");
+        const bool at_end = (i == 0 && (p - before).norm() <= model.tolerance) ||
+                            (i + 1 == edge.points.size() && (p - last).norm() <= model.tolerance);
+        if (at_end) continue;
+        if ((p - before).norm() <= model.tolerance || (p - last).norm() <= model.tolerance)
+            throw InvalidInput("closure.void_edge_point", named(edge) + ": point " + std::to_string(i + 1) +
+                                                              " lies on the one before or on an end");
+        points.push_back(p);
+        before = p;
+    }
+    return points;
+}
+
+/// @throw InvalidInput  the edge goes through a given face.
+void check_clear(const Model& model, const VoidEdge& edge, const std::vector<Vec3>& way,
+                 const RunContext& context)
+{
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        check_cancelled(context);
+        const geometry::FacetTree tree(model.points, model.faces[f].triangles);
+        for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+            const double length = (way[i + 1] - way[i]).norm();
+            const Vec3 along = (way[i + 1] - way[i]) / length;
+            const double start = i == 0 ? model.tolerance : 0;
+            const double end = i + 2 == way.size() ? length - model.tolerance : length;
+            const geometry::FacetTree::RayHit hit = tree.first_along(way[i] + start * along, along);
+            if (hit.triangle < 0 || hit.t > end - start) continue;
+            const Vec3 place = way[i] + (start + hit.t) * along;
+            throw InvalidInput("closure.void_edge_crosses",
+                               named(edge) + " goes through " + name_of(model, FaceId(f)) + " at (" +
+                                   std::to_string(place.x()) + ", " + std::to_string(place.y()) + ", " +
+                                   std::to_string(place.z()) + ")");
+        }
+    }
+}
+
+/// Void edges being made.
+class Maker {
+public:
+    Maker(OpenVolume& volume, std::vector<Gap> gaps, const RunContext& context)
+        : volume_(volume), gaps_(std::move(gaps)), context_(context), spacing_(spacing_of(volume.model))
+    {
+    }
+
+    void by_hand(const std::vector<VoidEdge>& edges)
+    {
+        const std::set<VertexId> free = free_vertices(volume_);
+        for (const VoidEdge& edge : edges) {
+            const VertexId from = vertex_on_rim(volume_, edge, edge.from, free);
+            const VertexId to = vertex_on_rim(volume_, edge, edge.to, free);
+            check_ends(edge, from, to);
+            std::vector<Vec3> way = course_by_hand(volume_.model, edge, from, to);
+            std::vector<Vec3> whole{volume_.model.at(volume_.model[from].point)};
+            whole.insert(whole.end(), way.begin(), way.end());
+            whole.push_back(volume_.model.at(volume_.model[to].point));
+            check_clear(volume_.model, edge, whole, context_);
+            add(from, to, way);
+        }
+    }
+
+    void run(const Course& course)
+    {
+        std::erase_if(gaps_, [&](const Gap& gap) { return pairs_.contains(std::minmax(gap.from, gap.to)); });
+        const double side = course.smooth ? side_of_void(volume_, gaps_, course.walls) : 1;
+        for (const Gap& gap : gaps_) {
+            const Model& model = volume_.model;
+            add(gap.from, gap.to,
+                course.smooth ? smooth_course(model, gap, tangents_of(volume_, gap, course.walls, side))
+                : course.follower != nullptr
+                    ? followed_course(model, gap, *course.follower)
+                    : straight_course(model, gap, spacing_[gap.from.index()].mean()));
+        }
+    }
+
+    [[nodiscard]] std::vector<EdgeId> made() { return std::move(made_); }
+
+private:
+    void check_ends(const VoidEdge& edge, VertexId from, VertexId to) const
+    {
+        const Model& model = volume_.model;
+        if (from == to) throw InvalidInput("closure.void_edge_ends", named(edge) + " must join two vertices");
+        if (pairs_.contains(std::minmax(from, to)))
+            throw InvalidInput("closure.void_edge_twice", named(edge) + " is given twice");
+        for (const Gap& gap : gaps_) {
+            if (std::minmax(gap.from, gap.to) == std::minmax(from, to)) return;
+        }
+        for (const Gap& gap : gaps_) {
+            for (const VertexId end : {from, to}) {
+                if (gap.from != end && gap.to != end) continue;
+                throw InvalidInput("closure.void_edge_contradicts",
+                                   named(edge) + ": " + name_of(model, end) + " goes to " +
+                                       name_of(model, gap.from == end ? gap.to : gap.from) +
+                                       " by the match; match the vertices anew with match{ vertices = … }");
+            }
+        }
+    }
+
+    void add(VertexId from, VertexId to, const std::vector<Vec3>& between)
+    {
+        Model& model = volume_.model;
         Edge edge;
         edge.origin = Origin::made_void;
-        edge.tag = static_cast<int>(made.size()) + 1;
-        edge.from = source;
-        edge.to = target;
-        edge.points.push_back(model[source].point);
-        for (int i = 1; i < segments; ++i) {
-            const double f = static_cast<double>(i) / segments;
-            const Vec3 place = follower != nullptr ? follower->morph(from, to, f)
-                                                   : Vec3((1 - f) * from + f * to);
+        edge.tag = static_cast<int>(made_.size()) + 1;
+        edge.from = from;
+        edge.to = to;
+        edge.points.push_back(model[from].point);
+        for (const Vec3& place : between) {
             edge.points.push_back(static_cast<Index>(model.points.size()));
             model.points.push_back(place);
         }
-        edge.points.push_back(model[target].point);
-        made.emplace_back(model.edges.size());
+        edge.points.push_back(model[to].point);
+        made_.emplace_back(model.edges.size());
         model.edges.push_back(std::move(edge));
-        add_edge(model, made.back(), spacing_at);
+        add_edge(model, made_.back(), spacing_);
+        pairs_.insert(std::minmax(from, to));
     }
-    return made;
+
+    OpenVolume& volume_;
+    std::vector<Gap> gaps_;
+    const RunContext& context_;
+    std::vector<Spacing> spacing_; ///< at each vertex
+    std::vector<EdgeId> made_;
+    std::set<std::pair<VertexId, VertexId>> pairs_;
+};
+
+} // namespace
+
+std::vector<Gap> find_gaps(const OpenVolume& volume, const matching::Match& match)
+{
+    const Model& model = volume.model;
+    const Climber climber(volume);
+    const std::set<VertexId> free = free_vertices(volume);
+    std::vector<Gap> gaps;
+    for (const auto& [source, target] : match.vertices) {
+        Gap gap{source, target, source, target, climber.climb(source), climber.climb(target)};
+        std::set<VertexId> reached{source};
+        for (const EdgeUse& use : gap.below) reached.insert(gap.from = use_to(model, use));
+        bool joined = reached.contains(target);
+        for (const EdgeUse& use : gap.above) joined = joined || reached.contains(gap.to = use_to(model, use));
+        if (!joined && free.contains(gap.from) && free.contains(gap.to)) gaps.push_back(std::move(gap));
+    }
+    return gaps;
+}
+
+std::vector<EdgeId> make_void_edges(OpenVolume& volume, const matching::Match& match,
+                                    const std::vector<VoidEdge>& by_hand, const Course& course,
+                                    const RunContext& context)
+{
+    Maker maker(volume, find_gaps(volume, match), context);
+    maker.by_hand(by_hand);
+    maker.run(course);
+    return maker.made();
 }
 
 } // namespace lacuna::closure

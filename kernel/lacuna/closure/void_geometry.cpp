@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 
 namespace lacuna::closure {
@@ -93,33 +94,64 @@ NewellOutline newell_outline(const Model& model, const std::vector<Loop>& loops)
     return result;
 }
 
+/// Heights over the Newell plane, harmonic inside and `rim` at the outline's points, which come first.
+std::vector<double> harmonic_heights(const geometry::Triangulation& flat, const std::vector<double>& rim,
+                                     const RunContext& context)
+{
+    std::vector<Vec3> points;
+    for (const Vec2& p : flat.points) points.emplace_back(p.x(), p.y(), 0);
+    geometry::HarmonicProblem problem;
+    problem.points = points;
+    problem.triangles = flat.triangles;
+    problem.fixed_values.resize(static_cast<Eigen::Index>(rim.size()), 1);
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+        problem.fixed.push_back(static_cast<Index>(i));
+        problem.fixed_values(static_cast<Eigen::Index>(i), 0) = rim[i];
+    }
+    const Eigen::MatrixXd lifted = geometry::solve_harmonic(problem, context);
+    return {lifted.data(), lifted.data() + lifted.rows()};
+}
+
+std::vector<double> rim_heights(const Model& model, const NewellOutline& newell)
+{
+    std::vector<double> heights;
+    for (const Index p : newell.outline.model_point)
+        heights.push_back(geometry::height(newell.plane, model.at(p)));
+    return heights;
+}
+
 VoidFilling fill_on_newell_plane(const Model& model, const NewellOutline& newell, const RunContext& context)
 {
     const Outline& outline = newell.outline;
     const geometry::Triangulation flat = geometry::triangulate(outline.flat, outline.loops, {}, context);
     std::vector<double> heights(flat.points.size(), 0);
-    if (newell.bulge > model.tolerance && flat.points.size() > outline.flat.size()) {
-        std::vector<Vec3> points;
-        for (const Vec2& p : flat.points) points.emplace_back(p.x(), p.y(), 0);
-        geometry::HarmonicProblem problem;
-        problem.points = points;
-        problem.triangles = flat.triangles;
-        const auto rim = static_cast<Eigen::Index>(outline.flat.size());
-        problem.fixed_values.resize(rim, 1);
-        for (Eigen::Index i = 0; i < rim; ++i) {
-            problem.fixed.push_back(static_cast<Index>(i));
-            problem.fixed_values(i, 0) = geometry::height(
-                newell.plane, model.at(outline.model_point[static_cast<std::size_t>(i)]));
-        }
-        const Eigen::MatrixXd lifted = geometry::solve_harmonic(problem, context);
-        for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = lifted(static_cast<Eigen::Index>(i), 0);
-    }
+    if (newell.bulge > model.tolerance && flat.points.size() > outline.flat.size())
+        heights = harmonic_heights(flat, rim_heights(model, newell), context);
     VoidFilling result = filling_of(model, outline, flat, [&](std::size_t i) {
         return geometry::from_plane(newell.plane, flat.points[i], heights[i]);
     });
     result.geometry = Geometry::newell;
     result.algorithm = "Algorithm 4";
     return result;
+}
+
+/// Height of a surface over a place of a plane: where the plane's normal meets it, and beside its rim where
+/// it is closest. Nothing where it is met more than once.
+std::optional<double> height_of(const geometry::FacetTree& shape, const geometry::Plane& plane,
+                                const Vec2& place, double tolerance)
+{
+    const Vec3 foot = geometry::from_plane(plane, place, 0);
+    std::optional<double> height;
+    bool once = true;
+    for (const double way : {1.0, -1.0}) {
+        shape.all_along(foot, way * plane.normal, [&](const geometry::FacetTree::RayHit& hit) {
+            if (height && std::abs(*height - way * hit.t) > tolerance) once = false;
+            height = way * hit.t;
+            return once;
+        });
+    }
+    if (!once) return std::nullopt;
+    return height ? *height : geometry::height(plane, shape.closest(foot).point);
 }
 
 // --- Algorithms 5 and 6: the transfinite patch ------------------------------------------------------
@@ -348,7 +380,13 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
                                          : std::vector<std::vector<EdgeUse>>{};
     VoidFilling result;
     if (!sides.empty() && (!flat || crossing)) {
-        result = fill_transfinite(model, sides, follower, context);
+        try {
+            result = fill_transfinite(model, sides, follower, context);
+        } catch (const InvalidInput& error) {
+            throw NotClosed("closure.face_folds", name + ", with " +
+                                                      name_of(model, sides.front().front().edge) +
+                                                      ", folds where its sides lead: " + error.what());
+        }
     } else if (!crossing) {
         result = fill_on_newell_plane(model, newell, context);
     } else {
@@ -356,6 +394,45 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
                                       context);
     }
     result.loops = loops;
+    return result;
+}
+
+VoidFilling fill_as(const OpenVolume& volume, const std::vector<Loop>& loops,
+                    const geometry::FacetTree& shape, double facet_size, const std::string& name,
+                    const RunContext& context)
+{
+    const Model& model = volume.model;
+    const NewellOutline newell = newell_outline(model, loops);
+    const Outline& outline = newell.outline;
+    if (const auto crossing = geometry::find_crossing(outline.flat, outline.loops)) {
+        throw NotClosed("closure.outline_crosses",
+                        name +
+                            " cannot be laid out in a plane: " + crossing_in_words(model, loops, *crossing) +
+                            " cross there, so that it cannot be parallel to the given end");
+    }
+    geometry::TriangulateOptions fine;
+    fine.size = [=](const Vec2&) { return facet_size; };
+    const geometry::Triangulation flat = geometry::triangulate(outline.flat, outline.loops, fine, context);
+    std::vector<double> heights;
+    for (const Vec2& place : flat.points) {
+        check_cancelled(context);
+        const auto height = height_of(shape, newell.plane, place, model.tolerance);
+        if (!height) {
+            throw NotClosed("closure.cap_folds",
+                            name + " cannot be parallel to the given end, which folds over the plane of the "
+                                   "walls' rim; use cap = \"flat\", or give the face");
+        }
+        heights.push_back(*height);
+    }
+    std::vector<double> left = rim_heights(model, newell);
+    for (std::size_t i = 0; i < left.size(); ++i) left[i] -= heights[i];
+    const std::vector<double> moved = harmonic_heights(flat, left, context);
+    VoidFilling result = filling_of(model, outline, flat, [&](std::size_t i) {
+        return geometry::from_plane(newell.plane, flat.points[i], heights[i] + moved[i]);
+    });
+    result.loops = loops;
+    result.geometry = Geometry::parallel;
+    result.algorithm = "Algorithm 4";
     return result;
 }
 

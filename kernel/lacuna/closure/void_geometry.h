@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/closure/follow.h>
+#include <lacuna/geometry/facet_tree.h>
 
 #include <string>
 #include <vector>
@@ -37,6 +38,14 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 /// @throw NotClosed  names the face and the edges that cross.
 VoidFilling fill(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops,
                  const Follower* follower, const std::string& name, const RunContext& context = {});
+
+/// Facets for the loops of a missing end that has the shape of a given surface: that surface's heights over
+/// the Newell plane of the loops, moved by the harmonic extension of what is left at the loops.
+/// @param shape  the given end where the walls move it, near the loops.
+/// @throw NotClosed  the loops cross in their Newell plane, or the surface folds over it; names the face.
+VoidFilling fill_as(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops,
+                    const geometry::FacetTree& shape, double facet_size, const std::string& name,
+                    const RunContext& context = {});
 
 /// Put a filled face into the volume.
 FaceId add_void_face(topology::OpenVolume& volume, VoidFilling filling, topology::Role role);

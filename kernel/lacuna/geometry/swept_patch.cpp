@@ -5,6 +5,7 @@
 #include <lacuna/geometry/transfinite.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace lacuna::geometry {
 
@@ -16,6 +17,10 @@ constexpr double kShortChord = 0.1;
 /// How far along a side its direction is looked for, as a share of its length.
 /// A choice, not a measurement.
 constexpr double kReach = 0.02;
+/// Frames moved along a seam: a half turn in steps of 3°. A choice, not a measurement.
+constexpr int kFrames = 64;
+/// A seam that strays less from its chord, as a share of its length, is straight.
+constexpr double kStraight = 1e-9;
 
 } // namespace
 
@@ -44,14 +49,60 @@ SweptPatch::SweptPatch(std::span<const Vec3> bottom, std::span<const Vec3> right
                            chord.cross(up).norm() > kShortChord * chord.norm() * up.norm();
         turns_ = turns_ && clear;
     }
-    if (turns_) {
+    if (!turns_ && is_bent_seam()) {
+        turns_ = true;
+        carry_frame();
+    } else if (turns_) {
         first_ = frame(0);
         last_ = frame(1);
     }
 }
 
+bool SweptPatch::is_bent_seam() const
+{
+    const double reach = kStraight * left_.arc.back();
+    const Vec3 along = (left_.points.back() - left_.points.front()).stableNormalized();
+    double stray = 0;
+    for (int i = 0; i <= kFrames; ++i) {
+        const Vec3 p = left_.at(static_cast<double>(i) / kFrames);
+        if ((p - right_.at(static_cast<double>(i) / kFrames)).norm() > reach) return false;
+        stray = std::max(stray, (p - left_.points.front()).cross(along).norm());
+    }
+    return stray > reach;
+}
+
+void SweptPatch::carry_frame()
+{
+    const auto tangent = [&](int i) {
+        return Vec3(left_.tangent(static_cast<double>(i) / kFrames).stableNormalized());
+    };
+    carried_.push_back(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), tangent(0)));
+    for (int i = 1; i <= kFrames; ++i) {
+        const auto step = Eigen::Quaterniond::FromTwoVectors(tangent(i - 1), tangent(i));
+        carried_.push_back((step * carried_.back()).normalized());
+    }
+    first_ = frame(0);
+    last_ = frame(1);
+    double along = 0, across = 0;
+    for (int i = 0; i < kFrames; ++i) {
+        const double s = static_cast<double>(i) / kFrames;
+        const Vec3 b = first_.transpose() * (bottom_.at(s) - bottom_.points.front());
+        const Vec3 e = last_.transpose() * (top_.at(s) - top_.points.front());
+        along += b.head<2>().dot(e.head<2>());
+        across += b.x() * e.y() - b.y() * e.x();
+    }
+    twist_ = std::atan2(across, along);
+    last_ = frame(1);
+}
+
 Eigen::Matrix3d SweptPatch::frame(double t) const
 {
+    if (!carried_.empty()) {
+        const double at = std::clamp(t, 0.0, 1.0) * kFrames;
+        const auto low = static_cast<std::size_t>(std::min(std::floor(at), kFrames - 1.0));
+        const Eigen::Quaterniond here = carried_[low].slerp(at - static_cast<double>(low), carried_[low + 1]);
+        return here.toRotationMatrix() * Eigen::AngleAxisd(t * twist_, Vec3::UnitZ()).toRotationMatrix();
+    }
     const Vec3 along = (right_.at(t) - left_.at(t)).normalized();
     const Vec3 up = left_.tangent(t).normalized() + right_.tangent(t).normalized();
     const Vec3 across = along.cross(up).normalized();

@@ -3,6 +3,8 @@
 
 #include <lacuna/core/types.h>
 
+#include <Eigen/Geometry>
+
 #include <span>
 #include <vector>
 
@@ -16,6 +18,10 @@ namespace lacuna::geometry {
 /// (1−s) left(t) + s right(t) + size(t) F(t) [(1−t) b(s) + t e(s)], b and e the deviations of bottom and
 /// top in the frames F(0) and F(1), over their lengths. All four sides are met; where the frame does not
 /// turn and the lengths agree it is the Coons patch.
+///
+/// Round a bent seam (left and right are one line, bottom and top close) there is no chord. The frame is then
+/// moved along the seam with the least turn (rotation-minimising), plus an even twist about it that brings
+/// the bottom's deviations nearest to the top's: a ring about an arc gives its torus.
 class SweptPatch {
 public:
     /// Sides as polylines: bottom and top from left to right, left and right from bottom to top, corners
@@ -26,8 +32,8 @@ public:
     /// The point at shares of the sides' lengths, both in [0, 1].
     [[nodiscard]] Vec3 operator()(double s, double t) const;
 
-    /// False where left and right run so close together that no chord gives a frame (a seam): a plain Coons
-    /// patch then.
+    /// False where left and right run so close together that no chord gives a frame, and they are no bent
+    /// seam: a plain Coons patch then.
     [[nodiscard]] bool turns() const { return turns_; }
 
 private:
@@ -38,9 +44,13 @@ private:
         [[nodiscard]] Vec3 tangent(double f) const;
     };
     [[nodiscard]] Eigen::Matrix3d frame(double t) const;
+    [[nodiscard]] bool is_bent_seam() const;
+    void carry_frame();
 
     SideCurve bottom_, right_, top_, left_;
     Eigen::Matrix3d first_, last_;
+    std::vector<Eigen::Quaterniond> carried_; ///< frames at even places of a bent seam; else none
+    double twist_ = 0;                        ///< of the top's frame about the seam, beyond the moved one
     bool turns_ = true;
 };
 

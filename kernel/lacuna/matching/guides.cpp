@@ -138,7 +138,8 @@ std::vector<std::size_t> anchor_lines(const LevelLine& line)
     return numbers;
 }
 
-std::vector<Vec3> sampled(const LevelLine& line)
+/// @param start  where a closed line without anchors begins [running length].
+std::vector<Vec3> sampled(const LevelLine& line, double start = 0)
 {
     const std::vector<double> arc = geometry::arc_lengths(line.points);
     std::vector<double> stops{0};
@@ -149,30 +150,46 @@ std::vector<Vec3> sampled(const LevelLine& line)
     const int each = line.closed && line.anchors.empty() ? kSamplesRound : kSamplesBetween;
     std::vector<Vec3> samples;
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-        for (int k = 0; k < each; ++k)
-            samples.push_back(
-                geometry::point_at(line.points, arc, stops[i] + (stops[i + 1] - stops[i]) * k / each));
+        for (int k = 0; k < each; ++k) {
+            const double at = start + stops[i] + (stops[i + 1] - stops[i]) * k / each;
+            samples.push_back(geometry::point_at(line.points, arc, at <= arc.back() ? at : at - arc.back()));
+        }
     }
     if (!line.closed) samples.push_back(line.points.back());
     return samples;
 }
 
-/// Start a closed section so that it lies on the one below with the least turn.
-void align(std::vector<Vec3>& section, const std::vector<Vec3>& below)
+/// A closed section that starts where it lies on the one below with the least turn: at the best sample, and
+/// from there as far along as the samples' distances still have a part along the line. A start at a sample
+/// would turn each section by up to half a step.
+std::vector<Vec3> aligned(const LevelLine& line, const std::vector<Vec3>& below)
 {
+    const std::vector<Vec3> section = sampled(line);
+    const std::size_t n = section.size();
     const Vec3 shift = geometry::mean_point(section) - geometry::mean_point(below);
+    const auto off = [&](std::size_t i, std::size_t k) {
+        return Vec3(section[(i + k) % n] - below[i] - shift);
+    };
     std::size_t best = 0;
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < section.size(); ++k) {
+    for (std::size_t k = 0; k < n; ++k) {
         double sum = 0;
-        for (std::size_t i = 0; i < section.size(); ++i)
-            sum += (section[(i + k) % section.size()] - below[i] - shift).squaredNorm();
+        for (std::size_t i = 0; i < n; ++i) sum += off(i, k).squaredNorm();
         if (sum < least) {
             least = sum;
             best = k;
         }
     }
-    std::rotate(section.begin(), section.begin() + static_cast<std::ptrdiff_t>(best), section.end());
+    double against = 0, along = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec3 step = (section[(i + best + 1) % n] - section[(i + best + n - 1) % n]) / 2;
+        against -= step.dot(off(i, best));
+        along += step.squaredNorm();
+    }
+    const double length = geometry::length(line.points);
+    const double further = along > 0 ? std::clamp(against / along, -0.5, 0.5) : 0;
+    const double start = (static_cast<double>(best) + further) * length / static_cast<double>(n);
+    return sampled(line, start < 0 ? start + length : start);
 }
 
 /// The sections of one wall part.
@@ -200,6 +217,32 @@ Vec3 complete(const LevelLine& line, std::vector<Vec3>& section)
     return (std::abs(area.dot(up)) + open.squaredNorm() / (4 * std::numbers::pi)) * up;
 }
 
+/// True where the ends of an open line lie on side lines.
+std::pair<bool, bool> ends_anchored(const LevelLine& line)
+{
+    if (line.anchors.empty()) return {false, false};
+    return {line.anchors.front().first == 0, line.anchors.back().first + 1 == line.points.size()};
+}
+
+/// Walls that go only part of the way lengthen some open lines at one end: leave all of them between the side
+/// lines that they share.
+/// @return  false where the lines end in unlike ways and share no two side lines.
+bool cut_to_shared(std::vector<LevelLine>& lines)
+{
+    const bool alike = std::all_of(lines.begin(), lines.end(), [&](const LevelLine& line) {
+        return ends_anchored(line) == ends_anchored(lines.front());
+    });
+    if (alike || lines.front().closed) return true;
+    if (lines.front().anchors.size() < 2) return false;
+    for (LevelLine& line : lines) {
+        const auto first = static_cast<std::ptrdiff_t>(line.anchors.front().first);
+        const auto last = static_cast<std::ptrdiff_t>(line.anchors.back().first);
+        line.points = {line.points.begin() + first, line.points.begin() + last + 1};
+        for (auto& [point, number] : line.anchors) point -= static_cast<std::size_t>(first);
+    }
+    return true;
+}
+
 /// Sections of one wall part; empty when some level is not one line like the others.
 PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& part,
                          const std::vector<double>& heights, const std::vector<Vec3>& up,
@@ -211,23 +254,25 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
         const std::vector<Triangle>& more = volume.model[face].triangles;
         triangles.insert(triangles.end(), more.begin(), more.end());
     }
-    PartSections result;
-    std::vector<std::vector<Vec3>>& sections = result.points;
-    std::vector<std::size_t> anchors;
-    bool closed = false;
+    std::vector<LevelLine> lines;
     for (int k = 0; k <= count; ++k) {
         check_cancelled(context);
         const double t = std::clamp(static_cast<double>(k) / count, kRim, 1 - kRim);
         std::optional<LevelLine> line = level_line(volume.model, triangles, heights, t, up, on_line);
         if (!line) return {};
         start_at_first_anchor(*line);
-        if (k == 0) anchors = anchor_lines(*line);
-        if (anchor_lines(*line) != anchors) return {};
-        if (k == 0) closed = line->closed;
-        if (line->closed != closed) return {};
-        sections.push_back(sampled(*line));
-        if (closed && anchors.empty() && k > 0) align(sections.back(), sections[sections.size() - 2]);
-        result.areas.push_back(complete(*line, sections.back()));
+        if (k > 0 &&
+            (anchor_lines(*line) != anchor_lines(lines.front()) || line->closed != lines.front().closed))
+            return {};
+        lines.push_back(std::move(*line));
+    }
+    if (!cut_to_shared(lines)) return {};
+    PartSections result;
+    std::vector<std::vector<Vec3>>& sections = result.points;
+    for (const LevelLine& line : lines) {
+        const bool guess = line.closed && line.anchors.empty() && !sections.empty();
+        sections.push_back(guess ? aligned(line, sections.back()) : sampled(line));
+        result.areas.push_back(complete(line, sections.back()));
         if (sections.back().size() != sections.front().size()) return {};
     }
     return result;

@@ -21,7 +21,8 @@ struct Sections {
 /// walked with the rise on its left and sampled evenly between the side lines it crosses; a closed one that
 /// crosses none is started where it lies best on the level below. An open line is given two points off the
 /// wall and the area of a round line as long as its gap, by the way up the wall: a straight one by itself
-/// leaves open how it is turned. Wall parts that a level cuts in several lines (holes), or that do not join
+/// leaves open how it is turned. Open lines of walls that go only part of the way are cut to the side lines
+/// they share. Wall parts that a level cuts in several lines (holes), or that do not join
 /// both rims, are left out.
 Sections cut_sections(const topology::OpenVolume& volume, int count, const RunContext& context = {});
 

@@ -147,7 +147,8 @@ RimColumns columns_of(const OpenVolume& volume, const std::vector<surface::Linki
     return columns;
 }
 
-/// Void walls alone, ruled between the ends: the paper's class I, whose node lines are straight.
+/// Void walls alone, ruled between the ends: the paper's class I, whose node lines are straight. Not where
+/// void edges are bent.
 bool ruled(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links)
 {
     for (const FaceId wall : volume.faces(Role::wall)) {
@@ -155,6 +156,13 @@ bool ruled(const OpenVolume& volume, const std::vector<surface::LinkingSurface>&
     }
     for (const surface::LinkingSurface& link : links) {
         if (link.lines.empty()) return false;
+        for (const surface::LinkingLine& line : link.lines) {
+            const surface::Chain chain(volume.model, line.line.uses);
+            const double chord = (volume.model.at(volume.model[line.line.target].point) -
+                                  volume.model.at(volume.model[line.line.source].point))
+                                     .norm();
+            if (chain.length() - chord > volume.model.tolerance) return false;
+        }
     }
     return true;
 }
