@@ -25,6 +25,9 @@
 ---@field keep_mesh? boolean given quads and nodes stay as they are; default true
 ---@field scale? number every coordinate times this; default 1
 
+---@class lacuna.ModelOptions
+---@field tolerance? number points closer than this are one [model length]; default 1e-6 × the diagonal
+
 ---@class lacuna.NewFace
 ---@field name? string
 ---@field points lacuna.Vector[]
@@ -269,8 +272,9 @@ local lacuna = {}
 ---@param options? lacuna.LoadOptions
 ---@return lacuna.Model
 function lacuna.load(path, options) end
+---@param options? lacuna.ModelOptions
 ---@return lacuna.Model
-function lacuna.model() end
+function lacuna.model(options) end
 --- The table, with the key=value words of the command line laid over it.
 ---@generic T: table
 ---@param defaults T

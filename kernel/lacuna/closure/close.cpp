@@ -190,8 +190,10 @@ void prove_sealed(const OpenVolume& volume)
                             "the faces around it");
     }
     if (!(enclosed_volume(volume) > 0)) {
-        throw NotClosed("closure.no_volume", "the sealed faces enclose no volume; source and target may lie "
-                                             "in each other, or the match be twisted: try match{ flip = … }");
+        throw NotClosed("closure.no_volume",
+                        "the sealed faces enclose a volume of " + std::to_string(enclosed_volume(volume)) +
+                            ", which is not above 0: source and target lie in each other, or the faces "
+                            "between them are twisted");
     }
 }
 
@@ -226,12 +228,25 @@ Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value
             closure = std::move(otherwise);
         }
     }
+    // Left to itself the closing has tried both shapes; a shape asked for is set against the other.
+    const auto other_shape_helps = [&]() -> std::string {
+        if (!has_walls || options.edge_shape == EdgeShape::automatic) return "";
+        try {
+            if (!follower) follower.emplace(volume, context);
+            if (!follower->leads()) return "";
+            OpenVolume other = volume;
+            close_as(other, match, value, {follow_at_once ? nullptr : &*follower, context});
+            if (first_crossing(other, context)) return "";
+        } catch (const NotClosed&) {
+            return "";
+        }
+        return std::string("; with close{ edge_shape = ") + (follow_at_once ? "\"straight\"" : "\"follow\"") +
+               " } no faces cross";
+    };
     if (crossing) {
-        throw NotClosed(
-            "closure.faces_cross",
-            name_of(sealed.model, crossing->first) + " would cross " +
-                name_of(sealed.model, crossing->second) +
-                "; try close{ edge_shape = \"follow\" }, another match, or give the missing face");
+        throw NotClosed("closure.faces_cross", name_of(sealed.model, crossing->first) + " would cross " +
+                                                   name_of(sealed.model, crossing->second) +
+                                                   other_shape_helps());
     }
     prove_sealed(sealed);
     closure.watertight = true;

@@ -340,9 +340,8 @@ ProvedSweep sweep_between(const OpenVolume& volume, const std::vector<surface::L
         if (volume.model[wall].origin != Origin::given ||
             std::find(faces.begin(), faces.end(), wall) != faces.end())
             continue;
-        result.report.push_back(
-            "walls: " + name_of(volume.model, wall) +
-            " is smaller than the quads there and has none, nor a group; use a smaller size or more layers");
+        result.report.push_back("walls: " + name_of(volume.model, wall) +
+                                " is smaller than the quads there and has none, nor a group");
     }
     quality::Proof proof = prove_or_improve(result, volume.model, faces, seeds.kept, options, context);
     const quality::Quality& quality = proof.quality;
