@@ -20,8 +20,8 @@ struct PlanarRegion {
 };
 
 /// Whether a region can be filled at all, before any work is done.
-/// @throw InvalidInput  "surface.pave_loops": no loop, one of fewer than three nodes, loops that cross, touch or
-///                      run the wrong way; "surface.pave_parity": an odd number of boundary sides.
+/// @throw InvalidInput  "surface.pave_loops": no loop, one of fewer than three nodes, loops that cross, touch
+///                      or run the wrong way; "surface.pave_parity": an odd number of boundary sides.
 void check(const PlanarRegion& region);
 
 /// Quads over a planar region.

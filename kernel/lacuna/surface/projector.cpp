@@ -85,10 +85,10 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
         std::vector<Projected> now(members.size());
         for (std::size_t k = 0; k < members.size(); ++k) {
             const geometry::FacetTree::Hit& hit = hits[members[k]];
-            now[k] = {triangle_of_[static_cast<std::size_t>(hit.triangle)], hit.point, moved[k]};
+            now[k] = {&hit, triangle_of_[static_cast<std::size_t>(hit.triangle)], &moved[k]};
         }
         trimmed_.at(face).keep_inside(now, context);
-        for (std::size_t k = 0; k < members.size(); ++k) points[members[k]] = now[k].at;
+        for (std::size_t k = 0; k < members.size(); ++k) points[members[k]] = moved[k];
     }
     return faces;
 }

@@ -144,44 +144,60 @@ void Trimming::measure_clearance()
         const Vec3 centre = (model_->at(t[0]) + model_->at(t[1]) + model_->at(t[2])) / 3;
         double reach = 0;
         for (const Index corner : t) reach = std::max(reach, (model_->at(corner) - centre).norm());
-        clearance_.push_back(std::sqrt(tree_.closest(centre).distance2) - reach);
+        Clearance clear{std::sqrt(tree_.closest(centre).distance2) - reach, Vec3::Zero()};
+        const Vec3 &a = model_->at(t[0]), &b = model_->at(t[1]), &c = model_->at(t[2]);
+        const double twice = (b - a).cross(c - a).norm();
+        clear.heights = {twice / (c - b).norm(), twice / (a - c).norm(), twice / (b - a).norm()};
+        clearance_.push_back(clear);
     }
+}
+
+/// Well inside: no border within the way the point went from its facet, or that way ends over the same facet.
+bool Trimming::is_clear(const Projected& point) const
+{
+    const double reach = (*point.at - point.from->point).norm() + most_bulge_;
+    const Clearance& clear = clearance_[index(point.triangle)];
+    return reach < clear.facet || reach < point.from->barycentric.cwiseProduct(clear.heights).minCoeff();
 }
 
 bool Trimming::is_near(const Projected& point, Near& near) const
 {
-    const double moved = (point.at - point.from).norm();
-    if (moved + most_bulge_ < clearance_[index(point.triangle)]) return false;
-    const geometry::FacetTree::Hit hit = tree_.closest(point.at);
+    const double reach = (*point.at - point.from->point).norm() + most_bulge_;
+    const geometry::FacetTree::Hit hit = tree_.closest(*point.at);
     const Side& side = sides_[index(hit.triangle)];
     near.side = index(hit.triangle);
     near.share = hit.barycentric[1];
     near.on_border = hit.point;
     near.inward = near.share <= 0 ? side.inward_at_start : near.share >= 1 ? side.inward_at_end : side.inward;
     if (std::sqrt(hit.distance2) <= side.bulge) return true;
-    if ((point.at - hit.point).dot(near.inward) >= 0) return false;
+    if ((*point.at - hit.point).dot(near.inward) >= 0) return false;
     // A border that is near in space and far along the face: no way over it leads here.
-    return std::sqrt(tree_.closest(point.from).distance2) <= moved + most_bulge_;
+    return std::sqrt(tree_.closest(point.from->point).distance2) <= reach;
 }
 
-void Trimming::keep_inside(std::span<Projected> points, const RunContext& context) const
+void Trimming::keep_inside(std::span<const Projected> points, const RunContext& context) const
 {
     if (sides_.empty()) return;
-    std::vector<Near> near(points.size());
-    std::vector<char> taken(points.size(), 0);
+    std::vector<char> clear(points.size(), 0);
     parallel_for(context, points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) taken[i] = is_near(points[i], near[i]) ? 1 : 0;
+        for (std::size_t i = begin; i < end; ++i) clear[i] = is_clear(points[i]) ? 1 : 0;
+    });
+    std::vector<Near> near;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (clear[i] == 0) near.emplace_back().point = i;
+    }
+    std::vector<char> taken(near.size(), 0);
+    parallel_for(context, near.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) taken[i] = is_near(points[near[i].point], near[i]) ? 1 : 0;
     });
     std::map<EdgeId, std::vector<Near>> by_edge;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (taken[i] == 0) continue;
-        near[i].point = i;
-        by_edge[sides_[near[i].side].use.edge].push_back(near[i]);
+    for (std::size_t i = 0; i < near.size(); ++i) {
+        if (taken[i] != 0) by_edge[sides_[near[i].side].use.edge].push_back(near[i]);
     }
     for (auto& [edge, some] : by_edge) {
         if ((*model_)[edge].curve != nullptr) settle(points, some);
         for (const Near& n : some) {
-            Vec3& at = points[n.point].at;
+            Vec3& at = *points[n.point].at;
             if ((at - n.on_border).dot(n.inward) < 0) at = n.on_border;
         }
     }
@@ -198,7 +214,7 @@ void Trimming::settle(std::span<const Projected> points, std::span<Near> near) c
         const double from = edge.params[side.segment], to = edge.params[side.segment + 1];
         const double share = side.use.reversed ? 1 - n.share : n.share;
         places.push_back({from + share * (to - from), kDifference * std::abs(to - from)});
-        targets.push_back(points[n.point].at);
+        targets.push_back(*points[n.point].at);
     }
     for (int round = 0; round < kRounds; ++round) step_along(*edge.curve, places, targets, low, high);
     std::vector<double> params;
