@@ -27,6 +27,9 @@
 ---@field cad_seconds? number processor time the CAD process may take over it; in the sandbox it only lowers
 ---@field cad_megabytes? number address space the CAD process may take; in the sandbox it only lowers
 
+---@class lacuna.ModelOptions
+---@field tolerance? number points closer than this are one [model length]; default 1e-6 × the diagonal
+
 ---@class lacuna.NewFace
 ---@field name? string
 ---@field points lacuna.Vector[]
@@ -274,8 +277,9 @@ local lacuna = {}
 ---@param options? lacuna.LoadOptions
 ---@return lacuna.Model
 function lacuna.load(path, options) end
+---@param options? lacuna.ModelOptions
 ---@return lacuna.Model
-function lacuna.model() end
+function lacuna.model(options) end
 --- The table, with the key=value words of the command line laid over it.
 ---@generic T: table
 ---@param defaults T

@@ -115,15 +115,24 @@ const Box<ModelState>& hold_model(lua_State* L, int index)
     return state;
 }
 
-/// model = lacuna.model()
+struct NewModel {
+    double tolerance = 0;
+};
+
+const Option<NewModel> kModelOptions[] = {
+    {"tolerance", positive<&NewModel::tolerance>},
+};
+
+/// model = lacuna.model([{ tolerance = }])
 int new_model(lua_State* L)
 {
-    if (!lua_isnoneornil(L, 1))
-        fail_value(L, {"model", nullptr}, "nothing: add_face adds to an empty model", 1);
+    NewModel options;
+    read_options(L, 1, "model", kModelOptions, options);
     auto& box = new_box<ModelState>(L);
     guard(L, [&] {
         box = std::make_shared<ModelState>();
         box->hand_made = true;
+        box->tolerance = options.tolerance;
     });
     return 1;
 }

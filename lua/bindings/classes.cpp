@@ -79,6 +79,7 @@ void refresh(ModelState& state)
     if (!state.stale) return;
     healing::SplitOptions options;
     options.whole_labels = true;
+    options.tolerance = state.tolerance;
     topology::Model model = healing::split_facets(state.added, options);
     if (model.faces.size() != static_cast<std::size_t>(state.added_faces))
         throw InvalidInput("lua.face_in_parts", "the " + std::to_string(state.added_faces) +

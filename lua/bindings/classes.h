@@ -25,6 +25,7 @@ namespace lacuna::lua {
 struct ModelState {
     topology::Model model;
     bool hand_made = false;
+    double tolerance = 0;     ///< with `hand_made`: points closer than this are one; 0: the default
     healing::FacetSoup added; ///< with `hand_made`: a label a face, in the order of adding
     int added_faces = 0;
     bool stale = false; ///< `model` lacks faces of `added`

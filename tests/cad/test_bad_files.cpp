@@ -127,6 +127,11 @@ TEST_CASE("a file without faces says so")
 TEST_CASE("a script with an error is refused in Gmsh's own words")
 {
     const test::TempFolder folder;
+    // Without a last newline no command is lost: the file is read whole, or refused.
+    const std::string script = "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\n"
+                               "Rectangle(2) = {0, 0, 1, 1, 1}";
+    CHECK(cad::load({folder.write("last.geo", script + ";")}).faces.size() == 2);
+    CHECK(has(failure(folder.write("cut.geo", script)), "cad.unreadable"));
     const std::string message = failure(folder.write("bad.geo", "Point(1) = {0,0,0};\nnonsense;\n"));
     CHECK(has(message, "bad.geo"));
     CHECK(has(message, "line 2"));

@@ -243,6 +243,37 @@ TEST_CASE("an odd number of boundary sides is refused, an error of the size func
     CHECK_THROWS_AS(cad::recombine(region), InvalidInput);
 }
 
+TEST_CASE("a region whose loops cross or touch is refused and ends no process")
+{
+    const auto refused = [](const quads::PlanarRegion& region) {
+        try {
+            cad::recombine(region);
+        } catch (const Error& error) {
+            return error.code();
+        }
+        return std::string("done");
+    };
+    quads::PlanarRegion bow_tie, out_and_back, touching;
+    add_loop(bow_tie, {{0, 0}, {2, 2}, {2, 0}, {0, 2}});
+    // Up a seam and down again, as the border of a dome was once handed over.
+    add_loop(out_and_back, circle({0, 0}, 1, 20));
+    const Index first = out_and_back.loops[0][0];
+    out_and_back.points.emplace_back(0.5, 1e-5);
+    out_and_back.points.emplace_back(0, 0);
+    out_and_back.points.emplace_back(0.5, -1e-5);
+    out_and_back.points.push_back(out_and_back.points[std::size_t(first)]);
+    for (Index p = 20; p < 24; ++p)
+        out_and_back.loops[0].insert(out_and_back.loops[0].begin() + 1 + p - 20, p);
+    add_loop(touching, along({{0, 0}, {4, 0}, {4, 4}, {0, 4}}, 1));
+    add_loop(touching, {{1, 1}, {1, 3}, {4, 2}, {3, 1}});
+    for (const auto& region : {bow_tie, out_and_back, touching}) {
+        CHECK(refused(region) == "surface.pave_loops");
+        quads::PlanarRegion good;
+        add_loop(good, circle({0, 0}, 1, 12));
+        CHECK(refused(good) == "done");
+    }
+}
+
 TEST_CASE("the same region gives the same quads")
 {
     for (const Region& r : regions(400)) {

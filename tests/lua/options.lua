@@ -14,6 +14,7 @@ local square = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }
 local calls = {
   load = { function(o) lacuna.load("nowhere.step", o) end,
       { "tolerance", "feature_angle", "keep_mesh", "scale", "cad_seconds", "cad_megabytes" } },
+  model = { lacuna.model, { "tolerance" } },
   add_face = { function(o) lacuna.model():add_face(o) end, { "name", "points", "cells", "keep_mesh" } },
   faces = { function(o) lacuna.model():faces(o) end, { "tags", "name", "kind", "facing", "near", "area" } },
   open_volume = { function(o) lacuna.synthetic.barrel():open_volume(o) end,
@@ -59,6 +60,7 @@ local function wrong(name, key, values, expected)
   end
 end
 local huge, nan = math.huge, 0 / 0
+wrong("model", "tolerance", { 0, -1, nan, huge, "1", true, {} }, "a positive number")
 wrong("load", "tolerance", { 0, -1, nan, huge, "1", true, {} }, "a positive number")
 wrong("load", "scale", { 0, -1, nan, huge, "1" }, "a positive number")
 wrong("load", "cad_seconds", { 0, -1, nan, "1" }, "a positive number")

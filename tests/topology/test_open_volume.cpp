@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -188,8 +189,53 @@ TEST_CASE("a wall that touches neither end is refused by name")
     const Model model = healing::split_facets(soup, split);
     Roles roles = first.roles;
     roles.walls.emplace_back(model.faces.size() - 1);
-    CHECK(refusal([&] { open_volume(model, roles); }, {"astray", "wall", "tolerance"}) ==
-          "topology.wall_apart");
+    CHECK(refusal([&] { open_volume(model, roles); }, {"astray", "wall"}) == "topology.wall_apart");
+    // It is far from everything: no tolerance would join it.
+    try {
+        open_volume(model, roles);
+    } catch (const Error& error) {
+        CHECK(std::string(error.what()).find("tolerance") == std::string::npos);
+    }
+}
+
+TEST_CASE("a gap beside a wall is named with its width and with a tolerance that closes it")
+{
+    for (const double gap : {1e-5, 3e-4, 2e-3}) {
+        CAPTURE(gap);
+        const auto whole = test::prism({});
+        auto soup = whole.soup;
+        // One wall, moved off by the gap.
+        const int wall = static_cast<int>(whole.roles.walls.front().index());
+        std::map<Index, Index> moved;
+        for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+            if (soup.triangle_label[t] != wall) continue;
+            for (Index& p : soup.triangles[t]) {
+                const auto [found, fresh] = moved.try_emplace(p, static_cast<Index>(soup.points.size()));
+                if (fresh)
+                    soup.points.push_back(soup.points[static_cast<std::size_t>(p)] +
+                                          gap * Vec3(0.6, 0.64, 0.48));
+                p = found->second;
+            }
+        }
+        healing::SplitOptions split;
+        split.whole_labels = true;
+        const Model model = healing::split_facets(soup, split);
+        std::string message;
+        try {
+            open_volume(model, whole.roles);
+        } catch (const InvalidInput& error) {
+            CHECK(error.code() == "topology.wall_apart");
+            message = error.what();
+        }
+        CAPTURE(message);
+        const std::size_t at = message.find("tolerance = ");
+        REQUIRE(at != std::string::npos);
+        split.tolerance = std::stod(message.substr(at + 12));
+        CHECK(split.tolerance >= gap);
+        CHECK(split.tolerance <= 1.2 * gap);
+        const Model joined = healing::split_facets(soup, split);
+        CHECK(classify(open_volume(joined, whole.roles)).value == VolumeClass::closed);
+    }
 }
 
 TEST_CASE("an open volume holds only what its faces use, and the model it came from is left alone")

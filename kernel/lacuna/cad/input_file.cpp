@@ -35,9 +35,41 @@ constexpr std::size_t kMostContents = 100;
     throw BackendError("cad.unreadable", path + " cannot be read: " + std::strerror(error));
 }
 
+std::string text_of(const Descriptor& file, std::size_t most)
+{
+    const off_t size = std::max<off_t>(0, ::lseek(file.get(), 0, SEEK_END));
+    std::string text(std::min(most, static_cast<std::size_t>(size)), '\0');
+    std::size_t got = 0;
+    while (got < text.size()) {
+        const ssize_t now = ::pread(file.get(), text.data() + got, text.size() - got,
+                                    static_cast<off_t>(got));
+        if (now <= 0) break;
+        got += static_cast<std::size_t>(now);
+    }
+    text.resize(got);
+    return text;
+}
+
+bool is_step(const std::string& head) { return head.find("ISO-10303-21") != std::string::npos; }
+bool is_brep(const std::string& head)
+{
+    return head.find("CASCADE Topology") != std::string::npos ||
+           head.find("DBRep_DrawableShape") != std::string::npos;
+}
+
 std::string name_of(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
 
-/// Copy a regular file to memory that no one can change any more, to the end of an input.
+/// What Gmsh would run as a script when a script merges it.
+bool runs_as_script(const std::string& name, const std::string& head)
+{
+    const std::string ending = ending_of(name);
+    for (const std::string_view data : {".step", ".stp", ".iges", ".igs", ".brep", ".stl", ".msh"})
+        if (ending == data) return false;
+    return !is_step(head) && !is_brep(head);
+}
+
+/// Copy a regular file to memory that no one can change any more, to the end of an input. A script gets a last newline: where it has
+/// none, Gmsh's parser drops a last command that is not whole without a word.
 void add_copy(InputFile& input, const std::string& name, const std::string& path, int flags,
               const RunContext& context)
 {
@@ -66,33 +98,17 @@ void add_copy(InputFile& input, const std::string& name, const std::string& path
         digest = digest_of(std::span(block).first(count), digest);
         input.bytes += count;
     }
+    if (runs_as_script(name_of(path), text_of(copy, kHead))) {
+        while (::write(copy.get(), "\n", 1) < 0) {
+            if (errno != EINTR) fail(path, errno);
+        }
+    }
     ::fcntl(copy.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE | F_SEAL_SEAL);
     input.descriptors.push_back(std::move(copy));
     input.digests.push_back(digest);
     input.file.contents.push_back({name});
 }
 
-std::string text_of(const Descriptor& file, std::size_t most)
-{
-    const off_t size = std::max<off_t>(0, ::lseek(file.get(), 0, SEEK_END));
-    std::string text(std::min(most, static_cast<std::size_t>(size)), '\0');
-    std::size_t got = 0;
-    while (got < text.size()) {
-        const ssize_t now = ::pread(file.get(), text.data() + got, text.size() - got,
-                                    static_cast<off_t>(got));
-        if (now <= 0) break;
-        got += static_cast<std::size_t>(now);
-    }
-    text.resize(got);
-    return text;
-}
-
-bool is_step(const std::string& head) { return head.find("ISO-10303-21") != std::string::npos; }
-bool is_brep(const std::string& head)
-{
-    return head.find("CASCADE Topology") != std::string::npos ||
-           head.find("DBRep_DrawableShape") != std::string::npos;
-}
 /// Every line of an IGES file has its section's letter in column 73.
 bool is_iges(const std::string& head)
 {
@@ -130,15 +146,6 @@ LoadFile::Format format_of(const std::string& path, const std::string& head)
     if (!meant || is_step(head) || is_brep(head) || head.find('\0') != std::string::npos)
         throw_not_of_kind(path, "Gmsh script");
     return LoadFile::script;
-}
-
-/// What Gmsh would run as a script when a script merges it.
-bool runs_as_script(const std::string& name, const std::string& head)
-{
-    const std::string ending = ending_of(name);
-    for (const std::string_view data : {".step", ".stp", ".iges", ".igs", ".brep", ".stl", ".msh"})
-        if (ending == data) return false;
-    return !is_step(head) && !is_brep(head);
 }
 
 /// Look through a script and bring along what it merges, and what that merges in turn.

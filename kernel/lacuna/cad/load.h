@@ -35,7 +35,7 @@ topology::Model load(const std::vector<std::string>& paths, const LoadOptions& o
 /// Gmsh's recombination of a planar region into quads, boundary nodes kept, by the same process. Sizes are
 /// asked on a raster of 96 crossings along the longer side, within the region.
 /// @throw NotSweepable  an odd number of boundary sides ("cad.odd_rim"), or triangles left
-///                      ("cad.recombine").
+///                      ("cad.recombine"). InvalidInput  as quads::check(). BackendError  the process ended.
 quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext& context = {});
 
 /// Version of Gmsh in the CAD process, and what this system lacks to confine it; "none" where there is no

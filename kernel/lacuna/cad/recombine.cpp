@@ -114,6 +114,8 @@ quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext
             "a region with " + std::to_string(sides) +
                 " boundary sides cannot be filled with quads; their number must be even and 4 at least");
     }
+    // Gmsh ends its process over loops that cross.
+    quads::check(region);
     check_cancelled(context);
     RecombineRequest request{region.points, region.loops, {}};
     if (region.size) {
@@ -125,8 +127,18 @@ quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext
     Task task{"a region of " + std::to_string(sides) + " boundary sides", "filling it with quads"};
     task.context = &context;
     task.points = sides * sides / 16; // as many quads as a round region of so many sides has
-    auto reply =
-        Worker::current(&context, task.subject)->ask<RecombineReply>(Opcode::recombine, request, task);
+    const auto fill = [&] {
+        try {
+            return Worker::current(&context, task.subject)
+                ->ask<RecombineReply>(Opcode::recombine, request, task);
+        } catch (const BackendError& error) {
+            if (error.code() != "cad.worker_ended") throw;
+            // No file is to blame, as the worker's own words have it.
+            throw BackendError(error.code(), "Gmsh's quad mesher ended its process over " + task.subject +
+                                                 "; quads = \"paved\" does without it");
+        }
+    };
+    auto reply = fill();
     if (reply.points.size() < region.points.size() ||
         !std::equal(region.points.begin(), region.points.end(), reply.points.begin()))
         throw BackendError("cad.protocol", "the CAD process moved nodes of the boundary of a region");

@@ -184,9 +184,8 @@ private:
     void plane(FaceId id, SolidFace& made)
     {
         // Without seams, which mean nothing in a plane.
-        std::vector<Loop> walks;
-        for (const Rim& rim : rims(model_, {id})) walks.push_back({rim.uses});
-        for (const Loop& loop : outermost_first(model_, std::move(walks))) made.loops.push_back(wire(loop));
+        for (const Loop& loop : outermost_first(model_, border_loops(model_, id)))
+            made.loops.push_back(wire(loop));
     }
 
     void patches(FaceId face, const std::vector<std::vector<EdgeUse>>& sides, SolidFace& made) const

@@ -14,6 +14,9 @@ namespace {
 /// What a file may change of the volume: STEP leaves it to the reader to lay edges on fitted surfaces anew.
 constexpr double kSameVolume = 1e-4;
 
+/// Curves no longer than this part of the diagonal are points: rounding, far below any tolerance.
+constexpr double kPole = 1e-9;
+
 std::vector<int> tags_of(int dim)
 {
     gmsh::vectorpair entities;
@@ -30,9 +33,17 @@ double volume_of(int solid)
     return volume;
 }
 
+/// A curve of a face that is one point: the pole of a sphere, the tip of a cone.
+bool is_pole(int curve, double diagonal)
+{
+    double length = 0;
+    gmsh::model::occ::getMass(1, curve, length);
+    return length <= kPole * diagonal;
+}
+
 /// How many entities of the current model are not as they are in one closed solid; in words, empty where all
 /// are.
-std::string faults_of_model()
+std::string faults_of_model(double diagonal)
 {
     gmsh::model::occ::synchronize();
     const std::vector<int> solids = tags_of(3);
@@ -48,7 +59,7 @@ std::string faults_of_model()
         for (const auto& curve : curves) ++uses[std::abs(curve.second)];
     }
     std::size_t open = 0;
-    for (const auto& [curve, count] : uses) open += count == 2 ? 0 : 1;
+    for (const auto& [curve, count] : uses) open += count == 2 || is_pole(curve, diagonal) ? 0 : 1;
     return open == 0 ? "" : std::to_string(open) + " open edges";
 }
 
@@ -58,13 +69,57 @@ struct Sewn {
     double tolerance = 0;
 };
 
+/// The solid that faces cut out of a box round them; 0 where none is bounded by all of them and nothing else.
+///
+/// Sewing takes away the edges at poles and tips, which have no length, and Open CASCADE then finds the faces
+/// there invalid. Cutting keeps them, and takes longer.
+int cut_out(Session& session, const gmsh::vectorpair& shapes, const MakeSolidRequest& request,
+            double tolerance)
+{
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : request.points) box.extend(p);
+    // Clear of the faces, whatever they bulge between their points.
+    const Vec3 side = 3 * box.diagonal().norm() * Vec3::Ones(), low = box.center() - side / 2;
+    const int around = gmsh::model::occ::addBox(low.x(), low.y(), low.z(), side.x(), side.y(), side.z());
+    session.set("Geometry.ToleranceBoolean", tolerance);
+    gmsh::vectorpair out;
+    std::vector<gmsh::vectorpair> map;
+    gmsh::model::occ::fragment({{3, around}}, shapes, out, map, -1, true, false);
+    session.set("Geometry.ToleranceBoolean", 0.0);
+    gmsh::model::occ::synchronize();
+    int solid = 0;
+    for (const auto& [dim, tag] : out) {
+        if (dim != 3) continue;
+        gmsh::vectorpair boundary;
+        gmsh::model::getBoundary({{dim, tag}}, boundary, false, false, false);
+        if (boundary.size() == shapes.size() && volume_of(tag) > 0) solid = tag;
+    }
+    if (solid == 0) gmsh::model::occ::remove(out, true);
+    return solid;
+}
+
+bool has_pole(int face, double diagonal)
+{
+    gmsh::vectorpair curves;
+    gmsh::model::getBoundary({{2, face}}, curves, false, false, false);
+    return std::any_of(curves.begin(), curves.end(),
+                       [&](const auto& curve) { return is_pole(curve.second, diagonal); });
+}
+
 /// Sew with ever wider tolerances until one solid comes of it.
-Sewn sew(const std::vector<int>& faces, const MakeSolidRequest& request)
+Sewn sew(Session& session, const std::vector<int>& faces, const MakeSolidRequest& request)
 {
     gmsh::vectorpair shapes;
     for (const int face : faces) shapes.emplace_back(2, face);
+    gmsh::model::occ::synchronize();
+    const bool poles = std::any_of(faces.begin(), faces.end(),
+                                   [&](int face) { return has_pole(face, request.diagonal); });
     const double last = request.last_tolerance;
     for (double tolerance = request.first_tolerance; tolerance <= last; tolerance *= 10) {
+        if (poles) {
+            if (const int solid = cut_out(session, shapes, request, tolerance)) return {solid, tolerance};
+            continue;
+        }
         gmsh::vectorpair out;
         gmsh::model::occ::healShapes(out, shapes, tolerance, false, false, false, true, true);
         std::erase_if(out, [](const auto& entity) { return entity.first != 3; });
@@ -111,7 +166,7 @@ std::pair<std::size_t, double> read_back(Session& session, const MakeSolidReques
         gmsh::vectorpair all;
         gmsh::model::occ::importShapes(files.result, all, false,
                                        request.format == MakeSolidRequest::brep ? "brep" : "step");
-        const std::string faults = faults_of_model();
+        const std::string faults = faults_of_model(request.diagonal);
         if (!faults.empty())
             throw BackendError("cad.reads_back",
                                "the solid reads back with " + faults +
@@ -142,7 +197,7 @@ cad_protocol::MakeSolidReply write_solid(Session& session, const std::vector<int
                                          const MakeSolidRequest& request, const SolidFiles& files)
 {
     const CapturedOutput output;
-    const Sewn sewn = sew(faces, request);
+    const Sewn sewn = sew(session, faces, request);
     const double volume = volume_of(sewn.solid);
     check_volume(volume, request);
     write_alone(session, sewn.solid, files);

@@ -247,8 +247,10 @@ void prove_sealed(const OpenVolume& volume)
                             "the faces around it");
     }
     if (!(enclosed_volume(volume) > 0)) {
-        throw NotClosed("closure.no_volume", "the sealed faces enclose no volume: source and target may lie "
-                                             "in each other, or the match be twisted");
+        throw NotClosed("closure.no_volume",
+                        "the sealed faces enclose a volume of " + std::to_string(enclosed_volume(volume)) +
+                            ", which is not above 0: source and target lie in each other, or the faces "
+                            "between them are twisted");
     }
 }
 

@@ -30,61 +30,6 @@ std::vector<Vec2> polygon_of(const PlanarRegion& region, std::size_t loop)
     return polygon;
 }
 
-void check_region(const PlanarRegion& region)
-{
-    std::size_t sides = 0;
-    if (region.loops.empty()) throw InvalidInput("surface.pave_loops", "a region to be paved has no outline");
-    std::vector<bool> seen(region.points.size(), false);
-    for (std::size_t l = 0; l < region.loops.size(); ++l) {
-        const auto& loop = region.loops[l];
-        const std::string name = "loop " + std::to_string(l + 1) + " of a region to be paved";
-        if (loop.size() < 3) {
-            throw InvalidInput("surface.pave_loops",
-                               name + " has " + std::to_string(loop.size()) + " nodes; give it 3 or more");
-        }
-        sides += loop.size();
-        for (const Index p : loop) {
-            if (p < 0 || static_cast<std::size_t>(p) >= seen.size())
-                throw InvalidInput("surface.pave_loops", name + " names node " + std::to_string(p + 1) +
-                                                             " of " + std::to_string(seen.size()));
-            if (seen[static_cast<std::size_t>(p)])
-                throw InvalidInput("surface.pave_loops", name + " comes to node " + std::to_string(p + 1) +
-                                                             " a second time; loops may not touch");
-            seen[static_cast<std::size_t>(p)] = true;
-        }
-    }
-    if (const auto crossing = geometry::find_crossing(region.points, region.loops)) {
-        const auto node = static_cast<std::size_t>(region.loops[crossing->loop_a][crossing->segment_a]);
-        throw InvalidInput("surface.pave_loops", "loops " + std::to_string(crossing->loop_a + 1) + " and " +
-                                                     std::to_string(crossing->loop_b + 1) +
-                                                     " of a region to be paved cross or touch near " +
-                                                     position_text(region.points[node]));
-    }
-    const PartialMesh given{region.points, {}, region.points.size(), {}};
-    const std::vector<Vec2> outline = polygon_of(region, 0);
-    for (std::size_t l = 0; l < region.loops.size(); ++l) {
-        const auto& loop = region.loops[l];
-        const bool outer = l == 0;
-        if ((twice_area(given, loop) > 0) == outer &&
-            (outer || geometry::lies_inside(outline, region.points[index(loop.front())])))
-            continue;
-        throw InvalidInput(
-            "surface.pave_loops",
-            outer
-                ? "the outer loop of a region to be paved runs clockwise; the first loop goes round the "
-                  "others, with the "
-                  "region on its left"
-                : "loop " + std::to_string(l + 1) +
-                      " of a region to be paved is no hole in loop 1: holes lie inside it and run clockwise");
-    }
-    if (sides % 2 != 0) {
-        throw InvalidInput(
-            "surface.pave_parity",
-            "a region with " + std::to_string(sides) +
-                " boundary sides cannot be filled with quads alone; give one of its edges one side more");
-    }
-}
-
 /// Lay rows of their own height, which stay as they are, and pave what is inside them as a region by itself.
 Paved pave_inside_rows(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
 {
@@ -136,9 +81,65 @@ Paved pave_inside_rows(const PlanarRegion& region, const PaveOptions& options, c
 
 } // namespace
 
+void check(const PlanarRegion& region)
+{
+    std::size_t sides = 0;
+    if (region.loops.empty())
+        throw InvalidInput("surface.pave_loops", "a region to be filled has no outline");
+    std::vector<bool> seen(region.points.size(), false);
+    for (std::size_t l = 0; l < region.loops.size(); ++l) {
+        const auto& loop = region.loops[l];
+        const std::string name = "loop " + std::to_string(l + 1) + " of a region to be filled";
+        if (loop.size() < 3) {
+            throw InvalidInput("surface.pave_loops",
+                               name + " has " + std::to_string(loop.size()) + " nodes; give it 3 or more");
+        }
+        sides += loop.size();
+        for (const Index p : loop) {
+            if (p < 0 || static_cast<std::size_t>(p) >= seen.size())
+                throw InvalidInput("surface.pave_loops", name + " names node " + std::to_string(p + 1) +
+                                                             " of " + std::to_string(seen.size()));
+            if (seen[static_cast<std::size_t>(p)])
+                throw InvalidInput("surface.pave_loops", name + " comes to node " + std::to_string(p + 1) +
+                                                             " a second time; loops may not touch");
+            seen[static_cast<std::size_t>(p)] = true;
+        }
+    }
+    if (const auto crossing = geometry::find_crossing(region.points, region.loops)) {
+        const auto node = static_cast<std::size_t>(region.loops[crossing->loop_a][crossing->segment_a]);
+        throw InvalidInput("surface.pave_loops", "loops " + std::to_string(crossing->loop_a + 1) + " and " +
+                                                     std::to_string(crossing->loop_b + 1) +
+                                                     " of a region to be filled cross or touch near " +
+                                                     position_text(region.points[node]));
+    }
+    const PartialMesh given{region.points, {}, region.points.size(), {}};
+    const std::vector<Vec2> outline = polygon_of(region, 0);
+    for (std::size_t l = 0; l < region.loops.size(); ++l) {
+        const auto& loop = region.loops[l];
+        const bool outer = l == 0;
+        if ((twice_area(given, loop) > 0) == outer &&
+            (outer || geometry::lies_inside(outline, region.points[index(loop.front())])))
+            continue;
+        throw InvalidInput(
+            "surface.pave_loops",
+            outer ? "the outer loop of a region to be filled runs clockwise; the first loop goes round the "
+                    "others, with the "
+                    "region on its left"
+                  : "loop " + std::to_string(l + 1) +
+                        " of a region to be filled is no hole in loop 1: holes lie inside it and run "
+                        "clockwise");
+    }
+    if (sides % 2 != 0) {
+        throw InvalidInput(
+            "surface.pave_parity",
+            "a region with " + std::to_string(sides) +
+                " boundary sides cannot be filled with quads alone; give one of its edges one side more");
+    }
+}
+
 Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
 {
-    check_region(region);
+    check(region);
     if (options.exact_rows < 0 || (options.exact_rows > 0 && !region.row_height)) {
         throw InvalidInput("surface.pave_rows", std::to_string(options.exact_rows) +
                                                     " rows of their own height are asked for, of a region " +
@@ -157,7 +158,7 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
         throw NotSweepable("surface.pave", "no valid quads were found for a region of " +
                                                std::to_string(region.points.size()) +
                                                " boundary nodes: near " + position_text(best.where) +
-                                               " they fold; try a smaller size there, or quads = \"gmsh\"");
+                                               " they fold");
     }
     // Between sides that all but touch, or in spikes, there are none but flat ones.
     if (best.worst <= chooser.flat()) {

@@ -19,6 +19,11 @@ struct PlanarRegion {
     std::function<double(const Vec2&)> row_height{}; ///< of rows along the loops; empty: none are asked for
 };
 
+/// Whether a region can be filled at all, before any work is done.
+/// @throw InvalidInput  "surface.pave_loops": no loop, one of fewer than three nodes, loops that cross, touch
+///                      or run the wrong way; "surface.pave_parity": an odd number of boundary sides.
+void check(const PlanarRegion& region);
+
 /// Quads over a planar region.
 struct PlanarQuads {
     std::vector<Vec2> points; ///< the region's own first, then those added inside

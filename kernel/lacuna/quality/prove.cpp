@@ -194,10 +194,8 @@ Found check_quality(const Quality& quality, double min_scaled_jacobian, int laye
     };
     const std::string cells = " of " + std::to_string(quality.hexes) + " cells ";
     if (quality.inverted > 0)
-        return Finding{Fault::inverted,
-                       std::to_string(quality.inverted) + cells +
-                           "are inverted. The worst:" + worst(quality.inverted) +
-                           "\nTry more layers, a smaller size, or let the sweep improve the mesh"};
+        return Finding{Fault::inverted, std::to_string(quality.inverted) + cells +
+                                            "are inverted. The worst:" + worst(quality.inverted)};
     if (quality.uncertified > 0)
         return Finding{Fault::not_certified,
                        std::to_string(quality.uncertified) + cells +

@@ -80,6 +80,11 @@ std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const 
             }
         }
     }
+    if (touched.empty()) {
+        throw NotSweepable("surface.belt_loops",
+                           "the walls " + names(model, part) + " do not touch the " + end +
+                               "; a sweep has one ring of walls between one source loop and one target loop");
+    }
     if (touched.size() != 1) {
         throw NotSweepable("surface.belt_loops", "the walls " + names(model, part) + " touch " +
                                                      std::to_string(touched.size()) + " loops of the " + end +

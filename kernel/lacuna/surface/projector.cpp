@@ -2,8 +2,7 @@
 #include <lacuna/surface/projector.h>
 
 #include <lacuna/core/parallel.h>
-
-#include <map>
+#include <lacuna/surface/detail/trimming.h>
 
 namespace lacuna::surface {
 
@@ -44,9 +43,14 @@ Projector::Projector(const Model& model, std::vector<FaceId> faces) : model_(&mo
             face_of_.push_back(face);
             triangle_of_.push_back(static_cast<Index>(t));
         }
+        if (model[face].surface != nullptr) trimmed_.try_emplace(face, model, face);
     }
     tree_ = geometry::FacetTree(model.points, triangles);
 }
+
+Projector::Projector(Projector&&) noexcept = default;
+Projector& Projector::operator=(Projector&&) noexcept = default;
+Projector::~Projector() = default;
 
 std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext& context) const
 {
@@ -78,6 +82,12 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
             uv.emplace_back(w[0] * c[0] + w[1] * c[1] + w[2] * c[2]);
         }
         f.surface->project(moved, uv, context);
+        std::vector<Projected> now(members.size());
+        for (std::size_t k = 0; k < members.size(); ++k) {
+            const geometry::FacetTree::Hit& hit = hits[members[k]];
+            now[k] = {&hit, triangle_of_[static_cast<std::size_t>(hit.triangle)], &moved[k]};
+        }
+        trimmed_.at(face).keep_inside(now, context);
         for (std::size_t k = 0; k < members.size(); ++k) points[members[k]] = moved[k];
     }
     return faces;

@@ -5,6 +5,7 @@
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/topology/model.h>
 
+#include <map>
 #include <span>
 #include <vector>
 
@@ -29,12 +30,19 @@ std::vector<Vec3> points_at(const FacetView& facets, std::span<const FacetPositi
 /// Places on one face's facets, as points of its exact surface; on the facets themselves where there is none.
 std::vector<Vec3> points_at(const topology::Model& model, FaceId face, std::span<const FacetPosition> places);
 
-/// Closest points on a set of faces: the facets say which face and where, the exact surface says the point.
+class Trimming;
+
+/// Closest points on a set of faces: the facets say which face and where, the exact surface says the point,
+/// and the face's border that the point stays on the face.
 class Projector {
 public:
     Projector(const topology::Model& model, std::vector<FaceId> faces);
+    Projector(Projector&&) noexcept;
+    Projector& operator=(Projector&&) noexcept;
+    ~Projector();
 
-    /// Move points to the closest place. @return the face of each.
+    /// Move points to the closest place; what the exact surface would have beyond the face's border goes to
+    /// the nearest point of that border's curves. @return the face of each.
     std::vector<FaceId> project(std::span<Vec3> points, const RunContext& context = {}) const;
     /// The face whose facets are closest to each point.
     [[nodiscard]] std::vector<FaceId> closest_face(std::span<const Vec3> points) const;
@@ -44,6 +52,7 @@ private:
     std::vector<FaceId> face_of_;    ///< of each triangle in the tree
     std::vector<Index> triangle_of_; ///< number of each triangle in its face
     geometry::FacetTree tree_;
+    std::map<FaceId, Trimming> trimmed_; ///< of the faces with exact geometry
 };
 
 } // namespace lacuna::surface

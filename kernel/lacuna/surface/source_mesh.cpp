@@ -29,7 +29,7 @@ public:
     {
         for (const LinkingSurface& link : links) add_link(link);
         for (const FaceId face : volume.faces(Role::source)) {
-            for (const Loop& loop : model_[face].loops) {
+            for (const Loop& loop : is_filled(face) ? border_loops(model_, face) : model_[face].loops) {
                 for (const EdgeUse& use : loop.uses) add_edge(use.edge);
             }
         }
@@ -57,6 +57,11 @@ public:
     }
 
 private:
+    [[nodiscard]] bool is_filled(FaceId face) const
+    {
+        return !seeds_.kept.contains(face) && !seeds_.corners.contains(face);
+    }
+
     Index add_node(const Vec3& p)
     {
         result_.quads.nodes.push_back(p);
@@ -201,7 +206,7 @@ private:
         }
     }
 
-    /// Free: by the planar mesher.
+    /// Free: by the planar mesher. A seam is inside the face, and a pole a point like others.
     void fill(FaceId face)
     {
         if (!mesher_) {
@@ -212,7 +217,7 @@ private:
         std::vector<Index> boundary;
         std::vector<RimNode> rim;
         std::vector<std::vector<Index>> loops;
-        for (const Loop& loop : model_[face].loops) {
+        for (const Loop& loop : border_loops(model_, face)) {
             std::vector<Index>& cycle = loops.emplace_back();
             for (const EdgeUse& use : loop.uses) {
                 const std::vector<Index> chain = nodes_along(use);

@@ -361,9 +361,8 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
         if (volume.model[wall].origin != Origin::given ||
             std::find(faces.begin(), faces.end(), wall) != faces.end())
             continue;
-        result.report.push_back(
-            "walls: " + name_of(volume.model, wall) +
-            " is smaller than the quads there and has none, nor a group; use a smaller size or more layers");
+        result.report.push_back("walls: " + name_of(volume.model, wall) +
+                                " is smaller than the quads there and has none, nor a group");
     }
     quality::Proof proof = prove_or_improve(result, volume.model, faces, given_faces(volume, seeds.kept),
                                             options, context);

@@ -84,6 +84,10 @@ struct Rim {
 /// walks meet they are told apart by the fan of facets between them. Longest first.
 std::vector<Rim> rims(const Model& model, const std::vector<FaceId>& faces);
 
+/// The loops of a face without its seams: edges it uses both ways are inside of it. A dome whose loop runs up
+/// a seam and back is a disc, a tube with a seam has two loops. The loops as they are where there is no seam.
+std::vector<Loop> border_loops(const Model& model, FaceId face);
+
 /// Edges used once by all faces of the volume, and the walks they make.
 std::vector<EdgeId> free_edges(const OpenVolume& volume);
 std::vector<Rim> free_loops(const OpenVolume& volume);

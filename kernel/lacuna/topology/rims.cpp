@@ -64,6 +64,20 @@ std::vector<Rim> rims(const Model& model, const std::vector<FaceId>& faces)
     return result;
 }
 
+std::vector<Loop> border_loops(const Model& model, FaceId face)
+{
+    const std::vector<Loop>& loops = model[face].loops;
+    std::vector<EdgeId> edges;
+    for (const Loop& loop : loops) {
+        for (const EdgeUse& use : loop.uses) edges.push_back(use.edge);
+    }
+    std::sort(edges.begin(), edges.end());
+    if (std::adjacent_find(edges.begin(), edges.end()) == edges.end()) return loops;
+    std::vector<Loop> border;
+    for (Rim& rim : rims(model, {face})) border.push_back({std::move(rim.uses)});
+    return border;
+}
+
 long euler_number(const Model& model, const std::vector<FaceId>& faces)
 {
     std::vector<Index> points;

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/trimming.h>
+
+#include <lacuna/core/edge_key.h>
+#include <lacuna/core/parallel.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// Rounds of Newton's method on a curve. They start from the share of a side, a few percent of it off, and
+/// each squares that: a choice.
+constexpr int kRounds = 3;
+/// Derivatives of a curve are differences over this part of a side: a choice between their own error and
+/// that of rounding.
+constexpr double kDifference = 1e-2;
+/// Points a thread takes at least: as the search for closest facets, which costs as much.
+constexpr std::size_t kGrain = 512;
+
+/// The highest a convex curve can stand over its chord when it turns by these angles at the ends, as a part
+/// of the chord.
+double height_over_chord(double first, double second)
+{
+    constexpr double kSteep = 1.2; // beyond it, nearly 70°, as high as the chord is long
+    if (std::max(first, second) > kSteep) return 1;
+    const double a = std::tan(first), b = std::tan(second);
+    return a + b > 0 ? a * b / (a + b) : 0;
+}
+
+/// Newton's step along curves towards points, all of one edge at once.
+struct OnCurve {
+    double param = 0, difference = 0;
+    Vec3 tangent = Vec3::Zero();
+};
+
+void step_along(const geometry::ExactCurve& curve, std::span<OnCurve> places, std::span<const Vec3> targets,
+                double low, double high)
+{
+    std::vector<double> params;
+    for (OnCurve& place : places) {
+        const double middle = std::clamp(place.param, low + place.difference, high - place.difference);
+        params.insert(params.end(), {middle - place.difference, middle, middle + place.difference});
+    }
+    std::vector<Vec3> at(params.size());
+    curve.evaluate(params, at);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        OnCurve& place = places[i];
+        const Vec3 &before = at[3 * i], &here = at[3 * i + 1], &after = at[3 * i + 2];
+        const Vec3 first = (after - before) / (2 * place.difference);
+        const Vec3 second = (after - 2 * here + before) / (place.difference * place.difference);
+        const Vec3 miss = targets[i] - here;
+        const double plain = first.squaredNorm(), full = plain - miss.dot(second);
+        const double step = miss.dot(first) / (full > plain / 2 ? full : plain);
+        // No further than a side at a time.
+        const double most = 1 / kDifference * place.difference;
+        const double next = params[3 * i + 1] + std::clamp(step, -most, most);
+        place.param = std::clamp(next, low, high);
+        place.tangent = first + (place.param - params[3 * i + 1]) * second;
+    }
+}
+
+} // namespace
+
+Trimming::Trimming(const Model& model, FaceId face) : model_(&model), face_(face)
+{
+    if (model[face].surface == nullptr) return;
+    std::unordered_map<std::uint64_t, Index> facet_at;
+    const std::vector<Triangle>& facets = model[face].triangles;
+    for (std::size_t t = 0; t < facets.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k)
+            facet_at[directed_key(facets[t][k], facets[t][(k + 1) % 3])] = static_cast<Index>(t);
+    }
+    std::vector<Triangle> thin;
+    for (const Loop& loop : border_loops(model, face)) {
+        std::vector<Index> facet_of_side;
+        for (const EdgeUse& use : loop.uses) {
+            const std::vector<Index> chain = use_points(model, use);
+            for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+                thin.push_back({chain[i], chain[i + 1], chain[i + 1]});
+                facet_of_side.push_back(facet_at.at(directed_key(chain[i], chain[i + 1])));
+            }
+        }
+        add_loop(loop, facet_of_side);
+    }
+    tree_ = geometry::FacetTree(model.points, thin);
+    measure_clearance();
+}
+
+void Trimming::add_loop(const Loop& loop, const std::vector<Index>& facet_of_side)
+{
+    const Model& model = *model_;
+    const std::size_t first = sides_.size();
+    std::vector<Vec3> along;
+    for (const EdgeUse& use : loop.uses) {
+        const std::vector<Index> chain = use_points(model, use);
+        const std::size_t count = chain.size() - 1;
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto facet = index(facet_of_side[sides_.size() - first]);
+            const Triangle& t = model[face_].triangles[facet];
+            Side side;
+            side.use = use;
+            side.segment = use.reversed ? count - 1 - i : i;
+            side.normal =
+                (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])).stableNormalized();
+            along.push_back(model.at(chain[i + 1]) - model.at(chain[i]));
+            side.inward = side.normal.cross(along.back()).stableNormalized();
+            sides_.push_back(side);
+        }
+    }
+    const std::size_t count = along.size();
+    const auto turn = [&](std::size_t before, std::size_t after) {
+        return std::atan2(along[before].cross(along[after]).norm(), along[before].dot(along[after]));
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t before = (i + count - 1) % count, after = (i + 1) % count;
+        Side& side = sides_[first + i];
+        side.inward_at_start = sides_[first + before].inward + side.inward;
+        side.inward_at_end = side.inward + sides_[first + after].inward;
+        const Edge& edge = model[side.use.edge];
+        if (edge.curve == nullptr) continue;
+        // At the end of an edge the polyline may turn as it likes; the curve turns as on the side's other
+        // end.
+        const bool starts = sides_[first + before].use != side.use || before == i;
+        const bool ends = sides_[first + after].use != side.use || after == i;
+        const double at_start = turn(before, i), at_end = turn(i, after);
+        side.bulge = along[i].norm() * height_over_chord(starts && !ends ? at_end : at_start,
+                                                         ends && !starts ? at_start : at_end);
+        most_bulge_ = std::max(most_bulge_, side.bulge);
+    }
+}
+
+void Trimming::measure_clearance()
+{
+    if (sides_.empty()) return;
+    for (const Triangle& t : (*model_)[face_].triangles) {
+        const Vec3 centre = (model_->at(t[0]) + model_->at(t[1]) + model_->at(t[2])) / 3;
+        double reach = 0;
+        for (const Index corner : t) reach = std::max(reach, (model_->at(corner) - centre).norm());
+        Clearance clear{std::sqrt(tree_.closest(centre).distance2) - reach, Vec3::Zero()};
+        const Vec3 &a = model_->at(t[0]), &b = model_->at(t[1]), &c = model_->at(t[2]);
+        const double twice = (b - a).cross(c - a).norm();
+        clear.heights = {twice / (c - b).norm(), twice / (a - c).norm(), twice / (b - a).norm()};
+        clearance_.push_back(clear);
+    }
+}
+
+/// Well inside: no border within the way the point went from its facet, or that way ends over the same facet.
+bool Trimming::is_clear(const Projected& point) const
+{
+    const double reach = (*point.at - point.from->point).norm() + most_bulge_;
+    const Clearance& clear = clearance_[index(point.triangle)];
+    return reach < clear.facet || reach < point.from->barycentric.cwiseProduct(clear.heights).minCoeff();
+}
+
+bool Trimming::is_near(const Projected& point, Near& near) const
+{
+    const double reach = (*point.at - point.from->point).norm() + most_bulge_;
+    const geometry::FacetTree::Hit hit = tree_.closest(*point.at);
+    const Side& side = sides_[index(hit.triangle)];
+    near.side = index(hit.triangle);
+    near.share = hit.barycentric[1];
+    near.on_border = hit.point;
+    near.inward = near.share <= 0 ? side.inward_at_start : near.share >= 1 ? side.inward_at_end : side.inward;
+    if (std::sqrt(hit.distance2) <= side.bulge) return true;
+    if ((*point.at - hit.point).dot(near.inward) >= 0) return false;
+    // A border that is near in space and far along the face: no way over it leads here.
+    return std::sqrt(tree_.closest(point.from->point).distance2) <= reach;
+}
+
+void Trimming::keep_inside(std::span<const Projected> points, const RunContext& context) const
+{
+    if (sides_.empty()) return;
+    std::vector<char> clear(points.size(), 0);
+    parallel_for(context, points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) clear[i] = is_clear(points[i]) ? 1 : 0;
+    });
+    std::vector<Near> near;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (clear[i] == 0) near.emplace_back().point = i;
+    }
+    std::vector<char> taken(near.size(), 0);
+    parallel_for(context, near.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) taken[i] = is_near(points[near[i].point], near[i]) ? 1 : 0;
+    });
+    std::map<EdgeId, std::vector<Near>> by_edge;
+    for (std::size_t i = 0; i < near.size(); ++i) {
+        if (taken[i] != 0) by_edge[sides_[near[i].side].use.edge].push_back(near[i]);
+    }
+    for (auto& [edge, some] : by_edge) {
+        if ((*model_)[edge].curve != nullptr) settle(points, some);
+        for (const Near& n : some) {
+            Vec3& at = *points[n.point].at;
+            if ((at - n.on_border).dot(n.inward) < 0) at = n.on_border;
+        }
+    }
+}
+
+void Trimming::settle(std::span<const Projected> points, std::span<Near> near) const
+{
+    const Edge& edge = (*model_)[sides_[near.front().side].use.edge];
+    const auto [low, high] = std::minmax(edge.params.front(), edge.params.back());
+    std::vector<OnCurve> places;
+    std::vector<Vec3> targets;
+    for (const Near& n : near) {
+        const Side& side = sides_[n.side];
+        const double from = edge.params[side.segment], to = edge.params[side.segment + 1];
+        const double share = side.use.reversed ? 1 - n.share : n.share;
+        places.push_back({from + share * (to - from), kDifference * std::abs(to - from)});
+        targets.push_back(*points[n.point].at);
+    }
+    for (int round = 0; round < kRounds; ++round) step_along(*edge.curve, places, targets, low, high);
+    std::vector<double> params;
+    for (const OnCurve& place : places) params.push_back(place.param);
+    std::vector<Vec3> at(params.size());
+    edge.curve->evaluate(params, at);
+    const bool rising = edge.params.front() < edge.params.back();
+    for (std::size_t i = 0; i < near.size(); ++i) {
+        Near& n = near[i];
+        const Side& side = sides_[n.side];
+        n.on_border = at[i];
+        if (params[i] <= low || params[i] >= high) continue; // an end: as its corner has it
+        const Vec3 tangent = rising == side.use.reversed ? Vec3(-places[i].tangent) : places[i].tangent;
+        n.inward = side.normal.cross(tangent);
+    }
+}
+
+} // namespace lacuna::surface
