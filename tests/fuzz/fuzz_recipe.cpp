@@ -64,16 +64,23 @@ const std::vector<Rule>& grammar()
 {
     static const std::vector<Rule> rules = {
         {"recipe",
-         {"local lacuna = require 'lacuna'\nlocal m = <model>\nlocal v = <volume>\n"
-          "local s = v:sweep { layers = 2, size = 0.5, improve = false }\n<steps>",
-          "lacuna = require 'lacuna'\nm = <model>\n<steps>v = <volume>\n<steps>"}},
-        {"steps", {"<step>\n", "<step>\n<steps>", "<step>\n<step>\n<steps>", "<step>\n<step>\n<steps>"}},
-        {"step",
+         {"local lacuna = require 'lacuna'\nlocal m = <sound>\n"
+          "local v = m:open_volume { source = 'source', target = 'target', walls = 'auto' }\n"
+          "local s = v:sweep { layers = 2, size = 0.5, improve = false }\n<tries>",
+          "lacuna = require 'lacuna'\nm = <sound>\nv = m:open_volume()\n<tries>",
+          "lacuna = require 'lacuna'\nm = <model>\nv = <volume>\n<steps>"}},
+        {"sound",
+         {"lacuna.synthetic.prism()", "lacuna.synthetic.prism { sides = <few>, facets = 2, twist = 20 }",
+          "lacuna.synthetic.barrel { facets = 2 }", "lacuna.synthetic.annulus { facets = 1 }",
+          "lacuna.synthetic.plate { facets = 1, holes = 1 }", "lacuna.synthetic.elbow { facets = 1 }"}},
+        {"tries", {"<try>\n", "<try>\n<tries>", "<try>\n<try>\n<tries>", "<try>\n<try>\n<tries>"}},
+        {"try",
          {"print(m)", "pcall(function() <call> end)", "pcall(function() print(<call>) end)",
           "pcall(function() <call> <call> end)", "pcall(function() <lua> end)",
           "pcall(function() s = v:sweep(<sweep>) end)", "pcall(function() v = <volume> end)",
-          "pcall(function() m = <model> v = <volume> end)", "for i = 1, <few> do <step> end", "<call>",
-          "local r = <call>", "<lua>"}},
+          "pcall(function() m = <model> v = <volume> end)", "for i = 1, <few> do <try> end"}},
+        {"steps", {"<step>\n", "<step>\n<steps>", "<step>\n<step>\n<steps>", "<step>\n<step>\n<steps>"}},
+        {"step", {"print(m)", "<try>", "<call>", "local r = <call>", "<lua>", "s = v:sweep(<sweep>)"}},
         {"model",
          {"lacuna.synthetic.prism()", "lacuna.synthetic.prism { <prism>, drop = <drop> }",
           "lacuna.synthetic.prism { <prism>, drop = <drop> }",
@@ -227,7 +234,7 @@ const std::vector<Rule>& grammar()
           "debug.sethook()"}},
         {"vector", {"{ 0, 0, 1 }", "{ <number>, <number>, <number> }", "{ 0, 0, -1 }", "<value>"}},
         {"count", {"1", "2", "3", "0", "5", "-1", "7", "1000000", "2147483647", "math.mininteger"}},
-        {"few", {"3", "4", "1"}},
+        {"few", {"3", "4", "5"}},
         {"length", {"0.5", "1", "0.3", "2", "0.05"}},
         {"number",
          {"1", "0.5", "0", "-1", "30", "1e-9", "1e308", "-1e-320", "1/0", "0/0", "2^53", "0x1p-1074", "90"}},
@@ -484,8 +491,8 @@ Ends ends;
 
 #ifdef LACUNA_FUZZ
 
-// libFuzzer counts in this process what ran in it. The children share the counters, but for the parts of pages
-// at both ends.
+// libFuzzer counts in this process what ran in it. The children share the counters, but for the parts of
+// pages at both ends.
 extern "C" std::uint8_t __start___sancov_cntrs[], __stop___sancov_cntrs[];
 
 extern "C" int LLVMFuzzerInitialize(int*, char***)
