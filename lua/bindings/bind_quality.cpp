@@ -35,7 +35,7 @@ QualitySource& check_source(lua_State* L)
     lua_getfield(L, -1, "sources"); // weak, by table
     lua_pushvalue(L, 1);
     if (lua_rawget(L, -2) != LUA_TUSERDATA) fail(L, "this table is no Quality");
-    return *static_cast<QualitySource*>(lua_touserdata(L, -1));
+    return temporary_at<QualitySource>(L, -1);
 }
 
 /// Measure all metrics, unless that is done.
@@ -173,7 +173,7 @@ const luaL_Reg kMeshMethods[] = {{"quality", mesh_quality}, {nullptr, nullptr}};
 
 void push_quality(lua_State* L, int source)
 {
-    const quality::Quality& q = static_cast<QualitySource*>(lua_touserdata(L, source))->quality;
+    const quality::Quality& q = temporary_at<QualitySource>(L, source).quality;
     lua_createtable(L, 0, 10);
     set_number(L, "min_scaled_jacobian", q.min_scaled_jacobian);
     set_number(L, "mean_scaled_jacobian", q.mean_scaled_jacobian);

@@ -7,12 +7,27 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstring>
+#include <utility>
 
 namespace lacuna::lua {
 
 namespace {
 
-const char kCallbackErrorKey = 0; // its address is the registry's key
+const char kCallbackErrorKey = 0; // the addresses of these are keys of the registry
+const char kRingKey = 0;
+const char kTemporaryKey = 0;
+const char kShareKey = 0;
+
+/// The ring's `__gc`. Lua finalizes in the reverse order of making, so all others of the bindings came first;
+/// those made meanwhile are still there.
+int empty_ring(lua_State* L)
+{
+    auto& ring = *static_cast<Living*>(lua_touserdata(L, 1));
+    while (ring.after != &ring) ring.after->release();
+    lua_pushboolean(L, 0);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &kRingKey); // a key that is there: no allocation
+    return 0;
+}
 
 /// "recipe.lua:7: " of the innermost frame that is the person's own Lua, "" where there is none.
 void push_where(lua_State* L)
@@ -107,6 +122,68 @@ const char* push_found(lua_State* L, int index)
     return lua_pushfstring(L, "a %s", luaL_typename(L, index));
 }
 
+void Living::release() noexcept
+{
+    if (!destroy) return;
+    before->after = after;
+    after->before = before;
+    before = after = this;
+    std::exchange(destroy, nullptr)(*this);
+}
+
+void put_in(Living& ring, Living& value) noexcept
+{
+    value.before = &ring;
+    value.after = ring.after;
+    ring.after->before = &value;
+    ring.after = &value;
+}
+
+Living& ring(lua_State* L)
+{
+    const int found = lua_rawgetp(L, LUA_REGISTRYINDEX, &kRingKey);
+    if (found == LUA_TUSERDATA) {
+        auto& ring = *static_cast<Living*>(lua_touserdata(L, -1));
+        lua_pop(L, 1); // the registry keeps it
+        return ring;
+    }
+    constexpr int kUnfinished = 1; // the key is there, and the ring is not: making it failed
+    if (found == LUA_TBOOLEAN && lua_toboolean(L, -1) != kUnfinished)
+        fail(L, "lacuna: the Lua state is being closed");
+    lua_pop(L, 1);
+    lua_pushboolean(L, kUnfinished);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &kRingKey);
+    auto& ring = *new (lua_newuserdatauv(L, sizeof(Living), 0)) Living();
+    lua_createtable(L, 0, 1);
+    lua_pushcfunction(L, empty_ring);
+    lua_setfield(L, -2, "__gc");
+    lua_setmetatable(L, -2); // nothing raises from here on
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &kRingKey);
+    return ring;
+}
+
+int release_living(lua_State* L)
+{
+    static_cast<Living*>(lua_touserdata(L, 1))->release();
+    return 0;
+}
+
+void push_release_table(lua_State* L, bool closes)
+{
+    const char* const key = closes ? &kShareKey : &kTemporaryKey;
+    if (lua_rawgetp(L, LUA_REGISTRYINDEX, key) == LUA_TTABLE) return;
+    lua_pop(L, 1);
+    lua_createtable(L, 0, 2);
+    lua_pushcfunction(L, release_living);
+    lua_setfield(L, -2, "__gc");
+    if (closes) {
+        lua_pushcfunction(L, release_living);
+        lua_setfield(L, -2, "__close");
+    }
+    lua_pushvalue(L, -1);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, key);
+}
+
 void Failure::note(const Error& error)
 {
     // The code last, in brackets as compilers name their warnings, so that programs can tell failures apart.
@@ -132,17 +209,17 @@ void keep_callback_error(lua_State* L)
     lua_rawsetp(L, LUA_REGISTRYINDEX, &kCallbackErrorKey); // the slot was made by make_class: no allocation
 }
 
-void make_class(lua_State* L, const char* name, const Field* fields, const luaL_Reg* meta,
-                lua_CFunction release)
+void make_class(lua_State* L, const char* name, const Field* fields, const luaL_Reg* meta)
 {
+    ring(L);
     lua_pushboolean(L, 0);
     lua_rawsetp(L, LUA_REGISTRYINDEX, &kCallbackErrorKey);
 
     luaL_newmetatable(L, name);
     if (meta) luaL_setfuncs(L, meta, 0);
-    lua_pushcfunction(L, release);
+    lua_pushcfunction(L, release_living);
     lua_setfield(L, -2, "__gc");
-    lua_pushcfunction(L, release);
+    lua_pushcfunction(L, release_living);
     lua_setfield(L, -2, "__close");
     lua_pushliteral(L, "a class of lacuna");
     lua_setfield(L, -2, "__metatable");

@@ -38,25 +38,68 @@ inline constexpr const char* kClassName = nullptr;
 /// Push the words for "what was found": `-3`, `"abc"`, `a table`, `a Face`, `nothing`.
 const char* push_found(lua_State* L, int index);
 
-// --- temporaries ------------------------------------------------------------------------------------
+// --- values of C++ inside userdata --------------------------------------------------------------------
 
-/// Push the metatable by which Lua lets go of a userdata of type T, made at first need: `release` is its
-/// `__gc`, and with `closes` its `__close` as well.
+/// A value that Lua collects, in the ring of those that live in a state. Lua calls no `__gc` of what is made
+/// while the state closes, as a finalizer may do; the ring destroys what is left in it when all finalizers of
+/// the bindings have run.
+struct Living {
+    Living* before = this;
+    Living* after = this;
+    void (*destroy)(Living&) noexcept = nullptr;
+
+    Living() = default;
+    Living(const Living&) = delete;
+    Living& operator=(const Living&) = delete;
+    ~Living() = default;
+
+    /// Destroy the value, once.
+    void release() noexcept;
+};
+
+/// The state's ring, made at first need: before anything of the bindings that Lua finalizes. Raises once it
+/// has been emptied, in finalizers that are older than the bindings.
+Living& ring(lua_State* L);
+void put_in(Living& ring, Living& value) noexcept;
+
+/// `__gc` and `__close` of everything living.
+int release_living(lua_State* L);
+/// Push the metatable of what no class describes; with `closes` it has `__close` as well.
+void push_release_table(lua_State* L, bool closes);
+
 template <class T>
-void push_release_table(lua_State* L, lua_CFunction release, bool closes)
+struct Held : Living {
+    T value{};
+};
+
+template <class T>
+using Box = std::shared_ptr<T>;
+
+template <class T>
+void release(T& value) noexcept
 {
-    static const char key = 0; // its address is the registry's key
-    if (lua_rawgetp(L, LUA_REGISTRYINDEX, &key) == LUA_TTABLE) return;
-    lua_pop(L, 1);
-    lua_createtable(L, 0, 2);
-    lua_pushcfunction(L, release);
-    lua_setfield(L, -2, "__gc");
-    if (closes) {
-        lua_pushcfunction(L, release);
-        lua_setfield(L, -2, "__close");
-    }
-    lua_pushvalue(L, -1);
-    lua_rawsetp(L, LUA_REGISTRYINDEX, &key);
+    value.~T();
+}
+template <class T>
+void release(Box<T>& box) noexcept // a released box is looked at again
+{
+    box.reset();
+}
+
+/// Put a default-made T in the place of its metatable, which is on top of the stack. It is destroyed with the
+/// state at the latest.
+template <class T>
+T& push_held(lua_State* L)
+{
+    static_assert(alignof(Held<T>) <= alignof(lua_Number), "Lua aligns userdata no further");
+    Living& living = ring(L);
+    auto* held = new (lua_newuserdatauv(L, sizeof(Held<T>), 0)) Held<T>();
+    // Nothing raises from here on: what is in the ring has its metatable, and leaves when it is collected.
+    lua_insert(L, -2);
+    lua_setmetatable(L, -2);
+    held->destroy = [](Living& value) noexcept { release(static_cast<Held<T>&>(value).value); };
+    put_in(living, *held);
+    return held->value;
 }
 
 /// A default-made T on the stack that Lua destroys when it collects it.
@@ -64,23 +107,22 @@ template <class T>
 T& temporary(lua_State* L)
 {
     static_assert(alignof(T) <= alignof(lua_Number), "Lua aligns userdata no further");
-    if constexpr (!std::is_trivially_destructible_v<T>) {
-        // Before the value is made: making the metatable may raise, and would leave a value without its
-        // destructor.
-        push_release_table<T>(
-            L,
-            [](lua_State* state) {
-                static_cast<T*>(lua_touserdata(state, 1))->~T();
-                return 0;
-            },
-            false);
+    if constexpr (std::is_trivially_destructible_v<T>) {
+        return *new (lua_newuserdatauv(L, sizeof(T), 0)) T();
+    } else {
+        push_release_table(L, false);
+        return push_held<T>(L);
     }
-    T* value = new (lua_newuserdatauv(L, sizeof(T), 0)) T();
-    if constexpr (!std::is_trivially_destructible_v<T>) {
-        lua_insert(L, -2);
-        lua_setmetatable(L, -2);
-    }
-    return *value;
+}
+
+/// The temporary at `index`. @pre there is one, of this T.
+template <class T>
+T& temporary_at(lua_State* L, int index)
+{
+    if constexpr (std::is_trivially_destructible_v<T>)
+        return *static_cast<T*>(lua_touserdata(L, index));
+    else
+        return static_cast<Held<T>*>(lua_touserdata(L, index))->value;
 }
 
 // --- the guard --------------------------------------------------------------------------------------
@@ -149,41 +191,30 @@ struct Field {
 };
 
 /// Make the class: its fields, and what Lua calls by itself (`__tostring`, …). Lists end with a null name.
-void make_class(lua_State* L, const char* name, const Field* fields, const luaL_Reg* meta,
-                lua_CFunction release);
+void make_class(lua_State* L, const char* name, const Field* fields, const luaL_Reg* meta);
 /// Give a class that was made more methods; each kernel folder adds its own.
 void add_methods(lua_State* L, const char* class_name, const luaL_Reg* methods);
 
 template <class T>
-using Box = std::shared_ptr<T>;
-
-template <class T>
-int release_box(lua_State* L) // __gc and __close: a box may be released twice
-{
-    static_cast<Box<T>*>(lua_touserdata(L, 1))->reset();
-    return 0;
-}
-
-template <class T>
 void make_class(lua_State* L, const Field* fields, const luaL_Reg* meta)
 {
-    make_class(L, kClassName<T>, fields, meta, release_box<T>);
+    make_class(L, kClassName<T>, fields, meta);
 }
 
 /// Push an empty box, to be filled inside a guard.
 template <class T>
 Box<T>& new_box(lua_State* L)
 {
-    auto* box = new (lua_newuserdatauv(L, sizeof(Box<T>), 0)) Box<T>();
-    luaL_setmetatable(L, kClassName<T>);
-    return *box;
+    luaL_getmetatable(L, kClassName<T>);
+    return push_held<Box<T>>(L);
 }
 
 /// The box at `index`, null where there is something else.
 template <class T>
 Box<T>* test_box(lua_State* L, int index)
 {
-    return static_cast<Box<T>*>(luaL_testudata(L, index, kClassName<T>));
+    auto* held = static_cast<Held<Box<T>>*>(luaL_testudata(L, index, kClassName<T>));
+    return held ? &held->value : nullptr;
 }
 
 [[noreturn]] void fail_self(lua_State* L, int index, const char* class_name, bool released);
@@ -210,23 +241,12 @@ T& check(lua_State* L, int index)
 template <class T>
 const Box<T>& hold_box(lua_State* L, int index)
 {
-    struct Share {
-        Box<T> object;
-    };
     index = lua_absindex(L, index);
-    push_release_table<Share>(
-        L,
-        [](lua_State* state) {
-            static_cast<Share*>(lua_touserdata(state, 1))->object.reset();
-            return 0;
-        },
-        true);
-    auto* share = new (lua_newuserdatauv(L, sizeof(Share), 0)) Share();
-    lua_insert(L, -2);
-    lua_setmetatable(L, -2);
+    push_release_table(L, true);
+    auto& share = push_held<Box<T>>(L);
     lua_toclose(L, -1); // given back when the call ends, not when Lua next collects
-    share->object = check_box<T>(L, index);
-    return share->object;
+    share = check_box<T>(L, index);
+    return share;
 }
 
 template <class T>

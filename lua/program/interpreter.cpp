@@ -51,7 +51,7 @@ void stop_hook(lua_State* L, lua_Debug*)
 int message_handler(lua_State* L)
 {
     if (!lua_isstring(L, 1)) {
-        if (luaL_callmeta(L, 1, "__tostring") == 0)
+        if (luaL_callmeta(L, 1, "__tostring") == 0 || !lua_isstring(L, -1))
             lua_pushfstring(L, "(error object is a %s value)", luaL_typename(L, 1));
         lua_replace(L, 1);
     }

@@ -6,6 +6,7 @@
 // not end.
 //   fuzz_lua_api [--calls N] [--seconds S] [--seed N] [--summary] [--show]
 #include "bindings/lacuna_lua.h"
+#include "fuzz/counted_new.h"
 
 #include <algorithm>
 #include <atomic>
@@ -16,46 +17,12 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
-#include <new>
 #include <string>
 #include <thread>
 
-#include <malloc.h>
 #include <unistd.h>
 
-namespace {
-
-constexpr std::size_t kMostHeld = std::size_t{1} << 30; // of the kernel: beyond it is std::bad_alloc
-constexpr std::size_t kMostOfLua = std::size_t{1} << 27;
-
-std::atomic<std::size_t> held{0};
-
-} // namespace
-
-void* operator new(std::size_t size)
-{
-    if (size > kMostHeld || held + size > kMostHeld) throw std::bad_alloc();
-    void* place = std::malloc(size);
-    if (place == nullptr) throw std::bad_alloc();
-    held += malloc_usable_size(place);
-    return place;
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept
-{
-    try {
-        return operator new(size);
-    } catch (const std::bad_alloc&) {
-        return nullptr;
-    }
-}
-void operator delete(void* place) noexcept
-{
-    if (place != nullptr) held -= malloc_usable_size(place);
-    std::free(place);
-}
-void operator delete(void* place, std::size_t) noexcept { operator delete(place); }
-
-extern "C" const char* __asan_default_options() { return "allocator_may_return_null=1"; }
+extern "C" const char* __asan_default_options() { return "allocator_may_return_null=1:detect_leaks=1"; }
 extern "C" [[gnu::weak]] void __sanitizer_set_death_callback(void (*callback)());
 
 namespace {
@@ -63,6 +30,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+constexpr std::size_t kMostOfKernel = std::size_t{1} << 30; // beyond it is std::bad_alloc
+constexpr std::size_t kMostOfLua = std::size_t{1} << 27;
 constexpr int kCancelAfter = 1; // [s]
 constexpr int kHangsAfter = 30; // [s], cancelled long since; sanitizers make a step of work tenfold
 
@@ -217,6 +186,9 @@ void run_state(std::uint64_t most_calls, Clock::time_point end, std::uint64_t st
     running = "closing the state";
     lua_close(L);
     if (used != 0) fault("the Lua state kept memory");
+    // What is made once for a process is made by the first state.
+    static const std::size_t held = lacuna::fuzz::held();
+    if (lacuna::fuzz::held() != held) fault("values of C++ outlived the Lua state");
 }
 
 } // namespace
@@ -247,6 +219,7 @@ int main(int argc, char** argv)
     fs::current_path(folder);
     fs::create_directory("sub");
 
+    lacuna::fuzz::limit_held(kMostOfKernel);
     std::atomic<bool> over{false};
     std::thread watcher(watch, std::cref(over));
     const auto start = Clock::now();

@@ -2,6 +2,7 @@
 //
 // Mutates samples and hands them to a harness: bytes flipped, numbers replaced, pieces dropped, doubled,
 // swapped and cut, two samples joined. The seed decides everything. Memory and time of every run are bounded.
+#include "fuzz/counted_new.h"
 #include "support/facet_files.h"
 
 #include <algorithm>
@@ -14,45 +15,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <new>
 #include <random>
 #include <string>
 #include <vector>
 
-#include <malloc.h>
-
 extern "C" const char* const kFuzzEnding;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
-
-namespace {
-
-std::size_t held = 0;
-std::size_t most_held = 0;
-
-} // namespace
-
-void* operator new(std::size_t size)
-{
-    void* place = std::malloc(size);
-    if (place == nullptr) throw std::bad_alloc();
-    held += malloc_usable_size(place);
-    most_held = std::max(most_held, held);
-    return place;
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept
-{
-    try {
-        return operator new(size);
-    } catch (const std::bad_alloc&) {
-        return nullptr;
-    }
-}
-void operator delete(void* place) noexcept
-{
-    if (place != nullptr) held -= malloc_usable_size(place);
-    std::free(place);
-}
-void operator delete(void* place, std::size_t) noexcept { operator delete(place); }
 
 namespace {
 
@@ -251,11 +219,11 @@ int main(int count, char** words)
     for (; runs < arguments.runs && seconds(start) < arguments.seconds; ++runs) {
         const std::string bytes = runs < samples.size() ? samples[runs] : mutator.next();
         at_work = &bytes;
-        const std::size_t before = held;
-        most_held = held;
+        const std::size_t before = lacuna::fuzz::held();
+        lacuna::fuzz::count_most_anew();
         const auto begin = Clock::now();
         LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-        const std::size_t memory = most_held - before;
+        const std::size_t memory = lacuna::fuzz::most_held() - before;
         if (memory > kMemory * bytes.size() + kMemoryOfAny || seconds(begin) > kSecondsOfRun) {
             std::fprintf(stderr, "run %llu took %zu bytes and %.1f s for %zu bytes\n",
                          static_cast<unsigned long long>(runs), memory, seconds(begin), bytes.size());

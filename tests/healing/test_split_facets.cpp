@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/cancelling.h"
+#include "support/refusal.h"
 
 #include <lacuna/core/error.h>
 #include <lacuna/healing/detail/weld.h>
@@ -375,6 +376,20 @@ TEST_CASE("a Möbius band, no facets, bad numbers and bad options are refused")
     soup.triangle_label.clear();
     soup.triangles[0][1] = 999;
     CHECK_THROWS_WITH_AS(healing::split_facets(soup), doctest::Contains("point 1000"), InvalidInput);
+}
+
+TEST_CASE("faces are the same at every size whose areas are numbers, and other sizes are refused")
+{
+    const Counts as_drawn = counts(healing::split_facets(box(2, true)));
+    for (const double size : {1e-323, 1e-200, 1e-80, 1e-60, 1e-9, 1e9, 1e60, 1e80, 1e200, 1e308}) {
+        CAPTURE(size);
+        healing::FacetSoup soup = box(2, true);
+        for (Vec3& p : soup.points) p *= size;
+        if (size > 1e-70 && size < 1e70)
+            CHECK(counts(healing::split_facets(soup)) == as_drawn);
+        else
+            CHECK(test::refusal([&] { (void)healing::split_facets(soup); }, {"scale"}) == "topology.size");
+    }
 }
 
 TEST_CASE("weld joins what is within tolerance and nothing else, as comparing all pairs does")

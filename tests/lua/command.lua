@@ -45,6 +45,8 @@ expect({ "fails.lua" }, 1, { "before" }, { "lacuna: fails.lua:3:" })
 check.write(folder .. "/object.lua",
     "error(setmetatable({}, { __tostring = function() return 'told by an object' end }))\n")
 expect({ "object.lua" }, 1, {}, { "lacuna: told by an object" })
+check.write(folder .. "/object.lua", "error(setmetatable({}, { __tostring = function() end }))\n")
+expect({ "object.lua" }, 1, {}, { "lacuna: (error object is a table value)" })
 expect({ "--verbose", "fails.lua" }, 1, { "before" }, { "traceback" })
 
 -- Parameters.

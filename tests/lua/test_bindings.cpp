@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -36,6 +37,20 @@ struct State {
     State(const State&) = delete;
     State& operator=(const State&) = delete;
     operator lua_State*() const { return lua; }
+};
+
+/// A state with the module, whose host can cancel.
+struct CancellableState {
+    std::atomic<bool> cancel{false};
+    Host lent;
+    State lua;
+    CancellableState()
+    {
+        lent.cancel = &cancel;
+        set_host(lua, &lent);
+        luaL_requiref(lua, "lacuna", luaopen_lacuna, 1);
+        lua_settop(lua, 0);
+    }
 };
 
 /// The error of a chunk as text, empty where it runs through.
@@ -135,6 +150,30 @@ TEST_CASE("a box is released once, by scope, by collection or with the state, an
     CHECK(Counted::alive == 0);
 }
 
+TEST_CASE("what finalizers make while the state closes is destroyed with it, whatever they are older than")
+{
+    const char* const finalizer = "setmetatable({}, { __gc = function()\n"
+                                  "  if make then kept = make() gone = make() gone = nil end\n"
+                                  "  for i = 0, 5 do if throw then pcall(throw, i) end end\n"
+                                  "  if use then coroutine.resume(coroutine.create(use), kept) end\n"
+                                  "end })";
+    for (const bool older : {false, true}) {
+        CAPTURE(older);
+        {
+            State L;
+            if (older) CHECK(error_of(L, finalizer) == "");
+            make_class<Counted>(L, nullptr, nullptr);
+            lua_register(L, "make", make_box);
+            lua_register(L, "use", use_box);
+            lua_register(L, "throw", throw_by_number);
+            CHECK(error_of(L, "kept = make()") == "");
+            if (!older) CHECK(error_of(L, finalizer) == "");
+            CHECK(Counted::alive == 1);
+        }
+        CHECK(Counted::alive == 0);
+    }
+}
+
 TEST_CASE("what is no box of the class is refused by name")
 {
     State L;
@@ -162,40 +201,29 @@ TEST_CASE("the module opens in any number of states at once, each with its own c
 
 TEST_CASE("the host's cancel flag stops kernel work, and a cleared one lets it go on")
 {
-    std::atomic<bool> cancel{true};
-    Host lent;
-    lent.cancel = &cancel;
-    State L;
-    set_host(L, &lent);
-    luaL_requiref(L, "lacuna", luaopen_lacuna, 1);
-    lua_settop(L, 0);
+    CancellableState L;
     const char* const chunk =
         "local m = lacuna.synthetic.prism { sides = 4, drop = 'walls' }\n"
         "m:open_volume({ source = 'source', target = 'target' }):sweep { layers = 4, size = 0.2 }";
-    CHECK(error_of(L, chunk).find("[core.cancelled]") != std::string::npos);
-    cancel = false;
-    CHECK(error_of(L, chunk) == "");
+    L.cancel = true;
+    CHECK(error_of(L.lua, chunk).find("[core.cancelled]") != std::string::npos);
+    L.cancel = false;
+    CHECK(error_of(L.lua, chunk) == "");
 }
 
 TEST_CASE("finding roles, matching and closing stop on the host's cancel flag")
 {
-    std::atomic<bool> cancel{false};
-    Host lent;
-    lent.cancel = &cancel;
-    State L;
-    set_host(L, &lent);
-    luaL_requiref(L, "lacuna", luaopen_lacuna, 1);
-    lua_settop(L, 0);
-    REQUIRE(error_of(L, "m = lacuna.synthetic.prism { sides = 4, drop = 'walls' }\n"
-                        "roles = { source = 'source', target = 'target' }\n"
-                        "v = m:open_volume(roles)") == "");
+    CancellableState L;
+    REQUIRE(error_of(L.lua, "m = lacuna.synthetic.prism { sides = 4, drop = 'walls' }\n"
+                            "roles = { source = 'source', target = 'target' }\n"
+                            "v = m:open_volume(roles)") == "");
     const char* const calls[] = {"m:open_volume(roles)", "m:open_volume()", "v:match()", "v:close()"};
     for (const char* const chunk : calls) {
         CAPTURE(chunk);
-        cancel = true;
-        CHECK(error_of(L, chunk).find("[core.cancelled]") != std::string::npos);
-        cancel = false;
-        CHECK(error_of(L, chunk) == "");
+        L.cancel = true;
+        CHECK(error_of(L.lua, chunk).find("[core.cancelled]") != std::string::npos);
+        L.cancel = false;
+        CHECK(error_of(L.lua, chunk) == "");
     }
 }
 

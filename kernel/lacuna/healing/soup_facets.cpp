@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <sstream>
 #include <string>
 
 namespace lacuna::healing {
@@ -53,6 +54,17 @@ std::array<Triangle, 2> halves_of(const std::vector<Vec3>& points, const Quad& q
     return choices[worst[1] > worst[0] ? 1 : 0];
 }
 
+/// Squares of areas must be numbers, those of facets a millionth of the diagonal long too.
+void check_size(const Vec3& low, const Vec3& high, double diagonal)
+{
+    constexpr double kLeast = 1e-70, kMost = 1e70; // their fourth powers are far within a double's range
+    if (low == high || (diagonal > kLeast && diagonal < kMost)) return;
+    std::ostringstream words;
+    words << "the facets lie between (" << low.transpose() << ") and (" << high.transpose()
+          << "): no areas can be computed of a model that small or large; give another scale";
+    throw InvalidInput("topology.size", words.str());
+}
+
 /// Keep the points in use, weld them, and number those that remain as they are first met.
 std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& facets,
                              const RunContext& context)
@@ -76,6 +88,7 @@ std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& fa
         high = high.cwiseMax(p);
     }
     facets.diagonal = (high - low).norm();
+    check_size(low, high, facets.diagonal);
     facets.tolerance = tolerance > 0 ? tolerance : 1e-6 * facets.diagonal;
 
     const std::vector<Index> joined = weld(points, facets.tolerance, context);

@@ -35,7 +35,8 @@ struct FacetSoup {
 /// turns by more than the feature angle, or, on a closed chain that has none, its first point. Tags count
 /// from 1 in the order faces are met, each kind of entity by itself. First, facets are cut at points on the
 /// inside of their free sides (T-junctions), and of facets listed twice in a label one stays, with a note.
-/// @throw InvalidInput  no facets; an edge of three or more facets inside one label. Cancelled.
+/// @throw InvalidInput  no facets; an edge of three or more facets inside one label; a diagonal whose fourth
+///                      power is no number. Cancelled.
 topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options = {},
                              const RunContext& context = {});
 
