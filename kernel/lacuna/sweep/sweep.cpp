@@ -21,6 +21,7 @@
 #include <cstdio>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace lacuna::sweep {
 
@@ -57,7 +58,8 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options)
                                    " boundary nodes enclose folds or overlaps; use quads = \"auto\"");
         };
     }
-    const bool grids = options.quads != Quads::paved;
+    // A grid has as many quads across a neck as its rim leaves over.
+    const bool grids = options.quads != Quads::paved && options.gap == 0;
     return [rows = options.rows, grids](const quads::PlanarRegion& region, const RunContext& context) {
         return quads::pave(region, {.exact_rows = rows, .grids = grids}, context).mesh;
     };
@@ -76,20 +78,6 @@ surface::SizeField checked(const surface::SizeField& field, const std::string& o
         }
         return h;
     };
-}
-
-surface::SizeField checked_size(const OpenVolume& volume, const SweepOptions& options)
-{
-    if (options.size) return checked(options.size, "size");
-    const double spacing = surface::rim_spacing(volume);
-    return [spacing](const Vec3&) { return spacing; };
-}
-
-/// The size, and the height of rows where they are asked for.
-surface::SizeFields size_fields(const surface::SizeField& size, const SweepOptions& options)
-{
-    if (options.rows == 0) return {size};
-    return {size, options.row_height ? checked(options.row_height, "row_height") : size};
 }
 
 /// Refuse at once what could never be numbered, instead of filling the memory first.
@@ -120,6 +108,25 @@ void check_amount(const OpenVolume& volume, const surface::SizeField& size, cons
         quads, levels, std::max(quads, 1.0) * levels);
     throw InvalidInput("sweep.too_many",
                        std::string(words.data()) + "; ask for a larger 'size' or fewer 'layers'");
+}
+
+/// The size asked for, or the rim's own spacing; smaller where the shape needs it.
+surface::SizeField source_size(const OpenVolume& volume, const SweepOptions& options)
+{
+    surface::SizeField asked;
+    if (options.size)
+        asked = checked(options.size, "size");
+    else
+        asked = [spacing = surface::rim_spacing(volume)](const Vec3&) { return spacing; };
+    check_amount(volume, asked, options.layers);
+    return surface::shape_size(volume, asked, {options.curvature, options.gap});
+}
+
+/// The size, and the height of rows where they are asked for.
+surface::SizeFields size_fields(const surface::SizeField& size, const SweepOptions& options)
+{
+    if (options.rows == 0) return {size};
+    return {size, options.row_height ? checked(options.row_height, "row_height") : size};
 }
 
 RimColumns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
@@ -289,6 +296,8 @@ LayerNodes best_layers(const surface::SourceMesh& source, const Morphed& morphed
 struct ProvedSweep {
     Swept swept;
     quality::Proof proof;
+    std::vector<FaceId> faces; ///< of each patch
+    std::set<FaceId> kept;     ///< faces whose own quads are the mesh
 };
 
 /// Seeds, quads, walls, target, layers and proof between the rims of linking surfaces that say what goes with
@@ -298,7 +307,8 @@ ProvedSweep sweep_between(const OpenVolume& volume, const std::vector<surface::L
                           const SweepOptions& options, const RunContext& context)
 {
     Swept result;
-    const surface::Seeds seeds = surface::seed_source(volume, links, size, style_of(options));
+    const surface::Seeds seeds = surface::seed_source(volume, links, size, style_of(options),
+                                                      {options.curvature, options.gap});
     surface::SourceMesh source = surface::mesh_source(volume, links, seeds, size_fields(size, options),
                                                       mesher_of(options), context);
     for (std::string& note : source.notes) result.report.push_back("source " + note);
@@ -350,7 +360,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, const std::vector<surface::L
     result.report.push_back("cells: " + std::to_string(quality.hexes) + ", all certified, scaled Jacobian " +
                             std::to_string(quality.min_scaled_jacobian) + " at least, " +
                             std::to_string(quality.mean_scaled_jacobian) + " on average");
-    return {std::move(result), std::move(proof)};
+    return {std::move(result), std::move(proof), faces, seeds.kept};
 }
 
 /// Round walls do not say how far they turn; several loops together may.
@@ -409,8 +419,6 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
 {
     check_cancelled(context);
     check(options, context);
-    const surface::SizeField size = checked_size(volume, options);
-    check_amount(volume, size, options.layers);
     std::vector<double> heights = layer_heights(options.layers);
     if (volume.turned_round) {
         std::reverse(heights.begin(), heights.end());
@@ -420,12 +428,19 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
         throw NotSweepable("sweep.not_closed",
                            "the volume is not sealed; close it first with volume:close()");
     }
+    const surface::SizeField size = source_size(volume, options);
     const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(volume);
     ProvedSweep result = can_turn_together(links)
                              ? better_turning(volume, links, heights, size, options, context)
                              : sweep_between(volume, links, heights, size, options, context);
     quality::require(result.proof);
-    return std::move(result.swept);
+    Swept& swept = result.swept;
+    const FidelityOptions shape{options.max_deviation};
+    swept.fidelity = compare(volume, swept.mesh, result.faces, result.kept, result.proof.quality.volume,
+                             shape, context);
+    require(swept.fidelity, swept.mesh.layers, shape);
+    swept.report.push_back(in_words(swept.fidelity));
+    return std::move(swept);
 }
 
 } // namespace lacuna::sweep
