@@ -54,13 +54,13 @@ struct Seeds {
 
 /// Assign numbers of sides to the edges of the source: by the size, or by the curvature where it wants more.
 ///
-/// A full turn of an edge gets `sizing.curvature` sides, and so does what the part of the target's rim it is swept to
-/// turns more; the bends of a polyline count as the curve they stand for, unless they are sharp. With 0 the size alone
-/// decides, but a side stands for no more than a sixth of a turn.
-/// Edges of faces that keep their own quads have the nodes of those. Where size or curvature change along an
-/// edge its nodes follow. Opposite sides of mapped faces are raised to the larger count, a face at a time until
-/// nothing changes; then each free face with an odd total gets one more side on a rim edge of its own, or on
-/// an edge towards one.
+/// A full turn of an edge gets `sizing.curvature` sides, and so does what the part of the target's rim it is
+/// swept to turns more. The bends of a polyline count as the curve they stand for, unless they are sharp.
+/// With 0 the size alone decides, but a side stands for no more than a sixth of a turn. Edges of faces that
+/// keep their own quads have the nodes of those. Where size or curvature change along an edge its nodes
+/// follow. Opposite sides of mapped faces are raised to the larger count, a face at a time until nothing
+/// changes; then each free face with an odd total gets one more side on a rim edge of its own, or on an edge
+/// towards one.
 /// @param sizing  sides for a full turn; with a gap no face is submapped that need not be. The rest of it is
 ///                in the size already.
 /// @throw NotSweepable  a face to be kept that has not quads all over, or whose rim has no node where the

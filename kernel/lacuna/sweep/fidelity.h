@@ -28,8 +28,8 @@ struct FaceFidelity {
     int tag = 0;      ///< as the person knows it; void faces have tags of their own
     bool made_void = false;
     std::size_t quads = 0; ///< of the skin
-    /// Larger of the two ways: quads to face, and face to the quads that are its own [model length]. Of a face
-    /// without quads its width: twice its area over the length of its rim.
+    /// Larger of the two ways: quads to face, and face to the quads that are its own [model length]. Of a
+    /// face without quads its width: twice its area over the length of its rim.
     double max_distance = 0;
     double mean_distance = 0;  ///< by area, the larger of the two ways [model length]
     Vec3 place = Vec3::Zero(); ///< where the two are furthest apart
@@ -51,9 +51,9 @@ struct Fidelity {
 };
 
 struct FidelityOptions {
-    /// How far skin and face may be apart, >= 0 [model length]; 0: a fifth of the side of a quad there, on void
-    /// faces two fifths. Sides that stand for a twelfth of a turn are off by a fifteenth of their length, quads
-    /// on a sphere of such sides by an eighth; four sides on a circle are off by more than a fifth.
+    /// How far skin and face may be apart, >= 0 [model length]; 0: a fifth of the side of a quad there, on
+    /// void faces two fifths. Sides that stand for a twelfth of a turn are off by a fifteenth of their
+    /// length, quads on a sphere of such sides by an eighth; four sides on a circle are off by more than a fifth.
     double max_deviation = 0;
 };
 

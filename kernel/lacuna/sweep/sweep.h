@@ -65,7 +65,8 @@ struct SweepOptions {
 
 /// Whether options can be used, before any work is done. `sweep()` asks it itself; a host may ask first.
 /// @throw InvalidInput  names the option, what it must be and what was found: layers, improving,
-///                      min_scaled_jacobian, curvature, gap, max_deviation; rows below 0 or of quads that are not paved, a row height
+///                      min_scaled_jacobian, curvature, gap, max_deviation; rows below
+///                      0 or of quads that are not paved, a row height
 ///                      without rows; threads of the context below 0 or above 1024.
 void check(const SweepOptions& options, const RunContext& context = {});
 
@@ -81,8 +82,8 @@ struct Swept {
 /// @throw InvalidInput   what `check()` refuses; a size that is no positive length, or too many cells to
 ///                       number.
 /// @throw NotSweepable   names the face, wall or cells, what was expected and found, and what to try.
-/// @post  the mesh is proved: conformal, skin closed, every Jacobian certified positive, its skin on the sealed
-///        skin as far as `max_deviation` says.
+/// @post  the mesh is proved: conformal, skin closed, every Jacobian certified positive, its skin on the
+///        sealed skin as far as `max_deviation` says.
 Swept sweep(const topology::OpenVolume& volume, const SweepOptions& options, const RunContext& context = {});
 
 } // namespace lacuna::sweep
