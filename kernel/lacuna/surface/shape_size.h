@@ -18,7 +18,8 @@ struct ShapeSizing {
 /// - Curvature: the larger principal curvature k at the facets' points asks for 2π / (k · curvature), as
 ///   Gmsh's MeshSizeFromCurvature. It is the facets' curvature tensor (@cite cohensteiner_2003_tensor), over
 ///   the facets at a point. Facets without an exact surface ask for nothing finer than half of themselves.
-/// - Width: the ball that touches a rim from within is shrunk until it holds no rim (@cite ma_2012_ball). Where
+/// - Width: the ball that touches a rim from within is shrunk until it holds no rim (@cite
+/// ma_2012_ball). Where
 ///   the place opposite faces back, their distance w asks for w / gap, and, where the rim has the curvature
 ///   k, for a side whose sag is a quarter of w at most: √(2 w / k).
 ///
