@@ -22,7 +22,8 @@ namespace {
 
 /// Distance allowed over the side of a quad, where no length is given; see FidelityOptions.
 constexpr double kShareOfSide = 0.2;
-/// The same on void faces: their facets were made as the mesh's walls are, and neither is given. Bent, twisted
+/// The same on void faces: their facets were made as the mesh's walls are, and neither is given.
+/// Bent, twisted
 /// and ruled ones were off by up to 0.46.
 constexpr double kShareOnVoid = 1;
 /// A quad whose diagonals miss each other by less than this share of its longest side is flat: two triangles
