@@ -63,6 +63,9 @@
 ---@field layers? integer|number[]|lacuna.Layers a count, rising heights in (0, 1] or a spacing; default as the
 ---walls' own meshes have rows, else about as high as the quads are wide
 ---@field size? number|fun(x: number, y: number, z: number): number edge length on the source; default: the rim's spacing
+---@field curvature? integer sides for a full turn where the size is coarser; default 12; 0: the size alone
+---@field gap? integer least number of quads across a narrow place of the source; default: none
+---@field max_deviation? number how far the skin may be from the sealed skin [model length]; default: a fifth of a quad's side
 ---@field quads? "auto"|"paved"|"mapped"|"gmsh"|"keep" default "auto"; the report says which way each face was meshed
 ---@field rows? integer rows of quads from every loop of the source that stay as they are laid; default: what the paver finds good
 ---@field row_height? number|fun(x: number, y: number, z: number): number of those rows (one at least); default: the size
@@ -216,7 +219,22 @@ function Volume:write_facets(path, options) end
 ---@return { volume: number, faces: integer, planes: integer, fitted: integer, tolerance: number }
 function Volume:write_cad(path, options) end
 
+---@class lacuna.FaceFidelity
+---@field quads integer of the skin that lie on it
+---@field max_distance number [model length]; of a face without quads its width
+---@field mean_distance number [model length]
+---@field place lacuna.Vector where skin and face are furthest apart
+
+--- The mesh's skin against the sealed skin.
+---@class lacuna.Fidelity
+---@field volume number of the cells [model length³]
+---@field sealed_volume number [model length³]
+---@field max_distance number [model length]
+---@field mean_distance number [model length]
+---@field faces table<integer|string, lacuna.FaceFidelity> by tag, void faces by "void:<n>"
+
 ---@class lacuna.Mesh
+---@field fidelity lacuna.Fidelity
 ---@field nodes integer
 ---@field hexes integer
 ---@field layers integer

@@ -38,6 +38,38 @@ int mesh_report(lua_State* L)
     return 1;
 }
 
+void push_face_fidelity(lua_State* L, const sweep::FaceFidelity& face)
+{
+    lua_createtable(L, 0, 4);
+    set_count(L, "quads", face.quads);
+    set_number(L, "max_distance", face.max_distance);
+    set_number(L, "mean_distance", face.mean_distance);
+    push_vector(L, face.place);
+    lua_setfield(L, -2, "place");
+}
+
+/// mesh.fidelity: given faces by their tags, void ones by their groups' names.
+int mesh_fidelity(lua_State* L)
+{
+    const sweep::Fidelity& fidelity = hold<MeshState>(L, 1).swept.fidelity;
+    lua_createtable(L, 0, 5);
+    set_number(L, "volume", fidelity.volume);
+    set_number(L, "sealed_volume", fidelity.sealed_volume);
+    set_number(L, "max_distance", fidelity.max_distance);
+    set_number(L, "mean_distance", fidelity.mean_distance);
+    lua_createtable(L, 0, static_cast<int>(fidelity.faces.size()));
+    for (const sweep::FaceFidelity& face : fidelity.faces) {
+        if (face.made_void)
+            lua_pushfstring(L, "void:%d", face.tag);
+        else
+            lua_pushinteger(L, face.tag);
+        push_face_fidelity(L, face);
+        lua_rawset(L, -3);
+    }
+    lua_setfield(L, -2, "faces");
+    return 1;
+}
+
 /// The number at index 2, from 1 to `count`, as an index from 0.
 std::size_t check_number(lua_State* L, const char* call, std::size_t count)
 {
@@ -129,8 +161,8 @@ int mesh_to_string(lua_State* L)
 const luaL_Reg kMethods[] = {{"node", node}, {"hex", hex}, {"groups", groups}, {nullptr, nullptr}};
 const luaL_Reg kMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
 const Field kFields[] = {
-    {"nodes", mesh_nodes},   {"hexes", mesh_hexes}, {"layers", mesh_layers},
-    {"report", mesh_report}, {nullptr, nullptr},
+    {"nodes", mesh_nodes},   {"hexes", mesh_hexes},       {"layers", mesh_layers},
+    {"report", mesh_report}, {"fidelity", mesh_fidelity}, {nullptr, nullptr},
 };
 
 } // namespace

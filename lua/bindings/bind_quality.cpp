@@ -143,7 +143,9 @@ int quality_to_string(lua_State* L)
             if (summary.metric != quality::Metric::max_aspect_frobenius &&
                 summary.metric != quality::Metric::edge_ratio)
                 shown.push_back(summary);
-        std::string text = quality::to_table(source.quality) + "\n" + quality::to_table(shown);
+        std::string text = quality::to_table(source.quality);
+        if (source.mesh) text += sweep::in_words(source.mesh->swept.fidelity) + "\n";
+        text += "\n" + quality::to_table(shown);
         text.pop_back(); // print() ends the line
         return text;
     });

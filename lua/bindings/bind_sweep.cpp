@@ -150,6 +150,21 @@ void read_min_scaled_jacobian(lua_State* L, int index, const Where& where, Sweep
     arguments.options.min_scaled_jacobian = read_number(L, index, where);
 }
 
+void read_curvature(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.curvature = read_whole(L, index, where, 0);
+}
+
+void read_gap(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.gap = read_whole(L, index, where, 1);
+}
+
+void read_max_deviation(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.max_deviation = read_positive(L, index, where);
+}
+
 const Word<sweep::Interior> kInteriors[] = {
     {"auto", sweep::Interior::automatic},
     {"affine", sweep::Interior::affine},
@@ -181,6 +196,9 @@ void read_improve(lua_State* L, int index, const Where& where, SweepArguments& a
 const Option<SweepArguments> kSweepOptions[] = {
     {"layers", read_layers},
     {"size", read_size},
+    {"curvature", read_curvature},
+    {"gap", read_gap},
+    {"max_deviation", read_max_deviation},
     {"quads", read_quads},
     {"rows", read_rows},
     {"row_height", read_row_height},

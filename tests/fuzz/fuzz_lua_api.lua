@@ -236,6 +236,7 @@ local keys = {
     end,
     size = function() return chance(0.4) and size_function() or length() end,
     quads = function() return pick { "auto", "paved", "mapped", "gmsh", "keep" } end,
+    curvature = function() return pick { 0, 8, 12, 40, -1 } end, gap = small, max_deviation = length,
     rows = small, row_height = function() return chance(0.5) and size_function() or length() end,
     order = function() return random(1, 2) end, serendipity = flag,
     min_scaled_jacobian = function() return pick { -1, 0, 0.5, 2 } end,

@@ -156,6 +156,18 @@ check.equal(binned, mesh.hexes)
 check.that(#quality.worst > 0 and quality.worst[1].scaled_jacobian == quality.min_scaled_jacobian)
 check.equal(quality.metrics[1].min, quality.min_scaled_jacobian)
 check.that(tostring(quality):find("\n"), "quality prints as a table")
+check.that(tostring(quality):find("shape: volume", 1, true), "with a line on the shape")
+local shape = mesh.fidelity
+check.near(shape.volume, 1, 1e-12)
+check.near(shape.sealed_volume, 1, 1e-12)
+check.that(shape.max_distance < 1e-9 and shape.mean_distance <= shape.max_distance)
+local on_faces = 0
+for tag, face in pairs(shape.faces) do
+  check.that(math.type(tag) == "integer" or tag:find("^void:%d+$"), "faces go by tag or group")
+  check.that(face.max_distance < 1e-9 and face.mean_distance <= face.max_distance and #face.place == 3)
+  on_faces = on_faces + face.quads
+end
+check.that(on_faces > 0)
 
 -- Written and read again.
 local path = os.tmpname()

@@ -22,7 +22,8 @@ local calls = {
   match = { function(o) volume():match(o) end, { "method", "vertices", "loops", "flip" } },
   close = { function(o) volume():close(o) end, { "edge_shape", "void_edges", "cap" } },
   sweep = { function(o) volume():sweep(o) end,
-            { "layers", "size", "quads", "order", "serendipity", "min_scaled_jacobian", "improve", "interior",
+            { "layers", "size", "curvature", "gap", "max_deviation", "quads",
+                "order", "serendipity", "min_scaled_jacobian", "improve", "interior",
                 "threads" } },
   ["synthetic.prism"] = { lacuna.synthetic.prism,
             { "sides", "radius", "height", "holes", "hole_radius", "twist", "taper", "bend", "facets",
@@ -113,6 +114,9 @@ check.fails(function() volume():sweep { layers = { count = 2, mode = "bel" } } e
 check.fails(function() volume():sweep { layers = { cuont = 2 } } end, "'cuont'", "'count'")
 wrong("sweep", "size", { 0, -1, nan, huge, "1", {} }, "a positive number")
 wrong("sweep", "quads", { "pave" }, 'did you mean "paved"?')
+wrong("sweep", "curvature", { -1, 1.5, "12" }, "must be")
+wrong("sweep", "gap", { 0, -1, 1.5 }, "a positive whole number")
+wrong("sweep", "max_deviation", { 0, -1, nan, huge }, "must be")
 wrong("sweep", "order", { 0, 3, 1.5 }, "must be")
 wrong("sweep", "min_scaled_jacobian", { -0.1, 1.1 }, "[0, 1]")
 wrong("sweep", "threads", { 0, -1, 1.5 }, "a positive whole number")

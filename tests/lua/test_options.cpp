@@ -59,8 +59,9 @@ TEST_CASE("one letter added, dropped or changed is a distance of one, at every p
 
 TEST_CASE("every key with one letter wrong is nearest to itself")
 {
-    const char* const keys[] = {"layers",  "size",   "quads", "order", "serendipity", "min_scaled_jacobian",
-                                "improve", "threads"};
+    const char* const keys[] = {
+        "layers",  "size",    "quads",     "order", "serendipity",  "min_scaled_jacobian",
+        "improve", "threads", "curvature", "gap",   "max_deviation"};
     for (std::size_t k = 0; k < std::size(keys); ++k)
         for (std::size_t place = 0; place < std::string(keys[k]).size(); ++place) {
             std::string typo = keys[k];

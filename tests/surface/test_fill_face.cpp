@@ -216,7 +216,7 @@ TEST_CASE("fine facets follow the exact face as closely as asked, and plain face
                 CHECK(std::abs(p.z() - disc.graph->at(p.head<2>()).z()) < 1e-9);
                 std::vector<Vec3> half{(p + q) / 2};
                 std::vector<Vec2> uv{half[0].head<2>()};
-                disc.graph->project(half, uv);
+                disc.graph->project(half, uv, {});
                 CHECK((half[0] - (p + q) / 2).norm() < 0.0501 * size);
                 middle += p / 3;
             }

@@ -99,7 +99,7 @@ TEST_CASE(
                         for (const auto& [edge, pieces] : seeds.pieces) {
                             const double wanted = edge_length(volume.model, edge) / size;
                             const bool round = volume.model[edge].from == volume.model[edge].to;
-                            const int least = round ? 8 : 1;
+                            const int least = round ? surface::ShapeSizing{}.curvature : 1;
                             const int plain = std::max(least, static_cast<int>(std::lround(wanted - 1e-6)));
                             CHECK(seeds.count(edge) >= plain);
                             raised += seeds.count(edge) - plain;

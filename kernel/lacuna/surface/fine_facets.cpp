@@ -94,6 +94,23 @@ public:
         return false;
     }
 
+    /// How far the middle of each side of each facet is from the exact face.
+    std::vector<std::array<Vec3, 3>> bulges()
+    {
+        settled_.clear();
+        collect();
+        find_middles();
+        std::vector<std::array<Vec3, 3>> result;
+        for (const Triangle& t : fine_.triangles) {
+            std::array<Vec3, 3>& bulge = result.emplace_back();
+            for (std::size_t k = 0; k < 3; ++k) {
+                const FacetSide& at = side(t, k);
+                bulge[k] = at.middle - (fine_.points[index(at.a)] + fine_.points[index(at.b)]) / 2;
+            }
+        }
+        return result;
+    }
+
 private:
     [[nodiscard]] FacetSide& side(const Triangle& t, std::size_t k)
     {
@@ -260,6 +277,7 @@ FineFacets fine_facets(const Model& model, FaceId face, const SizeField& size,
     for (int i = 0; i < options.rounds && static_cast<double>(fine.triangles.size()) < options.most; ++i) {
         if (!halving.round()) break;
     }
+    if (options.bulges) fine.bulge = halving.bulges();
     return fine;
 }
 

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/polyline.h>
+#include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/face_sides.h>
 
 #include <algorithm>
@@ -20,36 +21,28 @@ using namespace topology;
 
 namespace {
 
-/// However large the size asked for, a side of a quad stands for no more than this much of a bend [degrees]:
-/// a circle keeps eight.
-constexpr double kTurnPerSide = 45;
+/// Sides for a full turn where none are asked for. With fewer a quad of a round face has a corner of 120° or
+/// more.
+constexpr int kFewestPerTurn = 6;
+/// Part of a side by which the curvature may ask for more before it gets one: what the sampling of a curve
+/// is off by. A choice, not a measurement.
+constexpr double kPartOfSide = 0.05;
 /// Points per piece at which the size is asked: a choice, not a measurement.
 constexpr int kSizeSamples = 32;
 /// Sizes that differ by a smaller share along an edge are one, and its nodes stand evenly: less than can be
 /// seen.
 constexpr double kSameSize = 1e-3;
 
-/// How much an edge turns from end to end, all bends added [degrees]; a closed one also where it closes.
-double turning(const Model& model, EdgeId id)
-{
-    const std::vector<Index>& points = model[id].points;
-    double sum = 0;
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-        const bool last = i + 2 == points.size();
-        if (last && points.front() != points.back()) break;
-        const Vec3 in = model.at(points[i + 1]) - model.at(points[i]);
-        const Vec3 out = last ? Vec3(model.at(points[1]) - model.at(points[0]))
-                              : Vec3(model.at(points[i + 2]) - model.at(points[i + 1]));
-        sum += std::atan2(in.cross(out).norm(), in.dot(out)) * 180 / std::numbers::pi;
-    }
-    return sum;
-}
-
 class Seeder {
 public:
     Seeder(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
-           QuadStyle style)
-        : volume_(volume), model_(volume.model), size_(size), style_(style)
+           QuadStyle style, const ShapeSizing& sizing)
+        : volume_(volume),
+          model_(volume.model),
+          size_(size),
+          style_(style),
+          per_turn_(sizing.curvature > 0 ? sizing.curvature : kFewestPerTurn),
+          gap_(sizing.gap)
     {
         for (const LinkingSurface& link : links) add_rim(link);
         for (const FaceId face : volume.faces(Role::source)) {
@@ -91,6 +84,7 @@ public:
 private:
     void add_rim(const LinkingSurface& link)
     {
+        const EdgeTurning target(model_, link.target.uses());
         for (const RimSegment& segment : link.segments) {
             const EdgeUse use = link.source.uses()[segment.use];
             const double start = link.source.start(segment.use);
@@ -102,14 +96,31 @@ private:
                 from = 1 - from;
                 to = 1 - to;
             }
-            seeds_.pieces[use.edge].push_back({from, to, segment.source_to - segment.source_from, 1});
-            seeds_.pieces[use.edge].back().fixed = segment.given;
+            SeedPiece piece{from, to, segment.source_to - segment.source_from, 1};
+            piece.opposite = opposite_turning(target, segment);
+            if (use.reversed) std::reverse(piece.opposite.begin(), piece.opposite.end());
+            piece.fixed = segment.given;
+            seeds_.pieces[use.edge].push_back(std::move(piece));
             rim_.insert(use.edge);
         }
         for (auto& [edge, pieces] : seeds_.pieces) {
             std::sort(pieces.begin(), pieces.end(),
                       [](const SeedPiece& a, const SeedPiece& b) { return a.from < b.from; });
         }
+    }
+
+    /// How much the target's rim turns in even steps along a segment [radian].
+    static std::vector<double> opposite_turning(const EdgeTurning& target, const RimSegment& segment)
+    {
+        const double whole = target.length(), step = (segment.target_to - segment.target_from) / kSizeSamples;
+        std::vector<double> turning;
+        for (int i = 0; i < kSizeSamples; ++i) {
+            double from = segment.target_from + i * step;
+            while (from >= whole) from -= whole;
+            const double past = std::max(from + step - whole, 0.0);
+            turning.push_back(target.between(from, from + step - past) + target.between(0, past));
+        }
+        return turning;
     }
 
     /// Whether a face came with quads that are to be its mesh.
@@ -158,16 +169,30 @@ private:
         }
     }
 
-    /// How many sides the size asks for, and where they are wanted.
+    /// How many sides size and curvature ask for, and where they are wanted.
     void ask_size(EdgeId edge, SeedPiece& piece) const
     {
         std::vector<double> at;
         for (int i = 0; i < kSizeSamples; ++i)
             at.push_back(piece.from + (i + 0.5) / kSizeSamples * (piece.to - piece.from));
-        double sides = 0, least = std::numeric_limits<double>::infinity(), most = 0;
+        const EdgeTurning turning(model_, edge);
+        const double step = (piece.to - piece.from) * turning.length() / kSizeSamples;
+        // Only what the opposite rim turns more counts: an oblique end turns unevenly and as much.
+        const double own = turning.between(piece.from * turning.length(), piece.to * turning.length());
+        const double opposite = std::accumulate(piece.opposite.begin(), piece.opposite.end(), 0.0);
+        const double more = opposite > own ? (opposite - own) / opposite : 0;
+        double by_turn = 0, sides = 0;
+        double least = std::numeric_limits<double>::infinity(), most = 0;
         piece.wanted = {0};
-        for (const Vec3& p : edge_points(model_, edge, at)) {
-            const double here = piece.length / kSizeSamples / size_(p);
+        const std::vector<Vec3> points = edge_points(model_, edge, at);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double from = piece.from * turning.length() + static_cast<double>(i) * step;
+            double turn = turning.between(from, from + step);
+            if (more > 0) turn += more * piece.opposite[i];
+            const double size = piece.length / kSizeSamples / size_(points[i]);
+            const double bend = turn * per_turn_ / (2 * std::numbers::pi);
+            const double here = std::max(size, bend);
+            by_turn += bend;
             sides += here;
             piece.wanted.push_back(sides);
             least = std::min(least, here);
@@ -182,15 +207,16 @@ private:
                                    " sides by the size asked for, more than nodes can be numbered; "
                                    "give a larger size");
         }
-        const double bend = turning(model_, edge) * (piece.to - piece.from) / kTurnPerSide;
-        piece.count = std::max(
-            {1, static_cast<int>(std::lround(sides)), static_cast<int>(std::ceil(bend - 1e-6))});
+        const auto bends = static_cast<int>(std::ceil(by_turn - kPartOfSide));
+        piece.count = std::max({1, static_cast<int>(std::lround(sides)), bends});
     }
 
     void choose(FaceId face)
     {
         if (style_ == QuadStyle::free || seeds_.kept.contains(face)) return;
         const auto corners = four_corners(model_, face);
+        // How many columns of a submapped face pass a neck is what other sides leave over.
+        if (!corners && gap_ > 0 && style_ == QuadStyle::automatic) return;
         const std::vector<SidePair> opposite = corners ? side_pairs(model_, face, *corners)
                                                        : grid_sides(model_, face);
         if (style_ == QuadStyle::mapped && opposite.empty()) {
@@ -377,6 +403,8 @@ private:
     const Model& model_;
     const SizeField& size_;
     QuadStyle style_;
+    int per_turn_; ///< sides for a full turn
+    int gap_;      ///< quads across a narrow place
     Seeds seeds_;
     std::map<FaceId, std::vector<SidePair>> opposite_; ///< of mapped and submapped faces
     std::set<EdgeId> rim_;
@@ -425,9 +453,9 @@ std::vector<double> SeedPiece::fractions() const
 }
 
 Seeds seed_source(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
-                  QuadStyle style)
+                  QuadStyle style, const ShapeSizing& sizing)
 {
-    return Seeder(volume, links, size, style).run();
+    return Seeder(volume, links, size, style, sizing).run();
 }
 
 double rim_spacing(const OpenVolume& volume)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/shape_size.h>
 #include <lacuna/surface/size_field.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -29,6 +30,8 @@ struct SeedPiece {
     /// Where the size asked for changes along the piece: the number of sides it asks for from the start to
     /// each of some even steps. Nodes divide that number evenly. Empty: nodes stand evenly.
     std::vector<double> wanted{};
+    /// How much the rim it is swept to turns along it, at even steps from the start [radian]. Empty: unknown.
+    std::vector<double> opposite{};
     std::vector<double> kept{}; ///< nodes inside that were given, as fractions of the edge; with `fixed`
     bool fixed = false;         ///< the nodes of a given mesh: none more, none less
 
@@ -50,17 +53,22 @@ struct Seeds {
     [[nodiscard]] std::vector<double> fractions(EdgeId edge) const;
 };
 
-/// Assign numbers of sides to the edges of the source: by the size, with a side at least for a bend of 45°.
+/// Assign numbers of sides to the edges of the source: by the size, or by the curvature where it wants more.
 ///
-/// Edges of faces that keep their own quads have the nodes of those. Where the size changes along an edge its
-/// nodes follow. Opposite sides of mapped faces are raised to the larger count, a face at a time until
-/// nothing changes; then each free face with an odd total gets one more side on a rim edge of its own, or on
-/// an edge towards one.
+/// A full turn of an edge gets `sizing.curvature` sides, and so does what the part of the target's rim it is
+/// swept to turns more. The bends of a polyline count as the curve they stand for, unless they are sharp.
+/// With 0 the size alone decides, but a side stands for no more than a sixth of a turn. Edges of faces that
+/// keep their own quads have the nodes of those. Where size or curvature change along an edge its nodes
+/// follow. Opposite sides of mapped faces are raised to the larger count, a face at a time until nothing
+/// changes; then each free face with an odd total gets one more side on a rim edge of its own, or on an edge
+/// towards one.
+/// @param sizing  sides for a full turn; with a gap no face is submapped that need not be. The rest of it is
+///                in the size already.
 /// @throw NotSweepable  a face to be kept that has not quads all over, or whose rim has no node where the
 ///                      other end has a corner; a face to be mapped that has neither four sides nor right
 ///                      angles alone; a face whose total cannot be made even; names them.
 Seeds seed_source(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
-                  const SizeField& size, QuadStyle style);
+                  const SizeField& size, QuadStyle style, const ShapeSizing& sizing = {});
 
 /// Mean length of the facets' sides on the source's rim: the size where none is asked for [model length].
 double rim_spacing(const topology::OpenVolume& volume);

@@ -60,7 +60,8 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options)
                                    " boundary nodes enclose folds or overlaps; use quads = \"auto\"");
         };
     }
-    const bool grids = options.quads != Quads::paved;
+    // A grid has as many quads across a neck as its rim leaves over.
+    const bool grids = options.quads != Quads::paved && options.gap == 0;
     return [rows = options.rows, grids](const quads::PlanarRegion& region, const RunContext& context) {
         return quads::pave(region, {.exact_rows = rows, .grids = grids}, context).mesh;
     };
@@ -79,20 +80,6 @@ surface::SizeField checked(const surface::SizeField& field, const std::string& o
         }
         return h;
     };
-}
-
-surface::SizeField checked_size(const OpenVolume& volume, const SweepOptions& options)
-{
-    if (options.size) return checked(options.size, "size");
-    const double spacing = surface::rim_spacing(volume);
-    return [spacing](const Vec3&) { return spacing; };
-}
-
-/// The size, and the height of rows where they are asked for.
-surface::SizeFields size_fields(const surface::SizeField& size, const SweepOptions& options)
-{
-    if (options.rows == 0) return {size};
-    return {size, options.row_height ? checked(options.row_height, "row_height") : size};
 }
 
 /// Refuse at once what could never be numbered, instead of filling the memory first.
@@ -123,6 +110,25 @@ void check_amount(const OpenVolume& volume, const surface::SizeField& size, cons
         quads, levels, std::max(quads, 1.0) * levels);
     throw InvalidInput("sweep.too_many",
                        std::string(words.data()) + "; ask for a larger 'size' or fewer 'layers'");
+}
+
+/// The size asked for, or the rim's own spacing; smaller where the shape needs it.
+surface::SizeField source_size(const OpenVolume& volume, const SweepOptions& options)
+{
+    surface::SizeField asked;
+    if (options.size)
+        asked = checked(options.size, "size");
+    else
+        asked = [spacing = surface::rim_spacing(volume)](const Vec3&) { return spacing; };
+    check_amount(volume, asked, options.layers);
+    return surface::shape_size(volume, asked, {options.curvature, options.gap});
+}
+
+/// The size, and the height of rows where they are asked for.
+surface::SizeFields size_fields(const surface::SizeField& size, const SweepOptions& options)
+{
+    if (options.rows == 0) return {size};
+    return {size, options.row_height ? checked(options.row_height, "row_height") : size};
 }
 
 RimColumns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
@@ -304,6 +310,8 @@ LayerNodes best_layers(const surface::SourceMesh& source, const Morphed& morphed
 struct ProvedSweep {
     Swept swept;
     quality::Proof proof;
+    std::vector<FaceId> faces; ///< of each patch
+    std::set<FaceId> kept;     ///< faces whose own quads are the mesh
 };
 
 /// Seeds, quads, walls, target, layers and proof between the rims of linking surfaces that say what goes with
@@ -317,7 +325,8 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     const std::vector<double> heights = given.heights.empty() ? default_heights(links, size, options.layers)
                                                               : given.heights;
     for (std::string& note : given.notes) result.report.push_back("given: " + note);
-    const surface::Seeds seeds = surface::seed_source(volume, links, size, style_of(options));
+    const surface::Seeds seeds = surface::seed_source(volume, links, size, style_of(options),
+                                                      {options.curvature, options.gap});
     for (const std::string& note : seeds.notes) result.report.push_back("given: " + note);
     surface::SourceMesh source = surface::mesh_source(volume, links, seeds, size_fields(size, options),
                                                       mesher_of(options), context);
@@ -372,7 +381,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
                             std::to_string(quality.min_scaled_jacobian) + " at least, " +
                             std::to_string(quality.mean_scaled_jacobian) + " on average");
     report_given(volume, result);
-    return {std::move(result), std::move(proof)};
+    return {std::move(result), std::move(proof), faces, seeds.kept};
 }
 
 /// Round walls do not say how far they turn; several loops together may.
@@ -431,8 +440,6 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
 {
     check_cancelled(context);
     check(options, context);
-    const surface::SizeField size = checked_size(volume, options);
-    check_amount(volume, size, options.layers);
     const bool counted = options.layers.count > 0 || !options.layers.heights.empty();
     std::vector<double> heights = counted ? layer_heights(options.layers) : std::vector<double>{};
     if (volume.turned_round) {
@@ -443,12 +450,19 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
         throw NotSweepable("sweep.not_closed",
                            "the volume is not sealed; close it first with volume:close()");
     }
+    const surface::SizeField size = source_size(volume, options);
     const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(volume);
     ProvedSweep result = can_turn_together(links)
                              ? better_turning(volume, links, heights, size, options, context)
                              : sweep_between(volume, links, heights, size, options, context);
     quality::require(result.proof);
-    return std::move(result.swept);
+    Swept& swept = result.swept;
+    const FidelityOptions shape{options.max_deviation};
+    swept.fidelity = compare(volume, swept.mesh, result.faces, result.kept, result.proof.quality.volume,
+                             shape, context);
+    require(swept.fidelity, swept.mesh.layers, shape);
+    swept.report.push_back(in_words(swept.fidelity));
+    return std::move(swept);
 }
 
 } // namespace lacuna::sweep

@@ -5,6 +5,7 @@
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/quads/region.h>
 #include <lacuna/surface/size_field.h>
+#include <lacuna/sweep/fidelity.h>
 #include <lacuna/sweep/improve.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -51,6 +52,10 @@ enum class Interior {
 struct SweepOptions {
     LayerSpec layers;
     surface::SizeField size; ///< null: from the rim's own spacing
+    int curvature = 12;      ///< sides for a full turn where `size` is coarser, >= 0; 0: the size alone
+    int gap = 0;             ///< quads at least across a narrow place of the source, >= 0; 0: none
+    /// How far the skin may be from the sealed skin, >= 0 [model length]; 0: what `FidelityOptions` says.
+    double max_deviation = 0;
     Quads quads = Quads::automatic;
     int rows = 0; ///< exact rows along every loop of the source, >= 0; needs quads automatic or paved
     surface::SizeField row_height;       ///< of those rows; null: the size
@@ -63,7 +68,8 @@ struct SweepOptions {
 
 /// Whether options can be used, before any work is done. `sweep()` asks it itself; a host may ask first.
 /// @throw InvalidInput  names the option, what it must be and what was found: layers, improving,
-///                      min_scaled_jacobian; rows below 0 or of quads that are not paved, a row height
+///                      min_scaled_jacobian, curvature, gap, max_deviation; rows below
+///                      0 or of quads that are not paved, a row height
 ///                      without rows; threads of the context below 0 or above 1024.
 void check(const SweepOptions& options, const RunContext& context = {});
 
@@ -71,7 +77,8 @@ void check(const SweepOptions& options, const RunContext& context = {});
 struct Swept {
     mesh::HexMesh mesh;
     double min_scaled_jacobian = 1;
-    std::vector<std::string> report; ///< a line a stage: seeds, quads, walls, target, layers
+    Fidelity fidelity;               ///< the skin against the sealed skin
+    std::vector<std::string> report; ///< a line a stage: seeds, quads, walls, target, layers, shape
 };
 
 /// Fill a sealed volume with hexahedra. What goes with what is read off the sealed walls.
@@ -81,7 +88,8 @@ struct Swept {
 /// @throw InvalidInput   what `check()` refuses; a size that is no positive length, or too many cells to
 ///                       number.
 /// @throw NotSweepable   names the face, wall or cells, what was expected and found, and what to try.
-/// @post  the mesh is proved: conformal, skin closed, every Jacobian certified positive.
+/// @post  the mesh is proved: conformal, skin closed, every Jacobian certified positive, its skin on the
+///        sealed skin as far as `max_deviation` says.
 Swept sweep(const topology::OpenVolume& volume, const SweepOptions& options, const RunContext& context = {});
 
 } // namespace lacuna::sweep

@@ -24,14 +24,17 @@ struct FineFacets {
         Index point = -1; ///< in `points`
     };
     std::map<EdgeId, std::vector<OnEdge>> edges; ///< as each edge runs, from end to end
+    /// How far the middle of each side is from the exact face; where asked for.
+    std::vector<std::array<Vec3, 3>> bulge;
 };
 
 /// Options of `fine_facets()`.
 struct FineFacetOptions {
     /// How far the middle of a side may be off the face, in sizes asked for there, > 0 [-]
     double off = 0.05;
-    int rounds = 8;    ///< of halving, >= 0
-    double most = 1e5; ///< facets; with so many no more are made
+    int rounds = 8;      ///< of halving, >= 0
+    double most = 1e5;   ///< facets; with so many no more are made
+    bool bulges = false; ///< find those of the facets that are left
 };
 
 /// The facets of a face, their sides halved where they miss the exact face by more than quads of this size

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// A length asked for at a point.
+struct PointSize {
+    Vec3 point;
+    double size; ///< [model length]
+};
+
+/// Lengths asked for at points, which grow with the distance from them: the least of size + grading ·
+/// distance over all points. A tree of boxes; a query is O(log points) where points are spread.
+class GradedPoints {
+public:
+    GradedPoints(std::vector<PointSize> points, double grading);
+
+    /// The least length at a place, `most` at most.
+    [[nodiscard]] double at(const Vec3& place, double most) const;
+
+private:
+    struct Node {
+        Eigen::AlignedBox3d box;
+        double least = 0; ///< of its points
+        std::size_t begin = 0, end = 0;
+        std::size_t right = 0; ///< its second child; the first is the next node; 0: a leaf
+    };
+    std::size_t build(std::size_t begin, std::size_t end);
+    void search(std::size_t node, const Vec3& place, double& least) const;
+    [[nodiscard]] double bound(const Node& node, const Vec3& place) const;
+
+    std::vector<PointSize> points_;
+    std::vector<Node> nodes_;
+    double grading_;
+};
+
+} // namespace lacuna::surface

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/face_shape.h>
+
+#include <lacuna/surface/detail/fine_facets.h>
+#include <lacuna/surface/edge_nodes.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// How far the sides of the face's edges are off the exact edges.
+double sag_of_edges(const Model& model, FaceId face)
+{
+    double most = 0;
+    for (const Loop& loop : model[face].loops) {
+        for (const EdgeUse& use : loop.uses) {
+            const Edge& edge = model[use.edge];
+            if (edge.curve == nullptr) continue;
+            std::vector<double> params;
+            for (std::size_t i = 0; i + 1 < edge.params.size(); ++i)
+                params.push_back((edge.params[i] + edge.params[i + 1]) / 2);
+            std::vector<Vec3> middle(params.size());
+            edge.curve->evaluate(params, middle);
+            for (std::size_t i = 0; i < middle.size(); ++i) {
+                const Vec3 chord = (model.at(edge.points[i]) + model.at(edge.points[i + 1])) / 2;
+                most = std::max(most, (middle[i] - chord).norm());
+            }
+        }
+    }
+    return most;
+}
+
+} // namespace
+
+Vec3 FaceShape::bulge_at(std::size_t triangle, const Vec3& w) const
+{
+    if (bulge.empty()) return Vec3::Zero();
+    const std::array<Vec3, 3>& b = bulge[triangle];
+    return 4 * (w[0] * w[1] * b[0] + w[1] * w[2] * b[1] + w[2] * w[0] * b[2]);
+}
+
+Vec3 FaceShape::normal(std::size_t triangle) const
+{
+    const Triangle& t = triangles[triangle];
+    const Vec3& a = points[index(t[0])];
+    return (points[index(t[1])] - a).cross(points[index(t[2])] - a).stableNormalized();
+}
+
+double FaceShape::volume_integral(const Vec3& origin) const
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const Triangle& t = triangles[i];
+        const Vec3 a = points[index(t[0])] - origin, b = points[index(t[1])] - origin,
+                   c = points[index(t[2])] - origin;
+        sum += a.dot(b.cross(c)) / 6;
+        if (bulge.empty()) continue;
+        // Over a facet each side's hump has a third of it as its mean.
+        const Vec3 mean = (bulge[i][0] + bulge[i][1] + bulge[i][2]) / 3;
+        sum += mean.dot((b - a).cross(c - a)) / 2;
+    }
+    return sum;
+}
+
+FaceShape face_shape(const Model& model, FaceId face, const SizeField& size)
+{
+    FineFacets fine = fine_facets(model, face, size, {.bulges = true});
+    FaceShape shape{std::move(fine.points), std::move(fine.triangles), std::move(fine.bulge)};
+    if (fine.surface == nullptr) shape.slack = sag_of_edges(model, face);
+    return shape;
+}
+
+} // namespace lacuna::surface

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/shape_size.h>
+
+#include <lacuna/core/edge_key.h>
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/surface/detail/edge_turning.h>
+#include <lacuna/surface/detail/graded_points.h>
+#include <lacuna/surface/edge_nodes.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// How much longer quads may be for each length away from a place that asks for short ones: as the paver
+/// grades from its boundary [-].
+constexpr double kGrading = 0.3;
+/// Sag of a side over the width of the face there, at most: opposite sides keep half the width [-].
+constexpr double kSagOfWidth = 0.25;
+/// Rim points for each side of the size asked for. A choice, not a measurement.
+constexpr double kPointsPerSide = 4;
+/// Rim points of one edge, at most. A choice, not a measurement.
+constexpr std::size_t kMostPoints = 4096;
+/// Places face each other if the line between them is this near to the rim's normal [cosine]: more than any
+/// two sides of a right angle.
+constexpr double kFacing = 0.8;
+/// Places of one edge face each other if the way between them along it is this much longer than the line:
+/// nearly half a circle, 1.57 [-].
+constexpr double kWayRound = 1.5;
+
+Vec3 area_vector(const Model& model, const Triangle& t)
+{
+    return (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])) / 2;
+}
+
+/// What the curvature of a face asks for, at the points of its facets.
+void add_curvature(const Model& model, FaceId face, const SizeField& asked, int per_turn,
+                   std::vector<PointSize>& sizes)
+{
+    const Face& f = model[face];
+    if (f.kind == "plane") return;
+    struct Around {
+        Eigen::Matrix3d bends = Eigen::Matrix3d::Zero();
+        double area = 0, shortest = std::numeric_limits<double>::infinity();
+
+        void add(const Around& other)
+        {
+            bends += other.bends;
+            area += other.area;
+        }
+    };
+    std::map<Index, Around> at; // in the model's order
+    std::unordered_map<std::uint64_t, std::size_t> first;
+    for (std::size_t i = 0; i < f.triangles.size(); ++i) {
+        const Triangle& t = f.triangles[i];
+        const Vec3 normal = area_vector(model, t);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index a = t[k], b = t[(k + 1) % 3];
+            const Vec3 side = model.at(b) - model.at(a);
+            at[a].area += normal.norm() / 3;
+            for (const Index p : {a, b}) at[p].shortest = std::min(at[p].shortest, side.norm());
+            const auto [found, fresh] = first.try_emplace(edge_key(a, b), i);
+            if (fresh) continue;
+            const Vec3 other = area_vector(model, f.triangles[found->second]);
+            const double length = side.norm();
+            if (!(length > 0) || !(normal.norm() > 0) || !(other.norm() > 0)) continue;
+            const double bend = std::atan2(other.cross(normal).dot(side) / length, other.dot(normal));
+            const Vec3 across = side.cross(normal + other).stableNormalized();
+            const Eigen::Matrix3d part = bend * length / 2 * across * across.transpose();
+            at[a].bends += part;
+            at[b].bends += part;
+        }
+    }
+    // The facets at one point alone are too few where they are slivers: their neighbours' count as well.
+    std::map<Index, Around> wide = at;
+    for (const auto& [side, triangle] : first) {
+        const Index a = static_cast<Index>(side >> 32), b = static_cast<Index>(side & 0xffffffffU);
+        wide[a].add(at[b]);
+        wide[b].add(at[a]);
+    }
+    for (const auto& [point, around] : wide) {
+        if (!(around.area > 0)) continue;
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(around.bends / around.area,
+                                                                    Eigen::EigenvaluesOnly);
+        const double curvature = solver.eigenvalues().cwiseAbs().maxCoeff();
+        if (!(curvature * model.diagonal > 1e-6)) continue; // flatter than any size can see
+        double size = 2 * std::numbers::pi / (curvature * per_turn);
+        if (f.surface == nullptr) size = std::max(size, around.shortest / 2);
+        if (size < asked(model.at(point))) sizes.push_back({model.at(point), size});
+    }
+}
+
+/// A point of a face's boundary.
+struct RimPoint {
+    Vec3 point;
+    Vec3 inward; ///< unit, in the face
+    double curvature = 0;
+};
+
+/// A straight piece of a face's boundary.
+struct RimPiece {
+    EdgeId edge;
+    Vec3 start;
+    double from = 0;   ///< running length of the edge at its start
+    double length = 0; ///< of the whole edge
+};
+
+/// The boundary of a face as pieces in a tree, and what its width asks for.
+class Width {
+public:
+    Width(const Model& model, FaceId face) : model_(model)
+    {
+        std::map<EdgeId, int> uses;
+        for (const Loop& loop : model[face].loops) {
+            for (const EdgeUse& use : loop.uses) ++uses[use.edge];
+        }
+        std::vector<Vec3> points;
+        std::vector<Triangle> triangles;
+        for (const auto& [edge, count] : uses) {
+            if (count > 1) continue; // a seam has the face on both sides
+            const std::vector<Vec3> line = edge_line(model, edge);
+            const std::vector<double> arc = geometry::arc_lengths(line);
+            for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+                const auto p = static_cast<Index>(points.size());
+                points.push_back(line[i]);
+                points.push_back(line[i + 1]);
+                triangles.push_back({p, p + 1, p + 1});
+                pieces_.push_back({edge, line[i], arc[i], arc.back()});
+            }
+            edges_.push_back(edge);
+        }
+        tree_ = geometry::FacetTree(points, triangles);
+        for (const Triangle& t : model[face].triangles) {
+            for (std::size_t k = 0; k < 3; ++k) opposite_[edge_key(t[k], t[(k + 1) % 3])] = t[(k + 2) % 3];
+        }
+    }
+
+    void add(const SizeField& asked, const ShapeSizing& sizing, std::vector<PointSize>& sizes) const
+    {
+        for (const EdgeId edge : edges_) add(edge, asked, sizing, sizes);
+    }
+
+private:
+    void add(EdgeId edge, const SizeField& asked, const ShapeSizing& sizing,
+             std::vector<PointSize>& sizes) const
+    {
+        const std::vector<Index>& chain = model_[edge].points;
+        const EdgeTurning turning(model_, edge);
+        double start = 0;
+        for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+            const Vec3 &a = model_.at(chain[i]), &b = model_.at(chain[i + 1]);
+            const double length = (b - a).norm();
+            const auto corner = opposite_.find(edge_key(chain[i], chain[i + 1]));
+            if (!(length > 0) || corner == opposite_.end()) continue;
+            const Vec3 along = (b - a) / length;
+            const Vec3 up = model_.at(corner->second) - a;
+            const Vec3 inward = (up - up.dot(along) * along).stableNormalized();
+            const double wanted = kPointsPerSide * length / asked((a + b) / 2);
+            const auto count = static_cast<std::size_t>(
+                std::clamp(wanted, 1.0, static_cast<double>(kMostPoints)));
+            for (std::size_t k = 0; k < count; ++k) {
+                const double from = length * static_cast<double>(k) / static_cast<double>(count);
+                const double to = length * static_cast<double>(k + 1) / static_cast<double>(count);
+                const RimPoint at{a + (from + to) / 2 * along, inward,
+                                  turning.between(start + from, start + to) / (to - from)};
+                // Sides along the edge are no longer than this for its curvature alone.
+                const double bend = at.curvature * sizing.curvature / (2 * std::numbers::pi);
+                const double most = 1 / std::max(1 / asked(at.point), bend);
+                const auto width = width_at(edge, start + (from + to) / 2, at, reach(at, most, sizing.gap));
+                if (!width) continue;
+                if (at.curvature > 0) {
+                    const double size = std::sqrt(8 * kSagOfWidth * *width / at.curvature);
+                    if (size < most) sizes.push_back({at.point, size});
+                }
+                const double share = sizing.gap > 0 ? *width / sizing.gap : most;
+                if (share >= most) continue;
+                // Half way across as well, so that quads do not grow from rim to rim.
+                sizes.push_back({at.point, share});
+                sizes.push_back({at.point + *width / 2 * at.inward, share});
+            }
+            start += length;
+        }
+    }
+
+    /// The width beyond which a place asks for nothing.
+    static double reach(const RimPoint& at, double most, int gap)
+    {
+        return std::max(gap * most, at.curvature * most * most / (8 * kSagOfWidth));
+    }
+
+    /// How far away the boundary faces this place, if not beyond `reach`.
+    [[nodiscard]] std::optional<double> width_at(EdgeId edge, double s, const RimPoint& at,
+                                                 double reach) const
+    {
+        if (!(reach > 0)) return std::nullopt;
+        constexpr int kSteps = 30;      // of shrinking; a few are usual
+        constexpr double kTouch = 1e-3; // share of the radius by which a ball may hold a rim
+        double radius = reach / 2;
+        Vec3 met = at.point;
+        std::optional<std::size_t> piece;
+        for (int i = 0; i < kSteps; ++i) {
+            const Vec3 centre = at.point + radius * at.inward;
+            const auto hit = tree_.closest(centre, radius * radius * (1 - kTouch) * (1 - kTouch));
+            if (hit.triangle < 0) break;
+            const Vec3 to = hit.point - at.point;
+            const double rise = to.dot(at.inward);
+            if (!(rise > 0)) return std::nullopt;
+            radius = to.squaredNorm() / (2 * rise);
+            met = hit.point;
+            piece = index(hit.triangle);
+        }
+        if (!piece) return std::nullopt;
+        const double width = (met - at.point).norm();
+        if (!(width > model_.tolerance) || (met - at.point).dot(at.inward) < kFacing * width)
+            return std::nullopt;
+        return across(edge, s, pieces_[*piece], met, width) ? std::optional(width) : std::nullopt;
+    }
+
+    /// Whether two places are on different sides of the face, and not beside the same corner or bend.
+    [[nodiscard]] bool across(EdgeId edge, double s, const RimPiece& other, const Vec3& met,
+                              double width) const
+    {
+        const Edge &a = model_[edge], &b = model_[other.edge];
+        if (edge != other.edge) return a.from != b.from && a.from != b.to && a.to != b.from && a.to != b.to;
+        double way = std::abs(other.from + (met - other.start).norm() - s);
+        if (a.from == a.to) way = std::min(way, other.length - way);
+        return way > kWayRound * width;
+    }
+
+    const Model& model_;
+    geometry::FacetTree tree_;
+    std::vector<RimPiece> pieces_; ///< of each triangle in the tree
+    std::vector<EdgeId> edges_;
+    std::unordered_map<std::uint64_t, Index> opposite_; ///< corner of the facet at a side
+};
+
+} // namespace
+
+SizeField shape_size(const OpenVolume& volume, const SizeField& asked, const ShapeSizing& sizing)
+{
+    std::vector<PointSize> sizes;
+    for (const FaceId face : volume.faces(Role::source)) {
+        if (sizing.curvature > 0) add_curvature(volume.model, face, asked, sizing.curvature, sizes);
+        Width(volume.model, face).add(asked, sizing, sizes);
+    }
+    if (sizes.empty()) return asked;
+    return [asked, points = std::make_shared<const GradedPoints>(std::move(sizes), kGrading)](const Vec3& p) {
+        return points->at(p, asked(p));
+    };
+}
+
+} // namespace lacuna::surface

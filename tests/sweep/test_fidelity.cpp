@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+#include "support/check_valid.h"
+#include "surface/sealed.h"
+
+#include <lacuna/core/error.h>
+#include <lacuna/quality/quality.h>
+#include <lacuna/sweep/fidelity.h>
+#include <lacuna/sweep/sweep.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <regex>
+#include <string>
+
+using namespace lacuna;
+using namespace lacuna::topology;
+using sweep::Fidelity;
+using sweep::Misfit;
+using sweep::SweepOptions;
+using sweep::Swept;
+using test::End;
+using test::PrismOptions;
+
+namespace {
+
+SweepOptions layers_of(int count, double size)
+{
+    SweepOptions options;
+    options.layers.count = count;
+    options.size = [size](const Vec3&) { return size; };
+    return options;
+}
+
+/// Faces of the model by the mesh's patches, as their groups name them.
+std::vector<FaceId> faces_of(const OpenVolume& volume, const mesh::HexMesh& mesh)
+{
+    std::vector<FaceId> faces;
+    for (const mesh::SkinPatch& patch : mesh.patches) {
+        for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
+            const std::string wall = "wall:" + std::to_string(volume.model.faces[f].tag);
+            const std::string& name = volume.model.faces[f].name;
+            const auto has = [&](const std::string& group) {
+                return std::find(patch.groups.begin(), patch.groups.end(), group) != patch.groups.end();
+            };
+            if (has(wall) || (!name.empty() && has(name)) ||
+                (volume.role[f] == Role::source && has("source")) ||
+                (volume.role[f] == Role::target && has("target"))) {
+                faces.emplace_back(f);
+                break;
+            }
+        }
+    }
+    REQUIRE(faces.size() == mesh.patches.size());
+    return faces;
+}
+
+Fidelity compared(const OpenVolume& volume, const mesh::HexMesh& mesh, double max_deviation = 0)
+{
+    return sweep::compare(volume, mesh, faces_of(volume, mesh), {}, quality::measure(mesh).volume,
+                          {max_deviation});
+}
+
+std::vector<Misfit> misfits(const Fidelity& fidelity)
+{
+    std::vector<Misfit> found;
+    for (const auto& face : fidelity.faces) {
+        if (face.misfit != Misfit::none) found.push_back(face.misfit);
+    }
+    return found;
+}
+
+std::string refusal(const OpenVolume& volume, const SweepOptions& options)
+{
+    try {
+        sweep::sweep(volume, options);
+    } catch (const NotSweepable& error) {
+        CHECK(error.code() == "sweep.deviation");
+        return error.what();
+    }
+    return "";
+}
+
+/// A box with a square pocket in its target, whose walls and floor are target too.
+OpenVolume box_with_pocket(double depth)
+{
+    healing::FacetSoup soup;
+    std::vector<Role> role;
+    const auto point = [&](double x, double y, double z) {
+        soup.points.emplace_back(x, y, z);
+        return static_cast<Index>(soup.points.size()) - 1;
+    };
+    const auto square = [&](double low, double high, double z) {
+        return std::array<Index, 4>{point(low, low, z), point(high, low, z), point(high, high, z),
+                                    point(low, high, z)};
+    };
+    int label = -1;
+    const auto face = [&](Role r) {
+        role.push_back(r);
+        soup.label_name.push_back("f" + std::to_string(++label));
+    };
+    const auto add = [&](Index a, Index b, Index c, Index d) {
+        soup.triangles.push_back({a, b, c});
+        soup.triangles.push_back({a, c, d});
+        soup.triangle_label.insert(soup.triangle_label.end(), 2, label);
+    };
+    const auto bottom = square(0, 2, 0), top = square(0, 2, 2), mouth = square(0.6, 1.4, 2),
+               floor = square(0.6, 1.4, 2 - depth);
+    face(Role::source);
+    add(bottom[3], bottom[2], bottom[1], bottom[0]);
+    for (std::size_t k = 0; k < 4; ++k) {
+        face(Role::wall);
+        add(bottom[k], bottom[(k + 1) % 4], top[(k + 1) % 4], top[k]);
+    }
+    face(Role::target);
+    for (std::size_t k = 0; k < 4; ++k) add(top[k], top[(k + 1) % 4], mouth[(k + 1) % 4], mouth[k]);
+    for (std::size_t k = 0; k < 4; ++k) {
+        face(Role::target);
+        add(mouth[k], mouth[(k + 1) % 4], floor[(k + 1) % 4], floor[k]);
+    }
+    face(Role::target);
+    add(floor[0], floor[1], floor[2], floor[3]);
+    healing::SplitOptions split;
+    split.whole_labels = true;
+    const Model model = healing::split_facets(soup, split);
+    Roles roles;
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        const Role r = role[index(std::stoi(model.faces[f].name.substr(1)))];
+        (r == Role::source ? roles.source : r == Role::target ? roles.target : roles.walls).emplace_back(f);
+    }
+    OpenVolume volume = open_volume(model, roles);
+    closure::close(volume, matching::match(volume));
+    return volume;
+}
+
+} // namespace
+
+TEST_CASE("the mesh of a straight-sided volume is the volume that was sealed, face by face")
+{
+    int combinations = 0;
+    for (const int sides : {3, 4, 6}) {
+        for (const int holes : {0, 1}) {
+            for (const double taper : {1.0, 0.6}) {
+                const auto volume = test::sealed({.sides = sides, .holes = holes, .taper = taper});
+                const Swept swept = sweep::sweep(volume, layers_of(3, 0.3));
+                test::check_valid(swept.mesh);
+                const Fidelity& fidelity = swept.fidelity;
+                CAPTURE(sides);
+                CAPTURE(holes);
+                CAPTURE(taper);
+                CHECK(fidelity.volume == doctest::Approx(fidelity.sealed_volume).epsilon(1e-9));
+                CHECK(fidelity.sealed_volume == doctest::Approx(closure::enclosed_volume(volume)));
+                CHECK(fidelity.max_distance < 1e-9);
+                CHECK(fidelity.faces.size() == volume.model.faces.size());
+                for (const auto& face : fidelity.faces) CHECK(face.quads > 0);
+                CHECK(swept.report.back().find("shape:") == 0);
+                ++combinations;
+            }
+        }
+    }
+    MESSAGE(combinations << " volumes");
+}
+
+TEST_CASE("pipes, cones and elbows are off by the sag of their sides and no more, by default")
+{
+    int combinations = 0;
+    for (const double taper : {1.0, 0.5}) {
+        for (const double bend : {0.0, 90.0}) {
+            for (const int holes : {0, 1}) {
+                // Round walls within each other may turn unlike each other, and fold the cells between.
+                if ((bend > 0 || taper < 1) && holes > 0) continue;
+                for (const int per_turn : {12, 16, 24}) {
+                    const auto volume = test::sealed({.sides = 0,
+                                                      .height = 5,
+                                                      .holes = holes,
+                                                      .hole_sides = 0,
+                                                      .cuts = 8,
+                                                      .levels = 32,
+                                                      .taper = taper,
+                                                      .bend = bend});
+                    SweepOptions options = layers_of(12, 5);
+                    options.curvature = per_turn;
+                    const Swept swept = sweep::sweep(volume, options);
+                    test::check_valid(swept.mesh);
+                    CAPTURE(taper);
+                    CAPTURE(bend);
+                    CAPTURE(per_turn);
+                    CAPTURE(holes);
+                    const double turn = std::numbers::pi / per_turn;
+                    const double along = bend > 0 ? 5.0 * (bend / 12 * std::numbers::pi / 180) / 8 : 0;
+                    CHECK(swept.fidelity.max_distance < 1.2 * (1 - std::cos(turn)) + along);
+                    CHECK(swept.fidelity.max_distance > 0.5 * (1 - std::cos(turn)));
+                    CHECK(swept.fidelity.mean_distance < swept.fidelity.max_distance);
+                    const double lost = 1 - swept.fidelity.volume / swept.fidelity.sealed_volume;
+                    CHECK(lost > 0);
+                    CHECK(lost < 1.2 * (1 - std::sin(2 * turn) / (2 * turn)) + 0.02);
+                    ++combinations;
+                }
+            }
+        }
+    }
+    MESSAGE(combinations << " round volumes");
+}
+
+TEST_CASE("quads given to the wrong face, a face left out, a fold and a node off its face are each found")
+{
+    const auto volume = test::sealed({.sides = 4, .height = 2, .pieces = 2});
+    const Swept swept = sweep::sweep(volume, layers_of(4, 0.25));
+    REQUIRE(misfits(compared(volume, swept.mesh)).empty());
+
+    SUBCASE("one quad of a wall is its neighbour's, in the same plane")
+    {
+        mesh::HexMesh mesh = swept.mesh;
+        const Index one = mesh.wall_patch.front();
+        for (Index& patch : mesh.wall_patch) {
+            if (patch == one) continue;
+            mesh.wall_patch.front() = patch;
+            break;
+        }
+        CHECK(misfits(compared(volume, mesh)).size() == 2);
+    }
+    SUBCASE("a wall's quads are all given to others")
+    {
+        mesh::HexMesh mesh = swept.mesh;
+        const Index gone = mesh.wall_patch.front(), other = gone == 0 ? 1 : 0;
+        std::replace(mesh.wall_patch.begin(), mesh.wall_patch.end(), gone, other);
+        const Fidelity fidelity = compared(volume, mesh);
+        const auto found = misfits(fidelity);
+        CHECK(std::count(found.begin(), found.end(), Misfit::no_quads) == 1);
+        CHECK_THROWS_AS(sweep::require(fidelity, mesh.layers), NotSweepable);
+    }
+    SUBCASE("the skin folds over within its face")
+    {
+        mesh::HexMesh mesh = swept.mesh;
+        std::vector<bool> rim(index(mesh.nodes_per_layer), false);
+        for (const Segment& side : mesh.rim) rim[index(side[0])] = rim[index(side[1])] = true;
+        const auto inside = static_cast<std::size_t>(std::find(rim.begin(), rim.end(), false) - rim.begin());
+        REQUIRE(inside < rim.size());
+        mesh.nodes[inside] = mesh.nodes[inside] * -0.9;
+        const auto found = misfits(compared(volume, mesh));
+        CHECK(found == std::vector{Misfit::folded});
+    }
+    SUBCASE("a node of a wall stands off it")
+    {
+        mesh::HexMesh mesh = swept.mesh;
+        const auto node = index(mesh.rim.front()[0]) + index(mesh.nodes_per_layer);
+        mesh.nodes[node] *= 1.3;
+        CHECK(!misfits(compared(volume, mesh)).empty());
+        CHECK(misfits(compared(volume, mesh, 10)).empty());
+    }
+}
+
+TEST_CASE("a pocket that is filled over is refused by the name of its faces, at any size")
+{
+    for (const double depth : {0.1, 0.2, 0.5}) {
+        for (const double size : {0.1, 0.25, 0.4}) {
+            const auto volume = box_with_pocket(depth);
+            CAPTURE(depth);
+            CAPTURE(size);
+            std::string why;
+            std::optional<Swept> swept;
+            try {
+                swept = sweep::sweep(volume, layers_of(8, size));
+            } catch (const NotSweepable& error) {
+                why = error.what();
+            }
+            if (swept) { // or it is meshed as it is
+                test::check_valid(swept->mesh);
+                CHECK(swept->fidelity.volume == doctest::Approx(8 - 0.64 * depth).epsilon(1e-6));
+            } else {
+                CHECK(why.size() > 20);
+            }
+        }
+    }
+}
+
+TEST_CASE("sizes and layers that refusals name lead to a mesh within a few steps")
+{
+    int tried = 0;
+    for (const double bend : {0.0, 90.0}) {
+        for (const double allowed : {0.02, 0.005}) {
+            const auto volume = test::sealed(
+                {.sides = 0, .height = 5, .cuts = 16, .levels = 64, .bend = bend});
+            SweepOptions options = layers_of(4, 0.6);
+            options.max_deviation = allowed;
+            std::string why = refusal(volume, options);
+            CHECK(!why.empty());
+            for (int round = 0; !why.empty() && round < 6; ++round) {
+                CAPTURE(why);
+                std::smatch found;
+                if (std::regex_search(why, found, std::regex("a size of ([0-9.e-]+) would do"))) {
+                    const double size = std::stod(found[1]);
+                    options.size = [size](const Vec3&) { return size; };
+                } else if (std::regex_search(why, found, std::regex("([0-9]+) layers would do"))) {
+                    options.layers.count = std::stoi(found[1]);
+                } else {
+                    FAIL("nothing named");
+                }
+                why = refusal(volume, options);
+                ++tried;
+            }
+            CHECK(why == "");
+        }
+    }
+    MESSAGE(tried << " things tried");
+}
