@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
-#include <lacuna/healing/detail/weld.h>
 #include <lacuna/healing/split_facets.h>
+#include <lacuna/healing/weld.h>
 #include <lacuna/topology/model.h>
 
 #include <doctest/doctest.h>

@@ -61,13 +61,13 @@ std::span<const Quad> face_corners(DeckShape shape);
 /// [e · n, (e + 1) · n) of `nodes`, where n is shape_info(shape).nodes.
 struct DeckBlock {
     DeckShape shape = DeckShape::hex8;
-    std::string type;           ///< as the file says it: "CQUAD4", "S4R", "C3D8I", "115"; may be empty
-    std::vector<Index> nodes;   ///< places in `Deck::points`; -1: a middle node the file leaves out
-    std::vector<DeckTag> tags;  ///< of each element
-    std::vector<Index> regions; ///< of each element: its place in `Deck::regions`
+    std::string type;             ///< as the file says it: "CQUAD4", "S4R", "C3D8I", "115"; may be empty
+    std::vector<Index> nodes{};   ///< places in `Deck::points`; -1: a middle node the file leaves out
+    std::vector<DeckTag> tags{};  ///< of each element
+    std::vector<Index> regions{}; ///< of each element: its place in `Deck::regions`
     /// What an element's card holds behind its nodes, as the file has it, fields apart by commas: angle,
     /// offset and thicknesses of a Nastran shell. By the element's place in the block, rising.
-    std::vector<std::pair<std::size_t, std::string>> more;
+    std::vector<std::pair<std::size_t, std::string>> more{};
 
     [[nodiscard]] std::size_t count() const { return tags.size(); }
     [[nodiscard]] std::span<const Index> element(std::size_t e) const
@@ -83,6 +83,7 @@ struct DeckRegion {
     int tag = 0;          ///< number of the property or entity; sets are counted from 1
     std::string name;     ///< "pid:7", the name of the set, physical group or part; may be empty
     std::string material; ///< name or number of the material, where the file says it
+    std::string part{};   ///< the instance or part of an Abaqus deck it lies in
 };
 
 /// A side of an element as surfaces name it: 1, 2, … is a face (of a shell, in 3D, an edge) in the numbering
@@ -99,8 +100,8 @@ struct DeckSet {
     Kind kind = Kind::elements;
     int tag = 0; ///< number of the group, where the format has one
     std::string name;
-    std::vector<DeckTag> members; ///< of nodes or elements, rising, each once; may name what is in `texts`
-    std::vector<DeckSide> sides;  ///< of a surface, rising, each once
+    std::vector<DeckTag> members{}; ///< of nodes or elements, rising, each once; may name what is in `texts`
+    std::vector<DeckSide> sides{};  ///< of a surface, rising, each once
 };
 
 /// A part put in place. Decks without parts have none.
@@ -173,5 +174,8 @@ NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double toleranc
 Deck read_deck(const std::string& path);
 /// The same of bytes in memory. @param name  stands for the path: its ending, its folder, in messages.
 Deck read_deck(const std::string& name, std::string_view bytes);
+
+/// The part of a path from its last dot on, in lower case; empty where there is none.
+std::string ending_of(const std::string& path);
 
 } // namespace lacuna::io
