@@ -73,7 +73,8 @@ std::string number(double x)
     return std::string(text).find_first_of(".e") == std::string::npos ? std::string(text) + "." : text;
 }
 
-/// A deck of one element whose node k has the tag 100 + k; `order[i]` is the node a format writes as its i-th.
+/// A deck of one element whose node k has the tag 100 + k; `order[i]` is the node that is written as its
+/// i-th.
 std::string one_element(const std::string& format, io::DeckShape shape, const std::string& word,
                         const std::vector<int>& order)
 {
@@ -100,6 +101,15 @@ std::string one_element(const std::string& format, io::DeckShape shape, const st
         for (std::size_t i = 0; i < order.size(); ++i)
             text += (i == 14 ? ",\n" : ", ") + tag(index(order[i]));
         return text + "\n";
+    }
+    if (format == ".msh") {
+        text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + std::to_string(at.size()) + "\n";
+        for (std::size_t k = 0; k < at.size(); ++k)
+            text += tag(k) + " " + number(at[k].x()) + " " + number(at[k].y()) + " " + number(at[k].z()) +
+                    "\n";
+        text += "$EndNodes\n$Elements\n1\n7 " + word + " 2 3 3";
+        for (const int node : order) text += " " + tag(index(node));
+        return text + "\n$EndElements\n";
     }
     text = "    -1\n  2411\n";
     for (std::size_t k = 0; k < at.size(); ++k)
@@ -201,6 +211,11 @@ TEST_CASE("middle nodes lie in the middle of their sides whichever order a forma
         {".inp", hex8, "C3D8I", straight(8)},
         {".inp", hex20, "C3D20R", straight(20)},
         {".unv", tri6, "92", {0, 3, 1, 4, 2, 5}},
+        {".msh", quad8, "16", straight(8)},
+        {".msh", tet10, "11", {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}},
+        {".msh", pyramid13, "19", {0, 1, 2, 3, 4, 5, 8, 9, 6, 10, 7, 11, 12}},
+        {".msh", wedge15, "18", {0, 1, 2, 3, 4, 5, 6, 8, 12, 7, 13, 14, 9, 11, 10}},
+        {".msh", hex20, "17", {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14}},
         {".unv", quad8, "95", {0, 4, 1, 5, 2, 6, 3, 7}},
         {".unv", tet10, "118", {0, 4, 1, 5, 2, 6, 7, 8, 9, 3}},
         {".unv", wedge6, "112", straight(6)},
@@ -470,6 +485,42 @@ TEST_CASE("universal nodes in a frame that is turned or moved are refused")
         "    -1\n  2412\n 1 91 1 1 7 3\n 1 2 3\n    -1\n";
     CHECK(failure("x.unv", frame + "0. 0. 0.\n    -1\n" + rest).empty());
     CHECK(has(failure("x.unv", frame + "0. 0. 5.\n    -1\n" + rest), "coordinate system 1"));
+}
+
+TEST_CASE("a compressed VTU file is read where there is zlib, and damage in it is found")
+{
+    // Two hexes on each other.
+    const std::string head = "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\" "
+                             "compressor=\"vtkZLibDataCompressor\"><UnstructuredGrid>"
+                             "<Piece NumberOfPoints=\"12\" NumberOfCells=\"2\">";
+    const auto array = [](const char* type, const char* name, const char* data) {
+        return std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" format=\"binary\">\n" +
+               data + "\n</DataArray>";
+    };
+    const std::string text =
+        head + "<Points>" +
+        array("Float64", "Points",
+              "AQAAAACAAAAgAQAAKAAAAA==eJxjYMAHPtjjlcaQh/GJ1YdLPy51uGgM4IBD3gGHfWjqEeIAtx8T8Q==") +
+        "</Points><Cells>" +
+        array("Int64", "connectivity",
+              "AQAAAACAAACAAAAAKAAAAA==eJyNybcBACAMwLDQ2///MqAD8KLBEa/"
+              "EwszKxsH++ScXDzcvEWAAWQ==") +
+        array("Int64", "offsets", "AQAAAACAAAAQAAAADgAAAA==eJzjYIAAASgNAAEQABk=") +
+        array("Int64", "types", "AQAAAACAAAAQAAAADgAAAA==eJzjYYAAHigNAAEwABk=") +
+        "</Cells></Piece></UnstructuredGrid></VTKFile>";
+    if (has(failure("x.vtu", text), "without zlib")) {
+        MESSAGE("skipped: built without zlib");
+        return;
+    }
+    const io::Deck deck = io::read_deck("x.vtu", text);
+    CHECK(deck.element_count(3) == 2);
+    CHECK(deck.points.back() == Vec3(1, 1, 2));
+    CHECK(load("x.vtu", text).faces.size() == 6);
+    for (std::size_t at = text.find("eJx"); at < text.size(); at = text.find("eJ", at + 1)) {
+        std::string wrong = text;
+        wrong[at + 6] = wrong[at + 6] == 'A' ? 'B' : 'A';
+        CHECK(has(failure("x.vtu", wrong), "io.unreadable"));
+    }
 }
 
 TEST_CASE("every shared deck has its nodes, elements and sets")

@@ -146,7 +146,7 @@ TEST_CASE("a file cut off anywhere is refused or read in part, and what is annou
         // Lines of an OBJ file and cards of a deck stand by themselves, and so do solids of an STL file.
         const std::string ending = io::ending_of(sample.name);
         const bool by_lines = ending == ".obj" || ending == ".bdf" || ending == ".nas" || ending == ".dat" ||
-                              ending == ".stl" || ending == ".unv";
+                              ending == ".stl" || ending == ".unv" || ending == ".inp";
         for (std::size_t length = 1; length < sample.bytes.size(); length += 1 + length / 50) {
             try {
                 const auto part = io::read_facets(sample.name,
@@ -164,7 +164,7 @@ TEST_CASE("content that is another format's is refused, and says which")
 {
     for (const test::FacetSample& sample : test::facet_samples()) {
         if (!sample.text) continue;
-        for (const char* ending : {".stl", ".obj", ".msh", ".unv", ".bdf", ".vtk", ".vtu", ".mesh"}) {
+        for (const char* ending : {".stl", ".obj", ".msh", ".unv", ".bdf", ".inp", ".vtk", ".vtu", ".mesh"}) {
             std::string own = io::ending_of(sample.name);
             if (own == ".nas" || own == ".dat") own = ".bdf";
             if (own == ending) continue;

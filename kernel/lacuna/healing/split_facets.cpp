@@ -70,8 +70,8 @@ public:
         const auto begin = index(first_[index(segment)]);
         return std::span(sides_).subspan(begin, index(first_[index(segment) + 1]) - begin);
     }
-    /// The one other side with the same label on the side's segment; -1 where there is none or several, or where
-    /// a facet of another label branches off.
+    /// The one other side with the same label on the side's segment; -1 where there is none or several,
+    /// or where a facet of another label branches off.
     [[nodiscard]] Index partner(Index side) const
     {
         Index found = -1;

@@ -146,8 +146,8 @@ std::size_t Deck::element_count(int dimension) const
 
 NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double tolerance, double scale)
 {
-    // Places sorted along x: within a tolerance there are as many as lie in a plane across it, and of these the
-    // ones near in y are found by bisection too.
+    // Places sorted along x: within a tolerance there are as many as lie in a plane across it, and of these
+    // the ones near in y are found by bisection too.
     std::vector<Index> order(deck.points.size());
     std::iota(order.begin(), order.end(), Index(0));
     const auto cell_of = [&](double x) { return tolerance > 0 ? std::floor(x / tolerance) : x; };

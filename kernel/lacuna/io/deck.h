@@ -20,9 +20,9 @@ enum class DeckFormat { nastran, abaqus, unv, msh, vtk, vtu, medit, stl, obj };
 /// What an element is, by its dimension and nodes.
 ///
 /// Nodes are in the order of VTK, which is Abaqus's and Exodus's too: the corners, as in `mesh::Hex`, then
-/// the middles of the sides in the order of `side_corners()`, those of the faces and that of the whole. Nastran
-/// and UNV put the middles of upright sides before those of the top, Gmsh has an order of its own: readers
-/// and writers turn one into the other.
+/// the middles of the sides in the order of `side_corners()`, those of the faces and that of the whole.
+/// Nastran and UNV put the middles of upright sides before those of the top, Gmsh has an order of its own:
+/// readers and writers turn one into the other.
 enum class DeckShape : std::uint8_t {
     line2,
     line3,
@@ -77,8 +77,8 @@ struct DeckBlock {
     }
 };
 
-/// What every element belongs to one of: a property, the element set of a section, a surface or volume entity,
-/// a solid of an STL file.
+/// What every element belongs to one of: a property, the element set of a section, a surface or volume
+/// entity, a solid of an STL file.
 struct DeckRegion {
     int tag = 0;          ///< number of the property or entity; sets are counted from 1
     std::string name;     ///< "pid:7", the name of the set, physical group or part; may be empty
@@ -135,8 +135,8 @@ struct Deck {
     double version = 0;              ///< of .msh and .vtk
     std::vector<Vec3> points;        ///< in the basic frame [the file's length], in the file's order
     std::vector<DeckTag> point_tags; ///< unique
-    /// What a node's card holds behind its coordinates, as the file has it, fields apart by commas: the frame of
-    /// a Nastran node's displacements, its constraints. By place in `points`, rising.
+    /// What a node's card holds behind its coordinates, as the file has it, fields apart by commas: the frame
+    /// of a Nastran node's displacements, its constraints. By place in `points`, rising.
     std::vector<std::pair<std::size_t, std::string>> point_more;
     std::vector<DeckBlock> blocks;
     std::vector<DeckRegion> regions;

@@ -38,7 +38,7 @@ struct FacetFile {
 /// | .msh | 2.x, 4.0 and 4.1, text and binary | an entity; a physical group |
 /// | .unv | nodes 15, 781, 2411; elements 71, 780, 2412; groups 752 to 2477 | a property; a group |
 /// | .bdf .nas .dat | Nastran bulk data: free, small, large fields; INCLUDE beside it | a property |
-/// | .inp | Abaqus, CalculiX: parts, instances, assemblies; INCLUDE beside it | a section or set; a set, a surface |
+/// | .inp | Abaqus, CalculiX: parts, instances, assemblies; INCLUDE beside it | a section; a set or surface |
 /// | .vtk | legacy 1 to 5.1, text and binary: polygons, strips, cells | all one |
 /// | .vtu | text, base64 and appended, compressed by zlib where Lacuna was built with it | all one |
 /// | .mesh | Medit, text | a reference number |

@@ -21,8 +21,8 @@ constexpr GroupDataset kGroupDatasets[] = {{752, 2, 5},  {2417, 2, 6}, {2429, 2,
                                            {2430, 2, 7}, {2432, 2, 7}, {2435, 4, 7},
                                            {2452, 4, 7}, {2467, 4, 7}, {2477, 4, 7}};
 
-/// A solid by its descriptor, with where its nodes stand in the order of DeckShape: layers go round corners and
-/// middles in turn, with the middles of upright sides between them.
+/// A solid by its descriptor, with where its nodes stand in the order of DeckShape: layers go round corners
+/// and middles in turn, with the middles of upright sides between them.
 struct SolidKind {
     std::int64_t descriptor;
     DeckShape shape;

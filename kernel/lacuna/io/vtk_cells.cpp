@@ -30,7 +30,7 @@ constexpr VtkType kTypes[] = {
     type_of<std::int64_t>("vtktypeint64", ""), type_of<std::uint64_t>("vtktypeuint64", ""),
     type_of<std::int32_t>("vtktypeint32", ""), type_of<std::int64_t>("vtkIdType", "")};
 
-/// Cells by VTK's numbers: shapes that are kept, those that are cut into faces, those that give their corners,
+/// Cells by VTK's numbers: shapes that are kept, those that are cut into faces, lists of corners,
 /// and others.
 enum class Kind { shape, polygon, pixel, voxel, strip, other };
 struct CellType {

@@ -37,21 +37,21 @@ public:
 
     /// A new region.
     Index add_region(int tag, std::string_view name);
-    /// The region of this tag, new where it is the first time. @param group  of two numberings in one file the
-    /// second.
+    /// The region of this tag, new where it is the first time. @param group  of several numberings in one
+    /// file which.
     Index region_of(int tag, std::string_view name = {}, int group = 0);
 
     /// The block of a shape and word, new where it is the first time.
     std::size_t block_of(DeckShape shape, std::string_view type);
-    /// Add an element. @param nodes  places of points or, with `resolve()`, tags, in the order of DeckShape; -1:
-    /// left out. @param tag  -1: counted. @param place  for messages, see `resolve()`.
+    /// Add an element. @param nodes  places of points or, with `resolve()`, tags, in the order of DeckShape;
+    /// -1: left out. @param tag  -1: counted. @param place  for messages, see `resolve()`.
     void add_element(std::size_t block, DeckTag tag, Index region, std::span<const Index> nodes,
                      std::uint64_t place = 0);
     /// Add a shell of three corners or more; more than four are split into triangles.
     /// @throw InvalidInput  fewer corners, a point that is not there, a polygon that crosses itself.
     void add_face(std::span<const Index> corners, Index region, const Cursor& cursor, DeckTag tag = -1);
-    /// Tags of nodes as their places, in all elements so far. @param fail  is called with the element's place and
-    /// what is wrong. Elements added with tags must all have been.
+    /// Tags of nodes as their places, in all elements so far. @param fail  is called with the element's place
+    /// and what is wrong. Elements added with tags must all have been.
     template <class Fail>
     void resolve(const TagPlaces& nodes, const Fail& fail);
 

@@ -26,7 +26,8 @@ struct VtkCells {
     DeckTag first_cell = 0;                ///< tags count on from it; of `types` alone
 };
 
-/// Hand shells and solids among the cells to the builder; others are counted. One region holds all of a dimension.
+/// Hand shells and solids among the cells to the builder; others are counted. One region holds all
+/// of a dimension.
 /// @throw InvalidInput  a point or a type that is not there, ends that do not rise; `cursor` says where.
 void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& cursor);
 
