@@ -253,8 +253,8 @@ std::string inp(const FacetBox& box, bool parts)
     if (parts)
         return text +
                "*Shell Section, elset=\"side 2\", material=steel\n0.1, 5\n*End Part\n** \n*Assembly, "
-               "name=whole\n*Instance, name=box-1, part=box\n*End Instance\n*Nset, nset=fixed, "
-               "instance=box-1, generate\n1, 4, 1\n*End Assembly\n*Material, name=steel\n*Elastic\n2.1e5, "
+               "name=whole\n*Instance, name=first, part=box\n*End Instance\n*Nset, nset=fixed, "
+               "instance=first, generate\n1, 4, 1\n*End Assembly\n*Material, name=steel\n*Elastic\n2.1e5, "
                "0.3\n*Step\n*Static\n*End Step\n";
     return text + "*ELSET, ELSET=one\n1\n*NSET, NSET=some\n1, 2,\n3\n*SURFACE, NAME=below, TYPE=NODE\nsome\n";
 }

@@ -228,6 +228,7 @@ private:
     {
         mesh_begun_ = true;
         const bool end = keyword.name == "ENDPART";
+        if (instance_part_ != nullptr) fail("*PART within *INSTANCE");
         if (end != in_part_) fail(end ? "*END PART without *PART" : "*PART within *PART");
         in_part_ = !end;
         scope_ = parts_.front().get();
@@ -254,6 +255,7 @@ private:
             place_instance(std::exchange(instance_part_, nullptr));
             return;
         }
+        if (in_part_ || instance_part_ != nullptr) fail("*INSTANCE within *PART or *INSTANCE");
         instance_name_ = keyword.value("NAME");
         const std::string part = keyword.value("PART");
         instance_part_ = find_part(part);
@@ -280,7 +282,9 @@ private:
         if (instance_part_ != nullptr) fail("*ELEMENT within *INSTANCE is not read; put it into a part");
         mesh_begun_ = true;
         type_ = upper(keyword.value("TYPE"));
-        if (type_.empty()) fail("*ELEMENT: expected TYPE=");
+        const auto fits = [](unsigned char c) { return std::isalnum(c) != 0; };
+        if (type_.empty() || !std::ranges::all_of(type_, fits))
+            fail("*ELEMENT: expected TYPE= and a word of letters and digits, found " + shown(type_));
         const std::string set = keyword.value("ELSET");
         set_ = open_set(DeckSet::Kind::elements, set);
         if (!shape_of(type_, shape_)) {
@@ -565,17 +569,21 @@ private:
             }
         const TagPlaces elements(tags, [](Index, Index) {});
         for (const Scope::Section& section : scope.sections) {
-            Index region = -1;
-            for (const DeckTag tag : section.members) {
-                const Index e = elements.find(tag);
-                if (e < 0) continue;
-                if (region < 0) {
-                    region = scope.builder.add_region(0, section.name);
-                    deck.regions.back().material = section.material;
-                }
-                *regions[index(e)] = region;
-            }
+            const Index region = region_called(scope, section.name);
+            deck.regions[index(region)].material = section.material;
+            for (const DeckTag tag : section.members)
+                if (const Index e = elements.find(tag); e >= 0) *regions[index(e)] = region;
         }
+    }
+
+    /// The region of a set, which elements may have named already.
+    static Index region_called(Scope& scope, const std::string& name)
+    {
+        const std::vector<DeckRegion>& all = scope.builder.deck().regions;
+        const auto found = std::ranges::find_if(
+            all, [&](const DeckRegion& region) { return same_word(region.name, name); });
+        return found == all.end() ? scope.builder.add_region(0, name)
+                                  : static_cast<Index>(found - all.begin());
     }
 
     /// Where a part goes: translated, then turned about an axis.

@@ -125,7 +125,7 @@ void DeckBuilder::resolve(const TagPlaces& nodes, const Fail& fail)
             node = place;
         }
     }
-    places_.clear();
+    for (std::vector<std::uint64_t>& places : places_) places = {};
 }
 
 } // namespace lacuna::io
