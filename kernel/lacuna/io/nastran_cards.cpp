@@ -239,7 +239,7 @@ void BulkData::end_card()
     take_(card_);
     card_.fields.clear();
     marker_ = {};
-    expanded_.clear();
+    while (expanded_.size() > 1) expanded_.pop_front(); // the last may be the line that ends the card
 }
 
 } // namespace lacuna::io
