@@ -16,7 +16,14 @@
 ---@field name? string a physical group, a part (`pid:7`), an element set
 ---@field kind? "plane"|"cylinder"|"cone"|"sphere"|"torus"|"bspline"|"surface"|"discrete"
 ---@field facing? lacuna.Vector the mean normal within 30 degrees of it
+---@field normal_within? number instead of the 30 degrees of `facing`
 ---@field near? lacuna.Vector the one closest face
+---@field within? number all faces that close to `near` instead [model length]
+---@field box? { [1]: lacuna.Vector, [2]: lacuna.Vector } two corners of a box that all of the face lies in
+---@field touching? lacuna.Face|integer|string a face it shares an edge with
+---@field region? string the solid, part or set it bounds
+---@field free? boolean whether it bounds one region alone
+---@field radius? { [1]: number, [2]: number } smallest and largest, of parts of cylinders and spheres [model length]
 ---@field area? { [1]: number, [2]: number } smallest and largest [model length²]
 
 ---@class lacuna.LoadOptions
@@ -303,7 +310,7 @@ function lacuna.model(options) end
 ---@param defaults T
 ---@return T
 function lacuna.params(defaults) end
---- Quality of the hexahedra in a .msh file.
+--- Quality of the hexahedra of a mesh or deck in any format that is read.
 ---@param path string
 ---@return lacuna.Quality
 function lacuna.check(path) end

@@ -6,10 +6,10 @@
 #include "bindings/options.h"
 
 #include <lacuna/cad/load.h>
+#include <lacuna/io/deck.h>
 #include <lacuna/io/facets.h>
 #include <lacuna/io/load_facets.h>
 #include <lacuna/io/msh.h>
-#include <lacuna/io/msh_reader.h>
 #include <lacuna/io/vtk.h>
 
 #include <algorithm>
@@ -231,12 +231,33 @@ int load(lua_State* L)
     guard(L, [&] {
         for (const std::string& path : paths) check_input_path(lent, path);
         box = std::make_shared<ModelState>();
-        box->model = cad::load(paths, arguments.load, context, arguments.limits);
+        io::LoadedFiles loaded = cad::load_files(paths, arguments.load, context, arguments.limits);
+        box->model = std::move(loaded.model);
+        box->decks = std::move(loaded.decks);
+        box->scale = loaded.scale;
     });
     return 1;
 }
 
-/// quality = lacuna.check(path): of the hexahedra of a .msh file
+/// The corners of all hexahedra of a deck; other solids cannot be judged, and their number is an error.
+std::vector<Hex> hexes_of(const io::Deck& deck)
+{
+    std::vector<Hex> hexes;
+    for (const io::DeckBlock& block : deck.blocks) {
+        if (io::shape_info(block.shape).corners != 8) continue;
+        for (std::size_t e = 0; e < block.count(); ++e)
+            std::copy_n(block.element(e).begin(), 8, hexes.emplace_back().begin());
+    }
+    if (hexes.empty())
+        throw InvalidInput("lua.no_hexahedra",
+                           "check: " + deck.path + " holds no hexahedra" +
+                               (deck.element_count(3) > 0
+                                    ? ", only " + std::to_string(deck.element_count(3)) + " other solids"
+                                    : ""));
+    return hexes;
+}
+
+/// quality = lacuna.check(path): of the hexahedra of a file
 int check_file(lua_State* L)
 {
     lua_settop(L, 1);
@@ -247,11 +268,10 @@ int check_file(lua_State* L)
     const int at = lua_gettop(L);
     guard(L, [&] {
         check_input_path(lent, path);
-        source.cells = io::read_msh(path);
-        const io::MshCells& cells = source.cells;
-        if (cells.hexes.empty())
-            throw InvalidInput("lua.no_hexahedra", std::string("check: ") + path + " holds no hexahedra");
-        source.quality = quality::measure_cells(cells.nodes, cells.hexes, context);
+        io::Deck deck = io::read_deck(path);
+        source.hexes = hexes_of(deck);
+        source.nodes = std::move(deck.points);
+        source.quality = quality::measure_cells(source.nodes, source.hexes, context);
     });
     push_quality(L, at);
     return 1;

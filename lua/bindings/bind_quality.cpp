@@ -47,8 +47,7 @@ void measure_metrics(lua_State* L, QualitySource& source)
         std::vector<quality::Metric> metrics;
         for (const quality::MetricInfo& info : quality::metric_infos()) metrics.push_back(info.metric);
         source.metrics = source.mesh ? quality::measure_metrics(source.mesh->swept.mesh, metrics, context)
-                                     : quality::measure_metrics(source.cells.nodes, source.cells.hexes,
-                                                                metrics, context);
+                                     : quality::measure_metrics(source.nodes, source.hexes, metrics, context);
     });
 }
 

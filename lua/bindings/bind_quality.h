@@ -3,7 +3,6 @@
 
 #include "bindings/classes.h"
 
-#include <lacuna/io/msh_reader.h>
 #include <lacuna/quality/metrics.h>
 
 #include <memory>
@@ -16,7 +15,8 @@ namespace lacuna::lua {
 struct QualitySource {
     quality::Quality quality;
     std::shared_ptr<MeshState> mesh; ///< or, where null, the cells of a file
-    io::MshCells cells;
+    std::vector<Vec3> nodes;
+    std::vector<Hex> hexes;
     std::optional<std::vector<quality::MetricSummary>> metrics;
 };
 

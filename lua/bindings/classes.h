@@ -9,14 +9,17 @@
 #include <lacuna/closure/close.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/healing/split_facets.h>
+#include <lacuna/io/deck.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/sweep.h>
 #include <lacuna/topology/model.h>
 #include <lacuna/topology/open_volume.h>
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace lacuna::lua {
 
@@ -28,7 +31,9 @@ struct ModelState {
     double tolerance = 0;     ///< with `hand_made`: points closer than this are one; 0: the default
     healing::FacetSoup added; ///< with `hand_made`: a label a face, in the order of adding
     int added_faces = 0;
-    bool stale = false; ///< `model` lacks faces of `added`
+    bool stale = false;                                 ///< `model` lacks faces of `added`
+    std::vector<std::shared_ptr<const io::Deck>> decks; ///< the meshes it was read from
+    double scale = 1;                                   ///< of its coordinates to theirs
 };
 
 /// Bring `model` up to date with what was added.

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "bindings/faces.h"
 
+#include <lacuna/core/error.h>
 #include <lacuna/geometry/facet_tree.h>
+#include <lacuna/topology/face_radius.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace lacuna::lua {
 
@@ -53,25 +56,81 @@ void read_near(lua_State* L, int index, const Where& where, Selector& selector)
     selector.near = read_vector(L, index, where);
 }
 
-void read_area(lua_State* L, int index, const Where& where, Selector& selector)
+/// { min, max }, of which max may be math.huge.
+std::array<double, 2> read_range(lua_State* L, int index, const Where& where, const char* expected)
 {
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2)
-        fail_value(L, where, "the smallest and the largest area, { min, max }", index);
+    std::array<double, 2> range{};
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2) fail_value(L, where, expected, index);
     for (int i = 0; i < 2; ++i) {
-        lua_rawgeti(L, index, i + 1); // math.huge is a fine largest area
+        lua_rawgeti(L, index, i + 1);
         if (lua_type(L, -1) != LUA_TNUMBER || std::isnan(lua_tonumber(L, -1)))
             fail_value(L, where, "two numbers", -1);
-        selector.area[static_cast<std::size_t>(i)] = lua_tonumber(L, -1);
+        range[static_cast<std::size_t>(i)] = lua_tonumber(L, -1);
         lua_pop(L, 1);
     }
-    if (selector.area[0] > selector.area[1])
-        fail_option(L, where, "must rise, found { %f, %f }", selector.area[0], selector.area[1]);
+    if (range[0] > range[1]) fail_option(L, where, "must rise, found { %f, %f }", range[0], range[1]);
+    return range;
+}
+
+void read_area(lua_State* L, int index, const Where& where, Selector& selector)
+{
+    selector.area = read_range(L, index, where, "the smallest and the largest area, { min, max }");
+}
+
+void read_radius(lua_State* L, int index, const Where& where, Selector& selector)
+{
+    selector.radius = read_range(L, index, where, "the smallest and the largest radius, { min, max }");
+}
+
+void read_box(lua_State* L, int index, const Where& where, Selector& selector)
+{
+    const char* const expected = "two corners, { {x, y, z}, {x, y, z} }";
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2) fail_value(L, where, expected, index);
+    Eigen::AlignedBox3d box;
+    read_array(L, index, where, expected,
+               [&](int element, const Where& at) { box.extend(read_vector(L, element, at)); });
+    selector.box = box;
+}
+
+void read_free(lua_State* L, int index, const Where& where, Selector& selector)
+{
+    selector.free = read_boolean(L, index, where);
+}
+
+void read_within(lua_State* L, int index, const Where& where, Selector& selector)
+{
+    selector.within = read_positive(L, index, where);
+}
+
+void read_normal_within(lua_State* L, int index, const Where& where, Selector& selector)
+{
+    selector.normal_within = read_positive(L, index, where);
+    if (selector.normal_within > 180) fail_value(L, where, "degrees in (0, 180]", index);
+}
+
+void read_touching(lua_State* L, int index, const Where& where, Selector& selector)
+{
+    if (const Box<FaceHandle>* handle = test_box<FaceHandle>(L, index); handle && *handle) {
+        selector.touching_model = (*handle)->model;
+        selector.touching = (*handle)->face;
+    } else if (lua_type(L, index) == LUA_TNUMBER) {
+        selector.touching_tag = read_whole(L, index, where, 0);
+    } else if (lua_type(L, index) == LUA_TSTRING) {
+        const char* name = lua_tostring(L, index);
+        guard(L, [&] { selector.touching_name = name; });
+    } else {
+        fail_value(L, where, "a Face, a tag or a name", index);
+    }
 }
 
 const Option<Selector> kSelectorOptions[] = {
-    {"tags", read_tags}, {"name", read_text<&Selector::name>},
-    {"kind", read_kind}, {"facing", read_facing},
-    {"near", read_near}, {"area", read_area},
+    {"tags", read_tags},     {"name", read_text<&Selector::name>},
+    {"kind", read_kind},     {"facing", read_facing},
+    {"near", read_near},     {"area", read_area},
+    {"box", read_box},       {"touching", read_touching},
+    {"free", read_free},     {"region", read_text<&Selector::region>},
+    {"radius", read_radius}, {"normal_within", read_normal_within},
+    {"within", read_within},
 };
 
 /// Distance from a place to the facets of a face.
@@ -86,16 +145,79 @@ double distance(const topology::Model& model, FaceId face, const Vec3& place)
     return least;
 }
 
+bool is_called(const topology::Face& face, const std::string& name)
+{
+    return face.name == name || std::ranges::find(face.groups, name) != face.groups.end();
+}
+
+bool bounds(const topology::Face& face, const std::string& region)
+{
+    return std::ranges::any_of(
+        face.regions, [&](const auto& names) { return std::ranges::find(names, region) != names.end(); });
+}
+
+/// Whether all of a face is in a box, but for the model's tolerance.
+bool lies_in(const topology::Model& model, const topology::Face& face, const Eigen::AlignedBox3d& box)
+{
+    const Vec3 slack = Vec3::Constant(model.tolerance);
+    const Eigen::AlignedBox3d wide(box.min() - slack, box.max() + slack);
+    return std::ranges::all_of(face.triangles, [&](const Triangle& t) {
+        return std::ranges::all_of(t, [&](Index p) { return wide.contains(model.at(p)); });
+    });
+}
+
+/// The edges of the faces that `touching` means, none of which is selected itself.
+struct Touched {
+    std::vector<bool> face, edge;
+};
+Touched touched(const topology::Model& model, const Selector& selector)
+{
+    Touched found{std::vector<bool>(model.faces.size()), std::vector<bool>(model.edges.size())};
+    if (selector.touching_model && &selector.touching_model->model != &model)
+        throw InvalidInput("lua.other_model", "touching is a face of another model");
+    bool any = false;
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        const topology::Face& face = model.faces[f];
+        found.face[f] = selector.touching_model ? selector.touching == FaceId(f)
+                        : selector.touching_tag ? face.tag == *selector.touching_tag
+                                                : is_called(face, selector.touching_name);
+        any = any || found.face[f];
+        if (!found.face[f]) continue;
+        for (const topology::Loop& loop : face.loops)
+            for (const topology::EdgeUse& use : loop.uses) found.edge[use.edge.index()] = true;
+    }
+    if (!any) throw InvalidInput("lua.no_face", "touching names a face that is not there");
+    return found;
+}
+
+void keep_touching(const topology::Model& model, const Selector& selector, std::vector<FaceId>& faces)
+{
+    const Touched by = touched(model, selector);
+    std::erase_if(faces, [&](FaceId f) {
+        if (by.face[f.index()]) return true;
+        for (const topology::Loop& loop : model[f].loops)
+            for (const topology::EdgeUse& use : loop.uses)
+                if (by.edge[use.edge.index()]) return false;
+        return true;
+    });
+}
+
 bool matches(const topology::Model& model, FaceId id, const Selector& selector)
 {
     const topology::Face& face = model[id];
     if (selector.tags && std::ranges::find(*selector.tags, face.tag) == selector.tags->end()) return false;
-    if (!selector.name.empty() && face.name != selector.name) return false;
+    if (!selector.name.empty() && !is_called(face, selector.name)) return false;
+    if (!selector.region.empty() && !bounds(face, selector.region)) return false;
+    if (selector.free && *selector.free != (face.regions.size() < 2)) return false;
     if (!selector.kind.empty() && face.kind != selector.kind) return false;
     if (selector.facing) {
-        const double within = std::cos(30 * std::numbers::pi /
-                                       180); // what the recipe language calls "facing"
+        const double within = std::cos(selector.normal_within * std::numbers::pi / 180);
         if (!(mean_normal(model, id).dot(*selector.facing) >= within)) return false;
+    }
+    if (selector.box && !lies_in(model, face, *selector.box)) return false;
+    if (selector.radius) {
+        const std::optional<double> radius = topology::face_radius(model, id);
+        if (!radius || *radius < (*selector.radius)[0] || *radius > (*selector.radius)[1]) return false;
     }
     const double area = topology::face_area(model, id);
     return area >= selector.area[0] && area <= selector.area[1];
@@ -168,6 +290,8 @@ void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelS
 void read_selector(lua_State* L, int index, const char* call, Selector& selector)
 {
     read_options(L, index, call, kSelectorOptions, selector);
+    if (selector.within && !selector.near)
+        fail(L, "%s: option 'within' is a distance from 'near', which is missing", call);
 }
 
 std::vector<FaceId> select(const topology::Model& model, const Selector& selector)
@@ -175,7 +299,14 @@ std::vector<FaceId> select(const topology::Model& model, const Selector& selecto
     std::vector<FaceId> faces;
     for (const FaceId face : all_faces(model))
         if (matches(model, face, selector)) faces.push_back(face);
+    if (selector.touching_model || selector.touching_tag || !selector.touching_name.empty())
+        keep_touching(model, selector, faces);
     if (!selector.near || faces.empty()) return faces;
+    if (selector.within) {
+        const double most = *selector.within * *selector.within;
+        std::erase_if(faces, [&](FaceId f) { return distance(model, f, *selector.near) > most; });
+        return faces;
+    }
     const auto further = [&](FaceId a, FaceId b) {
         return distance(model, a, *selector.near) < distance(model, b, *selector.near);
     };

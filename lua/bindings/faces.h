@@ -13,12 +13,22 @@
 
 namespace lacuna::lua {
 
-/// What `{ tags=, name=, kind=, facing=, near=, area= }` asks for; all that is set must hold.
+/// What a table that selects faces asks for; all that is set must hold.
 struct Selector {
     std::optional<std::vector<int>> tags;
-    std::string name, kind;
+    std::string name, kind, region;
     std::optional<Vec3> facing, near;
+    double normal_within = 30;    ///< of `facing` [degrees]
+    std::optional<double> within; ///< all faces that close to `near`, not the one closest [model length]
     std::array<double, 2> area{0, std::numeric_limits<double>::infinity()};
+    std::optional<std::array<double, 2>> radius;
+    std::optional<Eigen::AlignedBox3d> box;
+    std::optional<bool> free;
+    /// Shares an edge with a face: one of a handle, a tag or a name.
+    std::shared_ptr<ModelState> touching_model;
+    FaceId touching;
+    std::optional<int> touching_tag;
+    std::string touching_name;
 };
 
 void read_selector(lua_State* L, int index, const char* call, Selector& selector);

@@ -11,12 +11,12 @@
 namespace lacuna::program {
 
 const char* const kHelp = R"(usage: lacuna [option ...] RECIPE [key=value ...]
-       lacuna [option ...] info FILE | check FILE.msh | -i
+       lacuna [option ...] info FILE | check FILE | -i
 
   RECIPE [key=value ...]  run a recipe, with parameters changed; - reads it from standard input
   -i                      a prompt
   info FILE               the faces of a file, and the roles and class they seem to have
-  check FILE.msh          read a mesh and print its quality; exit 1 when a cell is invalid
+  check FILE          read a mesh and print its quality; exit 1 when a cell is invalid
 
   --sandbox               no os, io or bytecode; limits on memory and time; no file is written
     --output-dir FOLDER   ... but below this folder

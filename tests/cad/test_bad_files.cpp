@@ -120,8 +120,8 @@ TEST_CASE("a file without faces says so")
     CHECK(has(failure(folder.write(
                   "tetra.bdf",
                   "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"
-                  "CTETRA,1,1,1,2,3,4\nENDDATA\n")),
-              "only solid cells"));
+                  "CBAR,1,1,1,2\nENDDATA\n")),
+              "1 CBAR"));
 }
 
 TEST_CASE("a script with an error is refused in Gmsh's own words")

@@ -3,9 +3,9 @@
 #include "support/refusal.h"
 
 #include <lacuna/core/error.h>
-#include <lacuna/healing/detail/weld.h>
 #include <lacuna/healing/split_facets.h>
 #include <lacuna/healing/stitch.h>
+#include <lacuna/healing/weld.h>
 #include <lacuna/topology/model.h>
 
 #include <doctest/doctest.h>

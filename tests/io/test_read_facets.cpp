@@ -124,8 +124,13 @@ TEST_CASE("a word that is no number is refused by its line, or was not needed")
             CHECK(has(message, sample.name));
             // A card or a face is named by the line it begins on, an array of XML by its tag's.
             const std::size_t before = begin == 0 ? 0 : whole.rfind('\n', begin - 1);
+            // A card of large fields may take four lines.
+            const std::size_t above = before == std::string::npos || before == 0
+                                          ? std::string::npos
+                                          : whole.rfind('\n', before - 1);
             const bool near = has(message, numbered_line(whole, begin)) ||
                               (before != std::string::npos && has(message, numbered_line(whole, before))) ||
+                              (above != std::string::npos && has(message, numbered_line(whole, above))) ||
                               sample.name.ends_with(".vtu");
             CHECK_MESSAGE(near, message);
         }
@@ -141,7 +146,7 @@ TEST_CASE("a file cut off anywhere is refused or read in part, and what is annou
         // Lines of an OBJ file and cards of a deck stand by themselves, and so do solids of an STL file.
         const std::string ending = io::ending_of(sample.name);
         const bool by_lines = ending == ".obj" || ending == ".bdf" || ending == ".nas" || ending == ".dat" ||
-                              ending == ".stl" || ending == ".unv";
+                              ending == ".stl" || ending == ".unv" || ending == ".inp";
         for (std::size_t length = 1; length < sample.bytes.size(); length += 1 + length / 50) {
             try {
                 const auto part = io::read_facets(sample.name,
@@ -159,7 +164,7 @@ TEST_CASE("content that is another format's is refused, and says which")
 {
     for (const test::FacetSample& sample : test::facet_samples()) {
         if (!sample.text) continue;
-        for (const char* ending : {".stl", ".obj", ".msh", ".unv", ".bdf", ".vtk", ".vtu", ".mesh"}) {
+        for (const char* ending : {".stl", ".obj", ".msh", ".unv", ".bdf", ".inp", ".vtk", ".vtu", ".mesh"}) {
             std::string own = io::ending_of(sample.name);
             if (own == ".nas" || own == ".dat") own = ".bdf";
             if (own == ending) continue;
@@ -232,7 +237,7 @@ TEST_CASE("Nastran frames, defaults and continuations are understood")
              {"CORD2R,4,4,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\nGRID,1,4\nGRID,2\nGRID,3\n" + face, "by itself"},
              {"CORD2R,4,0,0.,0.,0.,0.,0.,1.,\n,0.,0.,2.\nGRID,1,4\nGRID,2\nGRID,3\n" + face, "in line"},
              {flat + "GRID,3,,5.,1.,0.\n" + face, "line 4"},
-             {flat + "CTRIA3,7,1,1,2,9\n", "line 4: the face names node 9"},
+             {flat + "CTRIA3,7,1,1,2,9\n", "line 4: CTRIA3 7: names node 9"},
              {flat + "CTRIA3,7,1,1,2\n", "found none"},
              {flat + "GRID,=,,*(1)\n" + face, "line 4"},
              {"        1.0\n", "of no card"},
@@ -275,7 +280,7 @@ TEST_CASE("INCLUDE reads files beside the deck or below it, and no others")
     CHECK(has(read("INCLUDE 'link.inc'\n"), "deck's folder"));
 }
 
-TEST_CASE("faces of higher order give their corners, solids are counted")
+TEST_CASE("faces of higher order give their corners, beams are counted")
 {
     // Six nodes of a universal triangle go round it.
     std::string unv = "    -1\n  2411\n";
@@ -283,23 +288,22 @@ TEST_CASE("faces of higher order give their corners, solids are counted")
         static int tag = 0;
         unv += "  " + std::to_string(++tag) + " 1 1 11\n " + at + "\n";
     }
-    unv += "    -1\n    -1\n  2412\n 1 92 1 1 7 6\n 1 2 3 4 5 6\n 2 111 1 1 7 4\n 1 2 3 4\n 3 21 1 1 7 2\n 0 "
+    unv += "    -1\n    -1\n  2412\n 1 92 1 1 7 6\n 1 2 3 4 5 6\n 3 21 1 1 7 2\n 0 "
            "1 1\n 1 2\n    -1\n";
     const io::FacetFile file = io::read_facets("x.unv", unv);
     CHECK(total_area(file) == doctest::Approx(2));
     REQUIRE(file.notes.size() == 1);
-    CHECK(has(file.notes[0], "1 elements 111"));
     CHECK(has(file.notes[0], "1 elements 21"));
-    CHECK(has(failure("x.bdf", "GRID,1\nGRID,2\nGRID,3\nGRID,4\nCTETRA,1,1,1,2,3,4\n"), "only solid cells"));
+    CHECK(has(failure("x.bdf", "GRID,1\nGRID,2\nCBAR,1,1,1,2\n"), "1 CBAR"));
 }
 
-TEST_CASE("compressed VTU files are refused with a sentence")
+TEST_CASE("VTU files of a compressor that is not known are refused by its name")
 {
     for (const test::FacetSample& sample : test::facet_samples()) {
         if (sample.name != "raw.vtu" && sample.name != "inline.vtu") continue;
         std::string bytes = sample.bytes;
-        bytes.replace(bytes.find("header_type"), 0, "compressor=\"vtkZLibDataCompressor\" ");
-        CHECK(has(failure("x.vtu", bytes), "without compression"));
+        bytes.replace(bytes.find("header_type"), 0, "compressor=\"vtkLZ4DataCompressor\" ");
+        CHECK(has(failure("x.vtu", bytes), "vtkLZ4DataCompressor"));
     }
 }
 
@@ -353,7 +357,8 @@ TEST_CASE("every shared file of facets and elements is read")
     for (const Shared& shared :
          {Shared{"stl/bracket_01.stl", 3284, 0}, Shared{"stl/hollow_brick_2x4.stl", 13294, 0},
           Shared{"fem/salome_cube.unv", 0, 150}, Shared{"fem/nested_cubes.msh", 240, 0},
-          Shared{"fem/wingbox.bdf", 0, 2464}}) {
+          Shared{"fem/wingbox.bdf", 0, 2464}, Shared{"fem/codim_1-tube.inp", 0, 96},
+          Shared{"fem/contact_model.bdf", 0, 690}}) {
         CAPTURE(shared.file);
         if (!std::filesystem::exists(kShared + shared.file)) {
             MESSAGE("skipped: there is no " << kShared + shared.file);
@@ -363,8 +368,6 @@ TEST_CASE("every shared file of facets and elements is read")
         CHECK(file.soup.triangles.size() == shared.triangles);
         CHECK(file.soup.quads.size() == shared.quads);
     }
-    if (!std::filesystem::exists(kShared + "fem/contact_model.bdf")) return;
-    CHECK(test::error_code([] { io::read_facets(kShared + "fem/contact_model.bdf"); }) == "io.no_faces");
 }
 
 TEST_CASE("every hostile file is a sentence or a sound model, soon")

@@ -227,6 +227,38 @@ std::string unv(const FacetBox& box, int nodes, int elements, int groups)
     return text + "    -1\n";
 }
 
+/// @param parts  the box is a part that is put in place once, else it stands in the open.
+std::string inp(const FacetBox& box, bool parts)
+{
+    std::string text = "*Heading\n a box\n";
+    if (parts) text += "*Part, name=box\n";
+    text += parts ? "*Node\n" : "*NODE, NSET=NALL\n";
+    for (std::size_t p = 0; p < box.points.size(); ++p) {
+        text += field(static_cast<int>(p) + 1, 7);
+        for (const double x : box.points[p]) text += ", " + field(number(x), 12);
+        text += "\n";
+    }
+    for (int side = 1; side <= 6; ++side) {
+        text += (parts ? "*Element, type=S4R, elset=\"" : "*ELEMENT,\n  TYPE = S4, ELSET = ") +
+                side_name(side) + (parts ? "\"\n" : "\n");
+        for (std::size_t q = 0; q < box.quads.size(); ++q) {
+            if (box.side[q] != side) continue;
+            text += std::to_string(q + 1) + ",";
+            for (std::size_t k = 0; k < 4; ++k)
+                text += std::to_string(box.quads[q][k] + 1) + (k == 3             ? "\n"
+                                                               : k == 1 && !parts ? ",\n"
+                                                                                  : ", ");
+        }
+    }
+    if (parts)
+        return text +
+               "*Shell Section, elset=\"side 2\", material=steel\n0.1, 5\n*End Part\n** \n*Assembly, "
+               "name=whole\n*Instance, name=first, part=box\n*End Instance\n*Nset, nset=fixed, "
+               "instance=first, generate\n1, 4, 1\n*End Assembly\n*Material, name=steel\n*Elastic\n2.1e5, "
+               "0.3\n*Step\n*Static\n*End Step\n";
+    return text + "*ELSET, ELSET=one\n1\n*NSET, NSET=some\n1, 2,\n3\n*SURFACE, NAME=below, TYPE=NODE\nsome\n";
+}
+
 enum class Fields { free, small, large };
 
 std::string bdf(const FacetBox& box, Fields kind)
@@ -427,6 +459,8 @@ std::vector<FacetSample> facet_samples()
     all.push_back({"free.bdf", bdf(box, Fields::free), true, true, 6, "pid:"});
     all.push_back({"small.nas", bdf(box, Fields::small), true, true, 6, "pid:"});
     all.push_back({"large.dat", bdf(box, Fields::large), true, true, 6, "pid:"});
+    all.push_back({"open.inp", inp(box, false), true, true, 6, "side "});
+    all.push_back({"parts.INP", inp(box, true), true, true, 6, "side "});
     for (const char* version : {"2.0", "5.1"})
         for (const bool binary : {false, true})
             for (const bool poly : {false, true})

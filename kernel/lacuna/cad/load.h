@@ -31,6 +31,9 @@ using io::LoadOptions;
 ///                      "cad.time_limit", "cad.memory_limit"), or that there is none ("cad.no_worker").
 topology::Model load(const std::vector<std::string>& paths, const LoadOptions& options = {},
                      const RunContext& context = {}, const Limits& limits = {});
+/// load() that hands over the meshes of finite element files as well.
+io::LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions& options = {},
+                           const RunContext& context = {}, const Limits& limits = {});
 
 /// Gmsh's recombination of a planar region into quads, boundary nodes kept, by the same process. Sizes are
 /// asked on a raster of 96 crossings along the longer side, within the region.

@@ -5,7 +5,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/healing/detail/repeated_cells.h>
 #include <lacuna/healing/detail/t_junctions.h>
-#include <lacuna/healing/detail/weld.h>
+#include <lacuna/healing/weld.h>
 
 #include <algorithm>
 #include <limits>

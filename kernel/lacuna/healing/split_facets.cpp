@@ -72,19 +72,41 @@ public:
         const auto begin = index(first_[index(segment)]);
         return std::span(sides_).subspan(begin, index(first_[index(segment) + 1]) - begin);
     }
-    /// The one other side with the same label on the side's segment; -1 where there is none or several.
+    /// The one other side with the same label on the side's segment; -1 where there is none or several,
+    /// or where a facet of another label branches off.
     [[nodiscard]] Index partner(Index side) const
     {
         Index found = -1;
-        for (const Index other : on(segment(side))) {
+        const auto here = on(segment(side));
+        for (const Index other : here) {
             if (other == side || facets_.label[index(other) / 3] != facets_.label[index(side) / 3]) continue;
             if (found >= 0) return -1;
             found = other;
         }
+        if (found < 0 || here.size() == 2) return found;
+        for (const Index other : here)
+            if (other != side && other != found && !on_each_other(other / 3, side / 3) &&
+                !on_each_other(other / 3, found / 3))
+                return -1;
         return found;
     }
 
 private:
+    /// Have two facets, or the quads they are of, the same corners?
+    [[nodiscard]] bool on_each_other(Index f, Index g) const
+    {
+        const Index p = facets_.quad[index(f)];
+        const Index q = facets_.quad[index(g)];
+        if ((p < 0) != (q < 0)) return false;
+        const auto same = [](auto a, auto b) {
+            std::sort(a.begin(), a.end());
+            std::sort(b.begin(), b.end());
+            return a == b;
+        };
+        return p < 0 ? same(facets_.corner[index(f)], facets_.corner[index(g)])
+                     : same(facets_.quads[index(p)], facets_.quads[index(q)]);
+    }
+
     const Facets& facets_;
     std::vector<Index> segment_; ///< of each side
     std::vector<Index> sides_;   ///< by segment

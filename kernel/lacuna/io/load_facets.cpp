@@ -3,7 +3,8 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/healing/stitch.h>
-#include <lacuna/io/detail/facet_collector.h>
+#include <lacuna/io/detail/deck_facets.h>
+#include <lacuna/io/detail/deck_formats.h>
 #include <lacuna/io/detail/input_file.h>
 
 #include <algorithm>
@@ -14,77 +15,6 @@
 
 namespace lacuna::io {
 namespace {
-
-struct Format {
-    std::string_view ending, name;
-    void (*read)(Cursor&, FacetCollector&);
-};
-constexpr Format kFormats[] = {
-    {".stl", "an STL file", read_stl},        {".obj", "a Wavefront OBJ file", read_obj},
-    {".msh", "an MSH file", read_msh_facets}, {".unv", "a universal file", read_unv},
-    {".bdf", "a Nastran deck", read_nastran}, {".nas", "a Nastran deck", read_nastran},
-    {".dat", "a Nastran deck", read_nastran}, {".vtk", "a legacy VTK file", read_vtk},
-    {".vtu", "a VTU file", read_vtu},         {".mesh", "a Medit file", read_medit}};
-
-const Format* format_of(std::string_view ending)
-{
-    const auto found = std::ranges::find(kFormats, ending, &Format::ending);
-    return found == std::end(kFormats) ? nullptr : &*found;
-}
-
-/// What some kinds of file cannot but begin with, for the error that names what a file really is.
-struct Beginning {
-    std::string_view text, ending;
-};
-constexpr Beginning kBeginnings[] = {{"# vtk datafile", ".vtk"},    {"<?xml", ".vtu"},
-                                     {"<vtkfile", ".vtu"},          {"$meshformat", ".msh"},
-                                     {"$comments", ".msh"},         {"solid ", ".stl"},
-                                     {"meshversion", ".mesh"},      {"iso-10303-21", ".step"},
-                                     {"cascade topology", ".brep"}, {"dbrep_drawable", ".brep"}};
-
-/// The ending of what a file begins like; empty where its beginning says nothing.
-std::string_view ending_by_content(std::string_view bytes)
-{
-    if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
-    const std::string_view head = trimmed(bytes.substr(0, 256));
-    for (const Beginning& known : kBeginnings)
-        if (same_word(head.substr(0, known.text.size()), known.text)) return known.ending;
-    // A universal file: a line -1, then the number of a dataset.
-    const std::size_t line = head.find('\n');
-    if (line != std::string_view::npos && trimmed(head.substr(0, line)) == "-1" &&
-        parse_integer<int>(trimmed(head.substr(line + 1, head.find('\n', line + 1) - line - 1))))
-        return ".unv";
-    return {};
-}
-
-void check_content(const std::string& name, const Format& format, std::string_view bytes)
-{
-    if (format.read == read_stl && is_binary_stl(bytes)) return;
-    const std::string_view found = ending_by_content(bytes);
-    if (found.empty() || found == format.ending) return;
-    const Format* other = format_of(found);
-    throw InvalidInput("io.unreadable",
-                       "cannot read " + name + ", line 1: expected " + std::string(format.name) + ", found " +
-                           (other != nullptr ? std::string(other->name)
-                                             : "what a " + std::string(found) + " file begins with") +
-                           "; give it the ending of what it holds, " + std::string(found));
-}
-
-std::string known_endings(std::string_view others)
-{
-    std::string text(others);
-    for (const Format& format : kFormats) text += (text.empty() ? "" : " ") + std::string(format.ending);
-    return text;
-}
-
-const Format& needed_format(const std::string& path, std::string_view others)
-{
-    const std::string ending = ending_of(path);
-    if (const Format* format = format_of(ending)) return *format;
-    throw InvalidInput("io.unknown_ending", path + ": the ending \"" + ending +
-                                                "\" is unknown; files are read that end in " +
-                                                known_endings(others));
-}
 
 bool is_among(std::string_view endings, const std::string& ending)
 {
@@ -140,7 +70,8 @@ void append(FacetFile& all, FacetFile more)
     const auto labels = static_cast<int>(all.label_tag.size());
     int offset = 0;
     for (const int tag : all.label_tag) offset = std::max(offset, tag);
-    for (int& tag : more.label_tag) tag += offset;
+    for (int& tag : more.label_tag)
+        if (tag > 0) tag += offset;
     const auto shift = [&](auto& cells, std::vector<int>& cell_labels) {
         for (auto& cell : cells)
             for (Index& p : cell) p += points;
@@ -156,6 +87,7 @@ void append(FacetFile& all, FacetFile more)
     move_in(all.soup.label_name, more.soup.label_name);
     move_in(all.soup.label_keeps_nodes, more.soup.label_keeps_nodes);
     move_in(all.label_tag, more.label_tag);
+    move_in(all.labels, more.labels);
     move_in(all.notes, more.notes);
 }
 
@@ -199,10 +131,9 @@ void append(topology::Model& model, topology::Model more)
     move_in(model.notes, more.notes);
 }
 
-/// Give faces their labels' names and, where a label is one face, its tag; the others count on from the
+/// Give faces what their labels say and, where a label is one face, its tag; the others count on from the
 /// highest tag.
-void name_faces(topology::Model& model, const std::vector<std::string>& names,
-                const std::vector<int>& label_tag)
+void name_faces(topology::Model& model, const std::vector<std::string>& names, const FacetFile& file)
 {
     std::vector<std::size_t> label_of_face;
     std::vector<int> faces_of_label(names.size(), 0);
@@ -213,27 +144,40 @@ void name_faces(topology::Model& model, const std::vector<std::string>& names,
     // A file of one part: the faces are counted as they come.
     const bool counted = names.size() == 1 && model.faces.size() > 1;
     int next = 0;
-    for (const int tag : label_tag) next = std::max(next, tag);
+    for (const int tag : file.label_tag) next = std::max(next, tag);
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         const std::size_t label = label_of_face[f];
-        model.faces[f].name = names[label];
-        if (!counted) model.faces[f].tag = faces_of_label[label] == 1 ? label_tag[label] : ++next;
+        topology::Face& face = model.faces[f];
+        face.name = names[label];
+        face.groups = file.labels[label].groups;
+        face.regions = file.labels[label].regions;
+        const bool whole = faces_of_label[label] == 1 && file.label_tag[label] > 0;
+        if (!counted) face.tag = whole ? file.label_tag[label] : ++next;
     }
 }
 
+bool holds_elements(const Deck& deck)
+{
+    return deck.format != DeckFormat::stl && deck.format != DeckFormat::obj;
+}
+
 /// The facets of files as faces, not yet stitched.
-topology::Model import_facets(const std::vector<std::string>& paths, const LoadOptions& options,
-                              const RunContext& context)
+LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptions& options,
+                          const RunContext& context)
 {
     FacetFile all;
+    LoadedFiles loaded{.scale = options.scale};
     std::string source;
     for (const std::string& path : paths) {
         check_cancelled(context);
         source += (source.empty() ? "" : ", ") + path;
-        FacetFile file = read_facets(path);
+        auto deck = std::make_shared<Deck>(read_deck(path));
+        check_cancelled(context);
+        FacetFile file = facets_of(*deck, options.tolerance / options.scale);
         const bool is_mesh = !is_among(".stl .obj", ending_of(path));
         file.soup.label_keeps_nodes.assign(file.label_tag.size(), options.keep_mesh && is_mesh ? 1 : 0);
         append(all, std::move(file));
+        if (holds_elements(*deck)) loaded.decks.push_back(std::move(deck));
     }
     check_cancelled(context);
     for (Vec3& p : all.soup.points) p *= options.scale;
@@ -242,12 +186,11 @@ topology::Model import_facets(const std::vector<std::string>& paths, const LoadO
     const std::vector<std::string> names = std::exchange(all.soup.label_name, {});
     for (std::size_t label = 0; label < names.size(); ++label)
         all.soup.label_name.push_back(std::to_string(label));
-    topology::Model model = healing::split_facets(all.soup, {options.feature_angle, options.tolerance},
-                                                  context);
-    name_faces(model, names, all.label_tag);
-    model.source = source;
-    move_in(model.notes, all.notes);
-    return model;
+    loaded.model = healing::split_facets(all.soup, {options.feature_angle, options.tolerance}, context);
+    name_faces(loaded.model, names, all);
+    loaded.model.source = source;
+    move_in(loaded.model.notes, all.notes);
+    return loaded;
 }
 
 /// What reading the files has not joined: T-junctions, faces of different files, faces listed twice.
@@ -268,31 +211,8 @@ void stitch(topology::Model& model, const RunContext& context)
 
 } // namespace
 
-std::string ending_of(const std::string& path)
-{
-    std::string ending = std::filesystem::path(path).extension().string();
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return ending;
-}
-
-FacetFile read_facets(const std::string& name, std::string_view bytes)
-{
-    const Format& format = needed_format(name, {});
-    check_content(name, format, bytes);
-    Cursor cursor(name, bytes);
-    FacetCollector facets;
-    format.read(cursor, facets);
-    return facets.take(name);
-}
-
-FacetFile read_facets(const std::string& path)
-{
-    needed_format(path, {});
-    return read_facets(path, read_file(path));
-}
-
-topology::Model load_facets(const std::vector<std::string>& paths, const LoadOptions& options,
-                            const RunContext& context, const OtherFormats& others)
+LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions& options,
+                       const RunContext& context, const OtherFormats& others)
 {
     check_options(options);
     if (paths.empty()) throw InvalidInput("io.no_file", "no file was named; name at least one");
@@ -300,18 +220,28 @@ topology::Model load_facets(const std::vector<std::string>& paths, const LoadOpt
     for (const std::string& path : paths) {
         check_file(path);
         const bool is_other = is_among(others.endings, ending_of(path));
-        if (!is_other) needed_format(path, others.endings);
+        if (!is_other) needed_deck_format(path, others.endings);
         (is_other ? other : facets).push_back(path);
     }
-    topology::Model model;
-    if (!other.empty()) model = others.import(other, options, context);
-    if (!facets.empty() && other.empty())
-        model = import_facets(facets, options, context);
-    else if (!facets.empty())
-        append(model, import_facets(facets, options, context));
-    topology::build_loops(model);
-    stitch(model, context);
-    return model;
+    LoadedFiles loaded{.scale = options.scale};
+    if (!other.empty()) loaded.model = others.import(other, options, context);
+    if (!facets.empty()) {
+        LoadedFiles more = import_facets(facets, options, context);
+        loaded.decks = std::move(more.decks);
+        if (other.empty())
+            loaded.model = std::move(more.model);
+        else
+            append(loaded.model, std::move(more.model));
+    }
+    topology::build_loops(loaded.model);
+    stitch(loaded.model, context);
+    return loaded;
+}
+
+topology::Model load_facets(const std::vector<std::string>& paths, const LoadOptions& options,
+                            const RunContext& context, const OtherFormats& others)
+{
+    return load_files(paths, options, context, others).model;
 }
 
 } // namespace lacuna::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/detail/facet_collector.h>
+#include <lacuna/io/detail/deck_builder.h>
 
 #include <algorithm>
 #include <limits>
@@ -11,21 +11,22 @@ namespace {
 struct Section {
     std::string_view name;
     int values;
-    int corners = 0; ///< of faces
-    bool solid = false;
+    bool elements = false;
+    DeckShape shape = DeckShape::tri3; ///< of elements
 };
 
+/// Shapes without a middle node are read as they are, others give their corners.
 constexpr Section kSections[] = {{"Vertices", 4},
-                                 {"Triangles", 4, 3},
-                                 {"TrianglesP2", 7, 3},
-                                 {"Quadrilaterals", 5, 4},
-                                 {"QuadrilateralsQ2", 10, 4},
-                                 {"Tetrahedra", 5, 0, true},
-                                 {"TetrahedraP2", 11, 0, true},
-                                 {"Hexahedra", 9, 0, true},
-                                 {"HexahedraQ2", 28, 0, true},
-                                 {"Prisms", 7, 0, true},
-                                 {"Pyramids", 6, 0, true},
+                                 {"Triangles", 4, true, DeckShape::tri3},
+                                 {"TrianglesP2", 7, true, DeckShape::tri3},
+                                 {"Quadrilaterals", 5, true, DeckShape::quad4},
+                                 {"QuadrilateralsQ2", 10, true, DeckShape::quad4},
+                                 {"Tetrahedra", 5, true, DeckShape::tet4},
+                                 {"TetrahedraP2", 11, true, DeckShape::tet4},
+                                 {"Hexahedra", 9, true, DeckShape::hex8},
+                                 {"HexahedraQ2", 28, true, DeckShape::hex8},
+                                 {"Prisms", 7, true, DeckShape::wedge6},
+                                 {"Pyramids", 6, true, DeckShape::pyramid5},
                                  {"Edges", 3},
                                  {"EdgesP2", 4},
                                  {"Corners", 1},
@@ -41,7 +42,7 @@ constexpr Section kSections[] = {{"Vertices", 4},
 
 class MeditReader {
 public:
-    MeditReader(Cursor& cursor, FacetCollector& into) : cursor_(cursor), into_(into) {}
+    MeditReader(Cursor& cursor, DeckBuilder& into) : cursor_(cursor), into_(into) {}
 
     void read()
     {
@@ -60,7 +61,6 @@ public:
                 read_section(*section);
             }
         }
-        into_.sort_by_label();
     }
 
 private:
@@ -88,33 +88,44 @@ private:
                 into_.points().push_back(cursor_.point());
                 cursor_.real();
             }
-        } else if (section.corners > 0) {
-            for (std::uint64_t i = 0; i < count; ++i) read_face(section);
+        } else if (section.elements) {
+            const std::size_t block = into_.block_of(section.shape, section.name);
+            for (std::uint64_t i = 0; i < count; ++i) read_element(section, block);
         } else {
             for (std::uint64_t i = 0; i < count * static_cast<std::uint64_t>(section.values); ++i)
                 cursor_.real();
-            if (section.solid) into_.pass_over_solid(std::string(section.name), count);
+            if (section.name == "Edges" || section.name == "EdgesP2")
+                into_.pass_over(std::string(section.name), count);
         }
     }
 
-    void read_face(const Section& section)
+    void read_element(const Section& section, std::size_t block)
     {
-        std::array<Index, 4> corner{};
-        for (int k = 0; k < section.corners; ++k) {
+        std::array<Index, 8> corner{};
+        const int corners = shape_info(section.shape).corners;
+        for (int k = 0; k < corners; ++k) {
             corner[index(k)] = cursor_.integer();
-            if (corner[index(k)] < 1) cursor_.fail("expected the number of a vertex, from 1");
-            --corner[index(k)];
+            if (corner[index(k)] > 0)
+                --corner[index(k)];
+            else
+                corner[index(k)] = -1;
+            if (corner[index(k)] < 0 || index(corner[index(k)]) >= into_.points().size())
+                cursor_.fail("expected the number of one of the " + std::to_string(into_.points().size()) +
+                             " vertices so far");
         }
-        for (int k = section.corners; k < section.values - 1; ++k) cursor_.integer();
-        into_.add_face({corner.data(), index(section.corners)}, into_.label_of(cursor_.integer()), cursor_);
+        for (int k = corners; k < section.values - 1; ++k) cursor_.integer();
+        const int reference = cursor_.integer();
+        const int dimension = shape_info(section.shape).dimension;
+        into_.add_element(block, -1, into_.region_of(reference, "", dimension),
+                          {corner.data(), index(corners)});
     }
 
     Cursor& cursor_;
-    FacetCollector& into_;
+    DeckBuilder& into_;
 };
 
 } // namespace
 
-void read_medit(Cursor& cursor, FacetCollector& into) { MeditReader(cursor, into).read(); }
+void read_medit(Cursor& cursor, DeckBuilder& into) { MeditReader(cursor, into).read(); }
 
 } // namespace lacuna::io

@@ -1,93 +1,157 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/detail/facet_collector.h>
+#include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/nastran.h>
 
 #include <algorithm>
-#include <limits>
+#include <optional>
 
 namespace lacuna::io {
 namespace {
 
-/// A face by the name of its card.
-struct FaceCard {
+/// An element by the name of its card: the shape without middle nodes, and with them.
+struct ElementCard {
     std::string_view name;
-    int corners;
+    DeckShape corners, all;
+    bool always_all = false; ///< the card has room for middle nodes, used or not
+    int kept_from = 0;       ///< first field behind the nodes that is kept; 0: none may follow
 };
-constexpr FaceCard kFaceCards[] = {{"CTRIA3", 3}, {"CTRIA6", 3}, {"CTRIAR", 3}, {"CQUAD4", 4},
-                                   {"CQUAD8", 4}, {"CQUADR", 4}, {"CQUAD", 4}};
+constexpr ElementCard kElementCards[] = {
+    {"CTRIA3", DeckShape::tri3, DeckShape::tri3, false, 7},
+    {"CTRIAR", DeckShape::tri3, DeckShape::tri3, false, 7},
+    {"CTRIA6", DeckShape::tri3, DeckShape::tri6, true, 10},
+    {"CQUAD4", DeckShape::quad4, DeckShape::quad4, false, 8},
+    {"CQUADR", DeckShape::quad4, DeckShape::quad4, false, 8},
+    {"CQUAD8", DeckShape::quad4, DeckShape::quad8, true, 12},
+    {"CQUAD", DeckShape::quad4, DeckShape::quad9, true, 13},
+    {"CTETRA", DeckShape::tet4, DeckShape::tet10},
+    {"CPYRAM", DeckShape::pyramid5, DeckShape::pyramid13},
+    {"CPYRA", DeckShape::pyramid5, DeckShape::pyramid13},
+    {"CPENTA", DeckShape::wedge6, DeckShape::wedge15},
+    {"CHEXA", DeckShape::hex8, DeckShape::hex20},
+};
 constexpr std::string_view kFrameCards[] = {"CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S"};
-constexpr std::string_view kSolidCards[] = {"CHEXA", "CPENTA", "CTETRA", "CPYRAM", "CPYRA"};
+/// Properties of shells and solids, and the field that names their material; 0: none does.
+struct PropertyCard {
+    std::string_view name;
+    std::size_t material;
+};
+constexpr PropertyCard kPropertyCards[] = {{"PSHELL", 3}, {"PSOLID", 3},  {"PCOMP", 0},
+                                           {"PCOMPG", 0}, {"PLPLANE", 3}, {"PLSOLID", 3}};
 
-template <class Names>
-bool is_among(const Names& names, std::string_view name)
+/// Where node k of a card stands in the order of DeckShape: middles of upright sides come before those above.
+std::size_t place_of_node(DeckShape shape, std::size_t k)
 {
-    return std::ranges::find(names, name) != std::end(names);
+    if (shape == DeckShape::hex20 && k >= 12) return k < 16 ? k + 4 : k - 4;
+    if (shape == DeckShape::wedge15 && k >= 9) return k < 12 ? k + 3 : k - 3;
+    return k;
 }
 
 class NastranReader {
 public:
-    NastranReader(Cursor& cursor, FacetCollector& into) : deck_(cursor), into_(into) {}
+    NastranReader(Cursor& cursor, DeckBuilder& into) : bulk_(cursor), into_(into) {}
 
     void read()
     {
-        deck_.read(
-            [](std::string_view name) {
-                return name == "GRID" || name == "GRDSET" || is_among(kFrameCards, name) ||
-                       std::ranges::find(kFaceCards, name, &FaceCard::name) != std::end(kFaceCards);
-            },
-            [&](const Card& card) { take(card); });
-        tags_.finish([&](Index first, Index second) {
-            const Grid& a = grids_[index(first)];
-            const Grid& b = grids_[index(second)];
-            if (a.at != b.at || a.frame != b.frame)
-                b.place.fail("the number of this GRID is that of another elsewhere");
+        bulk_.read([](std::string_view name) { return use_of(name); }, [&](const Card& card) { take(card); });
+        finish_nodes();
+        into_.resolve(*tags_, [&](std::uint64_t place, const std::string& what) {
+            bulk_.files().place_of(place).fail(what);
         });
-        for (const Grid& grid : grids_) into_.points().push_back(in_basic(grid));
-        faces_.resolve(tags_, into_);
-        into_.sort_by_label();
+        finish_properties();
+        into_.deck().texts = bulk_.texts();
     }
 
 private:
     struct Grid {
-        Vec3 at;
         Index frame; ///< -1: blank
-        DeckPlace place;
+        std::uint64_t place;
+        friend bool operator==(const Grid& a, const Grid& b) { return a.frame == b.frame; }
     };
+
+    static const ElementCard* element_card(std::string_view name)
+    {
+        const auto found = std::ranges::find(kElementCards, name, &ElementCard::name);
+        return found == std::end(kElementCards) ? nullptr : &*found;
+    }
+
+    static CardUse use_of(std::string_view name)
+    {
+        if (name == "GRID" || name == "GRDSET" || element_card(name) != nullptr) return CardUse::read;
+        const bool both = std::ranges::find(kFrameCards, name) != std::end(kFrameCards) ||
+                          std::ranges::find(kPropertyCards, name, &PropertyCard::name) !=
+                              std::end(kPropertyCards);
+        return both ? CardUse::both : CardUse::keep;
+    }
 
     void take(const Card& card)
     {
-        const auto face = std::ranges::find(kFaceCards, card.name, &FaceCard::name);
-        if (card.name == "GRID")
-            take_grid(card);
-        else if (card.name == "GRDSET")
-            default_frame_ = card.whole(3, 0);
-        else if (face != std::end(kFaceCards))
-            take_face(card, face->corners);
-        else if (is_among(kFrameCards, card.name))
+        if (card.name == "GRID") return take_grid(card);
+        if (const ElementCard* element = element_card(card.name)) return take_element(card, *element);
+        if (card.name == "GRDSET") return take_defaults(card);
+        const auto property = std::ranges::find(kPropertyCards, card.name, &PropertyCard::name);
+        if (property != std::end(kPropertyCards))
+            take_property(card, property->material);
+        else if (std::ranges::find(kFrameCards, card.name) != std::end(kFrameCards))
             take_frame(card);
-        else if (is_among(kSolidCards, card.name))
-            into_.pass_over_solid(card.name);
         else
             into_.pass_over(card.name);
     }
 
-    void take_grid(const Card& card)
+    void take_defaults(const Card& card)
     {
-        if (grids_.size() >= static_cast<std::size_t>(std::numeric_limits<Index>::max()))
-            card.fail("too many points");
-        tags_.add(static_cast<std::uint64_t>(card.needed(2)));
-        grids_.push_back({card.point(4), card.whole(3, -1), card.place});
+        default_frame_ = card.whole(3, 0);
+        default_output_ = card.field(7);
+        default_constraint_ = card.field(8);
     }
 
-    void take_face(const Card& card, int corners)
+    void take_grid(const Card& card)
     {
-        const Index property = card.whole(3, card.needed(2)); // blank: the element's own number
-        TaggedFaces::Face face{.corners = corners,
-                               .label = into_.label_of(property, "pid:" + std::to_string(property)),
-                               .cursor = card.place.cursor,
-                               .position = card.place.position};
-        for (std::size_t k = 0; k < index(corners); ++k) face.node[k] = card.needed(4 + k);
-        faces_.add(face);
+        const Index frame = card.whole(3, -1);
+        into_.add_point(card.needed(2), card.point(4), *card.place.cursor);
+        grids_.push_back({frame, card.place.number()});
+        std::string more = card.text(7);
+        if (!more.empty()) into_.deck().point_more.emplace_back(grids_.size() - 1, std::move(more));
+    }
+
+    void take_element(const Card& card, const ElementCard& kind)
+    {
+        const auto corners = static_cast<std::size_t>(shape_info(kind.corners).nodes);
+        const auto most = static_cast<std::size_t>(shape_info(kind.all).nodes);
+        std::array<Index, 20> found{};
+        bool middles = kind.always_all;
+        for (std::size_t k = 0; k < most; ++k) {
+            found[k] = k < corners ? card.needed(4 + k) : card.whole(4 + k, -1);
+            middles = middles || (k >= corners && found[k] >= 0);
+        }
+        const DeckShape shape = middles ? kind.all : kind.corners;
+        const auto count = static_cast<std::size_t>(shape_info(shape).nodes);
+        std::array<Index, 20> nodes{};
+        for (std::size_t k = 0; k < count; ++k) nodes[place_of_node(shape, k)] = found[k];
+        const Index tag = card.needed(2);
+        const std::size_t block = into_.block_of(shape, card.name);
+        const DeckBlock& of = into_.deck().blocks[block];
+        if (card.field(3).empty()) unowned_.push_back({block, of.count()});
+        const Index region = card.field(3).empty() ? -1 : region_of(card.needed(3));
+        std::string more = card.text(static_cast<std::size_t>(kind.kept_from > 0 ? kind.kept_from : 4) +
+                                     (kind.kept_from > 0 ? 0 : most));
+        if (!more.empty() && kind.kept_from == 0)
+            card.fail("expected at most " + std::to_string(most) + " nodes, found more");
+        if (!more.empty()) into_.deck().blocks[block].more.emplace_back(of.count(), std::move(more));
+        into_.add_element(block, tag, region, {nodes.data(), count}, card.place.number());
+    }
+
+    Index region_of(Index property)
+    {
+        if (property != last_property_ || last_region_ < 0) {
+            last_property_ = property;
+            last_region_ = into_.region_of(property, "pid:" + std::to_string(property));
+        }
+        return last_region_;
+    }
+
+    void take_property(const Card& card, std::size_t material)
+    {
+        materials_[card.needed(2)] = material == 0 ? std::string() : std::string(card.field(material));
     }
 
     void take_frame(const Card& card)
@@ -109,32 +173,123 @@ private:
         }
     }
 
-    Vec3 in_basic(const Grid& grid)
+    /// Nodes listed twice alike are one; then all go from their frames to the basic one.
+    void finish_nodes()
     {
-        const Vec3 p = frames_.to_basic(grid.frame < 0 ? default_frame_ : grid.frame, grid.at, grid.place);
-        if (!p.allFinite()) grid.place.fail("the point's coordinates are too large");
-        return p;
+        Deck& deck = into_.deck();
+        std::vector<bool> repeated;
+        tags_.emplace(deck.point_tags, [&](Index first, Index second) {
+            if (deck.points[index(first)] != deck.points[index(second)] ||
+                !(grids_[index(first)] == grids_[index(second)]))
+                bulk_.files()
+                    .place_of(grids_[index(second)].place)
+                    .fail("the number of this GRID is that of another elsewhere");
+            repeated.resize(grids_.size(), false);
+            repeated[index(second)] = true;
+        });
+        if (default_frame_ != 0 || !default_output_.empty() || !default_constraint_.empty()) use_defaults();
+        if (!repeated.empty()) drop(repeated);
+        // The basic frame is what is meant anyway.
+        std::erase_if(deck.point_more,
+                      [&](const auto& more) { return default_output_.empty() && more.second == "0"; });
+        const std::vector<Vec3> given = deck.points;
+        given_ = &given;
+        for (std::size_t p = 0; p < grids_.size(); ++p)
+            if (grids_[p].frame != 0) deck.points[p] = in_basic(p);
+        given_ = nullptr;
+    }
+
+    void use_defaults()
+    {
+        Deck& deck = into_.deck();
+        std::vector<std::pair<std::size_t, std::string>> all;
+        auto given = deck.point_more.begin();
+        for (std::size_t p = 0; p < grids_.size(); ++p) {
+            if (grids_[p].frame < 0) grids_[p].frame = default_frame_;
+            std::string more;
+            if (given != deck.point_more.end() && given->first == p) more = (given++)->second;
+            const std::size_t comma = std::min(more.find(','), more.size());
+            const std::size_t next = comma < more.size() ? std::min(more.find(',', comma + 1), more.size())
+                                                         : comma;
+            std::string output = more.substr(0, comma);
+            std::string constraint = comma < next ? more.substr(comma + 1, next - comma - 1) : "";
+            if (output.empty()) output = default_output_;
+            if (constraint.empty()) constraint = default_constraint_;
+            std::string text = output + (constraint.empty() && next == more.size() ? "" : "," + constraint) +
+                               more.substr(next);
+            if (!text.empty()) all.emplace_back(p, std::move(text));
+        }
+        deck.point_more = std::move(all);
+    }
+
+    void drop(const std::vector<bool>& repeated)
+    {
+        Deck& deck = into_.deck();
+        std::vector<std::size_t> number(grids_.size());
+        std::size_t kept = 0;
+        for (std::size_t p = 0; p < grids_.size(); ++p) {
+            number[p] = kept;
+            if (repeated[p]) continue;
+            deck.points[kept] = deck.points[p];
+            deck.point_tags[kept] = deck.point_tags[p];
+            grids_[kept++] = grids_[p];
+        }
+        std::erase_if(deck.point_more, [&](const auto& more) { return repeated[more.first]; });
+        for (auto& more : deck.point_more) more.first = number[more.first];
+        deck.points.resize(kept);
+        deck.point_tags.resize(kept);
+        grids_.resize(kept);
+        tags_.emplace(deck.point_tags, [](Index, Index) {});
+    }
+
+    Vec3 in_basic(std::size_t p)
+    {
+        const Grid& grid = grids_[p];
+        const DeckPlace place = bulk_.files().place_of(grid.place);
+        const Vec3 at = frames_.to_basic(grid.frame < 0 ? default_frame_ : grid.frame, (*given_)[p], place);
+        if (!at.allFinite()) place.fail("the point's coordinates are too large");
+        return at;
     }
 
     Vec3 node_in_basic(Index tag, const DeckPlace& place)
     {
-        const Index node = tags_.find(static_cast<std::uint64_t>(tag));
+        const Index node = tags_->find(tag);
         if (node < 0)
             place.fail("the coordinate system names node " + std::to_string(tag) + ", which is not there");
-        return in_basic(grids_[index(node)]);
+        return in_basic(index(node));
     }
 
-    Deck deck_;
-    FacetCollector& into_;
-    NodeTags tags_;
-    std::deque<Grid> grids_;
-    TaggedFaces faces_;
+    /// An element without a property has that of its own number. Where no card gives such properties, all
+    /// these elements are one region.
+    void finish_properties()
+    {
+        Deck& deck = into_.deck();
+        for (const auto& [block, e] : unowned_) {
+            const auto tag = static_cast<Index>(deck.blocks[block].tags[e]);
+            const bool own = unowned_.size() == 1 || materials_.contains(tag);
+            deck.blocks[block].regions[e] = own ? region_of(tag) : into_.region_of(0, "pid:blank", 1);
+        }
+        for (DeckRegion& region : deck.regions) {
+            const auto material = materials_.find(region.tag);
+            if (material != materials_.end()) region.material = material->second;
+        }
+    }
+
+    BulkData bulk_;
+    DeckBuilder& into_;
+    std::vector<Grid> grids_;
+    std::optional<TagPlaces> tags_;
+    const std::vector<Vec3>* given_ = nullptr; ///< points as the file has them, while they are turned
+    std::vector<std::pair<std::size_t, std::size_t>> unowned_; ///< elements with a blank property
+    std::map<Index, std::string> materials_;                   ///< of properties that have a card
+    Index last_property_ = -1, last_region_ = -1;
     Index default_frame_ = 0;
+    std::string default_output_, default_constraint_;
     Frames frames_{[this](Index tag, const DeckPlace& place) { return node_in_basic(tag, place); }};
 };
 
 } // namespace
 
-void read_nastran(Cursor& cursor, FacetCollector& into) { NastranReader(cursor, into).read(); }
+void read_nastran(Cursor& cursor, DeckBuilder& into) { NastranReader(cursor, into).read(); }
 
 } // namespace lacuna::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/detail/facet_collector.h>
+#include <lacuna/io/detail/deck_builder.h>
 
 #include <algorithm>
 #include <limits>
@@ -12,7 +12,7 @@ constexpr std::string_view kUncounted[] = {"vt", "vn", "s", "usemtl", "mtllib"};
 
 class ObjReader {
 public:
-    ObjReader(Cursor& cursor, FacetCollector& into) : cursor_(cursor), into_(into) {}
+    ObjReader(Cursor& cursor, DeckBuilder& into) : cursor_(cursor), into_(into) {}
 
     void read()
     {
@@ -61,7 +61,7 @@ private:
             corners_.push_back(corner(word.substr(0, word.find('/'))));
         if (corners_.size() < 3)
             fail("expected a face of three corners or more, found " + std::to_string(corners_.size()));
-        if (label_ < 0) label_ = into_.add_label(++labels_, name_);
+        if (label_ < 0) label_ = into_.add_region(++labels_, name_);
         into_.add_face(corners_, label_, cursor_);
     }
 
@@ -96,7 +96,7 @@ private:
     [[noreturn]] void fail(const std::string& what) const { cursor_.fail_at(begin_, what); }
 
     Cursor& cursor_;
-    FacetCollector& into_;
+    DeckBuilder& into_;
     std::string_view line_; ///< what is left of it
     std::size_t begin_ = 0;
     std::vector<Index> corners_;
@@ -106,6 +106,6 @@ private:
 
 } // namespace
 
-void read_obj(Cursor& cursor, FacetCollector& into) { ObjReader(cursor, into).read(); }
+void read_obj(Cursor& cursor, DeckBuilder& into) { ObjReader(cursor, into).read(); }
 
 } // namespace lacuna::io

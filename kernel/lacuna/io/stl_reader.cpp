@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/detail/facet_collector.h>
+#include <lacuna/io/detail/deck_builder.h>
 
 #include <lacuna/core/error.h>
 
@@ -24,7 +24,7 @@ std::uint32_t count_at(std::string_view bytes) { return from_bytes<std::uint32_t
 
 class StlReader {
 public:
-    StlReader(Cursor& cursor, FacetCollector& into) : cursor_(cursor), into_(into) {}
+    StlReader(Cursor& cursor, DeckBuilder& into) : cursor_(cursor), into_(into) {}
 
     void read_text()
     {
@@ -96,12 +96,12 @@ private:
             cursor_.fail("too many facets");
         const auto first = static_cast<Index>(points.size());
         points.insert(points.end(), corner.begin(), corner.end());
-        if (label_ < 0) label_ = into_.add_label(solids_, name_);
+        if (label_ < 0) label_ = into_.add_region(solids_, name_);
         into_.add_face(Triangle{first, first + 1, first + 2}, label_, cursor_);
     }
 
     Cursor& cursor_;
-    FacetCollector& into_;
+    DeckBuilder& into_;
     int solids_ = 0;
     int label_ = -1;
     std::string_view name_;
@@ -115,7 +115,7 @@ bool is_binary_stl(std::string_view bytes)
            bytes.size() == kHeader + 4 + kFacet * std::uint64_t(count_at(bytes.substr(kHeader)));
 }
 
-void read_stl(Cursor& cursor, FacetCollector& into)
+void read_stl(Cursor& cursor, DeckBuilder& into)
 {
     StlReader reader(cursor, into);
     const bool text = !is_binary_stl(cursor.rest()) &&

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/detail/facet_collector.h>
+#include <lacuna/io/detail/deck_builder.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <unordered_map>
+#include <map>
+#include <set>
 
 namespace lacuna::io {
 namespace {
 
 constexpr std::string_view kMark = "-1"; ///< begins and ends a dataset
-constexpr int kElement = 8;              ///< what an entity of a group must be to count
+constexpr int kNode = 7, kElement = 8;   ///< what an entity of a group is; others do not count
 
 /// Datasets of groups: how many numbers each entity has (type, tag, and in the later ones node and
 /// component), and which number of the header counts them.
@@ -23,19 +21,37 @@ constexpr GroupDataset kGroupDatasets[] = {{752, 2, 5},  {2417, 2, 6}, {2429, 2,
                                            {2430, 2, 7}, {2432, 2, 7}, {2435, 4, 7},
                                            {2452, 4, 7}, {2467, 4, 7}, {2477, 4, 7}};
 
-/// Corners and order of a face by its descriptor; corners 0: a solid, -1: neither.
+/// A solid by its descriptor, with where its nodes stand in the order of DeckShape: layers go round corners
+/// and middles in turn, with the middles of upright sides between them.
+struct SolidKind {
+    std::int64_t descriptor;
+    DeckShape shape;
+    std::array<std::uint8_t, 20> place;
+};
+constexpr SolidKind kSolids[] = {
+    {111, DeckShape::tet4, {0, 1, 2, 3}},
+    {112, DeckShape::wedge6, {0, 1, 2, 3, 4, 5}},
+    {113, DeckShape::wedge15, {0, 6, 1, 7, 2, 8, 12, 13, 14, 3, 9, 4, 10, 5, 11}},
+    {115, DeckShape::hex8, {0, 1, 2, 3, 4, 5, 6, 7}},
+    {116, DeckShape::hex20, {0, 8, 1, 9, 2, 10, 3, 11, 16, 17, 18, 19, 4, 12, 5, 13, 6, 14, 7, 15}},
+    {118, DeckShape::tet10, {0, 4, 1, 5, 2, 6, 7, 8, 9, 3}},
+};
+
+/// What a descriptor says: corners and order of a face, or a solid; neither: corners 0.
 /// Plane stress 41-46, plane strain 51-56, plate 61-66, membrane 71-76, axisymmetric 81-86 and shell 91-96
 /// count alike: triangles linear, quadratic and cubic, then quadrilaterals.
-struct FaceKind {
-    int corners, order;
+struct ElementKind {
+    const SolidKind* solid = nullptr;
+    int corners = 0, order = 1;
 };
-FaceKind kind_of(std::int64_t descriptor)
+ElementKind kind_of(std::int64_t descriptor)
 {
-    if (descriptor >= 111 && descriptor <= 119) return {0, 1};
+    const auto solid = std::ranges::find(kSolids, descriptor, &SolidKind::descriptor);
+    if (solid != std::end(kSolids)) return {.solid = solid};
     const std::int64_t family = descriptor / 10;
     const std::int64_t member = descriptor % 10;
-    if (family < 4 || family > 9 || member < 1 || member > 6) return {-1, 1};
-    return {member <= 3 ? 3 : 4, static_cast<int>((member - 1) % 3) + 1};
+    if (family < 4 || family > 9 || member < 1 || member > 6) return {};
+    return {nullptr, member <= 3 ? 3 : 4, static_cast<int>((member - 1) % 3) + 1};
 }
 
 /// Elements whose second record is a beam's orientation.
@@ -47,25 +63,38 @@ bool has_orientation(std::int64_t descriptor, int dataset)
 
 class UnvReader {
 public:
-    UnvReader(Cursor& cursor, FacetCollector& into) : cursor_(cursor), into_(into) {}
+    UnvReader(Cursor& cursor, DeckBuilder& into)
+        : cursor_(cursor),
+          into_(into),
+          whole_(cursor.rest().data() - cursor.position(), cursor.rest().size() + cursor.position())
+    {
+    }
 
     void read()
     {
         for (std::string_view line; !(line = cursor_.full_line()).empty();) {
+            const std::size_t begin = cursor_.last();
             if (line != kMark) cursor_.fail("expected -1, which begins a dataset, found " + shown(line));
             const auto dataset = cursor_.integer_of(cursor_.full_line());
-            read_dataset(static_cast<int>(std::clamp<std::int64_t>(dataset, -1, 100000)));
+            if (!read_dataset(static_cast<int>(std::clamp<std::int64_t>(dataset, -1, 100000))))
+                text_ += whole_.substr(begin, cursor_.position() - begin);
         }
-        tags_.finish([&](Index, Index node) {
+        const TagPlaces tags(into_.deck().point_tags, [&](Index, Index node) {
             cursor_.fail("node " + std::to_string(node + 1) + " of the file has the tag of one before");
         });
-        take_groups();
-        faces_.resolve(tags_, into_);
-        into_.sort_by_label(false);
+        for (const auto& [frame, position] : frames_used_)
+            if (frames_turned_.contains(frame))
+                cursor_.fail_at(position, "the node is in coordinate system " + std::to_string(frame) +
+                                              ", which is not the global one; export the mesh in global "
+                                              "coordinates");
+        into_.resolve(
+            tags, [&](std::uint64_t place, const std::string& what) { cursor_.fail_at(place - 1, what); });
+        if (!text_.empty()) into_.deck().texts.push_back({DeckText::Place::cards, "", std::move(text_)});
     }
 
 private:
-    void read_dataset(int dataset)
+    /// @return false  it is no part of the mesh.
+    bool read_dataset(int dataset)
     {
         const auto group = std::ranges::find(kGroupDatasets, dataset, &GroupDataset::number);
         if (dataset == 15)
@@ -76,8 +105,31 @@ private:
             while (next_line()) read_element(dataset);
         else if (group != std::end(kGroupDatasets))
             while (next_line()) read_group(*group);
+        else if (dataset == 2420)
+            read_frames();
         else
             while (more_lines()) {}
+        return dataset == 15 || dataset == 781 || dataset == 2411 || dataset == 71 || dataset == 780 ||
+               dataset == 2412 || group != std::end(kGroupDatasets);
+    }
+
+    /// Frames that turn or move coordinates: part, its name, then label, name and four rows of each.
+    void read_frames()
+    {
+        if (!more_lines() || !more_lines()) return;
+        while (next_line()) {
+            expect_numbers(2, "a coordinate system");
+            const Index label = whole(0);
+            bool turned = whole(1) != 0;
+            if (!more_lines()) return;
+            for (std::size_t row = 0; row < 4; ++row) {
+                expect_line("a coordinate system's axes");
+                expect_numbers(3, "a coordinate system");
+                for (std::size_t k = 0; k < 3; ++k)
+                    if (cursor_.real_of(numbers_[k], Exponents::fortran) != (row == k ? 1 : 0)) turned = true;
+            }
+            if (turned) frames_turned_.insert(label);
+        }
     }
 
     /// The next line of the dataset as `line_`; false at its end.
@@ -127,6 +179,7 @@ private:
     void read_node_of_two_lines()
     {
         const Index tag = whole(0);
+        if (numbers_.size() > 1) frames_used_.try_emplace(whole(1), cursor_.last());
         expect_line("a node's coordinates");
         read_node(tag, 0);
     }
@@ -136,13 +189,10 @@ private:
     {
         expect_numbers(first + 3, "a node");
         if (tag < 0) cursor_.fail("expected the tag of a node, found " + std::to_string(tag));
-        if (into_.points().size() >= static_cast<std::size_t>(std::numeric_limits<Index>::max()))
-            cursor_.fail("too many nodes");
         Vec3 p;
         for (std::size_t k = 0; k < 3; ++k)
             p[static_cast<Index>(k)] = cursor_.real_of(numbers_[first + k], Exponents::fortran);
-        tags_.add(static_cast<std::uint64_t>(tag));
-        into_.points().push_back(p);
+        into_.add_point(tag, p, cursor_);
     }
 
     void read_element(int dataset)
@@ -156,31 +206,46 @@ private:
         const Index nodes = whole(values - 1);
         if (nodes < 1) cursor_.fail("expected an element with nodes, found " + std::to_string(nodes));
         if (has_orientation(descriptor, dataset)) expect_line("a beam's orientation");
-        const FaceKind kind = kind_of(descriptor);
-        TaggedFaces::Face face{
-            .corners = kind.corners, .label = property, .cursor = &cursor_, .position = position};
-        if (kind.corners > 0 && nodes < kind.corners * kind.order)
-            cursor_.fail("expected " + std::to_string(kind.corners * kind.order) + " nodes of a face " +
+        const ElementKind kind = kind_of(descriptor);
+        std::size_t wanted = 0;
+        if (kind.solid != nullptr)
+            wanted = static_cast<std::size_t>(shape_info(kind.solid->shape).nodes);
+        else if (kind.corners > 0)
+            wanted = static_cast<std::size_t>(kind.corners * kind.order);
+        if (index(nodes) < wanted)
+            cursor_.fail("expected " + std::to_string(wanted) + " nodes of an element " +
                          std::to_string(descriptor) + ", found " + std::to_string(nodes));
+        std::array<Index, 20> at{};
         for (Index read = 0; read < nodes;) {
             expect_line("the nodes of an element");
             if (numbers_.size() > index(nodes - read))
                 cursor_.fail("expected " + std::to_string(nodes) + " nodes, found more");
             for (std::size_t k = 0; k < numbers_.size(); ++k, ++read) {
-                // Nodes follow each other along the rim: corners have the mid-nodes between them.
-                if (kind.corners > 0 && read % kind.order == 0 && read / kind.order < kind.corners)
-                    face.node[index(read / kind.order)] = whole(k);
-                else
-                    whole(k);
+                const Index node = whole(k);
+                if (index(read) < wanted && node < 0)
+                    cursor_.fail("expected the tag of a node, found " + std::to_string(node));
+                if (index(read) < wanted) at[place_of(kind, index(read))] = node;
             }
         }
-        if (kind.corners > 0) {
-            faces_.add(face);
-            elements_.push_back(tag);
-        } else {
-            const std::string what = "elements " + std::to_string(descriptor);
-            kind.corners == 0 ? into_.pass_over_solid(what) : into_.pass_over(what);
-        }
+        if (wanted == 0) return into_.pass_over("elements " + std::to_string(descriptor));
+        if (tag < 0)
+            cursor_.fail_at(position, "expected the tag of an element, found " + std::to_string(tag));
+        DeckShape shape = kind.corners == 3 ? DeckShape::tri3 : DeckShape::quad4;
+        if (kind.solid != nullptr) shape = kind.solid->shape;
+        // Cubic faces give their corners.
+        if (kind.order == 2) shape = kind.corners == 3 ? DeckShape::tri6 : DeckShape::quad8;
+        const auto kept = static_cast<std::size_t>(shape_info(shape).nodes);
+        into_.add_element(into_.block_of(shape, std::to_string(descriptor)), tag, into_.region_of(property),
+                          {at.data(), kept}, position + 1);
+    }
+
+    /// Nodes of a face follow each other along the rim: corners have the middles between them.
+    static std::size_t place_of(const ElementKind& kind, std::size_t read)
+    {
+        if (kind.solid != nullptr) return kind.solid->place[read];
+        const auto order = static_cast<std::size_t>(kind.order);
+        const auto corners = static_cast<std::size_t>(kind.corners);
+        return read % order == 0 ? read / order : corners + read / order * (order - 1) + read % order - 1;
     }
 
     void read_group(const GroupDataset& dataset)
@@ -190,51 +255,38 @@ private:
         const Index count = whole(dataset.count_at);
         if (count < 0) cursor_.fail("expected a count of entities, found " + std::to_string(count));
         if (!more_lines()) cursor_.fail("the dataset ends where the name of a group was expected");
-        const auto group = static_cast<Index>(groups_.size());
-        groups_.push_back({number, line_});
+        const std::string name(line_);
+        std::vector<DeckTag> members[2]; // elements, nodes
         for (auto left = static_cast<std::size_t>(count); left > 0;) {
             expect_line("the entities of a group");
             if (numbers_.size() % dataset.values != 0 || numbers_.size() > left * dataset.values)
                 cursor_.fail("expected " + std::to_string(dataset.values) + " numbers of each of " +
                              std::to_string(left) + " entities, found " + std::to_string(numbers_.size()));
             for (std::size_t k = 0; k < numbers_.size(); k += dataset.values, --left)
-                if (whole(k) == kElement) group_of_.try_emplace(whole(k + 1), group);
+                if (const Index what = whole(k); what == kElement || what == kNode)
+                    members[what == kElement ? 0 : 1].push_back(whole(k + 1));
+        }
+        for (const auto kind : {DeckSet::Kind::elements, DeckSet::Kind::nodes}) {
+            std::vector<DeckTag>& all = members[kind == DeckSet::Kind::elements ? 0 : 1];
+            if (all.empty()) continue;
+            std::sort(all.begin(), all.end());
+            all.erase(std::unique(all.begin(), all.end()), all.end());
+            into_.deck().sets.push_back({kind, number, name, std::move(all), {}});
         }
     }
-
-    /// Faces have had their property for a label so far; labels come in its order, then in the file's.
-    void take_groups()
-    {
-        std::vector<TaggedFaces::Face>& faces = faces_.all();
-        std::vector<std::size_t> order(faces.size());
-        std::iota(order.begin(), order.end(), std::size_t(0));
-        std::ranges::stable_sort(order, {}, [&](std::size_t f) { return faces[f].label; });
-        for (const std::size_t f : order) {
-            const auto found = group_of_.find(elements_[f]);
-            const Group* group = found == group_of_.end() ? nullptr : &groups_[index(found->second)];
-            faces[f].label = group == nullptr ? into_.label_of(faces[f].label)
-                                              : into_.label_of(group->number, group->name, true);
-        }
-    }
-
-    struct Group {
-        int number;
-        std::string_view name;
-    };
 
     Cursor& cursor_;
-    FacetCollector& into_;
+    DeckBuilder& into_;
     std::string_view line_;
-    std::vector<std::string_view> numbers_; ///< words of the line
-    NodeTags tags_;
-    TaggedFaces faces_;
-    std::vector<Index> elements_; ///< tag of each face
-    std::vector<Group> groups_;
-    std::unordered_map<Index, Index> group_of_; ///< of an element, by tag; the first counts
+    std::vector<std::string_view> numbers_;    ///< words of the line
+    std::string_view whole_;                   ///< the file
+    std::string text_;                         ///< datasets that are no mesh
+    std::map<Index, std::size_t> frames_used_; ///< by nodes, and where first
+    std::set<Index> frames_turned_;
 };
 
 } // namespace
 
-void read_unv(Cursor& cursor, FacetCollector& into) { UnvReader(cursor, into).read(); }
+void read_unv(Cursor& cursor, DeckBuilder& into) { UnvReader(cursor, into).read(); }
 
 } // namespace lacuna::io

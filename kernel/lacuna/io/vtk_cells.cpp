@@ -30,27 +30,66 @@ constexpr VtkType kTypes[] = {
     type_of<std::int64_t>("vtktypeint64", ""), type_of<std::uint64_t>("vtktypeuint64", ""),
     type_of<std::int32_t>("vtktypeint32", ""), type_of<std::int64_t>("vtkIdType", "")};
 
-/// Cells by VTK's numbers.
-enum class Shape { triangle, quad, polygon, pixel, strip, solid, other };
+/// Cells by VTK's numbers: shapes that are kept, those that are cut into faces, lists of corners,
+/// and others.
+enum class Kind { shape, polygon, pixel, voxel, strip, other };
 struct CellType {
     std::int64_t number;
-    Shape shape;
+    Kind kind;
     std::int64_t points; ///< least
+    DeckShape shape = DeckShape::tri3;
 };
-constexpr CellType kCellTypes[] = {
-    {0, Shape::other, 0},     {1, Shape::other, 1},    {2, Shape::other, 1},     {3, Shape::other, 2},
-    {4, Shape::other, 2},     {5, Shape::triangle, 3}, {6, Shape::strip, 3},     {7, Shape::polygon, 3},
-    {8, Shape::pixel, 4},     {9, Shape::quad, 4},     {10, Shape::solid, 4},    {11, Shape::solid, 8},
-    {12, Shape::solid, 8},    {13, Shape::solid, 6},   {14, Shape::solid, 5},    {15, Shape::solid, 10},
-    {16, Shape::solid, 12},   {21, Shape::other, 3},   {22, Shape::triangle, 6}, {23, Shape::quad, 8},
-    {24, Shape::solid, 10},   {25, Shape::solid, 20},  {26, Shape::solid, 15},   {27, Shape::solid, 13},
-    {28, Shape::quad, 9},     {29, Shape::solid, 27},  {30, Shape::quad, 6},     {31, Shape::solid, 12},
-    {32, Shape::solid, 18},   {33, Shape::solid, 24},  {34, Shape::triangle, 7}, {35, Shape::other, 4},
-    {37, Shape::solid, 19},   {41, Shape::solid, 4},   {42, Shape::solid, 4},    {68, Shape::other, 2},
-    {69, Shape::triangle, 3}, {70, Shape::quad, 4},    {71, Shape::solid, 4},    {72, Shape::solid, 8},
-    {73, Shape::solid, 6},    {74, Shape::solid, 5},   {75, Shape::other, 2},    {76, Shape::triangle, 3},
-    {77, Shape::quad, 4},     {78, Shape::solid, 4},   {79, Shape::solid, 8},    {80, Shape::solid, 6},
-    {81, Shape::solid, 5}};
+using enum DeckShape;
+constexpr CellType kCellTypes[] = {{0, Kind::other, 0},
+                                   {1, Kind::other, 1},
+                                   {2, Kind::other, 1},
+                                   {3, Kind::other, 2},
+                                   {4, Kind::other, 2},
+                                   {5, Kind::shape, 3, tri3},
+                                   {6, Kind::strip, 3},
+                                   {7, Kind::polygon, 3},
+                                   {8, Kind::pixel, 4, quad4},
+                                   {9, Kind::shape, 4, quad4},
+                                   {10, Kind::shape, 4, tet4},
+                                   {11, Kind::voxel, 8, hex8},
+                                   {12, Kind::shape, 8, hex8},
+                                   {13, Kind::shape, 6, wedge6},
+                                   {14, Kind::shape, 5, pyramid5},
+                                   {15, Kind::other, 10},
+                                   {16, Kind::other, 12},
+                                   {21, Kind::other, 3},
+                                   {22, Kind::shape, 6, tri6},
+                                   {23, Kind::shape, 8, quad8},
+                                   {24, Kind::shape, 10, tet10},
+                                   {25, Kind::shape, 20, hex20},
+                                   {26, Kind::shape, 15, wedge15},
+                                   {27, Kind::shape, 13, pyramid13},
+                                   {28, Kind::shape, 9, quad9},
+                                   {29, Kind::shape, 27, hex27},
+                                   {30, Kind::shape, 6, quad4}, // linear across, quadratic along
+                                   {31, Kind::shape, 12, wedge6},
+                                   {32, Kind::shape, 18, wedge18},
+                                   {33, Kind::shape, 24, hex8},
+                                   {34, Kind::shape, 7, tri6},
+                                   {35, Kind::other, 4},
+                                   {37, Kind::shape, 19, pyramid14},
+                                   {41, Kind::other, 4},
+                                   {42, Kind::other, 4},
+                                   {68, Kind::other, 2},
+                                   // Of any order: Lagrange, then Bézier.
+                                   {69, Kind::shape, 3, tri3},
+                                   {70, Kind::shape, 4, quad4},
+                                   {71, Kind::shape, 4, tet4},
+                                   {72, Kind::shape, 8, hex8},
+                                   {73, Kind::shape, 6, wedge6},
+                                   {74, Kind::shape, 5, pyramid5},
+                                   {75, Kind::other, 2},
+                                   {76, Kind::shape, 3, tri3},
+                                   {77, Kind::shape, 4, quad4},
+                                   {78, Kind::shape, 4, tet4},
+                                   {79, Kind::shape, 8, hex8},
+                                   {80, Kind::shape, 6, wedge6},
+                                   {81, Kind::shape, 5, pyramid5}};
 
 } // namespace
 
@@ -61,7 +100,7 @@ const VtkType* vtk_type(std::string_view name)
     return nullptr;
 }
 
-void take_vtk_cells(const VtkCells& cells, FacetCollector& into, const Cursor& cursor)
+void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& cursor)
 {
     if (!cells.types.empty() && cells.types.size() != cells.ends.size())
         cursor.fail("expected a type for each of " + std::to_string(cells.ends.size()) + " cells, found " +
@@ -70,13 +109,15 @@ void take_vtk_cells(const VtkCells& cells, FacetCollector& into, const Cursor& c
         cursor.fail("cell " + std::to_string(cell + 1) + ": " + what);
     };
     std::int64_t begin = 0;
-    std::vector<Index> corner;
+    std::vector<Index> node;
+    std::int64_t last_type = -1;
+    std::size_t block = 0;
     for (std::size_t c = 0; c < cells.ends.size(); ++c) {
         const std::int64_t end = cells.ends[c];
         if (end < begin || end > static_cast<std::int64_t>(cells.points.size()))
             fail(c, "expected its points to end between " + std::to_string(begin) + " and " +
                         std::to_string(cells.points.size()) + ", found " + std::to_string(end));
-        CellType type{0, cells.strips ? Shape::strip : Shape::polygon, 3};
+        CellType type{0, cells.strips ? Kind::strip : Kind::polygon, 3};
         if (!cells.types.empty()) {
             const auto known = std::ranges::find(kCellTypes, cells.types[c], &CellType::number);
             if (known == std::end(kCellTypes))
@@ -86,32 +127,40 @@ void take_vtk_cells(const VtkCells& cells, FacetCollector& into, const Cursor& c
         if (end - begin < type.points)
             fail(c, "expected " + std::to_string(type.points) + " points or more, found " +
                         std::to_string(end - begin));
-        if (type.shape == Shape::solid || type.shape == Shape::other) {
-            const std::string what = "cells of type " + std::to_string(type.number);
-            type.shape == Shape::solid ? into.pass_over_solid(what) : into.pass_over(what);
+        if (type.kind == Kind::other) {
+            into.pass_over("cells of type " + std::to_string(type.number));
             begin = end;
             continue;
         }
-        const std::int64_t corners = type.shape == Shape::triangle                             ? 3
-                                     : type.shape == Shape::quad || type.shape == Shape::pixel ? 4
-                                                                                               : end - begin;
-        corner.clear();
-        for (std::int64_t k = begin; k < begin + corners; ++k) {
+        const bool list = type.kind == Kind::polygon || type.kind == Kind::strip;
+        const std::int64_t kept = list ? end - begin : shape_info(type.shape).nodes;
+        node.clear();
+        for (std::int64_t k = begin; k < begin + kept; ++k) {
             const std::int64_t point = cells.points[static_cast<std::size_t>(k)];
             if (point < 0 || point >= cells.last_point - cells.first_point)
                 fail(c, "expected one of " + std::to_string(cells.last_point - cells.first_point) +
                             " points, found number " + std::to_string(point));
-            corner.push_back(cells.first_point + static_cast<Index>(point));
+            node.push_back(cells.first_point + static_cast<Index>(point));
         }
         begin = end;
-        const int label = into.label_of(1);
-        if (type.shape == Shape::pixel) std::swap(corner[2], corner[3]);
-        if (type.shape != Shape::strip) {
-            into.add_face(corner, label, cursor);
-            continue;
+        const DeckTag tag = cells.types.empty() ? -1 : cells.first_cell + static_cast<DeckTag>(c) + 1;
+        const int dimension = list ? 2 : shape_info(type.shape).dimension;
+        const Index region = into.region_of(1, "", dimension);
+        if (type.kind == Kind::pixel || type.kind == Kind::voxel) std::swap(node[2], node[3]);
+        if (type.kind == Kind::voxel) std::swap(node[6], node[7]);
+        if (!list) {
+            if (type.number != last_type) {
+                last_type = type.number;
+                block = into.block_of(type.shape, std::to_string(type.number));
+            }
+            into.add_element(block, tag, region, node);
+        } else if (type.kind == Kind::polygon) {
+            into.add_face(node, region, cursor, tag);
+        } else {
+            for (std::size_t k = 0; k + 2 < node.size(); ++k)
+                into.add_face(Triangle{node[k], node[k + 1 + k % 2], node[k + 2 - k % 2]}, region, cursor,
+                              tag);
         }
-        for (std::size_t k = 0; k + 2 < corner.size(); ++k)
-            into.add_face(Triangle{corner[k], corner[k + 1 + k % 2], corner[k + 2 - k % 2]}, label, cursor);
     }
 }
 

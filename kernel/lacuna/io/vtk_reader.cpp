@@ -11,13 +11,15 @@ namespace {
 /// Reads the geometry of a legacy file; data of points and cells come behind it and are left.
 class VtkReader {
 public:
-    VtkReader(Cursor& cursor, FacetCollector& into) : cursor_(cursor), into_(into) {}
+    VtkReader(Cursor& cursor, DeckBuilder& into) : cursor_(cursor), into_(into) {}
 
     void read()
     {
         const std::string_view head = cursor_.line();
         if (!same_word(head.substr(0, 22), "# vtk DataFile Version"))
             cursor_.fail("expected \"# vtk DataFile Version\", found " + shown(head));
+        into_.deck().version =
+            parse_real(trimmed(head.substr(std::min<std::size_t>(22, head.size())))).value_or(0);
         cursor_.line(); // the title, any text
         const std::string_view coding = cursor_.word("ASCII or BINARY");
         if (!same_word(coding, "ASCII") && !same_word(coding, "BINARY"))
@@ -35,7 +37,6 @@ public:
             cells_.points = std::move(unstructured_points_);
             take_cells();
         }
-        into_.sort_by_label();
     }
 
 private:
@@ -212,7 +213,7 @@ private:
     }
 
     Cursor& cursor_;
-    FacetCollector& into_;
+    DeckBuilder& into_;
     bool binary_ = false;
     VtkCells cells_;
     std::vector<std::int64_t> unstructured_, unstructured_points_; ///< of CELLS, until their types are known
@@ -220,6 +221,6 @@ private:
 
 } // namespace
 
-void read_vtk(Cursor& cursor, FacetCollector& into) { VtkReader(cursor, into).read(); }
+void read_vtk(Cursor& cursor, DeckBuilder& into) { VtkReader(cursor, into).read(); }
 
 } // namespace lacuna::io

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/inflate.h>
 #include <lacuna/io/detail/vtk_cells.h>
 
 #include <algorithm>
@@ -63,7 +64,7 @@ std::string from_base64(std::string_view text, std::uint64_t most)
 
 class VtuReader {
 public:
-    VtuReader(Cursor& cursor, FacetCollector& into) : cursor_(cursor), into_(into) {}
+    VtuReader(Cursor& cursor, DeckBuilder& into) : cursor_(cursor), into_(into) {}
 
     void read()
     {
@@ -89,7 +90,6 @@ public:
         }
         if (!headed_) cursor_.fail("expected <VTKFile>, found none");
         for (const Piece& piece : pieces_) read_piece(piece);
-        into_.sort_by_label();
     }
 
 private:
@@ -153,7 +153,7 @@ private:
         big_ = tag["byte_order"] == "BigEndian";
         if (!big_ && tag["byte_order"] != "LittleEndian" && !tag["byte_order"].empty())
             cursor_.fail("expected byte_order LittleEndian or BigEndian, found " + shown(tag["byte_order"]));
-        compressed_ = !tag["compressor"].empty();
+        compressor_ = tag["compressor"];
         const std::string_view header = tag["header_type"].empty() ? "UInt32" : tag["header_type"];
         if (header != "UInt32" && header != "UInt64")
             cursor_.fail("expected header_type UInt32 or UInt64, found " + shown(header));
@@ -221,6 +221,8 @@ private:
         const std::int64_t all = cells.ends.empty() ? 0 : cells.ends.back();
         if (all < 0) cursor_.fail_at(piece.offsets.position, "expected offsets that rise");
         cells.points = wholes(piece.connectivity, "connectivity", static_cast<std::uint64_t>(all));
+        cells.first_cell = cells_;
+        cells_ += static_cast<DeckTag>(piece.cells);
         take_vtk_cells(cells, into_, cursor_);
     }
 
@@ -252,10 +254,11 @@ private:
         }
         if (array.format != "binary" && array.format != "appended")
             fail("expected format ascii, binary or appended, found " + shown(array.format));
-        if (compressed_) fail("compressed data are not read; write the file as text or without compression");
         const bool appended = array.format == "appended";
         if (appended && array.offset > appended_.size()) fail("the appended data end before it begins");
         const std::string_view from = appended ? appended_.substr(array.offset) : array.text;
+        if (!compressor_.empty())
+            return each_compressed(array, from, appended && !base64_, count, fail, take);
         // No count is believed beyond what the text can hold.
         if (count > from.size()) fail("the file is cut off: expected " + std::to_string(count) + " numbers");
         const std::uint64_t needed = header_->bytes + count * array.type->bytes;
@@ -272,18 +275,75 @@ private:
             take(array.type->real(bytes.data() + header_->bytes + i * array.type->bytes, big_));
     }
 
+    /// Blocks, each compressed by itself, behind a list of their lengths.
+    template <class Fail, class Take>
+    void each_compressed(const Array& array, std::string_view from, bool raw, std::uint64_t count,
+                         const Fail& fail, const Take& take)
+    {
+        if (compressor_ != "vtkZLibDataCompressor" || !can_inflate())
+            fail("data compressed by " + shown(compressor_) + " are not read" +
+                 (compressor_ == "vtkZLibDataCompressor" ? ", since Lacuna was built without zlib" : "") +
+                 "; write the file with another compressor or none");
+        const std::size_t width = header_->bytes;
+        const auto decoded = [&](std::uint64_t most) {
+            return raw ? std::string(from.substr(0, most)) : from_base64(from, most);
+        };
+        const auto whole = [&](const std::string& bytes, std::uint64_t k) {
+            if (bytes.size() < (k + 1) * width) fail("the file is cut off in a list of compressed blocks");
+            return static_cast<std::uint64_t>(header_->whole(bytes.data() + k * width, big_));
+        };
+        const std::string head = decoded(3 * width);
+        const std::uint64_t blocks = whole(head, 0);
+        const std::uint64_t size = whole(head, 1);
+        const std::uint64_t last = whole(head, 2);
+        if (blocks > from.size()) fail("the file is cut off: expected " + std::to_string(blocks) + " blocks");
+        const std::string list = decoded((3 + blocks) * width);
+        std::uint64_t packed = (3 + blocks) * width;
+        for (std::uint64_t b = 0; b < blocks; ++b) {
+            const std::uint64_t length = whole(list, 3 + b);
+            if (length > from.size())
+                fail("the file is cut off: a block has " + std::to_string(length) + " bytes");
+            packed += length;
+        }
+        const std::string all = decoded(packed);
+        if (all.size() < packed)
+            fail("the file is cut off: expected " + std::to_string(packed) + " bytes, found " +
+                 std::to_string(all.size()));
+        std::string left; // bytes of a value that goes on in the next block
+        std::uint64_t taken = 0;
+        for (std::uint64_t b = 0, at = (3 + blocks) * width; b < blocks; ++b) {
+            const std::uint64_t length = whole(list, 3 + b);
+            const std::uint64_t wanted = b + 1 == blocks && last > 0 ? last : size;
+            const auto plain = inflate(std::string_view(all).substr(at, length), wanted);
+            if (!plain) fail("block " + std::to_string(b + 1) + " of the compressed data is damaged");
+            at += length;
+            left += *plain;
+            std::size_t done = 0;
+            for (; taken < count && done + array.type->bytes <= left.size();
+                 done += array.type->bytes, ++taken)
+                take(array.type->real(left.data() + done, big_));
+            left.erase(0, done);
+            if (taken == count && !left.empty()) break;
+        }
+        if (taken != count || !left.empty())
+            fail("expected " + std::to_string(count) + " numbers in the compressed data, found " +
+                 (taken == count ? "more" : std::to_string(taken)));
+    }
+
     static constexpr double kMostWhole = 9007199254740992.0; // 2^53: whole numbers a double holds
 
     Cursor& cursor_;
-    FacetCollector& into_;
+    DeckBuilder& into_;
     std::vector<Piece> pieces_;
     std::string_view section_, appended_;
     const VtkType* header_ = nullptr;
-    bool headed_ = false, big_ = false, compressed_ = false, base64_ = false;
+    std::string_view compressor_; ///< empty: none
+    DeckTag cells_ = 0;
+    bool headed_ = false, big_ = false, base64_ = false;
 };
 
 } // namespace
 
-void read_vtu(Cursor& cursor, FacetCollector& into) { VtuReader(cursor, into).read(); }
+void read_vtu(Cursor& cursor, DeckBuilder& into) { VtuReader(cursor, into).read(); }
 
 } // namespace lacuna::io

@@ -56,8 +56,11 @@ struct Loop {
 
 /// Facets with a boundary. The facets of two faces that share an edge share its points.
 struct Face {
-    int tag = 0;      ///< the one Gmsh shows for the same file
-    std::string name; ///< a physical group, part, element set; may be empty
+    int tag = 0;                     ///< the one Gmsh shows for the same file
+    std::string name;                ///< a physical group, part, element set; may be empty
+    std::vector<std::string> groups; ///< all sets, surfaces and properties it is of, where a file says them
+    /// What the face bounds: the one or two regions of solids, else its shells' own; all names of each.
+    std::vector<std::vector<std::string>> regions;
     std::string kind =
         "discrete"; ///< "plane", "cylinder", "cone", "sphere", "torus", "bspline", "surface", "discrete"
     Origin origin = Origin::given;

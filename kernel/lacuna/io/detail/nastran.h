@@ -1,31 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/io/detail/cursor.h>
+#include <lacuna/io/deck.h>
+#include <lacuna/io/detail/deck_files.h>
 
 #include <deque>
-#include <filesystem>
 #include <functional>
 #include <map>
-#include <memory>
 #include <vector>
 
 /// Nastran bulk data below its nodes and elements: cards and coordinate frames. Internal to this folder.
 namespace lacuna::io {
 
-/// Where something stands in a deck of several files.
-struct DeckPlace {
-    const Cursor* cursor = nullptr;
-    std::size_t position = 0;
-
-    /// @throw InvalidInput "io.unreadable"
-    [[noreturn]] void fail(const std::string& what) const { cursor->fail_at(position, what); }
-};
-
 /// A bulk data entry. Fields count from 2, as in the manuals; those left out are blank.
 struct Card {
-    std::string name; ///< in capitals
-    std::vector<std::string> fields;
+    std::string name;                     ///< in capitals
+    std::vector<std::string_view> fields; ///< while the card is handed over
     DeckPlace place;
 
     [[nodiscard]] std::string_view field(std::size_t number) const;
@@ -37,35 +27,47 @@ struct Card {
     [[nodiscard]] double real(std::size_t number) const;
     /// Three fields.
     [[nodiscard]] Vec3 point(std::size_t first) const;
+    /// Fields from `first` on as one text, apart by commas; without blank ones at the end.
+    [[nodiscard]] std::string text(std::size_t first) const;
     [[noreturn]] void fail(const std::string& what) const { place.fail(name + ": " + what); }
 };
+
+/// What becomes of a card: its fields are read, its lines go into the text that is kept, or both.
+enum class CardUse { read, keep, both };
 
 /// The cards of a deck and of the files it includes, which lie in its folder or below.
 ///
 /// A deck without BEGIN BULK is bulk data from its first line. Free, small and large fields, tabs, capitals
 /// or not, continuations that follow their card.
-class Deck {
+class BulkData {
 public:
-    explicit Deck(Cursor& cursor);
-    /// Hand every card over. @param wanted  whether the fields of a card of this name are needed.
-    void read(const std::function<bool(std::string_view name)>& wanted,
+    explicit BulkData(Cursor& cursor);
+    /// Hand every card over, those only kept without fields.
+    void read(const std::function<CardUse(std::string_view name)>& use,
               const std::function<void(const Card&)>& take);
 
-private:
-    struct File;
+    /// What is kept: before the bulk data, in them, behind them.
+    [[nodiscard]] std::vector<DeckText> texts() const;
+    [[nodiscard]] const DeckFiles& files() const { return files_; }
 
-    void read_file(Cursor& cursor, int depth);
-    void include(Cursor& cursor, std::string_view rest, int depth);
-    void read_line(const Cursor& cursor, std::string_view line);
+private:
+    void read_file(Cursor& cursor, std::uint64_t file, int depth);
+    void include(Cursor& cursor, std::string_view rest, std::uint64_t file, int depth);
+    void read_line(const Cursor& cursor, std::uint64_t file, std::string_view line, std::string_view raw);
+    void fixed_fields(std::string_view line);
+    void free_fields(const Cursor& cursor, std::string_view line);
     void end_card();
 
     Cursor& main_;
-    std::filesystem::path folder_;
-    std::vector<std::shared_ptr<File>> files_; ///< included, kept for messages
-    std::function<bool(std::string_view)> wanted_;
+    DeckFiles files_;
+    std::function<CardUse(std::string_view)> use_;
     std::function<void(const Card&)> take_;
+    std::string head_, kept_, tail_;
     Card card_;
-    std::string marker_; ///< last field of the line before, which names its continuation
+    CardUse card_use_ = CardUse::keep;
+    std::vector<std::string_view> line_; ///< fields of a line
+    std::deque<std::string> expanded_;   ///< lines of the card that held tabs
+    std::string_view marker_;            ///< last field of the line before, which names its continuation
     bool open_ = false, bulk_ = false, ended_ = false;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/io/detail/facet_collector.h>
+#include <lacuna/io/detail/deck_builder.h>
 
 /// What legacy VTK files and VTU files share. Internal to this folder.
 namespace lacuna::io {
@@ -23,10 +23,12 @@ struct VtkCells {
     std::vector<std::int64_t> types;       ///< one each; empty: all are polygons
     bool strips = false;                   ///< all are triangle strips
     Index first_point = 0, last_point = 0; ///< which of the collector's points they count, [first, last)
+    DeckTag first_cell = 0;                ///< tags count on from it; of `types` alone
 };
 
-/// Hand the faces among the cells to the collector; others are counted. One label holds all.
+/// Hand shells and solids among the cells to the builder; others are counted. One region holds all
+/// of a dimension.
 /// @throw InvalidInput  a point or a type that is not there, ends that do not rise; `cursor` says where.
-void take_vtk_cells(const VtkCells& cells, FacetCollector& into, const Cursor& cursor);
+void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& cursor);
 
 } // namespace lacuna::io

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/deck.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/io/detail/deck_builder.h>
+#include <lacuna/io/detail/deck_formats.h>
+#include <lacuna/io/detail/input_file.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+
+namespace lacuna::io {
+namespace {
+
+constexpr DeckShapeInfo kInfos[kDeckShapes] = {
+    {1, 2, 2}, {1, 2, 3},  {2, 3, 3},  {2, 3, 6}, {2, 4, 4},  {2, 4, 8},  {2, 4, 9}, {3, 4, 4},  {3, 4, 10},
+    {3, 5, 5}, {3, 5, 13}, {3, 5, 14}, {3, 6, 6}, {3, 6, 15}, {3, 6, 18}, {3, 8, 8}, {3, 8, 20}, {3, 8, 27}};
+
+using Side = std::pair<int, int>;
+constexpr Side kLineSides[] = {{0, 1}};
+constexpr Side kTriangleSides[] = {{0, 1}, {1, 2}, {2, 0}};
+constexpr Side kQuadSides[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+constexpr Side kTetSides[] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+constexpr Side kPyramidSides[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}};
+constexpr Side kWedgeSides[] = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
+constexpr Side kHexSides[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                              {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+
+constexpr Quad kTetFaces[] = {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}};
+constexpr Quad kPyramidFaces[] = {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}};
+constexpr Quad kWedgeFaces[] = {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
+constexpr Quad kHexFaces[] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                              {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+
+/// What some kinds of file cannot but begin with, for the error that names what a file really is.
+struct Beginning {
+    std::string_view text, ending;
+};
+constexpr Beginning kBeginnings[] = {{"# vtk datafile", ".vtk"},
+                                     {"<?xml", ".vtu"},
+                                     {"<vtkfile", ".vtu"},
+                                     {"$meshformat", ".msh"},
+                                     {"$comments", ".msh"},
+                                     {"solid ", ".stl"},
+                                     {"meshversion", ".mesh"},
+                                     {"iso-10303-21", ".step"},
+                                     {"cascade topology", ".brep"},
+                                     {"dbrep_drawable", ".brep"},
+                                     {"*heading", ".inp"},
+                                     {"*node", ".inp"},
+                                     {"*part", ".inp"}};
+
+/// The ending of what a file begins like; empty where its beginning says nothing.
+std::string_view ending_by_content(std::string_view bytes)
+{
+    if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+    const std::string_view head = trimmed(bytes.substr(0, 256));
+    for (const Beginning& known : kBeginnings)
+        if (same_word(head.substr(0, known.text.size()), known.text)) return known.ending;
+    // A universal file: a line -1, then the number of a dataset.
+    const std::size_t line = head.find('\n');
+    if (line != std::string_view::npos && trimmed(head.substr(0, line)) == "-1" &&
+        parse_integer<int>(trimmed(head.substr(line + 1, head.find('\n', line + 1) - line - 1))))
+        return ".unv";
+    return {};
+}
+
+void check_content(const std::string& name, const DeckFileFormat& format, std::string_view bytes)
+{
+    if (format.read == read_stl && is_binary_stl(bytes)) return;
+    const std::string_view found = ending_by_content(bytes);
+    if (found.empty() || found == format.ending) return;
+    const DeckFileFormat* other = deck_file_format(found);
+    throw InvalidInput("io.unreadable",
+                       "cannot read " + name + ", line 1: expected " + std::string(format.name) + ", found " +
+                           (other != nullptr ? std::string(other->name)
+                                             : "what a " + std::string(found) + " file begins with") +
+                           "; give it the ending of what it holds, " + std::string(found));
+}
+
+} // namespace
+
+const DeckShapeInfo& shape_info(DeckShape shape) { return kInfos[static_cast<std::size_t>(shape)]; }
+
+bool find_shape(int dimension, int corners, int nodes, DeckShape& shape)
+{
+    for (std::size_t s = 0; s < kDeckShapes; ++s) {
+        if (kInfos[s].dimension != dimension || kInfos[s].corners != corners || kInfos[s].nodes != nodes)
+            continue;
+        shape = static_cast<DeckShape>(s);
+        return true;
+    }
+    return false;
+}
+
+std::span<const std::pair<int, int>> side_corners(DeckShape shape)
+{
+    const DeckShapeInfo& info = shape_info(shape);
+    if (info.dimension == 1) return kLineSides;
+    if (info.dimension == 2) return info.corners == 3 ? std::span<const Side>(kTriangleSides) : kQuadSides;
+    switch (info.corners) {
+    case 4:
+        return kTetSides;
+    case 5:
+        return kPyramidSides;
+    case 6:
+        return kWedgeSides;
+    default:
+        return kHexSides;
+    }
+}
+
+std::span<const Quad> face_corners(DeckShape shape)
+{
+    const DeckShapeInfo& info = shape_info(shape);
+    if (info.dimension < 3) return {};
+    switch (info.corners) {
+    case 4:
+        return kTetFaces;
+    case 5:
+        return kPyramidFaces;
+    case 6:
+        return kWedgeFaces;
+    default:
+        return kHexFaces;
+    }
+}
+
+std::size_t Deck::element_count() const
+{
+    std::size_t count = 0;
+    for (const DeckBlock& block : blocks) count += block.count();
+    return count;
+}
+
+std::size_t Deck::element_count(int dimension) const
+{
+    std::size_t count = 0;
+    for (const DeckBlock& block : blocks)
+        if (shape_info(block.shape).dimension == dimension) count += block.count();
+    return count;
+}
+
+NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double tolerance, double scale)
+{
+    // Places sorted along x: within a tolerance there are as many as lie in a plane across it, and of these
+    // the ones near in y are found by bisection too.
+    std::vector<Index> order(deck.points.size());
+    std::iota(order.begin(), order.end(), Index(0));
+    const auto cell_of = [&](double x) { return tolerance > 0 ? std::floor(x / tolerance) : x; };
+    struct Key {
+        double x, y;
+        auto operator<=>(const Key&) const = default;
+    };
+    std::vector<Key> keys(deck.points.size());
+    for (std::size_t p = 0; p < keys.size(); ++p)
+        keys[p] = {cell_of(deck.points[p].x() * scale), deck.points[p].y() * scale};
+    std::sort(order.begin(), order.end(),
+              [&](Index a, Index b) { return std::pair(keys[index(a)], a) < std::pair(keys[index(b)], b); });
+    NodesAt found;
+    found.first.push_back(0);
+    for (const Vec3& place : places) {
+        const std::size_t begin = found.nodes.size();
+        const double cell = cell_of(place.x());
+        for (double x : {cell - 1, cell, cell + 1}) {
+            if (tolerance <= 0 && x != cell) continue;
+            auto at = std::lower_bound(order.begin(), order.end(), Key{x, place.y() - tolerance},
+                                       [&](Index p, const Key& key) { return keys[index(p)] < key; });
+            for (;
+                 at != order.end() && keys[index(*at)].x == x && keys[index(*at)].y <= place.y() + tolerance;
+                 ++at)
+                if ((deck.points[index(*at)] * scale - place).norm() <= tolerance) found.nodes.push_back(*at);
+        }
+        std::sort(found.nodes.begin() + static_cast<std::ptrdiff_t>(begin), found.nodes.end());
+        found.first.push_back(static_cast<Index>(found.nodes.size()));
+    }
+    return found;
+}
+
+std::span<const DeckFileFormat> deck_file_formats()
+{
+    static constexpr DeckFileFormat kFormats[] = {
+        {".stl", "an STL file", DeckFormat::stl, read_stl},
+        {".obj", "a Wavefront OBJ file", DeckFormat::obj, read_obj},
+        {".msh", "an MSH file", DeckFormat::msh, read_msh},
+        {".unv", "a universal file", DeckFormat::unv, read_unv},
+        {".bdf", "a Nastran deck", DeckFormat::nastran, read_nastran},
+        {".nas", "a Nastran deck", DeckFormat::nastran, read_nastran},
+        {".dat", "a Nastran deck", DeckFormat::nastran, read_nastran},
+        {".inp", "an Abaqus deck", DeckFormat::abaqus, read_abaqus},
+        {".vtk", "a legacy VTK file", DeckFormat::vtk, read_vtk},
+        {".vtu", "a VTU file", DeckFormat::vtu, read_vtu},
+        {".mesh", "a Medit file", DeckFormat::medit, read_medit}};
+    return kFormats;
+}
+
+const DeckFileFormat* deck_file_format(std::string_view ending)
+{
+    const auto formats = deck_file_formats();
+    const auto found = std::ranges::find(formats, ending, &DeckFileFormat::ending);
+    return found == formats.end() ? nullptr : &*found;
+}
+
+const DeckFileFormat& needed_deck_format(const std::string& path, std::string_view others)
+{
+    const std::string ending = ending_of(path);
+    if (const DeckFileFormat* format = deck_file_format(ending)) return *format;
+    std::string known(others);
+    for (const DeckFileFormat& format : deck_file_formats())
+        known += (known.empty() ? "" : " ") + std::string(format.ending);
+    throw InvalidInput("io.unknown_ending", path + ": the ending \"" + ending +
+                                                "\" is unknown; files are read that end in " + known);
+}
+
+Deck read_deck(const std::string& name, std::string_view bytes)
+{
+    const DeckFileFormat& format = needed_deck_format(name, {});
+    check_content(name, format, bytes);
+    Cursor cursor(name, bytes);
+    DeckBuilder builder(format.format);
+    format.read(cursor, builder);
+    return builder.take(name);
+}
+
+Deck read_deck(const std::string& path)
+{
+    needed_deck_format(path, {});
+    return read_deck(path, read_file(path));
+}
+
+std::string ending_of(const std::string& path)
+{
+    std::string ending = std::filesystem::path(path).extension().string();
+    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return ending;
+}
+
+} // namespace lacuna::io

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/deck_builder.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/triangulate.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace lacuna::io {
+namespace {
+
+/// Whether every triangle from the first corner looks the polygon's way, so that a fan fills it.
+bool fan_fills(const std::vector<Vec3>& at, const Vec3& normal)
+{
+    for (std::size_t k = 1; k + 1 < at.size(); ++k)
+        if ((at[k] - at[0]).cross(at[k + 1] - at[0]).dot(normal) < 0) return false;
+    return true;
+}
+
+} // namespace
+
+void DeckBuilder::add_point(DeckTag tag, const Vec3& point, const Cursor& cursor)
+{
+    if (deck_.points.size() >= static_cast<std::size_t>(std::numeric_limits<Index>::max()))
+        cursor.fail("too many nodes");
+    deck_.point_tags.push_back(tag);
+    deck_.points.push_back(point);
+}
+
+Index DeckBuilder::add_region(int tag, std::string_view name)
+{
+    deck_.regions.push_back({tag, std::string(trimmed(name)), ""});
+    return static_cast<Index>(deck_.regions.size()) - 1;
+}
+
+Index DeckBuilder::region_of(int tag, std::string_view name, int group)
+{
+    const auto [found, fresh] = regions_.try_emplace({tag, group}, static_cast<Index>(deck_.regions.size()));
+    if (fresh) add_region(tag, name);
+    return found->second;
+}
+
+std::size_t DeckBuilder::block_of(DeckShape shape, std::string_view type)
+{
+    // Formats have a few dozen words at most.
+    for (std::size_t b = 0; b < deck_.blocks.size(); ++b)
+        if (deck_.blocks[b].shape == shape && deck_.blocks[b].type == type) return b;
+    deck_.blocks.push_back({.shape = shape, .type = std::string(type)});
+    places_.emplace_back();
+    return deck_.blocks.size() - 1;
+}
+
+void DeckBuilder::add_element(std::size_t block, DeckTag tag, Index region, std::span<const Index> nodes,
+                              std::uint64_t place)
+{
+    DeckBlock& to = deck_.blocks[block];
+    to.nodes.insert(to.nodes.end(), nodes.begin(), nodes.end());
+    ++elements_;
+    to.tags.push_back(tag < 0 ? elements_ : tag);
+    to.regions.push_back(region);
+    if (place > 0) places_[block].push_back(place);
+}
+
+void DeckBuilder::add_face(std::span<const Index> corners, Index region, const Cursor& cursor, DeckTag tag)
+{
+    const std::vector<Vec3>& points = deck_.points;
+    if (corners.size() < 3)
+        cursor.fail("expected a face of three corners or more, found " + std::to_string(corners.size()));
+    for (const Index p : corners)
+        if (p < 0 || index(p) >= points.size())
+            cursor.fail("expected a point of " + std::to_string(points.size()) + ", found number " +
+                        std::to_string(std::int64_t(p) + 1));
+    if (corners.size() == 4) return add_element(block_of(DeckShape::quad4, ""), tag, region, corners);
+    const std::size_t triangles = block_of(DeckShape::tri3, "");
+    const auto add_triangle = [&](Index a, Index b, Index c) {
+        add_element(triangles, tag, region, Triangle{a, b, c});
+    };
+    if (corners.size() == 3) return add_element(triangles, tag, region, corners);
+    std::vector<Vec3> at;
+    for (const Index p : corners) at.push_back(points[index(p)]);
+    if (fan_fills(at, geometry::newell_vector(at))) {
+        for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+            add_triangle(corners[0], corners[k], corners[k + 1]);
+        return;
+    }
+    const geometry::Plane plane = geometry::newell_plane(std::vector<std::vector<Vec3>>{at});
+    std::vector<Vec2> flat;
+    for (const Vec3& p : at) flat.push_back(geometry::to_plane(plane, p));
+    std::vector<Index> loop(corners.size());
+    std::iota(loop.begin(), loop.end(), 0);
+    try {
+        const auto cut = geometry::triangulate(flat, std::vector<std::vector<Index>>{loop},
+                                               {.interior_points = false});
+        for (const Triangle& t : cut.triangles)
+            add_triangle(corners[index(t[0])], corners[index(t[1])], corners[index(t[2])]);
+    } catch (const InvalidInput&) {
+        cursor.fail("the polygon of " + std::to_string(corners.size()) + " corners crosses itself");
+    }
+}
+
+void DeckBuilder::pass_over(const std::string& what, std::size_t count)
+{
+    constexpr std::size_t kMostKinds = 1000; // a file of nonsense must not fill the memory with its words
+    const bool known = passed_over_.size() < kMostKinds || passed_over_.contains(what);
+    if (count > 0) passed_over_[known ? what : "others"] += count;
+}
+
+std::string DeckBuilder::counted() const
+{
+    constexpr std::size_t kMostNamed = 12; // a choice: a line that can still be read
+    std::string text;
+    std::size_t named = 0;
+    std::size_t others = 0;
+    for (const auto& [what, count] : passed_over_) {
+        if (named++ < kMostNamed)
+            text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+        else
+            others += count;
+    }
+    return others > 0 ? text + " and " + std::to_string(others) + " others" : text;
+}
+
+void DeckBuilder::check_points(const std::string& path) const
+{
+    constexpr double kFarthest = 1e100; // a volume of such lengths is still a number
+    for (std::size_t p = 0; p < deck_.points.size(); ++p) {
+        if (deck_.points[p].cwiseAbs().maxCoeff() <= kFarthest) continue;
+        throw InvalidInput("io.unreadable", "cannot read " + path + ": point " + std::to_string(p + 1) +
+                                                " has a coordinate beyond 1e100");
+    }
+}
+
+Deck DeckBuilder::take(const std::string& path)
+{
+    check_points(path);
+    deck_.path = path;
+    const std::string passed = counted();
+    if (!passed.empty()) deck_.notes.push_back(path + ": passed over " + passed);
+    for (std::size_t p = deck_.point_tags.size(); p < deck_.points.size(); ++p)
+        deck_.point_tags.push_back(static_cast<DeckTag>(p) + 1);
+    return std::move(deck_);
+}
+
+Index TagPlaces::find(DeckTag tag) const
+{
+    if (tag >= 0 && static_cast<std::uint64_t>(tag) < dense_.size())
+        return dense_[static_cast<std::size_t>(tag)];
+    const auto found = std::lower_bound(sparse_.begin(), sparse_.end(), std::pair<DeckTag, Index>{tag, 0});
+    return found == sparse_.end() || found->first != tag ? -1 : found->second;
+}
+
+} // namespace lacuna::io

@@ -1,0 +1,470 @@
+// SPDX-License-Identifier: MIT
+//
+// facets_of(): sides of solids are matched in heaps by their least node, together with the shells.
+#include <lacuna/io/detail/deck_facets.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/healing/weld.h>
+#include <lacuna/io/detail/deck_builder.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <tuple>
+
+namespace lacuna::io {
+namespace {
+
+/// Lists of sets, each list once; number 0 is the empty one.
+class SetLists {
+public:
+    int extended(int list, int set)
+    {
+        const auto [found, fresh] = next_.try_emplace({list, set}, static_cast<int>(lists_.size()));
+        if (fresh) {
+            lists_.push_back(lists_[index(list)]);
+            lists_.back().push_back(set);
+        }
+        return found->second;
+    }
+    [[nodiscard]] const std::vector<int>& operator[](int list) const { return lists_[index(list)]; }
+
+private:
+    std::map<std::pair<int, int>, int> next_;
+    std::vector<std::vector<int>> lists_{1};
+};
+
+/// The elements of one dimension, numbered through all blocks.
+class Elements {
+public:
+    Elements(const Deck& deck, int dimension)
+    {
+        for (const DeckBlock& block : deck.blocks) {
+            if (shape_info(block.shape).dimension != dimension) continue;
+            blocks_.push_back(&block);
+            first_.push_back(count_);
+            count_ += block.count();
+        }
+    }
+    [[nodiscard]] std::size_t count() const { return count_; }
+    struct Element {
+        const DeckBlock* block;
+        std::size_t at;
+        [[nodiscard]] std::span<const Index> nodes() const { return block->element(at); }
+        [[nodiscard]] Index region() const { return block->regions[at]; }
+    };
+    [[nodiscard]] Element operator[](std::size_t e) const
+    {
+        const auto above = std::upper_bound(first_.begin(), first_.end(), e);
+        const auto b = static_cast<std::size_t>(above - first_.begin()) - 1;
+        return {blocks_[b], e - first_[b]};
+    }
+    /// Calls `visit(number, element)` for all, in order.
+    template <class Visit>
+    void each(const Visit& visit) const
+    {
+        for (std::size_t b = 0; b < blocks_.size(); ++b)
+            for (std::size_t at = 0; at < blocks_[b]->count(); ++at)
+                visit(first_[b] + at, Element{blocks_[b], at});
+    }
+    [[nodiscard]] std::vector<DeckTag> tags() const
+    {
+        std::vector<DeckTag> all;
+        all.reserve(count_);
+        for (const DeckBlock* block : blocks_) all.insert(all.end(), block->tags.begin(), block->tags.end());
+        return all;
+    }
+
+private:
+    std::vector<const DeckBlock*> blocks_;
+    std::vector<std::size_t> first_;
+    std::size_t count_ = 0;
+};
+
+/// What a label stands for; regions and lists of sets by number, -1: none.
+struct Label {
+    Index shell = -1;     ///< region of the shells
+    int sets = 0;         ///< of the shells, or surfaces of the sides
+    Index a = -1, b = -1; ///< regions of the solids on either side, a <= b where both are
+    friend auto operator<=>(const Label&, const Label&) = default;
+};
+
+constexpr Index kSingles = -2; ///< in place of a shell's region: labels of one shell each
+
+class Facets {
+public:
+    Facets(const Deck& deck, double tolerance)
+        : deck_(deck), tolerance_(tolerance), shells_(deck, 2), solids_(deck, 3)
+    {
+    }
+
+    FacetFile gather()
+    {
+        if (shells_.count() + solids_.count() == 0) refuse();
+        list_sets();
+        beside_.assign(shells_.count(), {-1, -1});
+        if (solids_.count() > 0) match_sides();
+        label_shells();
+        number_labels();
+        emit();
+        name_labels();
+        file_.notes = deck_.notes;
+        if (shared_by_many_ > 0)
+            file_.notes.push_back(deck_.path + ": " + std::to_string(shared_by_many_) +
+                                  " sides are shared by more than two solids, which lie in each other or are "
+                                  "listed twice");
+        if (singles_ > 0)
+            file_.notes.push_back(deck_.path + ": " + std::to_string(singles_) +
+                                  " properties or sets of one shell each are taken as one");
+        return std::move(file_);
+    }
+
+private:
+    struct Side {
+        std::size_t solid;
+        int face;
+        Label label;
+    };
+
+    [[noreturn]] void refuse() const
+    {
+        throw InvalidInput("io.no_faces",
+                           deck_.path +
+                               " holds no faces that can be read; check that it is what its ending "
+                               "says, and holds triangles, quads or solids" +
+                               (deck_.notes.empty() ? "" : ". " + deck_.notes.front()));
+    }
+
+    void list_sets()
+    {
+        sets_of_shell_.assign(shells_.count(), 0);
+        const bool any = std::ranges::any_of(
+            deck_.sets, [](const DeckSet& set) { return set.kind != DeckSet::Kind::nodes; });
+        if (!any) return;
+        const TagPlaces shells(shells_.tags(), [](Index, Index) {});
+        const TagPlaces solids(solids_.tags(), [](Index, Index) {});
+        for (std::size_t s = 0; s < deck_.sets.size(); ++s) {
+            const DeckSet& set = deck_.sets[s];
+            const auto put = [&](Index shell) {
+                int& list = sets_of_shell_[index(shell)];
+                const bool there = list != 0 && lists_[list].back() == static_cast<int>(s);
+                if (!there) list = lists_.extended(list, static_cast<int>(s));
+            };
+            if (set.members.size() > 1)
+                for (const DeckTag tag : set.members)
+                    if (const Index shell = shells.find(tag);
+                        shell >= 0 && set.kind == DeckSet::Kind::elements)
+                        put(shell);
+            for (const DeckSide& side : set.sides) {
+                if (const Index shell = shells.find(side.element); shell >= 0 && side.side <= 0) put(shell);
+                const Index solid = solids.find(side.element);
+                if (solid < 0 || side.side < 1) continue;
+                surfaces_.emplace_back(std::pair(index(solid), side.side - 1), static_cast<int>(s));
+            }
+        }
+        std::sort(surfaces_.begin(), surfaces_.end());
+    }
+
+    /// The list of surfaces a side of a solid is in.
+    int surfaces_of(std::size_t solid, int face)
+    {
+        const std::pair<std::size_t, int> key(solid, face);
+        int list = 0;
+        for (auto at = std::lower_bound(surfaces_.begin(), surfaces_.end(), std::pair(key, 0));
+             at != surfaces_.end() && at->first == key; ++at)
+            list = lists_.extended(list, at->second);
+        return list;
+    }
+
+    /// A side or a shell in a heap of those with the same least node.
+    struct Candidate {
+        std::array<Index, 3> others; ///< the other corners, rising; -1 first in triangles
+        std::uint64_t who;           ///< solid · 8 + face; shells follow the solids
+    };
+
+    void match_sides()
+    {
+        const std::vector<Index> joined = weld();
+        const auto corners_of = [&](std::span<const Index> nodes, const Quad& corner) {
+            Quad found{-1, -1, -1, -1};
+            for (std::size_t k = 0; k < 4; ++k)
+                if (corner[k] >= 0) found[k] = joined[index(nodes[index(corner[k])])];
+            std::sort(found.begin(), found.end());
+            if (found[0] >= 0) return found;
+            return Quad{found[1], -1, found[2], found[3]}; // the least first, then none
+        };
+        const auto each = [&](const auto& visit) {
+            solids_.each([&](std::size_t e, const Elements::Element& element) {
+                const auto faces = face_corners(element.block->shape);
+                const auto nodes = element.nodes();
+                for (std::size_t f = 0; f < faces.size(); ++f)
+                    visit(corners_of(nodes, faces[f]), std::uint64_t(e) * 8 + f);
+            });
+            shells_.each([&](std::size_t e, const Elements::Element& element) {
+                const bool quad = shape_info(element.block->shape).corners == 4;
+                visit(corners_of(element.nodes(), Quad{0, 1, 2, quad ? 3 : -1}),
+                      (solids_.count() + std::uint64_t(e)) * 8);
+            });
+        };
+        std::vector<std::uint64_t> start(deck_.points.size() + 1, 0);
+        each([&](const Quad& corner, std::uint64_t) { ++start[index(corner[0]) + 1]; });
+        std::partial_sum(start.begin(), start.end(), start.begin());
+        std::vector<Candidate> all(start.back());
+        std::vector<std::uint64_t> fill(start.begin(), start.end() - 1);
+        each([&](const Quad& corner, std::uint64_t who) {
+            all[fill[index(corner[0])]++] = {{corner[1], corner[2], corner[3]}, who};
+        });
+        for (std::size_t p = 0; p + 1 < start.size(); ++p) {
+            const auto heap = std::span(all).subspan(start[p], start[p + 1] - start[p]);
+            std::sort(heap.begin(), heap.end(), [](const Candidate& a, const Candidate& b) {
+                return std::pair(a.others, a.who) < std::pair(b.others, b.who);
+            });
+            for (std::size_t i = 0; i < heap.size();) {
+                std::size_t end = i + 1;
+                while (end < heap.size() && heap[end].others == heap[i].others) ++end;
+                take_group(heap.subspan(i, end - i));
+                i = end;
+            }
+        }
+        std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
+            return std::pair(a.solid, a.face) < std::pair(b.solid, b.face);
+        });
+    }
+
+    [[nodiscard]] std::vector<Index> weld() const
+    {
+        Eigen::AlignedBox3d box;
+        for (const Vec3& p : deck_.points) box.extend(p);
+        constexpr double kOfDiagonal = 1e-6; // as split_facets() welds
+        return healing::weld(deck_.points, tolerance_ > 0 ? tolerance_ : kOfDiagonal * box.diagonal().norm());
+    }
+
+    /// Sides and shells with the same corners, solids first.
+    void take_group(std::span<const Candidate> group)
+    {
+        std::size_t solids = 0;
+        while (solids < group.size() && group[solids].who / 8 < solids_.count()) ++solids;
+        if (solids == 0) return;
+        const auto region = [&](std::size_t i) { return solids_[group[i].who / 8].region(); };
+        std::size_t other = 1;
+        while (other < solids && region(other) == region(0)) ++other;
+        Label label{.a = region(0), .b = other < solids ? region(other) : -1};
+        if (label.b >= 0 && label.b < label.a) std::swap(label.a, label.b);
+        if (solids > 2) ++shared_by_many_;
+        for (std::size_t i = solids; i < group.size(); ++i)
+            beside_[group[i].who / 8 - solids_.count()] = {label.a, label.b};
+        const bool inside = solids == 2 && label.b < 0;
+        if (inside || group.size() > solids) return;
+        // Of two regions the side of the first, seen from which the face looks out.
+        const std::size_t shown = region(0) == label.a ? 0 : other;
+        const std::size_t solid = group[shown].who / 8;
+        const auto face = static_cast<int>(group[shown].who % 8);
+        label.sets = surfaces_of(solid, face);
+        if (label.sets == 0 && other < solids)
+            label.sets = surfaces_of(group[shown == 0 ? other : 0].who / 8,
+                                     static_cast<int>(group[shown == 0 ? other : 0].who % 8));
+        sides_.push_back({solid, face, label});
+    }
+
+    void label_shells()
+    {
+        constexpr int kMostSingles = 20; // a choice: faces of one quad that can still be told apart
+        std::map<Label, int> shells;
+        label_of_shell_.resize(shells_.count());
+        shells_.each([&](std::size_t e, const Elements::Element& element) {
+            label_of_shell_[e] = {element.region(), sets_of_shell_[e], beside_[e].first, beside_[e].second};
+            ++shells[label_of_shell_[e]];
+        });
+        const auto singles = std::ranges::count(shells, 1, &std::pair<const Label, int>::second);
+        if (singles <= kMostSingles) return;
+        singles_ = static_cast<std::size_t>(singles);
+        for (Label& label : label_of_shell_)
+            if (shells[label] == 1) label = {kSingles, 0, label.a, label.b};
+    }
+
+    [[nodiscard]] int tag_of(const Label& label) const
+    {
+        for (const int s : lists_[label.sets])
+            if (const int tag = deck_.sets[index(s)].tag; tag > 0) return tag;
+        const Index region = label.shell >= 0 ? label.shell : label.shell == kSingles ? -1 : label.a;
+        const bool between = label.shell == -1 && label.b >= 0;
+        return region < 0 || between ? 0 : deck_.regions[index(region)].tag;
+    }
+
+    /// Labels in order: those of shells first, then by tag, then as they are.
+    void number_labels()
+    {
+        for (const Label& label : label_of_shell_) numbers_.try_emplace(label, 0);
+        for (const Side& side : sides_) numbers_.try_emplace(side.label, 0);
+        for (const auto& [label, number] : numbers_) labels_.push_back(label);
+        std::stable_sort(labels_.begin(), labels_.end(), [&](const Label& x, const Label& y) {
+            return std::tuple(x.shell == -1, tag_of(x)) < std::tuple(y.shell == -1, tag_of(y));
+        });
+        for (std::size_t n = 0; n < labels_.size(); ++n) numbers_[labels_[n]] = static_cast<int>(n);
+    }
+
+    void add(std::span<const Index> corners, int label)
+    {
+        healing::FacetSoup& soup = file_.soup;
+        if (corners.size() == 3) {
+            soup.triangles.push_back({corners[0], corners[1], corners[2]});
+            soup.triangle_label.push_back(label);
+        } else {
+            soup.quads.push_back({corners[0], corners[1], corners[2], corners[3]});
+            soup.quad_label.push_back(label);
+        }
+    }
+
+    /// The facets label after label, points numbered as they are met.
+    void emit()
+    {
+        std::vector<std::vector<std::uint64_t>> of_label(labels_.size());
+        for (std::size_t e = 0; e < shells_.count(); ++e)
+            of_label[index(numbers_[label_of_shell_[e]])].push_back(e);
+        for (std::size_t s = 0; s < sides_.size(); ++s)
+            of_label[index(numbers_[sides_[s].label])].push_back(shells_.count() + s);
+        for (std::size_t label = 0; label < labels_.size(); ++label) {
+            for (const std::uint64_t who : of_label[label]) {
+                if (who >= shells_.count()) {
+                    emit_side(sides_[who - shells_.count()], static_cast<int>(label));
+                    continue;
+                }
+                const Elements::Element shell = shells_[who];
+                const auto corners = static_cast<std::size_t>(shape_info(shell.block->shape).corners);
+                add(shell.nodes().first(corners), static_cast<int>(label));
+            }
+            of_label[label] = {};
+        }
+        number_points();
+    }
+
+    /// A side turned away from the middle of its solid, whichever way that is numbered.
+    void emit_side(const Side& side, int label)
+    {
+        const Elements::Element solid = solids_[side.solid];
+        const auto nodes = solid.nodes();
+        const auto corners = static_cast<std::size_t>(shape_info(solid.block->shape).corners);
+        Vec3 middle = Vec3::Zero();
+        for (std::size_t k = 0; k < corners; ++k) middle += deck_.points[index(nodes[k])];
+        middle /= static_cast<double>(corners);
+        const Quad& face = face_corners(solid.block->shape)[index(side.face)];
+        std::array<Index, 4> at{};
+        const std::size_t count = face[3] < 0 ? 3 : 4;
+        for (std::size_t k = 0; k < count; ++k) at[k] = nodes[index(face[k])];
+        const Vec3& p = deck_.points[index(at[0])];
+        const Vec3& q = deck_.points[index(at[count / 2])];
+        const Vec3 area = count == 3 ? (deck_.points[index(at[1])] - p).cross(deck_.points[index(at[2])] - p)
+                                     : (q - p).cross(deck_.points[index(at[3])] - deck_.points[index(at[1])]);
+        if (area.dot(p + q - 2 * middle) < 0)
+            std::reverse(at.begin() + 1, at.begin() + std::ptrdiff_t(count));
+        add({at.data(), count}, label);
+    }
+
+    void number_points()
+    {
+        healing::FacetSoup& soup = file_.soup;
+        std::vector<Index> number(deck_.points.size(), -1);
+        const auto meet = [&](auto& cell) {
+            for (Index& p : cell) {
+                if (number[index(p)] < 0) {
+                    number[index(p)] = static_cast<Index>(soup.points.size());
+                    soup.points.push_back(deck_.points[index(p)]);
+                }
+                p = number[index(p)];
+            }
+        };
+        std::size_t t = 0;
+        std::size_t q = 0;
+        for (int label = 0; label < static_cast<int>(labels_.size()); ++label) {
+            for (; t < soup.triangles.size() && soup.triangle_label[t] == label; ++t) meet(soup.triangles[t]);
+            for (; q < soup.quads.size() && soup.quad_label[q] == label; ++q) meet(soup.quads[q]);
+        }
+    }
+
+    /// All names of a region: its own, its part's, those of sets that hold all of it.
+    void name_regions()
+    {
+        names_.resize(deck_.regions.size());
+        std::vector<std::size_t> elements(deck_.regions.size(), 0);
+        for (const DeckBlock& block : deck_.blocks)
+            for (const Index region : block.regions) ++elements[index(region)];
+        for (std::size_t r = 0; r < names_.size(); ++r) {
+            const DeckRegion& region = deck_.regions[r];
+            for (const std::string& name : {region.name, region.part})
+                if (!name.empty() && std::ranges::find(names_[r], name) == names_[r].end())
+                    names_[r].push_back(name);
+        }
+        const TagPlaces solids(solids_.tags(), [](Index, Index) {});
+        for (const DeckSet& set : deck_.sets) {
+            if (set.kind != DeckSet::Kind::elements || set.name.empty()) continue;
+            std::map<Index, std::size_t> held;
+            for (const DeckTag tag : set.members)
+                if (const Index solid = solids.find(tag); solid >= 0) ++held[solids_[index(solid)].region()];
+            for (const auto& [region, count] : held)
+                if (count == elements[index(region)] &&
+                    std::ranges::find(names_[index(region)], set.name) == names_[index(region)].end())
+                    names_[index(region)].push_back(set.name);
+        }
+        for (std::size_t r = 0; r < names_.size(); ++r)
+            if (names_[r].empty()) names_[r].push_back("region:" + std::to_string(deck_.regions[r].tag));
+    }
+
+    void name_labels()
+    {
+        if (solids_.count() > 0) name_regions();
+        std::set<int> tags;
+        for (const Label& label : labels_) {
+            const int tag = tag_of(label);
+            file_.label_tag.push_back(tag > 0 && tags.insert(tag).second ? tag : 0);
+            FacetFile::Label about;
+            for (const int s : lists_[label.sets])
+                if (const std::string& name = deck_.sets[index(s)].name; !name.empty())
+                    about.groups.push_back(name);
+            if (label.shell >= 0)
+                if (const std::string& name = deck_.regions[index(label.shell)].name;
+                    !name.empty() && std::ranges::find(about.groups, name) == about.groups.end())
+                    about.groups.push_back(name);
+            for (const Index region : {label.a, label.b})
+                if (region >= 0) about.regions.push_back(names_[index(region)]);
+            if (about.regions.empty() && !about.groups.empty()) {
+                // Of a shell between nothing: its own.
+                about.regions.push_back({about.groups.back()});
+                if (label.shell >= 0 && !deck_.regions[index(label.shell)].part.empty())
+                    about.regions.back().push_back(deck_.regions[index(label.shell)].part);
+            }
+            std::string name = about.groups.empty() ? "" : about.groups.front();
+            if (label.shell == -1 && name.empty())
+                for (const auto& region : about.regions) name += (name.empty() ? "" : "|") + region.front();
+            file_.soup.label_name.push_back(std::move(name));
+            file_.labels.push_back(std::move(about));
+        }
+    }
+
+    const Deck& deck_;
+    double tolerance_;
+    Elements shells_, solids_;
+    SetLists lists_;
+    std::vector<int> sets_of_shell_;                                    ///< list of each
+    std::vector<std::pair<std::pair<std::size_t, int>, int>> surfaces_; ///< (solid, face), set
+    std::vector<std::pair<Index, Index>> beside_;                       ///< regions of solids at each shell
+    std::vector<Side> sides_;
+    std::vector<Label> label_of_shell_, labels_;
+    std::map<Label, int> numbers_;
+    std::vector<std::vector<std::string>> names_; ///< of each region
+    std::size_t shared_by_many_ = 0, singles_ = 0;
+    FacetFile file_;
+};
+
+} // namespace
+
+FacetFile facets_of(const Deck& deck, double tolerance) { return Facets(deck, tolerance).gather(); }
+
+FacetFile read_facets(const std::string& name, std::string_view bytes)
+{
+    return facets_of(read_deck(name, bytes));
+}
+
+FacetFile read_facets(const std::string& path) { return facets_of(read_deck(path)); }
+
+} // namespace lacuna::io

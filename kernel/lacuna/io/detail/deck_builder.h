@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/io/deck.h>
+#include <lacuna/io/detail/cursor.h>
+
+#include <algorithm>
+#include <map>
+#include <span>
+
+/// What the readers of meshes share. Internal to this folder.
+namespace lacuna::io {
+
+/// Places of nodes or elements by the tags the file gives them, which need not be dense.
+class TagPlaces {
+public:
+    /// `twice(a, b)` is told of places with the same tag, of which the first counts.
+    template <class Twice>
+    TagPlaces(std::span<const DeckTag> tags, const Twice& twice);
+    /// -1 where there is none.
+    [[nodiscard]] Index find(DeckTag tag) const;
+
+private:
+    std::vector<Index> dense_;
+    std::vector<std::pair<DeckTag, Index>> sparse_;
+};
+
+/// Gathers what a reader finds.
+class DeckBuilder {
+public:
+    explicit DeckBuilder(DeckFormat format) { deck_.format = format; }
+
+    Deck& deck() { return deck_; }
+    std::vector<Vec3>& points() { return deck_.points; }
+    /// @throw InvalidInput  more points than can be numbered.
+    void add_point(DeckTag tag, const Vec3& point, const Cursor& cursor);
+
+    /// A new region.
+    Index add_region(int tag, std::string_view name);
+    /// The region of this tag, new where it is the first time. @param group  of several numberings in one
+    /// file which.
+    Index region_of(int tag, std::string_view name = {}, int group = 0);
+
+    /// The block of a shape and word, new where it is the first time.
+    std::size_t block_of(DeckShape shape, std::string_view type);
+    /// Add an element. @param nodes  places of points or, with `resolve()`, tags, in the order of DeckShape;
+    /// -1: left out. @param tag  -1: counted. @param place  for messages, see `resolve()`.
+    void add_element(std::size_t block, DeckTag tag, Index region, std::span<const Index> nodes,
+                     std::uint64_t place = 0);
+    /// Add a shell of three corners or more; more than four are split into triangles.
+    /// @throw InvalidInput  fewer corners, a point that is not there, a polygon that crosses itself.
+    void add_face(std::span<const Index> corners, Index region, const Cursor& cursor, DeckTag tag = -1);
+    /// Tags of nodes as their places, in all elements so far. @param fail  is called with the element's place
+    /// and what is wrong. Elements added with tags must all have been.
+    template <class Fail>
+    void resolve(const TagPlaces& nodes, const Fail& fail);
+
+    /// Count what is not taken.
+    void pass_over(const std::string& what, std::size_t count = 1);
+
+    /// What was gathered. @throw InvalidInput "io.unreadable" (a point too far away)
+    Deck take(const std::string& path);
+
+private:
+    void check_points(const std::string& path) const;
+    std::string counted() const;
+
+    Deck deck_;
+    std::map<std::pair<int, int>, Index> regions_;
+    std::vector<std::vector<std::uint64_t>> places_; ///< of the elements of each block
+    std::map<std::string, std::size_t> passed_over_;
+    DeckTag elements_ = 0; ///< counted
+};
+
+void read_stl(Cursor& cursor, DeckBuilder& into);
+void read_obj(Cursor& cursor, DeckBuilder& into);
+void read_msh(Cursor& cursor, DeckBuilder& into);
+void read_unv(Cursor& cursor, DeckBuilder& into);
+void read_nastran(Cursor& cursor, DeckBuilder& into);
+void read_abaqus(Cursor& cursor, DeckBuilder& into);
+void read_vtk(Cursor& cursor, DeckBuilder& into);
+void read_vtu(Cursor& cursor, DeckBuilder& into);
+void read_medit(Cursor& cursor, DeckBuilder& into);
+/// Whether bytes are a binary STL file of one solid, to the byte.
+bool is_binary_stl(std::string_view bytes);
+
+template <class Twice>
+TagPlaces::TagPlaces(std::span<const DeckTag> tags, const Twice& twice)
+{
+    DeckTag highest = 0;
+    for (const DeckTag tag : tags) highest = std::max(highest, tag);
+    // A table up to the highest tag, where it is not much longer than the tags themselves: 4 × is a choice.
+    if (static_cast<std::uint64_t>(highest) / 4 <= tags.size()) {
+        dense_.assign(static_cast<std::size_t>(highest) + 1, -1);
+        for (std::size_t i = 0; i < tags.size(); ++i) {
+            Index& place = dense_[static_cast<std::size_t>(tags[i])];
+            if (place >= 0)
+                twice(place, static_cast<Index>(i));
+            else
+                place = static_cast<Index>(i);
+        }
+        return;
+    }
+    sparse_.reserve(tags.size());
+    for (std::size_t i = 0; i < tags.size(); ++i) sparse_.emplace_back(tags[i], static_cast<Index>(i));
+    std::sort(sparse_.begin(), sparse_.end());
+    for (std::size_t i = 1; i < sparse_.size(); ++i)
+        if (sparse_[i].first == sparse_[i - 1].first) twice(sparse_[i - 1].second, sparse_[i].second);
+}
+
+template <class Fail>
+void DeckBuilder::resolve(const TagPlaces& nodes, const Fail& fail)
+{
+    for (std::size_t b = 0; b < deck_.blocks.size(); ++b) {
+        DeckBlock& block = deck_.blocks[b];
+        const auto per = static_cast<std::size_t>(shape_info(block.shape).nodes);
+        for (std::size_t i = 0; i < block.nodes.size(); ++i) {
+            Index& node = block.nodes[i];
+            if (node == -1) continue;
+            const Index place = nodes.find(node);
+            if (place < 0)
+                fail(places_[b][i / per], block.type + " " + std::to_string(block.tags[i / per]) +
+                                              ": names node " + std::to_string(node) +
+                                              ", which is not there");
+            node = place;
+        }
+    }
+    for (std::vector<std::uint64_t>& places : places_) places = {};
+}
+
+} // namespace lacuna::io

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/topology/face_radius.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lacuna::topology {
+namespace {
+
+constexpr double kMostOff =
+    0.01; // of the radius: well above the rounding of files, below what is another shape
+
+/// Radius of the circle or sphere through points, those of a row each, where all lie on it.
+std::optional<double> fitted(const Eigen::MatrixXd& points)
+{
+    // |p|² = 2 c·p + (r² - |c|²) is linear in what is sought.
+    const Eigen::Index n = points.cols();
+    const Eigen::RowVectorXd mean = points.colwise().mean();
+    const Eigen::MatrixXd at = points.rowwise() - mean;
+    Eigen::MatrixXd left(points.rows(), n + 1);
+    left << 2 * at, Eigen::VectorXd::Ones(points.rows());
+    const Eigen::VectorXd found = left.colPivHouseholderQr().solve(at.rowwise().squaredNorm());
+    const Eigen::VectorXd centre = found.head(n);
+    const double radius = std::sqrt(std::max(0.0, found[n] + centre.squaredNorm()));
+    if (!(radius > 0) || !std::isfinite(radius)) return {};
+    const Eigen::VectorXd distance = (at.rowwise() - centre.transpose()).rowwise().norm();
+    if ((distance.array() - radius).abs().maxCoeff() > kMostOff * radius) return {};
+    return radius;
+}
+
+} // namespace
+
+std::optional<double> face_radius(const Model& model, FaceId id)
+{
+    const Face& face = model[id];
+    if (face.kind == "plane") return {};
+    std::vector<Index> used;
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    double area = 0;
+    for (const Triangle& t : face.triangles) {
+        used.insert(used.end(), t.begin(), t.end());
+        const Vec3 n = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+        if (!(n.norm() > 0)) continue;
+        spread += n * n.transpose() / n.norm();
+        area += n.norm();
+    }
+    if (!(area > 0)) return {};
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    Eigen::MatrixXd points(static_cast<Eigen::Index>(used.size()), 3);
+    for (std::size_t p = 0; p < used.size(); ++p)
+        points.row(static_cast<Eigen::Index>(p)) = model.at(used[p]).transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread / area);
+    const Eigen::Vector3d share = axes.eigenvalues(); // of the normals along each axis, squared; rising
+    if (share[1] < kMostOff * kMostOff) return {};    // all look one way
+    if (share[0] < kMostOff) return fitted(points * axes.eigenvectors().rightCols<2>());
+    return fitted(points);
+}
+
+} // namespace lacuna::topology

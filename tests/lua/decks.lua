@@ -1,0 +1,80 @@
+-- SPDX-License-Identifier: MIT
+-- Faces of finite element decks, picked by selectors; quality of decks in every format.
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local lacuna = require "lacuna"
+local params = lacuna.params { lacuna = "", scratch = "" }
+
+-- Two blocks of hexes on each other; in the upper one a hole through all layers.
+local n, m = 4, 4
+local function node(i, j, k) return 1 + i + (n + 1) * (j + (n + 1) * k) end
+local function deck(format)
+  local lines = {}
+  local function add(...) lines[#lines + 1] = string.format(...) end
+  add(format == "bdf" and "BEGIN BULK" or "*NODE")
+  for k = 0, m do
+    for j = 0, n do
+      for i = 0, n do
+        add(format == "bdf" and "GRID,%d,,%d.,%d.,%d." or "%d, %d., %d., %d.", node(i, j, k), i, j, k)
+      end
+    end
+  end
+  local tag = 0
+  local cells = {}
+  for k = 0, m - 1 do
+    for j = 0, n - 1 do
+      for i = 0, n - 1 do
+        local part = k < 2 and 1 or 2
+        local hole = part == 2 and i > 0 and i < n - 1 and j > 0 and j < n - 1
+        if not hole then
+          tag = tag + 1
+          cells[#cells + 1] = { tag, part,
+            node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
+            node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1) }
+        end
+      end
+    end
+  end
+  for part = 1, 2 do
+    if format == "inp" then add("*ELEMENT, TYPE=C3D8, ELSET=part%d", part) end
+    for _, c in ipairs(cells) do
+      if c[2] == part then
+        if format == "bdf" then
+          add("CHEXA,%d,%d,%d,%d,%d,%d,%d,%d,\n,%d,%d", table.unpack(c))
+        else
+          add("%d, %d, %d, %d, %d, %d, %d, %d, %d", c[1], table.unpack(c, 3))
+        end
+      end
+    end
+  end
+  return table.concat(lines, "\n") .. "\n"
+end
+
+for _, format in ipairs { "bdf", "inp" } do
+  local lower = format == "bdf" and "pid:1" or "part1"
+  local upper = format == "bdf" and "pid:2" or "part2"
+  local path = params.scratch .. "/blocks." .. format
+  check.write(path, deck(format))
+  local model = lacuna.load(path)
+  check.equal(#model:faces { region = lower, free = true }, 6) -- the bottom of the hole is one
+  check.equal(#model:faces { free = false }, 1)
+  check.equal(#model:faces { region = upper }, 1 + 4 + 4 + 1)
+  check.equal(#model:faces { name = upper, box = { { 1, 1, 2 }, { 3, 3, 4 } } }, 4)
+  local bottom = model:face { region = lower, box = { { 1, 1, 2 }, { 3, 3, 2 } } }
+  check.equal(#model:faces { touching = bottom, region = upper, free = true }, 4)
+  check.equal(#model:faces { touching = bottom, free = false }, 1)
+  check.equal(#model:faces { near = { 2, 2, 2 }, within = 0.9 }, 1)
+  check.equal(#model:faces { near = { 2, 2, 2 }, within = 1.1 }, 6)
+  check.equal(#model:faces { facing = { 1, 1, 0 }, normal_within = 46, region = upper, free = true }, 4)
+  local sides = { name = upper, box = { { 1, 1, 2 }, { 3, 3, 4 } } }
+  local void = model:open_volume { source = bottom, walls = sides }
+  check.equal(void.class, "IV")
+  check.fails(function() model:faces { within = 1 } end, "near")
+  check.fails(function() model:faces { touching = 12345 } end, "touching")
+  check.equal(lacuna.check(path).hexes, 16 * 2 + 12 * 2)
+end
+
+-- A tube of shells has a radius, a plate none.
+local tube = lacuna.synthetic.prism { sides = 48, radius = 3, height = 5 }
+check.equal(#tube:faces { radius = { 2.9, 3.1 } }, #tube:faces { radius = { 0, math.huge } })
+
+check.done()
