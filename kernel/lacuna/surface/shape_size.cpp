@@ -41,6 +41,10 @@ constexpr double kFacing = 0.8;
 /// Places of one edge face each other if the way between them along it is this much longer than the line:
 /// nearly half a circle, 1.57 [-].
 constexpr double kWayRound = 1.5;
+/// Inside a face its curvature makes quads no smaller than this share of the size asked for. They are as long
+/// as they are wide, so a sharp bend would cost hundreds of them for one side's sag. A choice, not a
+/// measurement.
+constexpr double kLeastShare = 0.5;
 
 Vec3 area_vector(const Model& model, const Triangle& t)
 {
@@ -100,6 +104,7 @@ void add_curvature(const Model& model, FaceId face, const SizeField& asked, int 
         if (!(curvature * model.diagonal > 1e-6)) continue; // flatter than any size can see
         double size = 2 * std::numbers::pi / (curvature * per_turn);
         if (f.surface == nullptr) size = std::max(size, around.shortest / 2);
+        size = std::max(size, kLeastShare * asked(model.at(point)));
         if (size < asked(model.at(point))) sizes.push_back({model.at(point), size});
     }
 }

@@ -17,11 +17,11 @@ struct ShapeSizing {
 ///
 /// - Curvature: the larger principal curvature k at the facets' points asks for 2π / (k · curvature), as
 ///   Gmsh's MeshSizeFromCurvature. It is the facets' curvature tensor (@cite cohensteiner_2003_tensor), over
-///   the facets at a point. Facets without an exact surface ask for nothing finer than half of themselves.
-/// - Width: the ball that touches a rim from within is shrunk until it holds no rim (@cite
-/// ma_2012_ball). Where
-///   the place opposite faces back, their distance w asks for w / gap, and, where the rim has the curvature
-///   k, for a side whose sag is a quarter of w at most: √(2 w / k).
+///   the facets at a point. Facets without an exact surface ask for nothing finer than half of themselves,
+///   and no bend for less than half the size asked for: rims have their own count of sides.
+/// - Width: the ball that touches a rim from within is shrunk until it holds no rim 
+///   (@cite ma_2012_ball). Where the place opposite faces back, their distance w asks for w / gap, and, where
+///   the rim has the curvature k, for a side whose sag is a quarter of w at most: √(2 w / k).
 ///
 /// What is asked for at a place fades with distance from it. The curvature of edges is not in the field:
 /// `seed_source()` counts it along each edge.

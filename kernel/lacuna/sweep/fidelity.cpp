@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/fidelity.h>
 
+#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/parallel.h>
 #include <lacuna/geometry/facet_tree.h>
@@ -10,9 +11,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
-#include <map>
+#include <unordered_set>
 
 namespace lacuna::sweep {
 
@@ -31,6 +33,40 @@ constexpr double kShareOnVoid = 1;
 constexpr double kFlat = 1e-3;
 /// Samples of a range that one thread takes: a choice, not a measurement.
 constexpr std::size_t kGrain = 1024;
+
+/// Points this near a plane lie in it, as a share of the face's extent: rounding is a thousand times less.
+constexpr double kInPlane = 1e-12;
+
+/// Tells the nodes on the border of a patch of polygons from those inside: inside, every neighbour comes
+/// once before the node and once after it.
+class BorderNodes {
+public:
+    explicit BorderNodes(std::size_t nodes) : turn_(nodes, 0) {}
+
+    template <class Polygons>
+    void set(const Polygons& polygons)
+    {
+        clear();
+        for (const auto& polygon : polygons) {
+            const std::size_t n = polygon.size();
+            for (std::size_t k = 0; k < n; ++k) {
+                turn_[index(polygon[k])] += polygon[(k + 1) % n] - std::int64_t{polygon[(k + n - 1) % n]};
+                touched_.push_back(polygon[k]);
+            }
+        }
+    }
+    [[nodiscard]] bool has(Index node) const { return turn_[index(node)] != 0; }
+
+private:
+    void clear()
+    {
+        for (const Index node : touched_) turn_[index(node)] = 0;
+        touched_.clear();
+    }
+
+    std::vector<std::int64_t> turn_;
+    std::vector<Index> touched_;
+};
 
 /// How far a face and its quads may be apart.
 struct Limit {
@@ -70,23 +106,29 @@ double longest_side(const mesh::HexMesh& mesh, const Quad& quad)
 /// One face and the quads on it.
 class Comparison {
 public:
+    /// @param border  for the nodes of the mesh; its contents are overwritten.
     Comparison(const mesh::HexMesh& mesh, const Patch& patch, surface::FaceShape shape, double sign,
-               const Limit& limit)
+               const Limit& limit, BorderNodes& border)
         : mesh_(mesh),
           patch_(patch),
           shape_(std::move(shape)),
           face_tree_(shape_.points, shape_.triangles),
+          flat_(find_plane()),
           sign_(sign),
           limit_(limit)
     {
-        sample_quads();
-        build_quads();
+        if (flat_)
+            sample_flat_quads(border);
+        else
+            sample_quads();
+        build_quads(border);
     }
 
     FaceFidelity run(const RunContext& context)
     {
         result_.face = patch_.face;
         result_.quads = patch_.quads.size();
+        take(in_plane_);
         parallel_for(context, samples_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) compare_with_face(samples_[i]);
         });
@@ -138,11 +180,73 @@ private:
         }
     }
 
-    void build_quads()
+    /// Whether the exact face lies in a plane.
+    bool find_plane()
+    {
+        if (shape_.triangles.empty()) return false;
+        Vec3 area = Vec3::Zero(), low = shape_.points.front(), high = low;
+        for (const Triangle& t : shape_.triangles) {
+            const Vec3& a = shape_.points[index(t[0])];
+            area += (shape_.points[index(t[1])] - a).cross(shape_.points[index(t[2])] - a);
+        }
+        for (const Vec3& p : shape_.points) {
+            low = low.cwiseMin(p);
+            high = high.cwiseMax(p);
+        }
+        origin_ = (low + high) / 2;
+        normal_ = area.stableNormalized();
+        const double slack = kInPlane * ((high - low).norm() + origin_.cwiseAbs().maxCoeff());
+        const auto off = [&](const Vec3& p) { return std::abs(normal_.dot(p - origin_)) > slack; };
+        origin_ = shape_.points[index(shape_.triangles.front()[0])];
+        if (std::any_of(shape_.points.begin(), shape_.points.end(), off)) return false;
+        for (const std::array<Vec3, 3>& bulges : shape_.bulge) {
+            for (const Vec3& bulge : bulges) {
+                if (std::abs(normal_.dot(bulge)) > slack) return false;
+            }
+        }
+        return true;
+    }
+
+    /// On a plane no quad that is in it and faces its way is off inside, so that only borders are compared.
+    void sample_flat_quads(BorderNodes& border)
+    {
+        border.set(patch_.quads);
+        in_plane_.reserve(patch_.quads.size());
+        for (std::size_t q = 0; q < patch_.quads.size(); ++q) {
+            const Quad& quad = patch_.quads[q];
+            const std::array<Vec3, 4> c{node(quad[0]), node(quad[1]), node(quad[2]), node(quad[3])};
+            const Vec3 across = (c[2] - c[0]).cross(c[3] - c[1]) / 2;
+            const auto own = static_cast<Index>(q);
+            Sample sample{c[0], across.norm(), 0, own, across};
+            sample.turned = sign_ * across.dot(normal_) < 0;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const double off = std::abs(normal_.dot(c[k] - origin_));
+                sample.side = std::max(sample.side, (c[(k + 1) % 4] - c[k]).squaredNorm());
+                if (off <= sample.distance) continue;
+                sample.distance = off;
+                sample.point = c[k];
+            }
+            sample.side = std::sqrt(sample.side);
+            in_plane_.push_back(sample);
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Index next = quad[(k + 1) % 4];
+                if (!border.has(quad[k])) continue;
+                samples_.push_back({c[k], 0, sample.side, own});
+                if (!border.has(next)) continue;
+                samples_.push_back({(c[k] + c[(k + 1) % 4]) / 2, 0, (c[(k + 1) % 4] - c[k]).norm(), own});
+            }
+        }
+    }
+
+    void build_quads(const BorderNodes& border)
     {
         std::vector<Vec3> points;
         std::vector<Triangle> triangles;
+        const auto inside = [&](const Quad& quad) {
+            return std::none_of(quad.begin(), quad.end(), [&](Index n) { return border.has(n); });
+        };
         for (std::size_t q = 0; q < patch_.quads.size(); ++q) {
+            if (flat_ && inside(patch_.quads[q])) continue;
             const auto first = static_cast<Index>(points.size());
             for (const Index n : patch_.quads[q]) points.push_back(node(n));
             const Vec3* c = &points[index(first)];
@@ -164,6 +268,7 @@ private:
     [[nodiscard]] std::vector<Sample> facet_samples() const
     {
         std::vector<Sample> samples;
+        if (flat_) return border_samples();
         for (const Vec3& p : shape_.points) samples.push_back({p});
         for (std::size_t i = 0; i < shape_.triangles.size(); ++i) {
             const Triangle& t = shape_.triangles[i];
@@ -174,6 +279,29 @@ private:
                  {Vec3(1. / 3, 1. / 3, 1. / 3), Vec3(.5, .5, 0), Vec3(0, .5, .5), Vec3(.5, 0, .5)}) {
                 const Vec3 flat = w[0] * c[0] + w[1] * c[1] + w[2] * c[2];
                 samples.push_back({flat + shape_.bulge_at(i, w), area / 4});
+            }
+        }
+        return samples;
+    }
+
+    /// Points on the border of the face, and middles of sides there, on the exact face.
+    [[nodiscard]] std::vector<Sample> border_samples() const
+    {
+        std::unordered_set<std::uint64_t> sides;
+        for (const Triangle& t : shape_.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) sides.insert(directed_key(t[k], t[(k + 1) % 3]));
+        }
+        std::vector<Sample> samples;
+        for (std::size_t i = 0; i < shape_.triangles.size(); ++i) {
+            const Triangle& t = shape_.triangles[i];
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t next = (k + 1) % 3;
+                if (sides.contains(directed_key(t[next], t[k]))) continue;
+                Vec3 w = Vec3::Zero();
+                w[static_cast<Eigen::Index>(k)] = w[static_cast<Eigen::Index>(next)] = 0.5;
+                const Vec3 &from = shape_.points[index(t[k])], &to = shape_.points[index(t[next])];
+                samples.push_back({from});
+                samples.push_back({(from + to) / 2 + shape_.bulge_at(i, w)});
             }
         }
         return samples;
@@ -272,6 +400,9 @@ private:
     geometry::FacetTree face_tree_, quad_tree_;
     std::vector<Index> quad_of_; ///< of each triangle in `quad_tree_`
     std::vector<Sample> samples_;
+    std::vector<Sample> in_plane_; ///< of a flat face: a quad each, compared with the plane
+    Vec3 origin_ = Vec3::Zero(), normal_ = Vec3::Zero(); ///< of that plane
+    bool flat_ = false;
     double sign_;
     Limit limit_;
     FaceFidelity result_;
@@ -376,6 +507,7 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
     const double sign = result.sealed_volume < 0 ? -1 : 1;
     result.sealed_volume *= sign;
     double area = 0;
+    BorderNodes border(mesh.nodes.size());
     for (const Patch& patch : patches) {
         FaceFidelity face;
         face.face = patch.face;
@@ -385,7 +517,8 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
         if (patch.quads.empty()) {
             face = left_out(model, mesh, patch.face, limit);
         } else if (!kept.contains(patch.face)) {
-            face = Comparison(mesh, patch, std::move(shapes[patch.face.index()]), sign, limit).run(context);
+            face = Comparison(mesh, patch, std::move(shapes[patch.face.index()]), sign, limit, border)
+                       .run(context);
         }
         face.name = name_of(model, patch.face);
         face.tag = model[patch.face].tag;
