@@ -8,6 +8,7 @@
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/projector.h>
 #include <lacuna/surface/source_mesh.h>
+#include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/normals.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
 #include <lacuna/sweep/detail/words.h>
@@ -285,12 +286,6 @@ LayerNodes best_layers(const surface::SourceMesh& source, const Morphed& morphed
     return least(plain) > with ? plain : spread;
 }
 
-/// A mesh with what its proof says.
-struct ProvedSweep {
-    Swept swept;
-    quality::Proof proof;
-};
-
 /// Seeds, quads, walls, target, layers and proof between the rims of linking surfaces that say what goes with
 /// what.
 ProvedSweep sweep_between(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
@@ -403,6 +398,20 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
     return alone;
 }
 
+/// From source to target, by the linking surfaces that the walls are.
+ProvedSweep sweep_one_way(const OpenVolume& volume, const surface::SizeField& size,
+                          const SweepOptions& options, const RunContext& context)
+{
+    std::vector<double> heights = layer_heights(options.layers);
+    if (volume.turned_round) {
+        std::reverse(heights.begin(), heights.end());
+        for (double& h : heights) h = 1 - h;
+    }
+    const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(volume);
+    return can_turn_together(links) ? better_turning(volume, links, heights, size, options, context)
+                                    : sweep_between(volume, links, heights, size, options, context);
+}
+
 } // namespace
 
 Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
@@ -411,19 +420,14 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunCont
     check(options, context);
     const surface::SizeField size = checked_size(volume, options);
     check_amount(volume, size, options.layers);
-    std::vector<double> heights = layer_heights(options.layers);
-    if (volume.turned_round) {
-        std::reverse(heights.begin(), heights.end());
-        for (double& h : heights) h = 1 - h;
-    }
     if (!closure::is_watertight(volume)) {
         throw NotSweepable("sweep.not_closed",
                            "the volume is not sealed; close it first with volume:close()");
     }
-    const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(volume);
-    ProvedSweep result = can_turn_together(links)
-                             ? better_turning(volume, links, heights, size, options, context)
-                             : sweep_between(volume, links, heights, size, options, context);
+    const OneWay one_way = [&](const OpenVolume& way, const SweepOptions& rest) {
+        return sweep_one_way(way, size, rest, context);
+    };
+    ProvedSweep result = sweep_both_ways(volume, options, one_way, context);
     quality::require(result.proof);
     return std::move(result.swept);
 }
