@@ -48,7 +48,7 @@ double turning(const Model& model, EdgeId id)
 class Seeder {
 public:
     Seeder(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
-           QuadStyle style)
+           QuadStyle style, const std::map<EdgeId, double>& lengths)
         : volume_(volume), model_(volume.model), size_(size), style_(style)
     {
         for (const LinkingSurface& link : links) add_rim(link);
@@ -65,6 +65,11 @@ public:
         }
         for (auto& [edge, pieces] : seeds_.pieces) {
             for (SeedPiece& piece : pieces) ask_size(edge, piece);
+            const auto swept_to = lengths.find(edge);
+            if (swept_to == lengths.end()) continue;
+            const double longer = swept_to->second / edge_length(model_, edge);
+            for (SeedPiece& piece : pieces)
+                piece.count = std::max(piece.count, static_cast<int>(std::lround(longer * piece.count)));
         }
         for (const FaceId face : seeds_.kept) {
             for (const Loop& loop : model_[face].loops) {
@@ -287,6 +292,32 @@ private:
         return sum % 2 != 0;
     }
 
+    /// An edge by which a face gets rid of an odd side, and the edges that get one more for it.
+    struct Exit {
+        EdgeId edge;
+        std::vector<EdgeId> raised;
+    };
+
+    [[nodiscard]] std::vector<EdgeId> edges_of(FaceId face) const
+    {
+        std::vector<EdgeId> edges;
+        for (const Loop& loop : model_[face].loops) {
+            for (const EdgeUse& use : loop.uses) edges.push_back(use.edge);
+        }
+        return edges;
+    }
+
+    /// The edges of a mapped face's side opposite to one of its edges.
+    [[nodiscard]] std::vector<EdgeId> opposite_to(FaceId face, EdgeId edge) const
+    {
+        for (const SidePair& sides : opposite_.at(face)) {
+            for (std::size_t k = 0; k < 2; ++k) {
+                if (std::find(sides[k].begin(), sides[k].end(), edge) != sides[k].end()) return sides[1 - k];
+            }
+        }
+        return {};
+    }
+
     [[nodiscard]] bool is_free(FaceId face) const
     {
         return !opposite_.contains(face) && !seeds_.kept.contains(face);
@@ -298,36 +329,40 @@ private:
         return std::all_of(pieces.begin(), pieces.end(), [](const SeedPiece& piece) { return piece.fixed; });
     }
 
-    /// Free faces by how many edges lie between them and a rim edge of their own, farthest first: each hands
-    /// its odd side on.
+    /// Free faces by how many edges lie between them and the rim, farthest first: each hands its odd side on.
+    /// A mapped face between two free ones passes a side from one of its sides to the one opposite.
     void make_even()
     {
-        std::map<FaceId, EdgeId> way_out;
+        std::vector<Exit> exits;
+        for (const EdgeId edge : rim_) exits.push_back({edge, {edge}});
+        std::stable_sort(exits.begin(), exits.end(), [&](const Exit& a, const Exit& b) {
+            return edge_length(model_, a.edge) > edge_length(model_, b.edge);
+        });
+        std::map<FaceId, std::vector<EdgeId>> way_out;
         std::vector<FaceId> order;
-        const std::vector<FaceId> faces = volume_.faces(Role::source);
-        for (const FaceId face : faces) {
-            if (!is_free(face)) continue;
-            std::optional<EdgeId> longest;
-            for (const auto& [edge, users] : users_) {
-                if (!rim_.contains(edge) || !users.contains(face) || is_fixed(edge)) continue;
-                if (!longest || edge_length(model_, edge) > edge_length(model_, *longest)) longest = edge;
-            }
-            if (!longest) continue;
-            way_out[face] = *longest;
-            order.push_back(face);
-        }
-        for (std::size_t i = 0; i < order.size(); ++i) {
-            for (const auto& [edge, users] : users_) {
-                if (!users.contains(order[i]) || is_fixed(edge)) continue;
-                for (const FaceId other : users) {
-                    if (!is_free(other) || way_out.contains(other)) continue;
-                    way_out[other] = edge;
-                    order.push_back(other);
+        std::set<EdgeId> known(rim_.begin(), rim_.end());
+        for (std::size_t i = 0; i < exits.size(); ++i) {
+            const Exit exit = exits[i];
+            if (is_fixed(exit.edge)) continue;
+            for (const FaceId face : users_[exit.edge]) {
+                if (seeds_.kept.contains(face)) continue;
+                if (is_free(face) && way_out.try_emplace(face, exit.raised).second) {
+                    order.push_back(face);
+                    for (const EdgeId edge : edges_of(face)) {
+                        if (known.insert(edge).second) exits.push_back({edge, {edge}});
+                    }
+                }
+                if (is_free(face)) continue;
+                for (const EdgeId edge : opposite_to(face, exit.edge)) {
+                    if (!known.insert(edge).second) continue;
+                    exits.push_back({edge, exit.raised});
+                    exits.back().raised.push_back(edge);
                 }
             }
         }
         for (auto face = order.rbegin(); face != order.rend(); ++face) {
-            if (odd(*face)) raise({way_out.at(*face)}, 1);
+            if (!odd(*face)) continue;
+            for (const EdgeId edge : way_out.at(*face)) raise({edge}, 1);
         }
     }
 
@@ -395,9 +430,9 @@ std::vector<double> SeedPiece::fractions() const
 }
 
 Seeds seed_source(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
-                  QuadStyle style)
+                  QuadStyle style, const std::map<EdgeId, double>& lengths)
 {
-    return Seeder(volume, links, size, style).run();
+    return Seeder(volume, links, size, style, lengths).run();
 }
 
 double rim_spacing(const OpenVolume& volume)

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/both_ways.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/surface/imprint.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
@@ -19,16 +20,6 @@ namespace {
 /// Below this least scaled Jacobian the other way is tried: what every mesh is to reach, features or not. A
 /// choice, not a measurement.
 constexpr double kPoor = 0.2;
-
-/// Whether faces of an end meet within it: a seam of one face is no such edge.
-bool has_inner_edges(const OpenVolume& volume, Role end)
-{
-    const auto uses = edge_uses(volume.model);
-    return std::any_of(uses.begin(), uses.end(), [&](const std::vector<FaceUse>& of) {
-        return of.size() == 2 && of[0].face != of[1].face && volume.role[of[0].face.index()] == end &&
-               volume.role[of[1].face.index()] == end;
-    });
-}
 
 /// Whether the source's own quads are to be its mesh.
 bool keeps_quads(const OpenVolume& volume, const SweepOptions& options)
@@ -94,8 +85,8 @@ ProvedSweep sweep_both_ways(const OpenVolume& volume, const SweepOptions& option
 {
     if (keeps_quads(volume, options)) return sweep_one_way(volume, options);
     const auto start = std::chrono::steady_clock::now();
-    const bool turned_first = options.rows == 0 && has_inner_edges(volume, Role::target) &&
-                              !has_inner_edges(volume, Role::source);
+    const bool turned_first = options.rows == 0 && !surface::inner_edges(volume, Role::target).empty() &&
+                              surface::inner_edges(volume, Role::source).empty();
     std::optional<OpenVolume> turned;
     if (turned_first) turned = turned_round(volume);
     const OpenVolume& first = turned_first ? *turned : volume;

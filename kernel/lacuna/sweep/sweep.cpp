@@ -6,9 +6,10 @@
 #include <lacuna/quads/pave.h>
 #include <lacuna/quads/submap.h>
 #include <lacuna/quality/quality.h>
-#include <lacuna/surface/projector.h>
+#include <lacuna/surface/imprint.h>
 #include <lacuna/surface/source_mesh.h>
 #include <lacuna/sweep/detail/both_ways.h>
+#include <lacuna/sweep/detail/morph_ends.h>
 #include <lacuna/sweep/detail/normals.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
 #include <lacuna/sweep/detail/words.h>
@@ -205,34 +206,15 @@ private:
     std::map<FaceId, Index> patch_;
 };
 
-std::vector<FaceId> faces_under_quads(const surface::Projector& projector, const std::vector<Quad>& quads,
-                                      std::span<const Vec3> nodes)
-{
-    std::vector<Vec3> centres;
-    for (const Quad& q : quads) {
-        Vec3 sum = Vec3::Zero();
-        for (const Index n : q) sum += nodes[static_cast<std::size_t>(n)];
-        centres.emplace_back(sum / 4);
-    }
-    return projector.closest_face(centres);
-}
-
+/// @param ends  faces of each quad on the source and on the target.
 /// @return  face of each patch.
 std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceMesh& source,
-                                const surface::Projector& target, const std::vector<surface::WallMesh>& walls,
+                                const EndFaces& ends, const std::vector<surface::WallMesh>& walls,
                                 mesh::HexMesh& mesh)
 {
     SkinPatches patches(volume, mesh);
-    for (const Index face : source.quads.face) mesh.source_patch.push_back(patches.of(FaceId(face)));
-    const std::span<const Vec3> top{mesh.nodes.data() + static_cast<std::size_t>(mesh.layers) *
-                                                            static_cast<std::size_t>(mesh.nodes_per_layer),
-                                    static_cast<std::size_t>(mesh.nodes_per_layer)};
-    if (const std::vector<FaceId> faces = volume.faces(Role::target); faces.size() == 1) {
-        mesh.target_patch.assign(mesh.quads.size(), patches.of(faces.front()));
-    } else {
-        for (const FaceId face : faces_under_quads(target, mesh.quads, top))
-            mesh.target_patch.push_back(patches.of(face));
-    }
+    for (const FaceId face : ends.source) mesh.source_patch.push_back(patches.of(face));
+    for (const FaceId face : ends.target) mesh.target_patch.push_back(patches.of(face));
 
     // A linking surface's sides run with the linking surface or against it; each side of the rim finds its
     // place by the nodes it joins.
@@ -288,13 +270,20 @@ LayerNodes best_layers(const surface::SourceMesh& source, const Morphed& morphed
 
 /// Seeds, quads, walls, target, layers and proof between the rims of linking surfaces that say what goes with
 /// what.
-ProvedSweep sweep_between(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
+ProvedSweep sweep_between(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& given_links,
                           const std::vector<double>& heights, const surface::SizeField& size,
                           const SweepOptions& options, const RunContext& context)
 {
     Swept result;
-    const surface::Seeds seeds = surface::seed_source(volume, links, size, style_of(options));
-    surface::SourceMesh source = surface::mesh_source(volume, links, seeds, size_fields(size, options),
+    std::optional<surface::Imprint> imprint;
+    if (!surface::inner_edges(volume, Role::target).empty())
+        imprint = surface::imprint_target(volume, given_links, size);
+    const OpenVolume& split = imprint ? *imprint->volume : volume;
+    const std::vector<surface::LinkingSurface>& links = imprint ? imprint->links : given_links;
+    const surface::Seeds seeds = surface::seed_source(split, links, size, style_of(options),
+                                                      imprint ? surface::image_lengths(*imprint)
+                                                              : std::map<EdgeId, double>{});
+    surface::SourceMesh source = surface::mesh_source(split, links, seeds, size_fields(size, options),
                                                       mesher_of(options), context);
     for (std::string& note : source.notes) result.report.push_back("source " + note);
     for (const Role role : {Role::target, Role::wall}) {
@@ -307,15 +296,15 @@ ProvedSweep sweep_between(const OpenVolume& volume, const std::vector<surface::L
     }
 
     std::vector<surface::WallMesh> walls;
-    const RimColumns columns = columns_of(volume, links, source, heights, walls, context);
+    const RimColumns columns = columns_of(split, links, source, heights, walls, context);
     for (const surface::WallMesh& wall : walls) {
         for (const std::string& note : wall.notes) result.report.push_back("walls: " + note);
     }
     check_cancelled(context);
 
-    const surface::Projector target(volume.model, volume.faces(Role::target));
-    const Morphed morphed = morph(
-        source.quads, columns, [&](std::span<Vec3> points) { target.project(points, context); }, context);
+    const EndFaces ends = end_faces(volume, source, imprint);
+    const Morphed morphed = imprint ? morph_onto_faces(source, columns, seeds, *imprint, ends.target, context)
+                                    : morph_onto(volume, source, columns, context);
     result.report.push_back("target: " + morphed.report);
     PlacementOptions placement;
     placement.straight_lines = options.interior == Interior::automatic && ruled(volume, links);
@@ -330,7 +319,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, const std::vector<surface::L
     mesh.quads = source.quads.quads;
     for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
         mesh.rim.push_back({side.from, side.to});
-    const std::vector<FaceId> faces = set_patches(volume, source, target, walls, mesh);
+    const std::vector<FaceId> faces = set_patches(volume, source, ends, walls, mesh);
     for (const FaceId wall : volume.faces(Role::wall)) {
         if (volume.model[wall].origin != Origin::given ||
             std::find(faces.begin(), faces.end(), wall) != faces.end())
