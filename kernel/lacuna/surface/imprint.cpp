@@ -9,6 +9,7 @@
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/triangulate.h>
 #include <lacuna/matching/corners.h>
+#include <lacuna/surface/detail/alike_ends.h>
 #include <lacuna/surface/detail/imprint_map.h>
 #include <lacuna/surface/detail/linking_map.h>
 #include <lacuna/surface/detail/plane_regions.h>
@@ -139,16 +140,12 @@ public:
     {
         result_.volume = std::make_unique<OpenVolume>(volume);
         for (std::size_t f = 0; f < volume.model.faces.size(); ++f) result_.source_of.emplace_back(f);
-        for (const FaceId face : volume.faces(Role::source)) {
-            if (volume.model[face].given_quads.empty()) continue;
-            refuse(volume.model, inner_.front(),
-                   name_of(volume.model, face) +
-                       " came with quads; load with keep_mesh = false, or name one face as the target");
-        }
     }
 
     Imprint run()
     {
+        if (match_alike()) return std::move(result_);
+        check_not_kept();
         pair_rims();
         link_anew();
         base_ = *result_.volume;
@@ -170,6 +167,34 @@ public:
 
 private:
     Model& model() { return result_.volume->model; }
+
+    /// Both ends split alike need no map: edge goes to edge.
+    bool match_alike()
+    {
+        std::optional<AlikeEnds> alike = alike_ends(*result_.volume, given_links_);
+        if (!alike) return false;
+        pairs_ = std::move(alike->pairs);
+        link_anew();
+        result_.target_of.resize(model().faces.size());
+        for (const auto& [low, high] : alike->faces) result_.target_of[low.index()] = high;
+        for (const auto& [low, high] : alike->edges) {
+            // The target faces the other way: its edge is walked backwards.
+            const bool along = low.reversed != high.reversed;
+            result_.images[low.edge] = {high.edge, along ? 0.0 : 1.0, along ? 1.0 : 0.0};
+        }
+        return true;
+    }
+
+    /// A face whose own quads are its mesh cannot be split.
+    void check_not_kept()
+    {
+        for (const FaceId face : result_.volume->faces(Role::source)) {
+            if (model()[face].given_quads.empty()) continue;
+            refuse(model(), inner_.front(),
+                   name_of(model(), face) +
+                       " came with quads; load with keep_mesh = false, or name one face as the target");
+        }
+    }
 
     // --- rims ----------------------------------------------------------------------------------------
 
@@ -316,7 +341,8 @@ private:
         for (std::size_t e = 0; e < uses.size(); ++e) {
             if (uses[e].size() != 2) continue;
             const Role a = base_.role[uses[e][0].face.index()], b = base_.role[uses[e][1].face.index()];
-            if (a == Role::source && b == Role::source) source_inner.emplace_back(e);
+            const bool seam = uses[e][0].face == uses[e][1].face;
+            if (a == Role::source && b == Role::source && !seam) source_inner.emplace_back(e);
             if ((a == Role::source) != (b == Role::source)) {
                 on_rim.insert({base.edges[e].from, base.edges[e].to});
                 if (a == Role::source || b == Role::source) rim_edges_.emplace_back(e);
@@ -387,17 +413,50 @@ private:
         return best;
     }
 
+    /// Whether a node is there only because a closed edge needs a vertex.
+    static bool closes_edge(const std::vector<FlatEdge>& edges, std::size_t node)
+    {
+        std::size_t ends = 0;
+        bool closed = false;
+        for (const FlatEdge& edge : edges) {
+            for (const FlatEdge::Cut& cut : edge.cuts) ends += cut.node == node ? 1 : 0;
+            closed = closed || (edge.cuts.front().node == node && edge.cuts.back().node == node);
+        }
+        return closed && ends == 2;
+    }
+
+    /// Closed edges of both ends that run near each other all the way are one.
+    void unite_closed(std::set<std::size_t>& taken)
+    {
+        for (const FlatEdge& high : target_) {
+            const std::size_t node = high.cuts.front().node;
+            for (const FlatEdge& low : source_) {
+                const std::size_t other = low.cuts.front().node;
+                if (!closes_edge(target_, node) || !closes_edge(source_, other) || taken.contains(other))
+                    continue;
+                const bool near = std::all_of(high.line.begin(), high.line.end(), [&](const Vec2& p) {
+                    return closest_on(low.line, low.at, p).distance <= reach(p);
+                });
+                if (!near) continue;
+                taken.insert(other);
+                unite(node, other);
+            }
+        }
+    }
+
     /// Vertices of the target go to vertices or edges of the source that are near, and those of the source
     /// to edges of the target.
     void snap()
     {
         std::set<std::size_t> taken;
+        unite_closed(taken);
         for (const std::size_t node : loose_target_) {
+            if (closes_edge(target_, node)) continue;
             std::optional<std::size_t> near;
             double least = reach(node_place_[node]);
             for (const std::size_t other : loose_source_) {
                 const double off = (node_place_[node] - node_place_[other]).norm();
-                if (taken.contains(other) || off > least) continue;
+                if (taken.contains(other) || off > least || closes_edge(source_, other)) continue;
                 least = off;
                 near = other;
             }
@@ -413,7 +472,7 @@ private:
             }
         }
         for (const std::size_t node : loose_source_) {
-            if (taken.contains(node)) continue;
+            if (taken.contains(node) || closes_edge(source_, node)) continue;
             FlatEdge* edge = nullptr;
             if (const auto on = closest_edge(target_, node, &edge)) edge->cuts.push_back({on->at, node});
         }
@@ -574,6 +633,39 @@ private:
         return at.barycentric[0] * uv[0] + at.barycentric[1] * uv[1] + at.barycentric[2] * uv[2];
     }
 
+    /// The parameters of a place on the same side of a seam as those of a place nearby: over a seam they jump
+    /// by all that the face has of them.
+    Vec2 unwrapped(FaceId face, Vec2 uv, const Vec2& near)
+    {
+        const Vec2 range = seam_jump(face);
+        for (int k = 0; k < 2; ++k) {
+            if (range[k] > 0) uv[k] -= range[k] * std::round((uv[k] - near[k]) / range[k]);
+        }
+        return uv;
+    }
+
+    /// How far parameters jump over a face's seam; zero where it has none.
+    Vec2 seam_jump(FaceId face)
+    {
+        const auto [found, fresh] = seam_jump_.try_emplace(face, Vec2::Zero());
+        if (!fresh) return found->second;
+        const Face& f = base_.model[face];
+        std::set<EdgeId> once;
+        bool seam = false;
+        for (const Loop& loop : f.loops) {
+            for (const EdgeUse& use : loop.uses) seam = !once.insert(use.edge).second || seam;
+        }
+        if (!seam) return found->second;
+        Vec2 low = f.uv.front()[0], high = low;
+        for (const auto& corners : f.uv) {
+            for (const Vec2& c : corners) {
+                low = low.cwiseMin(c);
+                high = high.cwiseMax(c);
+            }
+        }
+        return found->second = high - low;
+    }
+
     /// A length that facets of a face have, in the plane.
     double facet_side(FaceId face) const
     {
@@ -608,6 +700,7 @@ private:
                 const Vec2& inward = line[i == 0 ? 1 : i + 1 == line.size() ? i - 1 : i];
                 points.push_back(model().at(edge.points[i]));
                 uv.push_back(parameters(face, line[i] + kWayIn * (inward - line[i])));
+                if (i > 0) uv.back() = unwrapped(face, uv.back(), uv[i - 1]);
                 edge.params.push_back(static_cast<double>(i));
             }
             edge.curve = std::make_shared<SurfaceCurve>(std::move(points), std::move(uv), on.surface);
@@ -793,7 +886,8 @@ private:
             std::array<Vec2, 3>& corners = uv.emplace_back();
             for (std::size_t k = 0; k < 3; ++k) {
                 const Vec2& corner = made.points[index(t[k])];
-                corners[k] = parameters(of, corner + 1e-6 * (centre - corner));
+                corners[k] = unwrapped(of, parameters(of, corner + 1e-6 * (centre - corner)),
+                                       parameters(of, centre));
             }
         }
         Face& now = model()[face];
@@ -820,7 +914,8 @@ private:
     std::vector<Border> borders_;                          ///< the source's pieces, the target's, the rim
     std::vector<PlaneChain> chains_;                       ///< of each border
     std::map<EdgeId, FaceId> new_on_;                      ///< source face each new edge lies on
-    std::set<FaceId> split_;                               ///< source faces with new edges
+    std::map<FaceId, Vec2> seam_jump_;
+    std::set<FaceId> split_; ///< source faces with new edges
     std::map<EdgeUse, FaceId> source_left_, target_left_;
     std::map<EdgeId, FaceId> rim_target_; ///< target face over each edge of the source's rim
 };

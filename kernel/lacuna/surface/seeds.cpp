@@ -295,6 +295,7 @@ private:
     /// An edge by which a face gets rid of an odd side, and the edges that get one more for it.
     struct Exit {
         EdgeId edge;
+        FaceId into;
         std::vector<EdgeId> raised;
     };
 
@@ -334,31 +335,44 @@ private:
     void make_even()
     {
         std::vector<Exit> exits;
-        for (const EdgeId edge : rim_) exits.push_back({edge, {edge}});
-        std::stable_sort(exits.begin(), exits.end(), [&](const Exit& a, const Exit& b) {
-            return edge_length(model_, a.edge) > edge_length(model_, b.edge);
-        });
+        std::set<std::pair<EdgeId, FaceId>> known;
+        const auto push = [&](EdgeId edge, FaceId from, std::vector<EdgeId> raised) {
+            raised.push_back(edge);
+            for (const FaceId into : users_[edge]) {
+                if (into == from || is_fixed(edge) || !known.insert({edge, into}).second) continue;
+                exits.push_back({edge, into, raised});
+            }
+        };
+        std::vector<EdgeId> rim(rim_.begin(), rim_.end());
+        std::stable_sort(rim.begin(), rim.end(),
+                         [&](EdgeId a, EdgeId b) { return edge_length(model_, a) > edge_length(model_, b); });
+        for (const EdgeId edge : rim) push(edge, {}, {});
         std::map<FaceId, std::vector<EdgeId>> way_out;
         std::vector<FaceId> order;
-        std::set<EdgeId> known(rim_.begin(), rim_.end());
-        for (std::size_t i = 0; i < exits.size(); ++i) {
-            const Exit exit = exits[i];
-            if (is_fixed(exit.edge)) continue;
-            for (const FaceId face : users_[exit.edge]) {
-                if (seeds_.kept.contains(face)) continue;
-                if (is_free(face) && way_out.try_emplace(face, exit.raised).second) {
-                    order.push_back(face);
-                    for (const EdgeId edge : edges_of(face)) {
-                        if (known.insert(edge).second) exits.push_back({edge, {edge}});
-                    }
+        const auto settle = [&](FaceId face, const std::vector<EdgeId>& raised) {
+            if (!way_out.try_emplace(face, raised).second) return;
+            order.push_back(face);
+            for (const EdgeId edge : edges_of(face)) push(edge, face, {});
+        };
+        std::size_t next = 0;
+        const auto spread = [&] {
+            for (; next < exits.size(); ++next) {
+                const Exit exit = exits[next];
+                if (seeds_.kept.contains(exit.into)) continue;
+                if (is_free(exit.into)) {
+                    settle(exit.into, exit.raised);
+                    continue;
                 }
-                if (is_free(face)) continue;
-                for (const EdgeId edge : opposite_to(face, exit.edge)) {
-                    if (!known.insert(edge).second) continue;
-                    exits.push_back({edge, exit.raised});
-                    exits.back().raised.push_back(edge);
-                }
+                for (const EdgeId edge : opposite_to(exit.into, exit.edge))
+                    push(edge, exit.into, exit.raised);
             }
+        };
+        spread();
+        // Faces that no way leads to from the rim hand their odd sides to one of them, where two cancel.
+        for (const FaceId face : volume_.faces(Role::source)) {
+            if (!is_free(face)) continue;
+            settle(face, {});
+            spread();
         }
         for (auto face = order.rbegin(); face != order.rend(); ++face) {
             if (!odd(*face)) continue;
