@@ -6,6 +6,7 @@
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/geometry/triangulate.h>
 #include <lacuna/healing/split_facets.h>
+#include <lacuna/matching/match.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/sweep.h>
 #include <lacuna/topology/open_volume.h>
@@ -83,6 +84,7 @@ public:
         }
     }
 
+    /// Sealed; walls left out are made.
     [[nodiscard]] OpenVolume volume() const
     {
         healing::SplitOptions split;
@@ -98,7 +100,8 @@ public:
                 .emplace_back(f);
         }
         OpenVolume volume = open_volume(model, roles);
-        closure::close(volume, {});
+        const bool whole = std::find(role_.begin(), role_.end(), Role::wall) != role_.end();
+        closure::close(volume, whole ? matching::Match{} : matching::match(volume));
         return volume;
     }
 
@@ -170,6 +173,56 @@ OpenVolume profile(const std::vector<Vec2>& bottom, const std::vector<Vec2>& top
     for (const double y : {0.0, 2.0})
         faces.plane(
             {outline}, [y](const Vec2& p) { return Vec3(p.x(), y, p.y()); }, faces.face(Role::wall));
+    return faces.volume();
+}
+
+/// Two outlines with straight void walls between them.
+OpenVolume between(const Outline& low, const Outline& high)
+{
+    Faces faces;
+    faces.plane(
+        {low}, [](const Vec2& p) { return Vec3(p.x(), p.y(), 0); }, faces.face(Role::source));
+    faces.plane(
+        {high}, [](const Vec2& p) { return Vec3(p.x(), p.y(), 2); }, faces.face(Role::target));
+    return faces.volume();
+}
+
+/// A box whose wall at y = 0 has a patch from one x and z to another imprinted on it.
+OpenVolume patched_wall(double x0, double z0, double x1, double z1)
+{
+    Faces faces;
+    const Outline rim = rectangle(0, 0, 2, 2);
+    add_end(faces, rim, {}, 0, false);
+    add_end(faces, rim, {}, 2, true);
+    for (std::size_t i = 1; i < rim.size(); ++i) {
+        const Vec2 &a = rim[i], &b = rim[(i + 1) % rim.size()];
+        faces.quad({a.x(), a.y(), 0}, {b.x(), b.y(), 0}, {b.x(), b.y(), 2}, {a.x(), a.y(), 2},
+                   faces.face(Role::wall));
+    }
+    const auto at = [](const Vec2& p) { return Vec3(p.x(), 0, p.y()); };
+    faces.plane({rectangle(0, 0, 2, 2), rectangle(x0, z0, x1, z1)}, at, faces.face(Role::wall));
+    faces.plane({rectangle(x0, z0, x1, z1)}, at, faces.face(Role::wall));
+    return faces.volume();
+}
+
+/// A box whose walls are stacked at heights of their own on each corner.
+OpenVolume stacked(const std::vector<std::array<double, 4>>& levels)
+{
+    Faces faces;
+    const Outline rim = rectangle(0, 0, 2, 2);
+    add_end(faces, rim, {}, 0, false);
+    add_end(faces, rim, {}, 2, true);
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+        const std::size_t j = (i + 1) % rim.size();
+        const auto at = [&](std::size_t k, double z) { return Vec3(rim[k].x(), rim[k].y(), z); };
+        double a = 0, b = 0;
+        for (std::size_t l = 0; l <= levels.size(); ++l) {
+            const double c = l < levels.size() ? levels[l][j] : 2, d = l < levels.size() ? levels[l][i] : 2;
+            faces.quad(at(i, a), at(j, b), at(j, c), at(i, d), faces.face(Role::wall));
+            a = d;
+            b = c;
+        }
+    }
     return faces.volume();
 }
 
@@ -347,4 +400,83 @@ TEST_CASE("ends that are both split, alike and differently, are both kept")
         profile({{0, 0}, {0.7, 0}, {0.7, 0.3}, {2, 0.3}}, {{0, 2}, {1.2, 2}, {1.2, 1.6}, {2, 1.6}}), counts);
     MESSAGE(counts.meshed << " meshed, " << counts.refused << " refused");
     CHECK(counts.meshed > 3 * counts.refused);
+}
+
+TEST_CASE("edges between stacked walls lie on layers, level and slanted")
+{
+    Counts counts;
+    check_features("one level", stacked({{0.7, 0.7, 0.7, 0.7}}), counts);
+    check_features("two levels", stacked({{0.5, 0.5, 0.5, 0.5}, {1.6, 1.6, 1.6, 1.6}}), counts);
+    check_features("slanted", stacked({{0.6, 0.9, 0.9, 0.6}, {1.4, 1.5, 1.7, 1.5}}), counts);
+    MESSAGE(counts.meshed << " meshed, " << counts.refused << " refused");
+    CHECK(counts.refused == 0);
+}
+
+TEST_CASE("edges of the walls that no layer and no column can follow are refused by name")
+{
+    sweep::SweepOptions options;
+    options.layers.count = 8;
+    options.size = [](const Vec3&) { return 0.25; };
+    for (const double low : {0.5, 0.9}) {
+        for (const double wide : {0.3, 0.8}) {
+            const OpenVolume volume = patched_wall(0.6, low, 0.6 + wide, 1.4);
+            try {
+                sweep::sweep(volume, options);
+                FAIL_CHECK("a patch in a wall was meshed over");
+            } catch (const NotSweepable& error) {
+                CHECK(error.code() == "surface.wall_edge");
+                CHECK(std::string(error.what()).find("edge ") == 0);
+            }
+        }
+    }
+    options.layers.count = 2;
+    try {
+        sweep::sweep(stacked({{0.5, 0.5, 0.5, 0.5}, {1.6, 1.6, 1.6, 1.6}}), options);
+        FAIL_CHECK("two rings share a layer");
+    } catch (const NotSweepable& error) {
+        CHECK(error.code() == "surface.too_few_layers");
+        CHECK(std::string(error.what()).find("layers = 3") != std::string::npos);
+    }
+}
+
+TEST_CASE("ends of different shape are swept the way that bears it")
+{
+    const Outline l_shape{{-1, -1}, {1, -1}, {1, 0}, {0, 0}, {0, 1}, {-1, 1}};
+    const Outline u_shape{{-1, -1}, {1, -1}, {1, 1}, {0.4, 1}, {0.4, -0.3}, {-0.4, -0.3}, {-0.4, 1}, {-1, 1}};
+    const std::map<std::string, std::pair<Outline, Outline>> shapes{
+        {"hexagon to L", {polygon(6, {0, 0}, 1), l_shape}},
+        {"octagon to U", {polygon(8, {0, 0}, 1), u_shape}},
+        {"square to circle", {polygon(4, {0, 0}, 1), polygon(32, {0, 0}, 1)}},
+        {"hexagon to triangle", {polygon(6, {0, 0}, 1), polygon(3, {0, 0}, 1)}},
+        {"hexagon to circle", {polygon(6, {0, 0}, 1), polygon(32, {0, 0}, 1)}},
+        {"square to octagon", {polygon(4, {0, 0}, 1), polygon(8, {0, 0}, 1)}},
+    };
+    int meshed = 0, refused = 0;
+    for (const auto& [name, ends] : shapes) {
+        for (const bool turned : {false, true}) {
+            for (const double size : {0.4, 0.2, 0.1}) {
+                CAPTURE(name);
+                CAPTURE(turned);
+                CAPTURE(size);
+                sweep::SweepOptions options;
+                options.layers.count = 8;
+                options.size = [size](const Vec3&) { return size; };
+                try {
+                    const OpenVolume volume = turned ? between(ends.second, ends.first)
+                                                     : between(ends.first, ends.second);
+                    const sweep::Swept swept = sweep::sweep(volume, options);
+                    ++meshed;
+                    test::check_valid(swept.mesh);
+                    // Far ends as unlike as these are bridged by poor cells.
+                    CHECK(swept.min_scaled_jacobian >= (name == "octagon to U" ? 0.05 : 0.2));
+                } catch (const Error& error) {
+                    ++refused;
+                    const std::string where = name + (turned ? " turned" : "") + " at ";
+                    MESSAGE(where << size << ": " << std::string(error.what()));
+                }
+            }
+        }
+    }
+    MESSAGE(meshed << " meshed, " << refused << " refused");
+    CHECK(refused == 0);
 }

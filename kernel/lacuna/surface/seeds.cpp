@@ -293,7 +293,7 @@ private:
     }
 
     /// An edge by which a face gets rid of an odd side, and the edges that get one more for it.
-    struct Exit {
+    struct WayOut {
         EdgeId edge;
         FaceId into;
         std::vector<EdgeId> raised;
@@ -334,7 +334,7 @@ private:
     /// A mapped face between two free ones passes a side from one of its sides to the one opposite.
     void make_even()
     {
-        std::vector<Exit> exits;
+        std::vector<WayOut> exits;
         std::set<std::pair<EdgeId, FaceId>> known;
         const auto push = [&](EdgeId edge, FaceId from, std::vector<EdgeId> raised) {
             raised.push_back(edge);
@@ -357,14 +357,14 @@ private:
         std::size_t next = 0;
         const auto spread = [&] {
             for (; next < exits.size(); ++next) {
-                const Exit exit = exits[next];
-                if (seeds_.kept.contains(exit.into)) continue;
-                if (is_free(exit.into)) {
-                    settle(exit.into, exit.raised);
+                const WayOut way = exits[next];
+                if (seeds_.kept.contains(way.into)) continue;
+                if (is_free(way.into)) {
+                    settle(way.into, way.raised);
                     continue;
                 }
-                for (const EdgeId edge : opposite_to(exit.into, exit.edge))
-                    push(edge, exit.into, exit.raised);
+                for (const EdgeId edge : opposite_to(way.into, way.edge))
+                    push(edge, way.into, way.raised);
             }
         };
         spread();

@@ -92,6 +92,7 @@ public:
                                         [&](const auto& faces) { return is_simple(faces); });
         if (!simple) {
             map_ = std::make_unique<LinkingMap>(volume_, link_);
+            check_loose_edges();
             plan_rings();
         }
         mesh_lines();
@@ -108,7 +109,7 @@ public:
             if (map_ == nullptr) map_ = std::make_unique<LinkingMap>(volume_, link_);
             mesh_by_map(first, last);
         }
-        if (map_ != nullptr) check_edges();
+        if (map_ != nullptr) check_rings();
         return std::move(mesh_);
     }
 
@@ -185,8 +186,8 @@ private:
         }
     }
 
-    /// Edges between walls that the grid of layers and columns cannot follow are refused.
-    void check_edges() const
+    /// Edges that run up the walls without being side lines are refused.
+    void check_loose_edges() const
     {
         if (!map_->loose_edges().empty()) {
             const EdgeId edge = map_->loose_edges().front();
@@ -196,6 +197,11 @@ private:
                                    "one of the target, so the layers would cut across it; carry it on to "
                                    "both ends, or join the two faces to one");
         }
+    }
+
+    /// So are rings that turn or end where no column stands.
+    void check_rings() const
+    {
         for (const LinkingMap::Ring& ring : map_->rings()) {
             for (const VertexId vertex : ring.vertices) {
                 const EdgeId corner = corner_at(ring, vertex);
@@ -213,7 +219,8 @@ private:
     [[nodiscard]] std::string beside(EdgeId edge) const
     {
         std::string text;
-        for (const FaceUse& use : edge_uses(model_)[edge.index()])
+        const auto uses = edge_uses(model_);
+        for (const FaceUse& use : uses[edge.index()])
             text += (text.empty() ? " between " : " and ") + name_of(model_, use.face);
         return text;
     }

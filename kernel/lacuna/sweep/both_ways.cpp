@@ -17,9 +17,9 @@ using namespace topology;
 
 namespace {
 
-/// Below this least scaled Jacobian the other way is tried: what every mesh is to reach, features or not. A
-/// choice, not a measurement.
-constexpr double kPoor = 0.2;
+/// Below this least scaled Jacobian the other way is tried. Every mesh is to reach 0.2; a square swept to a
+/// circle with that has 0.7 from the circle. A choice, not a measurement.
+constexpr double kPoor = 0.3;
 
 /// Whether the source's own quads are to be its mesh.
 bool keeps_quads(const OpenVolume& volume, const SweepOptions& options)
@@ -122,7 +122,8 @@ ProvedSweep sweep_both_ways(const OpenVolume& volume, const SweepOptions& option
     // What went wrong first says more than what goes wrong second.
     if (one.refusal) {
         std::string message = one.why();
-        if (!other.usable()) message += "\nfrom the " + end_of(second) + ": " + other.why();
+        if (!other.usable() && other.why() != message)
+            message += "\nfrom the " + end_of(second) + ": " + other.why();
         throw NotSweepable(one.refusal->code(), message);
     }
     if (!other.usable())
