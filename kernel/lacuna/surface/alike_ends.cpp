@@ -134,9 +134,14 @@ private:
     bool walk_faces(Role role)
     {
         for (const FaceId face : volume_.faces(role)) {
+            std::map<EdgeId, int> times;
+            for (const Loop& loop : model_[face].loops) {
+                for (const EdgeUse& use : loop.uses) ++times[use.edge];
+            }
             for (const Loop& loop : model_[face].loops) {
                 Walk walk;
                 for (const EdgeUse& use : loop.uses) {
+                    if (times[use.edge] > 1) continue; // a seam
                     if (inner_.contains(use.edge))
                         walk.push_back({use, false, use_from(model_, use)});
                     else if (walk.empty() || !walk.back().rim || ends_.contains(use_from(model_, use)))
