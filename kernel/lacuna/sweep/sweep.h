@@ -72,6 +72,10 @@ struct Swept {
 };
 
 /// Fill a sealed volume with hexahedra. What goes with what is read off the sealed walls.
+///
+/// Edges between the faces of an end, and those that run round the walls, become chains of mesh edges. The
+/// sweep runs from source to target, or back where that is better; the report says which, and `mesh` counts
+/// its layers from the end it started at.
 /// @throw InvalidInput   what `check()` refuses; a size that is no positive length, or too many cells to
 ///                       number.
 /// @throw NotSweepable   names the face, wall or cells, what was expected and found, and what to try.
