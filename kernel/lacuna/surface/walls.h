@@ -35,8 +35,8 @@ struct WallMesh {
 /// the face (paper sect. 7; for void faces Algorithms 5 and 6). Other parts (several faces stacked or in a
 /// row, or no side line at all) are meshed by the harmonic map of the linking surface; there, an edge that
 /// runs round between stacked faces has a layer of its own that lies on it. Void faces that follow the
-/// given walls come last: two affine fits a row say where the rows of the other walls lead their nodes, so that rows stay
-/// level round the volume.
+/// given walls come last: two affine fits a row say where the rows of the other walls lead their nodes, so
+/// that rows stay level round the volume.
 /// @param nodes    of each linking surface.
 /// @param heights  layers + 1 numbers from 0 to 1.
 /// @throw NotSweepable "surface.too_few_layers"  more such edges than layers; names one, and the layers that
