@@ -153,6 +153,7 @@ void read_min_scaled_jacobian(lua_State* L, int index, const Where& where, Sweep
 void read_curvature(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
     arguments.options.curvature = read_whole(L, index, where, 0);
+    arguments.options.volume_share = 0; // who names the sides for a turn gets those
 }
 
 void read_gap(lua_State* L, int index, const Where& where, SweepArguments& arguments)

@@ -5,6 +5,8 @@
 #include <lacuna/surface/seeds.h>
 #include <lacuna/surface/walls.h>
 
+#include <lacuna/core/error.h>
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -222,12 +224,17 @@ TEST_CASE(
     MESSAGE(combinations << " stacks");
 }
 
-TEST_CASE("more rings than layers are passed over, and that is said")
+TEST_CASE("more rings than layers are refused, and the layers that would do are named")
 {
     const auto volume = test::sealed({.sides = 4, .rows = 4});
-    const auto mesh = meshed(volume, levels(2), 2);
-    CHECK(!mesh.walls[0].notes.empty());
-    check_walls(volume, mesh, 2, 1e-9);
+    try {
+        meshed(volume, levels(2), 2);
+        FAIL_CHECK("three rings on one layer");
+    } catch (const NotSweepable& error) {
+        CHECK(error.code() == "surface.too_few_layers");
+        CHECK(std::string(error.what()).find("layers = 4") != std::string::npos);
+    }
+    check_walls(volume, meshed(volume, levels(4), 2), 4, 1e-9);
 }
 
 TEST_CASE("rows of a tapered round wall without side lines lie at their heights")

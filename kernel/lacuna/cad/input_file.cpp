@@ -68,8 +68,8 @@ bool runs_as_script(const std::string& name, const std::string& head)
     return !is_step(head) && !is_brep(head);
 }
 
-/// Copy a regular file to memory that no one can change any more, to the end of an input. A script gets a last newline: where it has
-/// none, Gmsh's parser drops a last command that is not whole without a word.
+/// Copy a regular file to memory that no one can change any more, to the end of an input. A script gets a
+/// last newline: where it has none, Gmsh's parser drops a last command that is not whole without a word.
 void add_copy(InputFile& input, const std::string& name, const std::string& path, int flags,
               const RunContext& context)
 {

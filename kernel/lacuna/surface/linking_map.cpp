@@ -353,13 +353,22 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
         for (const EdgeUse& use : line.line.uses) taken.insert(use.edge);
     }
     std::vector<Ring> pieces;
+    const auto uses = edge_uses(model);
     for (const FaceId wall : link.walls) {
         for (const Loop& loop : model[wall].loops) {
             for (const EdgeUse& use : loop.uses) {
                 if (!taken.insert(use.edge).second) continue;
+                const std::vector<FaceUse>& beside = uses[use.edge.index()];
+                const bool seam = beside.size() == 2 && beside[0].face == beside[1].face;
+                if (seam) continue;
                 Ring piece;
                 double along = 0, up = 0;
                 const std::vector<Index> points = use_points(model, use);
+                std::vector<Vec3> line;
+                for (const Index p : points) line.push_back(model.at(p));
+                std::vector<double> share = geometry::arc_lengths(line);
+                const double length = share.back();
+                for (double& f : share) f = use.reversed ? 1 - f / length : f / length;
                 for (std::size_t i = 0; i + 1 < points.size(); ++i) {
                     const auto found = facets.half.find(directed_key(points[i], points[i + 1]));
                     if (found == facets.half.end()) continue;
@@ -368,13 +377,16 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
                                                             t.begin());
                     const Vec2 a = corners[found->second][c];
                     const Vec2 b = corners[found->second][(c + 1) % 3];
-                    piece.segments.push_back({a, b});
+                    piece.pieces.push_back({a, b, use.edge, share[i], share[i + 1]});
                     piece.height += (a.y() + b.y()) / 2;
                     along += std::abs(b.x() - a.x()) * width_;
                     up += b.y() - a.y();
                 }
-                if (piece.segments.empty() || std::abs(up) * height_ > along) continue;
-                piece.height /= static_cast<double>(piece.segments.size());
+                if (piece.pieces.empty() || std::abs(up) * height_ > along) {
+                    loose_.push_back(use.edge);
+                    continue;
+                }
+                piece.height /= static_cast<double>(piece.pieces.size());
                 piece.vertices = {use_from(model, use), use_to(model, use)};
                 pieces.push_back(std::move(piece));
             }
@@ -386,7 +398,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
         if (used[i]) continue;
         used[i] = true;
         Ring ring = pieces[i];
-        double weight = static_cast<double>(ring.segments.size());
+        double weight = static_cast<double>(ring.pieces.size());
         ring.height *= weight;
         for (bool grown = true; grown;) {
             grown = false;
@@ -398,11 +410,10 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
                     });
                 if (used[j] || !meets) continue;
                 used[j] = grown = true;
-                const auto more = static_cast<double>(pieces[j].segments.size());
+                const auto more = static_cast<double>(pieces[j].pieces.size());
                 ring.height += more * pieces[j].height;
                 weight += more;
-                ring.segments.insert(ring.segments.end(), pieces[j].segments.begin(),
-                                     pieces[j].segments.end());
+                ring.pieces.insert(ring.pieces.end(), pieces[j].pieces.begin(), pieces[j].pieces.end());
                 ring.vertices.insert(ring.vertices.end(), pieces[j].vertices.begin(),
                                      pieces[j].vertices.end());
             }
@@ -414,19 +425,21 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
                      [](const Ring& a, const Ring& b) { return a.height < b.height; });
 }
 
-std::vector<double> LinkingMap::crossings(const Ring& ring, double s)
+std::vector<LinkingMap::Crossing> LinkingMap::crossings(const Ring& ring, double s)
 {
     // A column on the end of a piece still crosses it.
     constexpr double kSlack = 1e-9; ///< of a turn: rounding
-    std::vector<double> result;
-    for (const auto& [a, b] : ring.segments) {
+    std::vector<Crossing> result;
+    for (const Piece& piece : ring.pieces) {
+        const Vec2 &a = piece.a, &b = piece.b;
         const double low = std::min(a.x(), b.x()), high = std::max(a.x(), b.x());
         for (double at = s + std::ceil(low - kSlack - s); at <= high + kSlack; at += 1) {
             const double f = high - low > kSlack ? std::clamp((at - a.x()) / (b.x() - a.x()), 0.0, 1.0) : 0.5;
-            result.push_back(a.y() + f * (b.y() - a.y()));
+            result.push_back(
+                {a.y() + f * (b.y() - a.y()), piece.edge, piece.from + f * (piece.to - piece.from)});
         }
     }
-    std::sort(result.begin(), result.end());
+    std::sort(result.begin(), result.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
     return result;
 }
 

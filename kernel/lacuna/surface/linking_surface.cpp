@@ -140,8 +140,48 @@ void add_segments(const Model& model, LinkingSurface& link, double s0, double s1
     }
 }
 
+/// Where two vertices that go together lie on the chains.
+struct PairedPlaces {
+    double source_at, target_at;
+};
+
+/// Segments from one place of both chains to another, by way of the pairs between them.
+void add_paired_segments(const Model& model, LinkingSurface& link, std::vector<PairedPlaces> pairs, double s0,
+                         double s1, double t0, double t1)
+{
+    const double slack = 1e-9 * link.source.length();
+    for (PairedPlaces& pair : pairs) {
+        if (pair.target_at < t0) pair.target_at += link.target.length();
+    }
+    for (const PairedPlaces& pair : pairs) {
+        if (pair.source_at < s0 + slack || pair.source_at > s1 - slack || pair.target_at < t0 + slack ||
+            pair.target_at > t1 - slack)
+            continue;
+        add_segments(model, link, s0, pair.source_at, t0, pair.target_at);
+        s0 = pair.source_at;
+        t0 = pair.target_at;
+    }
+    add_segments(model, link, s0, s1, t0, t1);
+}
+
+/// The pairs whose vertices both chains have, as they come on the source's.
+std::vector<PairedPlaces> places_of(const Model& model, const LinkingSurface& link,
+                                    std::span<const RimPair> pairs)
+{
+    std::vector<PairedPlaces> places;
+    for (const RimPair& pair : pairs) {
+        const auto s = use_leaving(model, link.source.uses(), pair.source);
+        const auto t = use_leaving(model, link.target.uses(), pair.target);
+        if (s && t) places.push_back({link.source.start(*s), link.target.start(*t)});
+    }
+    std::sort(places.begin(), places.end(),
+              [](const PairedPlaces& a, const PairedPlaces& b) { return a.source_at < b.source_at; });
+    return places;
+}
+
 LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& source_rim,
-                         const Rim& target_rim, const std::vector<matching::SideLine>& lines)
+                         const Rim& target_rim, const std::vector<matching::SideLine>& lines,
+                         std::span<const RimPair> pairs)
 {
     const Model& model = volume.model;
     std::vector<EdgeUse> source = source_rim.uses;
@@ -155,6 +195,14 @@ LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, co
         source = rotated(std::move(source), *use_leaving(model, source, mine.front().source));
         target = rotated(std::move(target), *use_leaving(model, target, mine.front().target));
     }
+    bool started = false; // Without side lines a pair says where the walk starts on both rims.
+    for (const RimPair& pair : pairs) {
+        const auto s = use_leaving(model, source, pair.source), t = use_leaving(model, target, pair.target);
+        if (!mine.empty() || started || !s || !t) continue;
+        source = rotated(std::move(source), *s);
+        target = rotated(std::move(target), *t);
+        started = true;
+    }
     LinkingSurface link{std::move(walls), Chain(model, source), Chain(model, target), {}, {}, {}};
     for (const matching::SideLine& line : mine) {
         link.lines.push_back({line, link.source.start(*use_leaving(model, source, line.source)),
@@ -166,14 +214,16 @@ LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, co
 
     const double s_end = link.source.length();
     const double t_end = link.target.length();
+    const std::vector<PairedPlaces> places = places_of(model, link, pairs);
     if (link.lines.empty()) {
-        const double start = unguided_target_start(volume, link);
-        add_segments(model, link, 0, s_end, start, start + t_end);
+        const double start = started ? 0 : unguided_target_start(volume, link);
+        add_paired_segments(model, link, places, 0, s_end, start, start + t_end);
     }
     for (std::size_t i = 0; i < link.lines.size(); ++i) {
         const bool last = i + 1 == link.lines.size();
-        add_segments(model, link, link.lines[i].source_at, last ? s_end : link.lines[i + 1].source_at,
-                     link.lines[i].target_at, last ? t_end : link.lines[i + 1].target_at);
+        add_paired_segments(model, link, places, link.lines[i].source_at,
+                            last ? s_end : link.lines[i + 1].source_at, link.lines[i].target_at,
+                            last ? t_end : link.lines[i + 1].target_at);
     }
     return link;
 }
@@ -198,7 +248,8 @@ void check_ring(const Model& model, const std::vector<FaceId>& part)
 
 } // namespace
 
-std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning turning)
+std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning turning,
+                                             std::span<const RimPair> pairs)
 {
     const Model& model = volume.model;
     const RimOf source = rims_of(volume, Role::source);
@@ -221,7 +272,7 @@ std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning t
                 "the walls " + names(model, part) + " and " + names(model, by_rim[s]->walls) +
                     " stand on the same source loop without touching; the loop's walls must join");
         }
-        by_rim[s] = make_link(volume, std::move(part), source.rims[s], target.rims[t], lines);
+        by_rim[s] = make_link(volume, std::move(part), source.rims[s], target.rims[t], lines, pairs);
     }
     std::vector<LinkingSurface> result;
     for (std::size_t s = 0; s < by_rim.size(); ++s) {

@@ -6,6 +6,7 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,9 +49,16 @@ enum class Turning {
     together, ///< all loops as one body, which holes that go round each other need
 };
 
+/// Vertices on the rims that are to be swept to each other, walls' side lines or not.
+struct RimPair {
+    VertexId source, target;
+};
+
 /// The linking surfaces of a sealed volume: one for each loop of the source, in their order.
+/// @param pairs  in the same order round both rims, and in that of the side lines; others are passed over.
 /// @throw NotSweepable  walls that join a source loop to none or several of the target's; names them.
 std::vector<LinkingSurface> linking_surfaces(const topology::OpenVolume& volume,
-                                             Turning turning = Turning::each);
+                                             Turning turning = Turning::each,
+                                             std::span<const RimPair> pairs = {});
 
 } // namespace lacuna::surface

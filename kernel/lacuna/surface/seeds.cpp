@@ -36,7 +36,7 @@ constexpr double kSameSize = 1e-3;
 class Seeder {
 public:
     Seeder(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
-           QuadStyle style, const ShapeSizing& sizing)
+           QuadStyle style, const ShapeSizing& sizing, const std::map<EdgeId, double>& lengths)
         : volume_(volume),
           model_(volume.model),
           size_(size),
@@ -57,8 +57,13 @@ public:
             }
         }
         for (auto& [edge, pieces] : seeds_.pieces) {
+            const auto swept_to = lengths.find(edge);
+            const double longer = swept_to == lengths.end() ? 1
+                                                            : swept_to->second / edge_length(model_, edge);
             for (SeedPiece& piece : pieces) {
-                if (!piece.fixed) ask_size(edge, piece);
+                if (piece.fixed) continue;
+                ask_size(edge, piece);
+                piece.count = std::max(piece.count, static_cast<int>(std::lround(longer * piece.count)));
             }
         }
         for (const FaceId face : seeds_.kept) {
@@ -317,6 +322,33 @@ private:
         return sum % 2 != 0;
     }
 
+    /// An edge by which a face gets rid of an odd side, and the edges that get one more for it.
+    struct WayOut {
+        EdgeId edge;
+        FaceId into;
+        std::vector<EdgeId> raised;
+    };
+
+    [[nodiscard]] std::vector<EdgeId> edges_of(FaceId face) const
+    {
+        std::vector<EdgeId> edges;
+        for (const Loop& loop : model_[face].loops) {
+            for (const EdgeUse& use : loop.uses) edges.push_back(use.edge);
+        }
+        return edges;
+    }
+
+    /// The edges of a mapped face's side opposite to one of its edges.
+    [[nodiscard]] std::vector<EdgeId> opposite_to(FaceId face, EdgeId edge) const
+    {
+        for (const SidePair& sides : opposite_.at(face)) {
+            for (std::size_t k = 0; k < 2; ++k) {
+                if (std::find(sides[k].begin(), sides[k].end(), edge) != sides[k].end()) return sides[1 - k];
+            }
+        }
+        return {};
+    }
+
     [[nodiscard]] bool is_free(FaceId face) const
     {
         return !opposite_.contains(face) && !seeds_.kept.contains(face);
@@ -328,36 +360,52 @@ private:
         return std::all_of(pieces.begin(), pieces.end(), [](const SeedPiece& piece) { return piece.fixed; });
     }
 
-    /// Free faces by how many edges lie between them and a rim edge of their own, farthest first: each hands
-    /// its odd side on.
+    /// Free faces by how many edges lie between them and the rim, farthest first: each hands its odd side on.
+    /// A mapped face between two free ones passes a side from one of its sides to the one opposite.
     void make_even()
     {
-        std::map<FaceId, EdgeId> way_out;
+        std::vector<WayOut> exits;
+        std::set<std::pair<EdgeId, FaceId>> known;
+        const auto push = [&](EdgeId edge, FaceId from, std::vector<EdgeId> raised) {
+            raised.push_back(edge);
+            for (const FaceId into : users_[edge]) {
+                if (into == from || is_fixed(edge) || !known.insert({edge, into}).second) continue;
+                exits.push_back({edge, into, raised});
+            }
+        };
+        std::vector<EdgeId> rim(rim_.begin(), rim_.end());
+        std::stable_sort(rim.begin(), rim.end(),
+                         [&](EdgeId a, EdgeId b) { return edge_length(model_, a) > edge_length(model_, b); });
+        for (const EdgeId edge : rim) push(edge, {}, {});
+        std::map<FaceId, std::vector<EdgeId>> way_out;
         std::vector<FaceId> order;
-        const std::vector<FaceId> faces = volume_.faces(Role::source);
-        for (const FaceId face : faces) {
-            if (!is_free(face)) continue;
-            std::optional<EdgeId> longest;
-            for (const auto& [edge, users] : users_) {
-                if (!rim_.contains(edge) || !users.contains(face) || is_fixed(edge)) continue;
-                if (!longest || edge_length(model_, edge) > edge_length(model_, *longest)) longest = edge;
-            }
-            if (!longest) continue;
-            way_out[face] = *longest;
+        const auto settle = [&](FaceId face, const std::vector<EdgeId>& raised) {
+            if (!way_out.try_emplace(face, raised).second) return;
             order.push_back(face);
-        }
-        for (std::size_t i = 0; i < order.size(); ++i) {
-            for (const auto& [edge, users] : users_) {
-                if (!users.contains(order[i]) || is_fixed(edge)) continue;
-                for (const FaceId other : users) {
-                    if (!is_free(other) || way_out.contains(other)) continue;
-                    way_out[other] = edge;
-                    order.push_back(other);
+            for (const EdgeId edge : edges_of(face)) push(edge, face, {});
+        };
+        std::size_t next = 0;
+        const auto spread = [&] {
+            for (; next < exits.size(); ++next) {
+                const WayOut way = exits[next];
+                if (seeds_.kept.contains(way.into)) continue;
+                if (is_free(way.into)) {
+                    settle(way.into, way.raised);
+                    continue;
                 }
+                for (const EdgeId edge : opposite_to(way.into, way.edge)) push(edge, way.into, way.raised);
             }
+        };
+        spread();
+        // Faces that no way leads to from the rim hand their odd sides to one of them, where two cancel.
+        for (const FaceId face : volume_.faces(Role::source)) {
+            if (!is_free(face)) continue;
+            settle(face, {});
+            spread();
         }
         for (auto face = order.rbegin(); face != order.rend(); ++face) {
-            if (odd(*face)) raise({way_out.at(*face)}, 1);
+            if (!odd(*face)) continue;
+            for (const EdgeId edge : way_out.at(*face)) raise({edge}, 1);
         }
     }
 
@@ -453,9 +501,9 @@ std::vector<double> SeedPiece::fractions() const
 }
 
 Seeds seed_source(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
-                  QuadStyle style, const ShapeSizing& sizing)
+                  QuadStyle style, const ShapeSizing& sizing, const std::map<EdgeId, double>& lengths)
 {
-    return Seeder(volume, links, size, style, sizing).run();
+    return Seeder(volume, links, size, style, sizing, lengths).run();
 }
 
 double rim_spacing(const OpenVolume& volume)

@@ -61,14 +61,17 @@ struct Seeds {
 /// keep their own quads have the nodes of those. Where size or curvature change along an edge its nodes
 /// follow. Opposite sides of mapped faces are raised to the larger count, a face at a time until nothing
 /// changes; then each free face with an odd total gets one more side on a rim edge of its own, or on an edge
-/// towards one.
+/// towards one; a mapped face between passes it on.
 /// @param sizing  sides for a full turn; with a gap no face is submapped that need not be. The rest of it is
 ///                in the size already.
+/// @param lengths  of what an edge is swept to, where that is known [model length]: one that is longer there
+///                 gets the sides it needs there.
 /// @throw NotSweepable  a face to be kept that has not quads all over, or whose rim has no node where the
 ///                      other end has a corner; a face to be mapped that has neither four sides nor right
 ///                      angles alone; a face whose total cannot be made even; names them.
 Seeds seed_source(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
-                  const SizeField& size, QuadStyle style, const ShapeSizing& sizing = {});
+                  const SizeField& size, QuadStyle style, const ShapeSizing& sizing = {},
+                  const std::map<EdgeId, double>& lengths = {});
 
 /// Mean length of the facets' sides on the source's rim: the size where none is asked for [model length].
 double rim_spacing(const topology::OpenVolume& volume);

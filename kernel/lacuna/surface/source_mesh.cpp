@@ -98,7 +98,7 @@ private:
             i += chain.size() - 1;
             node_of_[use_from(model_, use)] = chain.front();
             if (use.reversed) std::reverse(chain.begin(), chain.end());
-            nodes_on_[use.edge] = std::move(chain);
+            result_.on_edge[use.edge] = std::move(chain);
         }
         result_.links.push_back(std::move(nodes));
         result_.first.push_back(first);
@@ -117,7 +117,7 @@ private:
 
     void add_edge(EdgeId edge)
     {
-        if (nodes_on_.contains(edge)) return;
+        if (result_.on_edge.contains(edge)) return;
         const std::vector<Vec3> points = edge_points(model_, edge, seeds_.fractions(edge));
         std::vector<Index> chain;
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -130,12 +130,12 @@ private:
             if (fresh) found->second = add_node(points[i]);
             chain.push_back(found->second);
         }
-        nodes_on_[edge] = std::move(chain);
+        result_.on_edge[edge] = std::move(chain);
     }
 
     [[nodiscard]] std::vector<Index> nodes_along(EdgeUse use) const
     {
-        std::vector<Index> chain = nodes_on_.at(use.edge);
+        std::vector<Index> chain = result_.on_edge.at(use.edge);
         if (use.reversed) std::reverse(chain.begin(), chain.end());
         return chain;
     }
@@ -251,7 +251,6 @@ private:
     const RunContext& context_;
     SourceMesh result_;
     std::string how_; ///< the last face was meshed
-    std::map<EdgeId, std::vector<Index>> nodes_on_;
     std::map<VertexId, Index> node_of_;
 };
 

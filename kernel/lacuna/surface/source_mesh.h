@@ -6,6 +6,7 @@
 #include <lacuna/surface/seeds.h>
 #include <lacuna/surface/walls.h>
 
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,8 +20,9 @@ struct SourceMesh {
     mesh::QuadMesh quads;
     /// Rim nodes of each linking surface: node i of surface b is quad node first[b] + i.
     std::vector<LinkingNodes> links;
-    std::vector<Index> first;       ///< first quad node of each linking surface
-    std::vector<std::string> notes; ///< a line a face: how it was meshed
+    std::vector<Index> first;                     ///< first quad node of each linking surface
+    std::map<EdgeId, std::vector<Index>> on_edge; ///< quad nodes of each source edge, as it runs
+    std::vector<std::string> notes;               ///< a line a face: how it was meshed
 };
 
 /// Mesh the source faces with quads by their seeds.

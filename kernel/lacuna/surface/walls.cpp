@@ -99,6 +99,7 @@ public:
                                         [&](const auto& faces) { return is_simple(faces); });
         if (!simple) {
             map_ = std::make_unique<LinkingMap>(volume_, link_);
+            check_loose_edges();
             plan_rings();
         }
         mesh_lines();
@@ -116,6 +117,7 @@ public:
             if (map_ == nullptr) map_ = std::make_unique<LinkingMap>(volume_, link_);
             mesh_by_map(first, last);
         }
+        if (map_ != nullptr) check_rings();
         return std::move(mesh_);
     }
 
@@ -199,32 +201,108 @@ private:
         return faces.size() == 1 && model_[faces.front()].loops.size() == 1;
     }
 
-    /// Give each ring the layer nearest to it; rings that want the same layer share it where they are one
-    /// step of the walls, and else the later ones are passed over.
+    /// Give each ring the layer nearest to it that leaves one for all others; rings less than half a layer
+    /// apart, one step of the walls, share theirs.
     void plan_rings()
     {
-        int last = 0;
-        double last_height = -1;
         const auto layers = static_cast<int>(layers_);
-        for (const LinkingMap::Ring& ring : map_->rings()) {
-            int nearest = 1;
-            for (int k = 1; k < layers; ++k) {
-                if (std::abs(heights_[static_cast<std::size_t>(k)] - ring.height) <
-                    std::abs(heights_[static_cast<std::size_t>(nearest)] - ring.height))
-                    nearest = k;
-            }
-            const bool shared = last > 0 && ring.height - last_height < 0.5 / layers;
-            int layer = shared ? last : std::max(nearest, last + 1);
-            if (layers < 2 || layer >= layers) {
-                mesh_.notes.push_back("an edge between stacked walls at " + std::to_string(ring.height) +
-                                      " of the height has no layer of its own; use more layers");
-                layer = 0;
-            } else {
-                last = layer;
-                last_height = ring.height;
-            }
-            ring_layer_.push_back(layer);
+        const std::vector<LinkingMap::Ring>& rings = map_->rings();
+        std::vector<int> level; // of each ring, counted from the source
+        for (std::size_t r = 0; r < rings.size(); ++r) {
+            const bool shared = r > 0 && rings[r].height - rings[r - 1].height < 0.5 / layers;
+            level.push_back(r == 0 ? 0 : level.back() + (shared ? 0 : 1));
         }
+        const int levels = level.empty() ? 0 : level.back() + 1;
+        if (levels >= layers) {
+            throw NotSweepable("surface.too_few_layers",
+                               name_of(model_, rings.front().pieces.front().edge) +
+                                   " runs round the walls between source and target, as do edges at " +
+                                   std::to_string(levels) +
+                                   " heights in all; each needs a layer to lie on, " +
+                                   "which takes layers = " + std::to_string(levels + 1) + " or more, and " +
+                                   std::to_string(layers) + " are asked for");
+        }
+        int last = 0, last_level = -1;
+        for (std::size_t r = 0; r < rings.size(); ++r) {
+            if (level[r] != last_level) {
+                int nearest = 1;
+                for (int k = 1; k < layers; ++k) {
+                    if (std::abs(heights_[static_cast<std::size_t>(k)] - rings[r].height) <
+                        std::abs(heights_[static_cast<std::size_t>(nearest)] - rings[r].height))
+                        nearest = k;
+                }
+                last = std::min(std::max(nearest, last + 1), layers - levels + level[r]);
+                last_level = level[r];
+            }
+            ring_layer_.push_back(last);
+        }
+    }
+
+    /// Edges that run up the walls without being side lines are refused.
+    void check_loose_edges() const
+    {
+        if (!map_->loose_edges().empty()) {
+            const EdgeId edge = map_->loose_edges().front();
+            throw NotSweepable("surface.wall_edge",
+                               name_of(model_, edge) + beside(edge) +
+                                   " runs up the walls and is no side line from a corner of the source to "
+                                   "one of the target, so the layers would cut across it; carry it on to "
+                                   "both ends, or join the two faces to one");
+        }
+    }
+
+    /// So are rings that turn or end where no column stands.
+    void check_rings() const
+    {
+        for (const LinkingMap::Ring& ring : map_->rings()) {
+            for (const VertexId vertex : ring.vertices) {
+                const EdgeId corner = corner_at(ring, vertex);
+                if (!corner.valid() || has_column(vertex)) continue;
+                throw NotSweepable("surface.wall_edge",
+                                   name_of(model_, corner) + beside(corner) + " turns or ends at " +
+                                       name_of(model_, vertex) +
+                                       ", where no column of nodes stands, so the mesh would cut across it; "
+                                       "put a vertex on the source's rim below it with an edge up to it, or "
+                                       "join the two faces to one");
+            }
+        }
+    }
+
+    [[nodiscard]] std::string beside(EdgeId edge) const
+    {
+        std::string text;
+        const auto uses = edge_uses(model_);
+        for (const FaceUse& use : uses[edge.index()])
+            text += (text.empty() ? " between " : " and ") + name_of(model_, use.face);
+        return text;
+    }
+
+    /// An edge of a ring that turns or ends at a vertex; none where the ring runs on smoothly.
+    [[nodiscard]] EdgeId corner_at(const LinkingMap::Ring& ring, VertexId vertex) const
+    {
+        constexpr double kSmooth = 0.94; ///< cosine of 20°, below which facets' edges count as bent: a choice
+        std::vector<Vec3> away;
+        std::set<EdgeId> edges;
+        for (const LinkingMap::Piece& piece : ring.pieces) edges.insert(piece.edge);
+        EdgeId any;
+        for (const EdgeId id : edges) {
+            const Edge& edge = model_[id];
+            const auto leave = [&](Index from, Index to) {
+                away.push_back((model_.at(to) - model_.at(from)).normalized());
+                any = id;
+            };
+            if (edge.from == vertex) leave(edge.points[0], edge.points[1]);
+            if (edge.to == vertex) leave(edge.points.back(), edge.points[edge.points.size() - 2]);
+        }
+        return away.size() == 2 && away[0].dot(away[1]) < -kSmooth ? EdgeId() : any;
+    }
+
+    /// Whether a node of the walls stands on a vertex.
+    [[nodiscard]] bool has_column(VertexId vertex) const
+    {
+        const Vec3& at = model_.at(model_[vertex].point);
+        return std::any_of(mesh_.points.begin(), mesh_.points.end(),
+                           [&](const Vec3& p) { return (p - at).norm() <= model_.tolerance; });
     }
 
     /// Heights of a column's nodes: the layers', drawn to the rings it crosses.
@@ -256,18 +334,25 @@ private:
         return at;
     }
 
-    [[nodiscard]] std::vector<double> heights_at(double s) const
+    /// Where the rings cross a column, by their layers.
+    [[nodiscard]] std::map<int, LinkingMap::Crossing> crossings_at(double s) const
     {
-        std::map<int, double> at_layer;
+        std::map<int, LinkingMap::Crossing> at_layer;
         for (std::size_t r = 0; r < ring_layer_.size(); ++r) {
-            if (ring_layer_[r] == 0) continue;
             const LinkingMap::Ring& ring = map_->rings()[r];
-            for (const double t : LinkingMap::crossings(ring, s)) {
-                const auto [found, fresh] = at_layer.try_emplace(ring_layer_[r], t);
-                if (!fresh && std::abs(t - ring.height) < std::abs(found->second - ring.height))
-                    found->second = t;
+            for (const LinkingMap::Crossing& crossing : LinkingMap::crossings(ring, s)) {
+                const auto [found, fresh] = at_layer.try_emplace(ring_layer_[r], crossing);
+                if (!fresh && std::abs(crossing.t - ring.height) < std::abs(found->second.t - ring.height))
+                    found->second = crossing;
             }
         }
+        return at_layer;
+    }
+
+    [[nodiscard]] std::vector<double> heights_at(const std::map<int, LinkingMap::Crossing>& crossings) const
+    {
+        std::map<int, double> at_layer;
+        for (const auto& [layer, crossing] : crossings) at_layer[layer] = crossing.t;
         return map_heights(at_layer);
     }
 
@@ -281,8 +366,7 @@ private:
                 const VertexId v = use_from(model_, chain.uses()[u]);
                 for (std::size_t r = 0; r < ring_layer_.size(); ++r) {
                     const auto& vertices = map_->rings()[r].vertices;
-                    if (ring_layer_[r] > 0 &&
-                        std::find(vertices.begin(), vertices.end(), v) != vertices.end()) {
+                    if (std::find(vertices.begin(), vertices.end(), v) != vertices.end()) {
                         at_layer[ring_layer_[r]] = chain.start(u) / chain.length();
                     }
                 }
@@ -361,9 +445,16 @@ private:
         const std::set<std::size_t> lines(nodes_.line.begin(), nodes_.line.end());
         std::vector<double> before;
         for (std::size_t i = first; i <= last; ++i) {
-            const std::vector<double> at = heights_at(s_of(i));
+            const std::map<int, LinkingMap::Crossing> crossings = crossings_at(s_of(i));
+            const std::vector<double> at = heights_at(crossings);
             const bool settled = lines.contains(i) || (i < count_ && given_node_[i] != 0);
             for (std::size_t k = 1; k < layers_ && i < last && !settled; ++k) {
+                const auto ring = crossings.find(static_cast<int>(k));
+                if (ring != crossings.end()) {
+                    const double at_edge[] = {ring->second.at};
+                    point(k, i) = edge_points(model_, ring->second.edge, at_edge).front();
+                    continue;
+                }
                 const WallPosition place = map_->locate(s_of(i), at[k]);
                 on_face[place.face].first.push_back(place.at);
                 on_face[place.face].second.push_back(k * count_ + i);

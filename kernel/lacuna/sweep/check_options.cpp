@@ -87,6 +87,8 @@ void check(const SweepOptions& options, const RunContext& context)
     if (options.gap < 0) refuse("gap", "a whole number of at least 0", std::to_string(options.gap));
     if (!(options.max_deviation >= 0) || !std::isfinite(options.max_deviation))
         refuse("max_deviation", "a finite length of at least 0", in_full(options.max_deviation));
+    if (!(options.volume_share >= 0 && options.volume_share < 1))
+        refuse("volume_share", "a number in [0, 1)", in_full(options.volume_share));
     if (options.rows < 0) refuse("rows", "a whole number of at least 0", std::to_string(options.rows));
     if (options.row_height && options.rows == 0)
         throw InvalidInput("sweep.rows",

@@ -18,6 +18,9 @@ namespace {
 
 /// A worst quad this much below the source's is as good as the source's. A choice, not a measurement.
 constexpr double kSameQuality = 0.01;
+/// Below this share of the model's worst quad other images of the source are tried. A choice, not a
+/// measurement.
+constexpr double kStandsUp = 0.5;
 /// Moves below this part of the rim are what a projection leaves of a point that lies on the surface already.
 constexpr double kOnSurface = 1e-9;
 
@@ -96,6 +99,19 @@ std::vector<Vec3> displaced(const mesh::QuadMesh& source, const RimColumns& colu
     return nodes;
 }
 
+/// Every node in the weighted mean of its neighbours, the rim where it is to be: folds of the source that
+/// stand up (pockets, bosses, steps) come down flat side by side, where an affine map lays them on each
+/// other.
+std::vector<Vec3> harmonic_image(const mesh::QuadMesh& source, const RimColumns& columns, Spreader& spreader,
+                                 const RunContext& context)
+{
+    std::vector<Vec3> nodes(source.nodes.size(), Vec3::Zero());
+    const std::span<const Vec3> high = columns.row(columns.layers);
+    spreader.spread().add(high, 1, nodes.data(), nodes.size(), context);
+    for (std::size_t k = 0; k < high.size(); ++k) nodes[static_cast<std::size_t>(columns.rim[k])] = high[k];
+    return nodes;
+}
+
 std::vector<Index> nodes_off_rim(const mesh::QuadMesh& source, const RimColumns& columns)
 {
     std::vector<char> on_rim(source.nodes.size(), 0);
@@ -153,7 +169,7 @@ Candidate smoothed(const mesh::QuadMesh& source, const RimColumns& columns, cons
 {
     const SurfaceSmoother smoother(source, spreader.graph(), spreader.weights(), spreader.spread(),
                                    free_nodes, project);
-    if (found.worst < 0.5 * good_enough) {
+    if (found.worst < kStandsUp * good_enough) {
         found = bulged_start(source, columns, guess, spreader.spread(), smoother, std::move(found));
     }
     found.nodes = smoother.relax(std::move(found.nodes), good_enough, context);
@@ -201,6 +217,17 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
                 found = std::move(moved);
                 start = std::move(unprojected);
                 result.report += ", from the source moved with its rim";
+            }
+        }
+        if (found.worst < kStandsUp * good_enough && !columns.rim.empty()) {
+            Candidate flat{harmonic_image(source, columns, spreader, context), -1};
+            std::vector<Vec3> unprojected = flat.nodes;
+            project_nodes(flat.nodes, free_nodes, project);
+            flat.worst = worst_quad(source.quads, flat.nodes);
+            if (flat.worst > found.worst) {
+                found = std::move(flat);
+                start = std::move(unprojected);
+                result.report += ", from its harmonic image";
             }
         }
         if (found.worst < good_enough) {

@@ -7,9 +7,11 @@
 #include <lacuna/quads/submap.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/given_target.h>
-#include <lacuna/surface/projector.h>
+#include <lacuna/surface/imprint.h>
 #include <lacuna/surface/source_mesh.h>
+#include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/given_meshes.h>
+#include <lacuna/sweep/detail/morph_ends.h>
 #include <lacuna/sweep/detail/normals.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
 #include <lacuna/sweep/detail/words.h>
@@ -23,6 +25,7 @@
 #include <cstdio>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <set>
 
 namespace lacuna::sweep {
@@ -222,37 +225,15 @@ private:
     std::map<FaceId, Index> patch_;
 };
 
-std::vector<FaceId> faces_under_quads(const surface::Projector& projector, const std::vector<Quad>& quads,
-                                      std::span<const Vec3> nodes)
-{
-    std::vector<Vec3> centres;
-    for (const Quad& q : quads) {
-        Vec3 sum = Vec3::Zero();
-        for (const Index n : q) sum += nodes[static_cast<std::size_t>(n)];
-        centres.emplace_back(sum / 4);
-    }
-    return projector.closest_face(centres);
-}
-
+/// @param ends  faces of each quad on the source and on the target.
 /// @return  face of each patch.
 std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceMesh& source,
-                                const surface::Projector& target,
-                                const std::optional<surface::GivenTarget>& given_target,
-                                const std::vector<surface::WallMesh>& walls, mesh::HexMesh& mesh)
+                                const EndFaces& ends, const std::vector<surface::WallMesh>& walls,
+                                mesh::HexMesh& mesh)
 {
     SkinPatches patches(volume, mesh);
-    for (const Index face : source.quads.face) mesh.source_patch.push_back(patches.of(FaceId(face)));
-    const std::span<const Vec3> top{mesh.nodes.data() + static_cast<std::size_t>(mesh.layers) *
-                                                            static_cast<std::size_t>(mesh.nodes_per_layer),
-                                    static_cast<std::size_t>(mesh.nodes_per_layer)};
-    if (const std::vector<FaceId> faces = volume.faces(Role::target); faces.size() == 1) {
-        mesh.target_patch.assign(mesh.quads.size(), patches.of(faces.front()));
-    } else if (given_target) {
-        for (const FaceId face : given_target->face) mesh.target_patch.push_back(patches.of(face));
-    } else {
-        for (const FaceId face : faces_under_quads(target, mesh.quads, top))
-            mesh.target_patch.push_back(patches.of(face));
-    }
+    for (const FaceId face : ends.source) mesh.source_patch.push_back(patches.of(face));
+    for (const FaceId face : ends.target) mesh.target_patch.push_back(patches.of(face));
 
     // A linking surface's sides run with the linking surface or against it; each side of the rim finds its
     // place by the nodes it joins.
@@ -306,50 +287,70 @@ LayerNodes best_layers(const surface::SourceMesh& source, const Morphed& morphed
     return least(plain) > with ? plain : spread;
 }
 
-/// A mesh with what its proof says.
-struct ProvedSweep {
-    Swept swept;
-    quality::Proof proof;
-    std::vector<FaceId> faces; ///< of each patch
-    std::set<FaceId> kept;     ///< faces whose own quads are the mesh
-};
+/// Whether all faces of an end came with quads all over.
+bool is_all_quads(const OpenVolume& volume, Role end)
+{
+    const std::vector<FaceId> faces = volume.faces(end);
+    return std::all_of(faces.begin(), faces.end(), [&](FaceId id) {
+        const Face& face = volume.model[id];
+        return face.keeps_nodes && 2 * face.given_quads.size() == face.triangles.size();
+    });
+}
+
+/// The inner edges of the target on the source; nothing where it has none, or where both ends came with quads
+/// that may be the same graph.
+std::optional<surface::Imprint> imprint_of(const OpenVolume& volume,
+                                           const std::vector<surface::LinkingSurface>& links,
+                                           const surface::SizeField& size)
+{
+    if (surface::inner_edges(volume, Role::target).empty()) return std::nullopt;
+    if (is_all_quads(volume, Role::source) && is_all_quads(volume, Role::target)) return std::nullopt;
+    return surface::imprint_target(volume, links, size);
+}
 
 /// Seeds, quads, walls, target, layers and proof between the rims of linking surfaces that say what goes with
 /// what.
-ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::LinkingSurface> links,
+ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::LinkingSurface> given_links,
                           const std::vector<double>& asked, const surface::SizeField& size,
                           const SweepOptions& options, const RunContext& context)
 {
     Swept result;
-    GivenMeshes given = given_meshes(volume, links, asked, options);
+    std::optional<surface::Imprint> imprint = imprint_of(volume, given_links, size);
+    const OpenVolume& split = imprint ? *imprint->volume : volume;
+    std::vector<surface::LinkingSurface>& links = imprint ? imprint->links : given_links;
+    GivenMeshes given = given_meshes(split, links, asked, options);
     const std::vector<double> heights = given.heights.empty() ? default_heights(links, size, options.layers)
                                                               : given.heights;
     for (std::string& note : given.notes) result.report.push_back("given: " + note);
-    const surface::Seeds seeds = surface::seed_source(volume, links, size, style_of(options),
-                                                      {options.curvature, options.gap});
+    const surface::Seeds seeds = surface::seed_source(
+        split, links, size, style_of(options), {options.curvature, options.gap},
+        imprint ? surface::image_lengths(*imprint) : std::map<EdgeId, double>{});
     for (const std::string& note : seeds.notes) result.report.push_back("given: " + note);
-    surface::SourceMesh source = surface::mesh_source(volume, links, seeds, size_fields(size, options),
+    surface::SourceMesh source = surface::mesh_source(split, links, seeds, size_fields(size, options),
                                                       mesher_of(options), context);
     for (std::string& note : source.notes) result.report.push_back("source " + note);
     std::vector<surface::WallMesh> walls;
-    const RimColumns columns = columns_of(volume, links, given.columns, source, heights, walls, context);
+    const RimColumns columns = columns_of(split, links, given.columns, source, heights, walls, context);
     for (const surface::WallMesh& wall : walls) {
         for (const std::string& note : wall.notes) result.report.push_back("walls: " + note);
     }
     check_cancelled(context);
 
-    const surface::Projector target(volume.model, volume.faces(Role::target));
     std::string why;
-    const std::optional<surface::GivenTarget> given_target = surface::given_target(volume, links, source,
-                                                                                   why);
+    std::optional<surface::GivenTarget> given_target;
+    if (!imprint) given_target = surface::given_target(volume, links, source, why);
+    if (!given_target && !imprint && !surface::inner_edges(volume, Role::target).empty())
+        imprint = surface::imprint_target(volume, links, size); // refuses what keeps its quads, by name
+    EndFaces ends = end_faces(volume, source, imprint);
+    if (given_target) ends.target = given_target->face;
+    if (!why.empty()) result.report.push_back("target: the quads it came with are not kept: " + why);
     Morphed morphed;
     if (given_target) {
         morphed.nodes = given_target->nodes;
         morphed.report = "its own quads are laid out as the source's and stay";
     } else {
-        morphed = morph(
-            source.quads, columns, [&](std::span<Vec3> points) { target.project(points, context); }, context);
-        if (!why.empty()) result.report.push_back("target: the quads it came with are not kept: " + why);
+        morphed = imprint ? morph_onto_faces(source, columns, seeds, *imprint, ends.target, context)
+                          : morph_onto(volume, source, columns, context);
     }
     result.report.push_back("target: " + morphed.report);
     PlacementOptions placement;
@@ -365,7 +366,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     mesh.quads = source.quads.quads;
     for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
         mesh.rim.push_back({side.from, side.to});
-    const std::vector<FaceId> faces = set_patches(volume, source, target, given_target, walls, mesh);
+    const std::vector<FaceId> faces = set_patches(volume, source, ends, walls, mesh);
     for (const FaceId wall : volume.faces(Role::wall)) {
         if (volume.model[wall].origin != Origin::given ||
             std::find(faces.begin(), faces.end(), wall) != faces.end())
@@ -434,35 +435,90 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
     return alone;
 }
 
-} // namespace
-
-Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
+/// From source to target, by the linking surfaces that the walls are.
+ProvedSweep sweep_one_way(const OpenVolume& volume, const surface::SizeField& size,
+                          const SweepOptions& options, const RunContext& context)
 {
-    check_cancelled(context);
-    check(options, context);
     const bool counted = options.layers.count > 0 || !options.layers.heights.empty();
     std::vector<double> heights = counted ? layer_heights(options.layers) : std::vector<double>{};
     if (volume.turned_round) {
         std::reverse(heights.begin(), heights.end());
         for (double& h : heights) h = 1 - h;
     }
+    const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(volume);
+    return can_turn_together(links) ? better_turning(volume, links, heights, size, options, context)
+                                    : sweep_between(volume, links, heights, size, options, context);
+}
+
+/// A turn needs no more sides than this for its volume: an inscribed polygon of so many is off by 0.07 %.
+constexpr int kMostPerTurn = 100;
+/// More sides help where they leave less than this of the volume's error. A choice, not a measurement.
+constexpr double kLessLost = 0.75;
+
+/// A mesh that was proved, and compared with the sealed skin.
+Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
+{
+    const surface::SizeField size = source_size(volume, options);
+    const OneWay one_way = [&](const OpenVolume& way, const SweepOptions& rest) {
+        return sweep_one_way(way, size, rest, context);
+    };
+    ProvedSweep result = sweep_both_ways(volume, options, one_way, context);
+    quality::require(result.proof);
+    Swept& swept = result.swept;
+    swept.fidelity = compare(volume, swept.mesh, result.faces, result.kept, result.proof.quality.volume,
+                             {options.max_deviation}, context);
+    swept.report.push_back(in_words(swept.fidelity));
+    return std::move(swept);
+}
+
+/// Share of the sealed volume that is missing in the mesh.
+double volume_lost(const Fidelity& fidelity) { return 1 - fidelity.volume / fidelity.sealed_volume; }
+
+bool loses_volume(const Fidelity& fidelity, const SweepOptions& options)
+{
+    return options.volume_share > 0 && options.curvature > 0 && volume_lost(fidelity) > options.volume_share;
+}
+
+/// Sides for a full turn that lose six tenths of the share allowed: the rest is for the layers' bends. A
+/// polygon of n sides in a circle lacks about 2 π² / 3 n² of its area.
+int sides_for_volume(double share, int before)
+{
+    constexpr double kOfShare = 0.6;
+    const double wanted = std::sqrt(2 * std::numbers::pi * std::numbers::pi / (3 * kOfShare * share));
+    return std::max(before + before / 4 + 1, static_cast<int>(std::ceil(wanted)));
+}
+
+} // namespace
+
+Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
+{
+    check_cancelled(context);
+    check(options, context);
     if (!closure::is_watertight(volume)) {
         throw NotSweepable("sweep.not_closed",
                            "the volume is not sealed; close it first with volume:close()");
     }
-    const surface::SizeField size = source_size(volume, options);
-    const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(volume);
-    ProvedSweep result = can_turn_together(links)
-                             ? better_turning(volume, links, heights, size, options, context)
-                             : sweep_between(volume, links, heights, size, options, context);
-    quality::require(result.proof);
-    Swept& swept = result.swept;
-    const FidelityOptions shape{options.max_deviation};
-    swept.fidelity = compare(volume, swept.mesh, result.faces, result.kept, result.proof.quality.volume,
-                             shape, context);
-    require(swept.fidelity, swept.mesh.layers, shape);
-    swept.report.push_back(in_words(swept.fidelity));
-    return std::move(swept);
+    Swept best = sweep_compared(volume, options, context);
+    for (SweepOptions rest = options; loses_volume(best.fidelity, options);) {
+        rest.curvature = sides_for_volume(options.volume_share, rest.curvature);
+        if (rest.curvature > kMostPerTurn) break;
+        try {
+            Swept next = sweep_compared(volume, rest, context);
+            const double before = volume_lost(best.fidelity), after = volume_lost(next.fidelity);
+            const double enough = std::min(best.min_scaled_jacobian, options.improving.good_enough);
+            if (after > kLessLost * before || next.min_scaled_jacobian < enough) break;
+            next.report.push_back("shape: " + std::to_string(rest.curvature) +
+                                  " sides for a full turn instead of " + std::to_string(options.curvature) +
+                                  ", by which the volume was " + in_short(100 * before) +
+                                  " % less than what was sealed");
+            best = std::move(next);
+        } catch (const NotSweepable& error) {
+            log_line(context, std::string("more sides for a full turn: ") + error.what());
+            break;
+        }
+    }
+    require(best.fidelity, best.mesh.layers, {options.max_deviation});
+    return best;
 }
 
 } // namespace lacuna::sweep

@@ -53,6 +53,9 @@ struct SweepOptions {
     LayerSpec layers;
     surface::SizeField size; ///< null: from the rim's own spacing
     int curvature = 12;      ///< sides for a full turn where `size` is coarser, >= 0; 0: the size alone
+    /// Where straight sides on bends leave the mesh's volume further off the sealed one than this share, bends
+    /// get more sides, as far as that helps [0, 1); 0: never.
+    double volume_share = 0.02;
     int gap = 0;             ///< quads at least across a narrow place of the source, >= 0; 0: none
     /// How far the skin may be from the sealed skin, >= 0 [model length]; 0: what `FidelityOptions` says.
     double max_deviation = 0;
@@ -68,7 +71,7 @@ struct SweepOptions {
 
 /// Whether options can be used, before any work is done. `sweep()` asks it itself; a host may ask first.
 /// @throw InvalidInput  names the option, what it must be and what was found: layers, improving,
-///                      min_scaled_jacobian, curvature, gap, max_deviation; rows below
+///                      min_scaled_jacobian, curvature, volume_share, gap, max_deviation; rows below
 ///                      0 or of quads that are not paved, a row height
 ///                      without rows; threads of the context below 0 or above 1024.
 void check(const SweepOptions& options, const RunContext& context = {});
@@ -85,6 +88,10 @@ struct Swept {
 ///
 /// Meshes that faces came with stay, node for node: the source's quads, rows of quads on walls, the target's
 /// quads where they are laid out as the source's, and the nodes of all their rims. The report counts them.
+///
+/// Edges between the faces of an end, and those that run round the walls, become chains of mesh edges. The
+/// sweep runs from source to target, or back where that is better; the report says which, and `mesh` counts
+/// its layers from the end it started at.
 /// @throw InvalidInput   what `check()` refuses; a size that is no positive length, or too many cells to
 ///                       number.
 /// @throw NotSweepable   names the face, wall or cells, what was expected and found, and what to try.

@@ -34,16 +34,31 @@ public:
     /// counted.
     [[nodiscard]] double target_branch() const { return branch_; }
 
-    /// Edges that run round the linking surface, between faces stacked on each other: where a layer should
+    /// A piece of an edge in the strip.
+    struct Piece {
+        Vec2 a, b; ///< (s, t) of its ends
+        EdgeId edge;
+        double from = 0, to = 1; ///< shares of the edge's length at its ends
+    };
+    /// Edges that run round the linking surface, between faces stacked on each other: where a layer is to
     /// lie.
     struct Ring {
-        double height = 0;                         ///< mean t
-        std::vector<std::array<Vec2, 2>> segments; ///< (s, t) pieces
+        double height = 0; ///< mean t
+        std::vector<Piece> pieces;
         std::vector<VertexId> vertices;
     };
     [[nodiscard]] const std::vector<Ring>& rings() const { return rings_; }
-    /// t where a ring crosses the column at s, from lowest to highest; usually one.
-    [[nodiscard]] static std::vector<double> crossings(const Ring& ring, double s);
+    /// Edges between two walls that are neither rings nor side lines.
+    [[nodiscard]] const std::vector<EdgeId>& loose_edges() const { return loose_; }
+
+    /// Where a ring crosses a column.
+    struct Crossing {
+        double t = 0;
+        EdgeId edge;
+        double at = 0; ///< share of the edge's length
+    };
+    /// The places where a ring crosses the column at s, from lowest to highest; usually one.
+    [[nodiscard]] static std::vector<Crossing> crossings(const Ring& ring, double s);
 
 private:
     void measure_heights(const topology::Model& model);
@@ -58,6 +73,7 @@ private:
     std::vector<double> even_; ///< share of the way up at equal steps of t; empty with side lines
     geometry::FacetTree tree_;
     std::vector<Ring> rings_;
+    std::vector<EdgeId> loose_;
 };
 
 /// Where on the target chain of a linking surface without side lines the source chain's start belongs, so

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/geometry/flatten.h>
+#include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/projector.h>
+
+#include <map>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// A place on a source face's facets, and beside it in space.
+struct SourcePlace {
+    FaceId face;
+    FacetPosition at;
+    Vec3 point = Vec3::Zero(); ///< on the facets
+};
+
+/// Both ends of a volume in one plane, the source counter-clockwise.
+class EndsMap {
+public:
+    /// @param volume  referred to; must outlive the map.
+    EndsMap(const topology::OpenVolume& volume, std::span<const LinkingSurface> links);
+
+    /// Whether both ends lie in the plane one to one.
+    [[nodiscard]] bool one_to_one() const { return one_to_one_; }
+    /// Places of points of the source and of the target; a rim point has one in each.
+    [[nodiscard]] const Vec2& source(Index point) const { return source_[static_cast<std::size_t>(point)]; }
+    [[nodiscard]] const Vec2& target(Index point) const { return target_[static_cast<std::size_t>(point)]; }
+    [[nodiscard]] SourcePlace on_source(const Vec2& place) const;
+    /// The same on one face alone.
+    [[nodiscard]] SourcePlace on_face(FaceId face, const Vec2& place) const;
+
+private:
+    void lay_source();
+    void lay_target(std::span<const LinkingSurface> links);
+
+    const topology::OpenVolume& volume_;
+    std::vector<Vec2> source_, target_; ///< of each model point
+    std::vector<FaceId> face_of_;       ///< of each source facet
+    std::vector<Index> number_;         ///< in its face
+    geometry::PlanarLocator locator_;
+    std::map<FaceId, geometry::PlanarLocator> face_locator_;
+    bool one_to_one_ = true;
+};
+
+} // namespace lacuna::surface

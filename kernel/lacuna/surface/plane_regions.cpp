@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/plane_regions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace lacuna::surface {
+
+namespace {
+
+using Loop = std::vector<PlaneUse>;
+
+std::vector<Vec2> points_of(std::span<const PlaneChain> chains, const Loop& loop)
+{
+    std::vector<Vec2> points;
+    for (const PlaneUse& use : loop) {
+        const std::vector<Vec2>& line = chains[use.chain].line;
+        for (std::size_t i = 0; i + 1 < line.size(); ++i)
+            points.push_back(use.reversed ? line[line.size() - 1 - i] : line[i]);
+    }
+    return points;
+}
+
+double area_of(const std::vector<Vec2>& points)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec2 &a = points[i], &b = points[(i + 1) % points.size()];
+        sum += a.x() * b.y() - a.y() * b.x();
+    }
+    return sum / 2;
+}
+
+bool inside(const std::vector<Vec2>& polygon, const Vec2& p)
+{
+    bool in = false;
+    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+        const Vec2 &a = polygon[i], &b = polygon[j];
+        if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+        if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) in = !in;
+    }
+    return in;
+}
+
+/// A half-edge that leaves a node.
+struct Spoke {
+    double angle;
+    PlaneUse use;
+};
+
+std::map<std::size_t, std::vector<Spoke>> spokes_of(std::span<const PlaneChain> chains)
+{
+    std::map<std::size_t, std::vector<Spoke>> spokes;
+    const auto angle = [](const Vec2& from, const Vec2& to) {
+        return std::atan2(to.y() - from.y(), to.x() - from.x());
+    };
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+        const std::vector<Vec2>& line = chains[c].line;
+        spokes[chains[c].from].push_back({angle(line[0], line[1]), {c, false}});
+        spokes[chains[c].to].push_back({angle(line.back(), line[line.size() - 2]), {c, true}});
+    }
+    for (auto& [node, around] : spokes) {
+        std::stable_sort(around.begin(), around.end(),
+                         [](const Spoke& a, const Spoke& b) { return a.angle < b.angle; });
+    }
+    return spokes;
+}
+
+std::vector<Loop> traced_loops(std::span<const PlaneChain> chains)
+{
+    const std::map<std::size_t, std::vector<Spoke>> spokes = spokes_of(chains);
+    const auto number = [](const PlaneUse& use) { return 2 * use.chain + (use.reversed ? 1 : 0); };
+    const auto bounds = [&](const PlaneUse& use) {
+        return use.reversed ? chains[use.chain].right : chains[use.chain].left;
+    };
+    // The half-edge after one that comes in: the first clockwise from its own way back.
+    const auto next = [&](const PlaneUse& use) {
+        const std::vector<Spoke>& around = spokes.at(use.reversed ? chains[use.chain].from
+                                                                  : chains[use.chain].to);
+        std::size_t back = 0;
+        while (around[back].use.chain != use.chain || around[back].use.reversed == use.reversed) ++back;
+        return around[(back + around.size() - 1) % around.size()].use;
+    };
+    std::vector<bool> done(2 * chains.size(), false);
+    std::vector<Loop> loops;
+    for (std::size_t h = 0; h < done.size(); ++h) {
+        PlaneUse use{h / 2, h % 2 == 1};
+        if (done[h] || !bounds(use)) continue;
+        Loop& loop = loops.emplace_back();
+        for (; !done[number(use)]; use = next(use)) {
+            done[number(use)] = true;
+            loop.push_back(use);
+        }
+    }
+    return loops;
+}
+
+} // namespace
+
+std::vector<PlaneRegion> plane_regions(std::span<const PlaneChain> chains)
+{
+    std::vector<PlaneRegion> regions;
+    std::vector<std::vector<Vec2>> outlines;
+    std::vector<double> areas;
+    std::vector<Loop> holes;
+    for (Loop& loop : traced_loops(chains)) {
+        std::vector<Vec2> outline = points_of(chains, loop);
+        const double area = area_of(outline);
+        if (!(area > 0)) {
+            holes.push_back(std::move(loop));
+            continue;
+        }
+        regions.push_back({{std::move(loop)}});
+        outlines.push_back(std::move(outline));
+        areas.push_back(area);
+    }
+    for (Loop& hole : holes) {
+        const PlaneUse& use = hole.front();
+        const std::vector<Vec2>& line = chains[use.chain].line;
+        const Vec2 at = (line[0] + line[1]) / 2;
+        std::size_t round = regions.size();
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t r = 0; r < regions.size(); ++r) {
+            const bool own = std::any_of(regions[r].loops.front().begin(), regions[r].loops.front().end(),
+                                         [&](const PlaneUse& u) { return u.chain == use.chain; });
+            if (own || areas[r] >= least || !inside(outlines[r], at)) continue;
+            round = r;
+            least = areas[r];
+        }
+        if (round < regions.size()) regions[round].loops.push_back(std::move(hole));
+    }
+    return regions;
+}
+
+} // namespace lacuna::surface

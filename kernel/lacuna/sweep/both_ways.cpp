@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/both_ways.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/surface/imprint.h>
+#include <lacuna/sweep/detail/words.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+/// Below this least scaled Jacobian the other way is tried. Every mesh is to reach 0.2; a square swept to a
+/// circle with that has 0.7 from the circle. A choice, not a measurement.
+constexpr double kPoor = 0.3;
+
+/// Whether the source's own quads are to be its mesh.
+bool keeps_quads(const OpenVolume& volume, const SweepOptions& options)
+{
+    if (options.quads == Quads::keep) return true;
+    const std::vector<FaceId> source = volume.faces(Role::source);
+    return options.quads == Quads::automatic && options.rows == 0 &&
+           std::any_of(source.begin(), source.end(),
+                       [&](FaceId face) { return !volume.model[face].given_quads.empty(); });
+}
+
+/// What one way came to: a mesh, or the error it ended with.
+struct Outcome {
+    std::optional<ProvedSweep> result;
+    std::optional<NotSweepable> refusal;
+
+    [[nodiscard]] bool usable() const { return result && !result->proof.finding; }
+    [[nodiscard]] bool good() const { return usable() && result->swept.min_scaled_jacobian >= kPoor; }
+    [[nodiscard]] std::string why() const
+    {
+        return refusal ? std::string(refusal->what()) : result->proof.finding->message;
+    }
+};
+
+Outcome outcome_of(const OpenVolume& volume, const SweepOptions& options, const OneWay& sweep_one_way)
+{
+    Outcome outcome;
+    try {
+        outcome.result = sweep_one_way(volume, options);
+    } catch (const NotSweepable& error) {
+        outcome.refusal = error;
+    }
+    return outcome;
+}
+
+/// The end a volume is swept from, as the person named it.
+std::string end_of(const OpenVolume& volume) { return volume.turned_round ? "target" : "source"; }
+
+/// The options with the time that is left of one budget.
+SweepOptions remaining(SweepOptions options, std::chrono::steady_clock::time_point start)
+{
+    if (options.improving.seconds > 0) {
+        const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
+        options.improving.seconds -= used.count();
+        options.improve = options.improve && options.improving.seconds > 0;
+    }
+    return options;
+}
+
+} // namespace
+
+OpenVolume turned_round(OpenVolume volume)
+{
+    for (Role& role : volume.role) {
+        if (role != Role::wall) role = role == Role::source ? Role::target : Role::source;
+    }
+    volume.turned_round = !volume.turned_round;
+    return volume;
+}
+
+ProvedSweep sweep_both_ways(const OpenVolume& volume, const SweepOptions& options,
+                            const OneWay& sweep_one_way, const RunContext& context)
+{
+    if (keeps_quads(volume, options)) return sweep_one_way(volume, options);
+    // A target that came with quads is swept from where the source did not.
+    if (const OpenVolume back = turned_round(volume); keeps_quads(back, options)) {
+        Outcome kept = outcome_of(back, options, sweep_one_way);
+        if (kept.usable()) {
+            kept.result->swept.report.insert(kept.result->swept.report.begin(),
+                                             "swept from the " + end_of(back) +
+                                                 ", which came with quads; the " + end_of(volume) +
+                                                 " did not");
+            return std::move(*kept.result);
+        }
+        log_line(context, "swept from the " + end_of(back) + ", to keep its quads: " + kept.why());
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const bool turned_first = options.rows == 0 && !surface::inner_edges(volume, Role::target).empty() &&
+                              surface::inner_edges(volume, Role::source).empty();
+    std::optional<OpenVolume> turned;
+    if (turned_first) turned = turned_round(volume);
+    const OpenVolume& first = turned_first ? *turned : volume;
+    Outcome one = outcome_of(first, options, sweep_one_way);
+    if (one.good()) {
+        if (turned_first) {
+            one.result->swept.report.insert(one.result->swept.report.begin(),
+                                            "swept from the " + end_of(first) +
+                                                ", whose faces meet in edges; the " + end_of(volume) +
+                                                " is one face");
+        }
+        return std::move(*one.result);
+    }
+    log_line(context,
+             "swept from the " + end_of(first) + ": " +
+                 (one.usable() ? "least scaled Jacobian " + in_short(one.result->swept.min_scaled_jacobian)
+                               : one.why()) +
+                 "; the other way is tried");
+    if (!turned_first) turned = turned_round(volume);
+    const OpenVolume& second = turned_first ? volume : *turned;
+    Outcome other = outcome_of(second, remaining(options, start), sweep_one_way);
+    if (other.usable() &&
+        (!one.usable() || other.result->swept.min_scaled_jacobian > one.result->swept.min_scaled_jacobian)) {
+        const std::string before = one.usable() ? "the least scaled Jacobian is " +
+                                                      in_short(one.result->swept.min_scaled_jacobian)
+                                                : "it is refused: " + one.why();
+        other.result->swept.report.insert(other.result->swept.report.begin(),
+                                          "swept from the " + end_of(second) + "; from the " + end_of(first) +
+                                              " " + before);
+        return std::move(*other.result);
+    }
+    if (one.usable()) return std::move(*one.result);
+    // What went wrong first says more than what goes wrong second.
+    if (one.refusal) {
+        std::string message = one.why();
+        if (!other.usable() && other.why() != message)
+            message += "\nfrom the " + end_of(second) + ": " + other.why();
+        throw NotSweepable(one.refusal->code(), message);
+    }
+    if (!other.usable())
+        one.result->proof.finding->message += "\nfrom the " + end_of(second) + ": " + other.why();
+    return std::move(*one.result);
+}
+
+} // namespace lacuna::sweep

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/surface/imprint.h>
+#include <lacuna/surface/source_mesh.h>
+#include <lacuna/sweep/morph.h>
+
+#include <optional>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// The face of each source quad, and the one it is swept to.
+struct EndFaces {
+    std::vector<FaceId> source, target;
+};
+
+/// @param imprint  none where the target is one face.
+EndFaces end_faces(const topology::OpenVolume& volume, const surface::SourceMesh& source,
+                   const std::optional<surface::Imprint>& imprint);
+
+/// Morph the source mesh onto the target's faces as one surface.
+Morphed morph_onto(const topology::OpenVolume& volume, const surface::SourceMesh& source,
+                   const RimColumns& columns, const RunContext& context);
+
+/// Morph the source mesh onto the target, a face at a time: nodes of imprinted edges go to the target's edges
+/// exactly, evenly as they stand on the source's, and are the rim of the nodes inside.
+/// @param face  the target's, of each quad.
+Morphed morph_onto_faces(const surface::SourceMesh& source, const RimColumns& columns,
+                         const surface::Seeds& seeds, const surface::Imprint& imprint,
+                         const std::vector<FaceId>& face, const RunContext& context);
+
+} // namespace lacuna::sweep

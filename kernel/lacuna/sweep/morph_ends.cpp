@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/morph_ends.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/surface/projector.h>
+#include <lacuna/sweep/detail/surface_smoothing.h>
+#include <lacuna/sweep/detail/words.h>
+
+#include <algorithm>
+#include <set>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+/// Target places of the nodes that are known before any face is filled; empty for the others.
+std::vector<std::optional<Vec3>> known_places(const surface::SourceMesh& source, const RimColumns& columns,
+                                              const surface::Seeds& seeds, const surface::Imprint& imprint)
+{
+    std::vector<std::optional<Vec3>> places(source.quads.nodes.size());
+    for (const auto& [edge, image] : imprint.images) {
+        const std::vector<Index>& nodes = source.on_edge.at(edge);
+        std::vector<double> at = seeds.fractions(edge);
+        for (double& f : at) f = image.from + f * (image.to - image.from);
+        const std::vector<Vec3> points = surface::edge_points(imprint.volume->model, image.target, at);
+        for (std::size_t i = 0; i < nodes.size(); ++i) places[index(nodes[i])] = points[i];
+    }
+    const std::span<const Vec3> high = columns.row(columns.layers);
+    for (std::size_t k = 0; k < high.size(); ++k) places[index(columns.rim[k])] = high[k];
+    return places;
+}
+
+/// The quads over one target face as a mesh of their own.
+struct Part {
+    mesh::QuadMesh mesh;
+    std::vector<Index> node; ///< of the whole mesh
+    RimColumns columns;      ///< one layer
+};
+
+Part part_of(const mesh::QuadMesh& whole, const std::vector<std::size_t>& quads,
+             const std::vector<std::optional<Vec3>>& places)
+{
+    Part part;
+    std::map<Index, Index> local;
+    for (const std::size_t q : quads) {
+        Quad quad{};
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Index node = whole.quads[q][i];
+            const auto [found, fresh] = local.try_emplace(node, static_cast<Index>(part.node.size()));
+            if (fresh) {
+                part.node.push_back(node);
+                part.mesh.nodes.push_back(whole.nodes[index(node)]);
+            }
+            quad[i] = found->second;
+        }
+        part.mesh.quads.push_back(quad);
+    }
+    part.columns.layers = 1;
+    std::set<Index> rim;
+    for (const mesh::BoundarySide& side : mesh::boundary_sides(part.mesh.quads))
+        rim.insert({side.from, side.to});
+    part.columns.rim.assign(rim.begin(), rim.end());
+    for (const Index node : rim) part.columns.points.push_back(part.mesh.nodes[index(node)]);
+    for (const Index node : rim) {
+        const std::optional<Vec3>& place = places[index(part.node[index(node)])];
+        if (!place) {
+            throw NotSweepable("sweep.imprint_torn",
+                               "an edge between faces of the target has nodes on the source that no edge "
+                               "imprinted there leads to it; use a smaller size");
+        }
+        part.columns.points.push_back(*place);
+    }
+    return part;
+}
+
+} // namespace
+
+EndFaces end_faces(const OpenVolume& volume, const surface::SourceMesh& source,
+                   const std::optional<surface::Imprint>& imprint)
+{
+    EndFaces faces;
+    const FaceId only = volume.faces(Role::target).front();
+    for (const Index face : source.quads.face) {
+        const FaceId part(face);
+        faces.source.push_back(imprint ? imprint->source_of[part.index()] : part);
+        faces.target.push_back(imprint ? imprint->target_of[part.index()] : only);
+    }
+    return faces;
+}
+
+Morphed morph_onto(const OpenVolume& volume, const surface::SourceMesh& source, const RimColumns& columns,
+                   const RunContext& context)
+{
+    const surface::Projector target(volume.model, volume.faces(Role::target));
+    return morph(
+        source.quads, columns, [&](std::span<Vec3> points) { target.project(points, context); }, context);
+}
+
+Morphed morph_onto_faces(const surface::SourceMesh& source, const RimColumns& columns,
+                         const surface::Seeds& seeds, const surface::Imprint& imprint,
+                         const std::vector<FaceId>& face, const RunContext& context)
+{
+    const std::vector<std::optional<Vec3>> places = known_places(source, columns, seeds, imprint);
+    std::map<FaceId, std::vector<std::size_t>> quads;
+    for (std::size_t q = 0; q < face.size(); ++q) quads[face[q]].push_back(q);
+    Morphed result;
+    result.nodes.resize(source.quads.nodes.size());
+    for (const auto& [target, over] : quads) {
+        const Part part = part_of(source.quads, over, places);
+        const surface::Projector projector(imprint.volume->model, {target});
+        const Morphed piece = morph(
+            part.mesh, part.columns, [&](std::span<Vec3> points) { projector.project(points, context); },
+            context);
+        for (std::size_t i = 0; i < part.node.size(); ++i) result.nodes[index(part.node[i])] = piece.nodes[i];
+        result.worst = std::min(result.worst, piece.worst);
+        result.worst_source = std::min(result.worst_source, piece.worst_source);
+    }
+    result.report = std::to_string(quads.size()) + " faces, " + std::to_string(imprint.images.size()) +
+                    " edges between them imprinted on the source; worst quad " + in_short(result.worst) +
+                    " (source " + in_short(result.worst_source) + ")";
+    return result;
+}
+
+} // namespace lacuna::sweep

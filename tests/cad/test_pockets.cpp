@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "made_files.h"
+#include "support/check_valid.h"
+
+#include <lacuna/cad/load.h>
+#include <lacuna/closure/close.h>
+#include <lacuna/quality/quality.h>
+#include <lacuna/sweep/sweep.h>
+
+#include <doctest/doctest.h>
+
+#include <numbers>
+
+using namespace lacuna;
+using namespace lacuna::topology;
+
+TEST_CASE("a box with a round pocket or boss in its top has the pocket or boss in its mesh")
+{
+    const test::TempFolder folder;
+    const double disc = std::numbers::pi * 0.36;
+    for (const bool pocket : {true, false}) {
+        const std::string way = pocket ? "BooleanDifference" : "BooleanUnion";
+        const std::string script = "SetFactory(\"OpenCASCADE\");\nBox(1)={0,0,0,2,2,2};\n"
+                                   "Cylinder(2)={1,1,1.8,0,0,0.4,0.6};\n" +
+                                   way + "(3)={ Volume{1}; Delete; }{ Volume{2}; Delete; };\n";
+        const Model model = cad::load({folder.write("top.geo", script)});
+        Roles roles;
+        for (std::size_t f = 0; f < model.faces.size(); ++f) {
+            const Vec3 normal = face_area_vector(model, FaceId(f)).stableNormalized();
+            const Vec3 centre = face_centroid(model, FaceId(f));
+            const bool side = model.faces[f].kind == "plane" && std::abs(normal.z()) < 0.5;
+            (side ? roles.walls : centre.z() < 1 ? roles.source : roles.target).emplace_back(f);
+        }
+        REQUIRE(roles.target.size() == 3);
+        OpenVolume volume = open_volume(model, roles);
+        closure::close(volume, {});
+        const double exact = 8 + (pocket ? -1 : 1) * disc * 0.2;
+        for (const double size : {0.4, 0.25, 0.12}) {
+            CAPTURE(pocket);
+            CAPTURE(size);
+            sweep::SweepOptions options;
+            options.layers.count = 8;
+            options.size = [size](const Vec3&) { return size; };
+            const sweep::Swept swept = sweep::sweep(volume, options);
+            test::check_valid(swept.mesh);
+            CHECK(swept.min_scaled_jacobian >= 0.2);
+            // Chords of the circle lose a share of the disc, less than a tenth at ten sides.
+            CHECK(std::abs(quality::measure(swept.mesh).volume - exact) < 0.1 * disc * 0.2);
+        }
+    }
+}
