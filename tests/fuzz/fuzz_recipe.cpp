@@ -489,26 +489,6 @@ Ends ends;
 
 } // namespace
 
-#ifdef LACUNA_FUZZ
-
-// libFuzzer counts in this process what ran in it. The children share the counters, but for the parts of
-// pages at both ends.
-extern "C" std::uint8_t __start___sancov_cntrs[], __stop___sancov_cntrs[];
-
-extern "C" int LLVMFuzzerInitialize(int*, char***)
-{
-    const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-    const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(__start___sancov_cntrs) + page - 1) / page;
-    const std::uintptr_t last = reinterpret_cast<std::uintptr_t>(__stop___sancov_cntrs) / page;
-    if (first >= last) fault("too few counters to share");
-    void* const shared = mmap(reinterpret_cast<void*>(first * page), (last - first) * page,
-                              PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_FIXED, -1, 0);
-    if (shared == MAP_FAILED) fault("the counters cannot be shared");
-    return 0;
-}
-
-#endif
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     static World world;
