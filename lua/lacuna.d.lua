@@ -72,7 +72,7 @@
 ---@field size? number|fun(x: number, y: number, z: number): number edge length on the source; default: the rim's spacing
 ---@field curvature? integer sides for a full turn where the size is coarser; default 12; 0: the size alone
 ---@field gap? integer least number of quads across a narrow place of the source; default: none
----@field max_deviation? number how far the skin may be from the sealed skin [model length]; default: a fifth of a quad's side
+---@field max_deviation? number how far the skin may be from the sealed skin [model length]; default: a quarter of a quad's side
 ---@field quads? "auto"|"paved"|"mapped"|"gmsh"|"keep" default "auto"; the report says which way each face was meshed
 ---@field rows? integer rows of quads from every loop of the source that stay as they are laid; default: what the paver finds good
 ---@field row_height? number|fun(x: number, y: number, z: number): number of those rows (one at least); default: the size

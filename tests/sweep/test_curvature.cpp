@@ -28,6 +28,7 @@ SweepOptions coarse(double size, int curvature, int layers = 2)
     options.layers.count = layers;
     options.size = [size](const Vec3&) { return size; };
     options.curvature = curvature;
+    options.volume_share = 0; // the sides asked for, whatever they lose
     return options;
 }
 
@@ -75,6 +76,20 @@ TEST_CASE("a round rim gets the sides asked for a full turn where the size is co
         const Swept fine = swept_valid(volume, coarse(0.1, 12)), alone = swept_valid(volume, coarse(0.1, 0));
         CHECK(fine.mesh.quads == alone.mesh.quads);
         CHECK(fine.mesh.rim.size() > 24);
+    }
+}
+
+TEST_CASE("where coarse sides lose volume, bends get as many sides as keep it within the share allowed")
+{
+    for (const double share : {0.05, 0.02, 0.01}) {
+        for (const double size : {0.5, 10.0}) {
+            SweepOptions options = coarse(size, 12, 4);
+            options.volume_share = share;
+            const Swept swept = swept_valid(test::sealed({.sides = 0, .cuts = 24}), options);
+            CAPTURE(share);
+            CAPTURE(size);
+            CHECK(swept.fidelity.volume > (1 - share) * swept.fidelity.sealed_volume);
+        }
     }
 }
 

@@ -183,6 +183,7 @@ TEST_CASE("pipes, cones and elbows are off by the sag of their sides and no more
                                                       .bend = bend});
                     SweepOptions options = layers_of(12, 5);
                     options.curvature = per_turn;
+                    options.volume_share = 0;
                     const Swept swept = sweep::sweep(volume, options);
                     test::check_valid(swept.mesh);
                     CAPTURE(taper);
@@ -286,6 +287,7 @@ TEST_CASE("sizes and layers that refusals name lead to a mesh within a few steps
                 {.sides = 0, .height = 5, .cuts = 16, .levels = 64, .bend = bend});
             SweepOptions options = layers_of(4, 0.6);
             options.max_deviation = allowed;
+            options.volume_share = 0;
             std::string why = refusal(volume, options);
             CHECK(!why.empty());
             for (int round = 0; !why.empty() && round < 6; ++round) {

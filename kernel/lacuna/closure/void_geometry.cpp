@@ -221,6 +221,47 @@ geometry::Triangulation grid_between(const std::array<PatchSide, 4>& side, const
     return grid;
 }
 
+/// How far a patch between four straight sides would be off two flat facets [model length].
+double twist_of(const std::array<PatchSide, 4>& side)
+{
+    const auto corner = [&](std::size_t i) { return side[i].points.front(); };
+    return (corner(0) - corner(1) + corner(2) - corner(3)).norm() / 4;
+}
+
+/// Facets of a rectangle whose sides have few points and whose patch is twisted: a grid inside, and facets
+/// from it to the sides as they are.
+geometry::Triangulation grid_within(const Outline& outline, double width, double height,
+                                    const RunContext& context)
+{
+    // Cells each way: facets miss a twisted patch by 1/256 of what two of them do.
+    constexpr Index kCells = 16;
+    geometry::Triangulation inner{outline.flat, {}};
+    const auto first = static_cast<Index>(inner.points.size());
+    for (Index j = 1; j < kCells; ++j) {
+        for (Index i = 1; i < kCells; ++i)
+            inner.points.emplace_back(width * i / double{kCells}, height * j / double{kCells});
+    }
+    constexpr Index kRow = kCells - 1;
+    const auto at = [&](Index i, Index j) { return first + j * kRow + i; };
+    std::vector<std::vector<Index>> loops = outline.loops;
+    std::vector<Index>& hole = loops.emplace_back();
+    for (Index i = 0; i + 1 < kRow; ++i) hole.push_back(at(i, 0));
+    for (Index j = 0; j + 1 < kRow; ++j) hole.push_back(at(kRow - 1, j));
+    for (Index i = kRow - 1; i > 0; --i) hole.push_back(at(i, kRow - 1));
+    for (Index j = kRow - 1; j > 0; --j) hole.push_back(at(0, j));
+    geometry::Triangulation grid = geometry::triangulate(inner.points, loops, {.interior_points = false},
+                                                         context);
+    for (Index j = 0; j + 1 < kRow; ++j) {
+        for (Index i = 0; i + 1 < kRow; ++i) {
+            const Quad q{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+            const std::size_t k = index(i + j) % 2; // diagonals by turns lean to neither side
+            grid.triangles.push_back({q[k], q[k + 1], q[k + 2]});
+            grid.triangles.push_back({q[k], q[k + 2], q[(k + 3) % 4]});
+        }
+    }
+    return grid;
+}
+
 VoidFilling fill_transfinite(const Model& model, const std::vector<std::vector<EdgeUse>>& sides,
                              const Follower* follower, const RunContext& context)
 {
@@ -251,9 +292,14 @@ VoidFilling fill_transfinite(const Model& model, const std::vector<std::vector<E
     }
     const bool even = side[0].chain.size() == side[2].chain.size() &&
                       side[1].chain.size() == side[3].chain.size();
-    const geometry::Triangulation flat = even ? grid_between(side, outline, width, height)
-                                              : geometry::triangulate(outline.flat, outline.loops, {},
-                                                                      context);
+    // A few facets would stand for a twisted patch that the swept mesh follows.
+    constexpr double kFewSegments = 8, kFlat = 1e-3;
+    const double across = (side[0].points.front() - side[2].points.front()).norm();
+    const bool twisted = std::min(width, height) < kFewSegments && twist_of(side) > kFlat * across;
+    const geometry::Triangulation flat = twisted ? grid_within(outline, width, height, context)
+                                         : even  ? grid_between(side, outline, width, height)
+                                                 : geometry::triangulate(outline.flat, outline.loops, {},
+                                                                         context);
     const auto backward = [](std::vector<Vec3> points) {
         std::reverse(points.begin(), points.end());
         return points;

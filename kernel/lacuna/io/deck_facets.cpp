@@ -283,10 +283,12 @@ private:
             if (shells[label] == 1) label = {kSingles, 0, label.a, label.b};
     }
 
+    /// Of the set it is in, or of its region: in MSH files the surface, whose groups are the sets.
     [[nodiscard]] int tag_of(const Label& label) const
     {
+        const bool by_set = deck_.format != DeckFormat::msh;
         for (const int s : lists_[label.sets])
-            if (const int tag = deck_.sets[index(s)].tag; tag > 0) return tag;
+            if (const int tag = deck_.sets[index(s)].tag; by_set && tag > 0) return tag;
         const Index region = label.shell >= 0 ? label.shell : label.shell == kSingles ? -1 : label.a;
         const bool between = label.shell == -1 && label.b >= 0;
         return region < 0 || between ? 0 : deck_.regions[index(region)].tag;

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace lacuna::surface {
@@ -90,6 +91,7 @@ class FlatFace {
 public:
     FlatFace(const Model& model, FaceId face, const SizeField& size)
         : model_(model),
+          face_(face),
           fine_(fine_facets(model, face, size)),
           flat_(geometry::flatten(fine_.points, fine_.triangles))
     {
@@ -133,6 +135,34 @@ public:
             by += weight * stretch_[static_cast<std::size_t>(f[k])];
         }
         return size(on_face) * by;
+    }
+
+    /// Where the face has a tip: a point inside whose facets' angles lack much of a full turn.
+    [[nodiscard]] std::vector<Vec2> tips() const
+    {
+        // A tenth of a turn: a cone 25° flatter than a plane's half angle. A choice, not a measurement.
+        constexpr double kLack = 0.2 * std::numbers::pi;
+        std::vector<double> angle(fine_.points.size(), 0);
+        for (const Triangle& t : fine_.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3& at = fine_.points[static_cast<std::size_t>(t[k])];
+                const Vec3 a = fine_.points[static_cast<std::size_t>(t[(k + 1) % 3])] - at;
+                const Vec3 b = fine_.points[static_cast<std::size_t>(t[(k + 2) % 3])] - at;
+                angle[static_cast<std::size_t>(t[k])] += std::atan2(a.cross(b).norm(), a.dot(b));
+            }
+        }
+        for (const Loop& loop : border_loops(model_, face_)) {
+            for (const EdgeUse& use : loop.uses) {
+                for (const FineFacets::OnEdge& on : fine_.edges.at(use.edge))
+                    angle[static_cast<std::size_t>(on.point)] = 0;
+            }
+        }
+        std::vector<Vec2> tips;
+        for (const Index p : flat_.used) {
+            const double sum = angle[static_cast<std::size_t>(p)];
+            if (sum > 0 && 2 * std::numbers::pi - sum > kLack) tips.push_back(position(p));
+        }
+        return tips;
     }
 
     [[nodiscard]] std::vector<Vec3> lift(std::span<const Vec2> points) const
@@ -184,11 +214,55 @@ private:
     }
 
     const Model& model_;
+    FaceId face_;
     FineFacets fine_;
     geometry::Flattened flat_;
     geometry::PlanarLocator locator_;
     std::vector<double> stretch_;
 };
+
+/// The least sine of a corner of the quads at a node, by their longer sides [-1, 1].
+double least_corner_at(const quads::PlanarQuads& filling, const std::vector<std::size_t>& around)
+{
+    double least = 1;
+    for (const std::size_t q : around) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto at = [&](std::size_t i) -> const Vec2& {
+                return filling.points[static_cast<std::size_t>(filling.quads[q][i % 4])];
+            };
+            const Vec2 a = at(k + 1) - at(k), b = at(k + 3) - at(k);
+            const double lengths = a.norm() * b.norm();
+            least = std::min(least, lengths > 0 ? (a.x() * b.y() - a.y() * b.x()) / lengths : -1);
+        }
+    }
+    return least;
+}
+
+/// Put the node nearest to each tip of the face on it, so that no quad cuts it off; where that would spoil the
+/// quads there the tip stays inside one.
+void meet_tips(quads::PlanarQuads& filling, std::size_t rim, const std::vector<Vec2>& tips)
+{
+    constexpr double kSpoiled = 0.2;      // least sine of a corner; a choice, not a measurement
+    constexpr std::size_t kMostTips = 64; // with more, facets are coarse and no point of them is a tip
+    if (tips.size() > kMostTips) return;
+    for (const Vec2& tip : tips) {
+        std::size_t nearest = rim;
+        for (std::size_t i = rim; i < filling.points.size(); ++i) {
+            if ((filling.points[i] - tip).squaredNorm() < (filling.points[nearest] - tip).squaredNorm())
+                nearest = i;
+        }
+        if (nearest >= filling.points.size()) continue;
+        std::vector<std::size_t> around;
+        for (std::size_t q = 0; q < filling.quads.size(); ++q) {
+            const Quad& quad = filling.quads[q];
+            if (std::find(quad.begin(), quad.end(), static_cast<Index>(nearest)) != quad.end())
+                around.push_back(q);
+        }
+        const double before = least_corner_at(filling, around);
+        const Vec2 old = std::exchange(filling.points[nearest], tip);
+        if (least_corner_at(filling, around) < std::min(kSpoiled, before)) filling.points[nearest] = old;
+    }
+}
 
 } // namespace
 
@@ -210,6 +284,7 @@ FaceQuads fill_face(const Model& model, FaceId face, std::span<const RimNode> ri
     };
     quads::PlanarQuads filling = mesher(region_of(flat.lay(rim), loops, there(sizes.edge), there(sizes.row)),
                                         context);
+    meet_tips(filling, rim.size(), flat.tips());
     const std::vector<Vec3> inside = flat.lift(inside_of(filling, rim.size()));
     return lifted(std::move(filling), rim, inside);
 }

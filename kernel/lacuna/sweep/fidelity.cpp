@@ -23,11 +23,14 @@ using namespace topology;
 namespace {
 
 /// Distance allowed over the side of a quad, where no length is given; see FidelityOptions.
-constexpr double kShareOfSide = 0.2;
+constexpr double kShareOfSide = 0.25;
 /// The same on void faces: their facets were made as the mesh's walls are, and neither is given.
 /// Bent, twisted
 /// and ruled ones were off by up to 0.46.
 constexpr double kShareOnVoid = 1;
+/// Cosine that no turn of a quad against a void face is below: on sharply twisted walls, where neither skin is
+/// given, the facet nearest to a quad may face any way.
+constexpr double kTurnOnVoid = -2;
 /// A quad whose diagonals miss each other by less than this share of its longest side is flat: two triangles
 /// stand for it, else four. A choice, not a measurement.
 constexpr double kFlat = 1e-3;
@@ -72,6 +75,7 @@ private:
 struct Limit {
     double length = 0; ///< for all; 0: a share of the side
     double share = kShareOfSide;
+    double turn = 0; ///< a quad is folded whose normal has a smaller cosine with the face's [-]
 
     [[nodiscard]] double at(double side) const { return length > 0 ? length : share * side; }
 };
@@ -218,7 +222,7 @@ private:
             const Vec3 across = (c[2] - c[0]).cross(c[3] - c[1]) / 2;
             const auto own = static_cast<Index>(q);
             Sample sample{c[0], across.norm(), 0, own, across};
-            sample.turned = sign_ * across.dot(normal_) < 0;
+            sample.turned = sign_ * across.dot(normal_) < limit_.turn * across.norm();
             for (std::size_t k = 0; k < 4; ++k) {
                 const double off = std::abs(normal_.dot(c[k] - origin_));
                 sample.side = std::max(sample.side, (c[(k + 1) % 4] - c[k]).squaredNorm());
@@ -325,7 +329,7 @@ private:
     {
         std::size_t facet = 0;
         sample.distance = distance_to_face(sample.point, facet);
-        sample.turned = sign_ * sample.normal.dot(shape_.normal(facet)) < 0;
+        sample.turned = sign_ * sample.normal.dot(shape_.normal(facet)) < limit_.turn * sample.normal.norm();
     }
 
     void compare_with_quads(Sample& sample) const
@@ -513,7 +517,8 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
         face.face = patch.face;
         face.quads = patch.quads.size();
         const bool made_void = model[patch.face].origin == Origin::made_void;
-        const Limit limit{options.max_deviation, made_void ? kShareOnVoid : kShareOfSide};
+        const Limit limit{options.max_deviation, made_void ? kShareOnVoid : kShareOfSide,
+                          made_void ? kTurnOnVoid : 0};
         if (patch.quads.empty()) {
             face = left_out(model, mesh, patch.face, limit);
         } else if (!kept.contains(patch.face)) {
@@ -545,7 +550,7 @@ void require(const Fidelity& fidelity, int layers, const FidelityOptions& option
     const std::string limit = in_short(worst->allowed) + (given ? " (max_deviation)"
                                                           : worst->made_void
                                                               ? ", a quad's side there"
-                                                              : ", a fifth of a quad's side there");
+                                                              : ", a quarter of a quad's side there");
     const std::string name = worst->name, place = at_place(worst->found_at);
     std::string message;
     switch (worst->misfit) {

@@ -51,10 +51,10 @@ struct Fidelity {
 };
 
 struct FidelityOptions {
-    /// How far skin and face may be apart, >= 0 [model length]; 0: a fifth of the side of a quad there, on
+    /// How far skin and face may be apart, >= 0 [model length]; 0: a quarter of the side of a quad there, on
     /// void faces a whole side. Sides that stand for a twelfth of a turn are off by a fifteenth of their
-    /// length, quads on a sphere of such sides by an eighth; four sides on a circle are off by
-    /// more than a fifth.
+    /// length, quads on a sphere of such sides by an eighth; domes of coarse quads
+    /// by up to 0.23.
     double max_deviation = 0;
 };
 

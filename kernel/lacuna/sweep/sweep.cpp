@@ -458,9 +458,8 @@ constexpr double kLessLost = 0.75;
 /// A mesh that was proved, and compared with the sealed skin.
 Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
 {
-    const surface::SizeField size = source_size(volume, options);
     const OneWay one_way = [&](const OpenVolume& way, const SweepOptions& rest) {
-        return sweep_one_way(way, size, rest, context);
+        return sweep_one_way(way, source_size(way, rest), rest, context);
     };
     ProvedSweep result = sweep_both_ways(volume, options, one_way, context);
     quality::require(result.proof);

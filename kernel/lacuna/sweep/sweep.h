@@ -53,8 +53,8 @@ struct SweepOptions {
     LayerSpec layers;
     surface::SizeField size; ///< null: from the rim's own spacing
     int curvature = 12;      ///< sides for a full turn where `size` is coarser, >= 0; 0: the size alone
-    /// Where straight sides on bends leave the mesh's volume further off the sealed one than this share, bends
-    /// get more sides, as far as that helps [0, 1); 0: never.
+    /// Where straight sides on bends leave the mesh's volume further off the sealed one than this share,
+    /// bends get more sides, as far as that helps [0, 1); 0: never.
     double volume_share = 0.02;
     int gap = 0;             ///< quads at least across a narrow place of the source, >= 0; 0: none
     /// How far the skin may be from the sealed skin, >= 0 [model length]; 0: what `FidelityOptions` says.
