@@ -7,6 +7,7 @@
 
 #include <lacuna/cad/load.h>
 #include <lacuna/io/deck.h>
+#include <lacuna/io/deck_file.h>
 #include <lacuna/io/facets.h>
 #include <lacuna/io/load_facets.h>
 #include <lacuna/io/msh.h>
@@ -23,6 +24,9 @@ struct WriteArguments {
     bool version_given = false, binary_given = false;
     std::vector<quality::Metric> quality{quality::Metric::scaled_jacobian};
     bool quality_given = false;
+    io::MeshDeckOptions deck;
+    bool element_given = false;
+    Box<ModelState> with; ///< null: the mesh alone
 };
 
 /// Metrics to be written. Version 2.2 is for readers that know no other, some of which (meshio 5) refuse a
@@ -76,31 +80,103 @@ void read_quality(lua_State* L, int index, const Where& where, WriteArguments& a
     guard(L, [&] { arguments.quality.assign(chosen, chosen + count); });
 }
 
+template <io::DeckTag io::MeshDeckOptions::*Member>
+void read_first(lua_State* L, int index, const Where& where, WriteArguments& arguments)
+{
+    arguments.deck.*Member = read_whole(L, index, where, 1);
+}
+
+void read_element(lua_State* L, int index, const Where& where, WriteArguments& arguments)
+{
+    const char* word = read_string(L, index, where);
+    guard(L, [&] {
+        arguments.deck.element = word;
+        for (char& c : arguments.deck.element)
+            c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    });
+    arguments.element_given = true;
+}
+
+void read_with(lua_State* L, int index, const Where& where, WriteArguments& arguments)
+{
+    const Box<ModelState>* model = test_box<ModelState>(L, index);
+    if (model == nullptr || !*model) fail_value(L, where, "a Model", index);
+    arguments.with = *model;
+}
+
 const Option<WriteArguments> kWriteOptions[] = {
-    {"version", read_version}, {"binary", read_binary}, {"quality", read_quality}};
+    {"version", read_version},
+    {"binary", read_binary},
+    {"quality", read_quality},
+    {"with", read_with},
+    {"first_node", read_first<&io::MeshDeckOptions::first_node>},
+    {"first_cell", read_first<&io::MeshDeckOptions::first_cell>},
+    {"element", read_element},
+};
+
+/// The one deck a model was read from.
+const io::Deck& deck_with(const ModelState& model)
+{
+    if (model.decks.size() != 1)
+        throw InvalidInput("lua.no_deck",
+                           "write: with: expected a model that was loaded from one finite element "
+                           "mesh, found one of " +
+                               std::to_string(model.decks.size()));
+    return *model.decks.front();
+}
+
+void write_deck(const mesh::HexMesh& mesh, const io::OutputPath& path, const WriteArguments& arguments,
+                const RunContext& context)
+{
+    io::MeshDeckOptions options = arguments.deck;
+    io::find_deck_format(io::ending_of(path.text()), options.format);
+    const io::DeckFormat format = options.format;
+    if (!arguments.with) return io::write_deck(io::deck_of(mesh, options), format, path, context);
+    const io::Deck& deck = deck_with(*arguments.with);
+    io::write_deck(io::join_deck(deck, arguments.with->model, arguments.with->scale, mesh, options), format,
+                   path, context);
+}
 
 /// A format by its ending, and which options it has.
 struct Format {
     const char* ending;
-    bool has_version, has_binary;
-    void (*write)(const mesh::HexMesh& mesh, const io::OutputPath& path, const io::MshOptions& options,
+    bool has_version, has_binary, is_deck, has_element;
+    void (*write)(const mesh::HexMesh& mesh, const io::OutputPath& path, const WriteArguments& arguments,
                   const RunContext& context);
 };
 
 const Format kFormats[] = {
-    {".msh", true, true,
-     [](const auto& mesh, const auto& path, const auto& options, const auto& context) {
-         io::write_msh(mesh, path, options, context);
+    {".msh", true, true, false, false,
+     [](const auto& mesh, const auto& path, const auto& arguments, const auto& context) {
+         io::write_msh(mesh, path, arguments.msh, context);
      }},
-    {".vtu", false, false,
-     [](const auto& mesh, const auto& path, const auto& options, const auto& context) {
-         io::write_vtu(mesh, path, {options.fields}, context);
+    {".vtu", false, false, false, false,
+     [](const auto& mesh, const auto& path, const auto& arguments, const auto& context) {
+         io::write_vtu(mesh, path, {arguments.msh.fields}, context);
      }},
-    {".vtk", false, true,
-     [](const auto& mesh, const auto& path, const auto& options, const auto& context) {
-         io::write_vtk(mesh, path, {options.binary, options.fields}, context);
+    {".vtk", false, true, false, false,
+     [](const auto& mesh, const auto& path, const auto& arguments, const auto& context) {
+         io::write_vtk(mesh, path, {arguments.msh.binary, arguments.msh.fields}, context);
      }},
+    {".inp", false, false, true, true, write_deck},
+    {".bdf", false, false, true, false, write_deck},
+    {".nas", false, false, true, false, write_deck},
+    {".dat", false, false, true, false, write_deck},
+    {".unv", false, false, true, false, write_deck},
 };
+
+/// An option that was given and that the format does not have; null: none.
+const char* idle_option(const Format& format, const WriteArguments& arguments)
+{
+    if (arguments.version_given && !format.has_version) return "version";
+    if (arguments.binary_given && !format.has_binary) return "binary";
+    if (arguments.quality_given && format.is_deck) return "quality";
+    if (arguments.element_given && !format.has_element) return "element";
+    if (arguments.with && !format.is_deck) return "with";
+    if (arguments.deck.first_node != 0 && !format.is_deck) return "first_node";
+    if (arguments.deck.first_cell != 0 && !format.is_deck) return "first_cell";
+    return nullptr;
+}
 
 const Format& format_of(const std::string& path, const WriteArguments& arguments)
 {
@@ -108,11 +184,9 @@ const Format& format_of(const std::string& path, const WriteArguments& arguments
     for (const Format& format : kFormats) {
         known += std::string(" ") + format.ending;
         if (io::ending_of(path) != format.ending) continue;
-        const bool idle_version = arguments.version_given && !format.has_version;
-        if (idle_version || (arguments.binary_given && !format.has_binary))
-            throw InvalidInput("lua.idle_option",
-                               std::string("write: ") + format.ending + " files have no option '" +
-                                   (idle_version ? "version" : "binary") + "'; leave it out");
+        if (const char* idle = idle_option(format, arguments))
+            throw InvalidInput("lua.idle_option", std::string("write: ") + format.ending +
+                                                      " files have no option '" + idle + "'; leave it out");
         return format;
     }
     throw InvalidInput("lua.unknown_ending",
@@ -131,10 +205,12 @@ int write(lua_State* L)
     guard(L, [&] {
         const mesh::HexMesh& mesh = state.swept.mesh;
         const Format& format = format_of(path.text(), arguments);
-        for (const quality::Metric metric : metrics_of(arguments))
+        if (arguments.with) refresh(*arguments.with);
+        for (const quality::Metric metric :
+             format.is_deck ? std::vector<quality::Metric>{} : metrics_of(arguments))
             arguments.msh.fields.push_back(
                 {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
-        format.write(mesh, path, arguments.msh, context);
+        format.write(mesh, path, arguments, context);
     });
     return 0;
 }

@@ -4,6 +4,7 @@
 // deck without parts is one part without a name.
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_files.h>
+#include <lacuna/io/detail/deck_writer.h>
 
 #include <algorithm>
 #include <cctype>
@@ -721,6 +722,12 @@ private:
 };
 
 } // namespace
+
+bool is_abaqus_element(std::string_view type, DeckShape shape)
+{
+    DeckShape found{};
+    return shape_of(type, found) && found == shape;
+}
 
 void read_abaqus(Cursor& cursor, DeckBuilder& into) { AbaqusReader(cursor, into).read(); }
 

@@ -121,7 +121,7 @@ struct DeckText {
     enum class Place : std::uint8_t {
         head, ///< before the mesh: executive and case control up to BEGIN BULK; what precedes the first *NODE
         cards, ///< beside the mesh: materials, sections, loads, frames, elements that are no shells or solids
-        tail,  ///< behind it: ENDDATA
+        tail, ///< behind it: ENDDATA; in UNV, elements that are no shells or solids
     };
     Place place = Place::cards;
     std::string part; ///< part of an Abaqus deck it stands in; empty: none

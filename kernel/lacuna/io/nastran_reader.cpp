@@ -38,14 +38,6 @@ struct PropertyCard {
 constexpr PropertyCard kPropertyCards[] = {{"PSHELL", 3}, {"PSOLID", 3},  {"PCOMP", 0},
                                            {"PCOMPG", 0}, {"PLPLANE", 3}, {"PLSOLID", 3}};
 
-/// Where node k of a card stands in the order of DeckShape: middles of upright sides come before those above.
-std::size_t place_of_node(DeckShape shape, std::size_t k)
-{
-    if (shape == DeckShape::hex20 && k >= 12) return k < 16 ? k + 4 : k - 4;
-    if (shape == DeckShape::wedge15 && k >= 9) return k < 12 ? k + 3 : k - 3;
-    return k;
-}
-
 class NastranReader {
 public:
     NastranReader(Cursor& cursor, DeckBuilder& into) : bulk_(cursor), into_(into) {}
@@ -126,7 +118,7 @@ private:
         const DeckShape shape = middles ? kind.all : kind.corners;
         const auto count = static_cast<std::size_t>(shape_info(shape).nodes);
         std::array<Index, 20> nodes{};
-        for (std::size_t k = 0; k < count; ++k) nodes[place_of_node(shape, k)] = found[k];
+        for (std::size_t k = 0; k < count; ++k) nodes[nastran_place(shape, k)] = found[k];
         const Index tag = card.needed(2);
         const std::size_t block = into_.block_of(shape, card.name);
         const DeckBlock& of = into_.deck().blocks[block];
@@ -289,6 +281,13 @@ private:
 };
 
 } // namespace
+
+std::size_t nastran_place(DeckShape shape, std::size_t k)
+{
+    if (shape == DeckShape::hex20 && k >= 12) return k < 16 ? k + 4 : k - 4;
+    if (shape == DeckShape::wedge15 && k >= 9) return k < 12 ? k + 3 : k - 3;
+    return k;
+}
 
 void read_nastran(Cursor& cursor, DeckBuilder& into) { NastranReader(cursor, into).read(); }
 

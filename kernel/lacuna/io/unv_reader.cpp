@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/deck_builder.h>
+#include <lacuna/io/detail/unv.h>
 
 #include <algorithm>
 #include <map>
@@ -9,7 +10,6 @@ namespace lacuna::io {
 namespace {
 
 constexpr std::string_view kMark = "-1"; ///< begins and ends a dataset
-constexpr int kNode = 7, kElement = 8;   ///< what an entity of a group is; others do not count
 
 /// Datasets of groups: how many numbers each entity has (type, tag, and in the later ones node and
 /// component), and which number of the header counts them.
@@ -21,44 +21,21 @@ constexpr GroupDataset kGroupDatasets[] = {{752, 2, 5},  {2417, 2, 6}, {2429, 2,
                                            {2430, 2, 7}, {2432, 2, 7}, {2435, 4, 7},
                                            {2452, 4, 7}, {2467, 4, 7}, {2477, 4, 7}};
 
-/// A solid by its descriptor, with where its nodes stand in the order of DeckShape: layers go round corners
-/// and middles in turn, with the middles of upright sides between them.
-struct SolidKind {
-    std::int64_t descriptor;
-    DeckShape shape;
-    std::array<std::uint8_t, 20> place;
-};
-constexpr SolidKind kSolids[] = {
-    {111, DeckShape::tet4, {0, 1, 2, 3}},
-    {112, DeckShape::wedge6, {0, 1, 2, 3, 4, 5}},
-    {113, DeckShape::wedge15, {0, 6, 1, 7, 2, 8, 12, 13, 14, 3, 9, 4, 10, 5, 11}},
-    {115, DeckShape::hex8, {0, 1, 2, 3, 4, 5, 6, 7}},
-    {116, DeckShape::hex20, {0, 8, 1, 9, 2, 10, 3, 11, 16, 17, 18, 19, 4, 12, 5, 13, 6, 14, 7, 15}},
-    {118, DeckShape::tet10, {0, 4, 1, 5, 2, 6, 7, 8, 9, 3}},
-};
-
 /// What a descriptor says: corners and order of a face, or a solid; neither: corners 0.
 /// Plane stress 41-46, plane strain 51-56, plate 61-66, membrane 71-76, axisymmetric 81-86 and shell 91-96
 /// count alike: triangles linear, quadratic and cubic, then quadrilaterals.
 struct ElementKind {
-    const SolidKind* solid = nullptr;
+    const UnvSolid* solid = nullptr;
     int corners = 0, order = 1;
 };
 ElementKind kind_of(std::int64_t descriptor)
 {
-    const auto solid = std::ranges::find(kSolids, descriptor, &SolidKind::descriptor);
-    if (solid != std::end(kSolids)) return {.solid = solid};
+    const auto solid = std::ranges::find(kUnvSolids, descriptor, &UnvSolid::descriptor);
+    if (solid != std::end(kUnvSolids)) return {.solid = solid};
     const std::int64_t family = descriptor / 10;
     const std::int64_t member = descriptor % 10;
     if (family < 4 || family > 9 || member < 1 || member > 6) return {};
     return {nullptr, member <= 3 ? 3 : 4, static_cast<int>((member - 1) % 3) + 1};
-}
-
-/// Elements whose second record is a beam's orientation.
-bool is_beam(std::int64_t descriptor) { return descriptor >= 21 && descriptor <= 24; }
-bool has_orientation(std::int64_t descriptor, int dataset)
-{
-    return dataset != 71 && (descriptor == 11 || is_beam(descriptor));
 }
 
 class UnvReader {
@@ -90,6 +67,9 @@ public:
         into_.resolve(
             tags, [&](std::uint64_t place, const std::string& what) { cursor_.fail_at(place - 1, what); });
         if (!text_.empty()) into_.deck().texts.push_back({DeckText::Place::cards, "", std::move(text_)});
+        for (const auto& [dataset, text] : others_)
+            into_.deck().texts.push_back({DeckText::Place::tail, "",
+                                          "    -1\n  " + std::to_string(dataset) + "\n" + text + "    -1\n"});
     }
 
 private:
@@ -205,7 +185,7 @@ private:
         const Index property = whole(2);
         const Index nodes = whole(values - 1);
         if (nodes < 1) cursor_.fail("expected an element with nodes, found " + std::to_string(nodes));
-        if (has_orientation(descriptor, dataset)) expect_line("a beam's orientation");
+        if (unv_has_orientation(descriptor, dataset)) expect_line("a beam's orientation");
         const ElementKind kind = kind_of(descriptor);
         std::size_t wanted = 0;
         if (kind.solid != nullptr)
@@ -227,7 +207,10 @@ private:
                 if (index(read) < wanted) at[place_of(kind, index(read))] = node;
             }
         }
-        if (wanted == 0) return into_.pass_over("elements " + std::to_string(descriptor));
+        if (wanted == 0) {
+            others_[dataset] += whole_.substr(position, cursor_.position() - position);
+            return into_.pass_over("elements " + std::to_string(descriptor));
+        }
         if (tag < 0)
             cursor_.fail_at(position, "expected the tag of an element, found " + std::to_string(tag));
         DeckShape shape = kind.corners == 3 ? DeckShape::tri3 : DeckShape::quad4;
@@ -239,13 +222,11 @@ private:
                           {at.data(), kept}, position + 1);
     }
 
-    /// Nodes of a face follow each other along the rim: corners have the middles between them.
     static std::size_t place_of(const ElementKind& kind, std::size_t read)
     {
         if (kind.solid != nullptr) return kind.solid->place[read];
-        const auto order = static_cast<std::size_t>(kind.order);
-        const auto corners = static_cast<std::size_t>(kind.corners);
-        return read % order == 0 ? read / order : corners + read / order * (order - 1) + read % order - 1;
+        return unv_face_place(static_cast<std::size_t>(kind.corners), static_cast<std::size_t>(kind.order),
+                              read);
     }
 
     void read_group(const GroupDataset& dataset)
@@ -263,8 +244,8 @@ private:
                 cursor_.fail("expected " + std::to_string(dataset.values) + " numbers of each of " +
                              std::to_string(left) + " entities, found " + std::to_string(numbers_.size()));
             for (std::size_t k = 0; k < numbers_.size(); k += dataset.values, --left)
-                if (const Index what = whole(k); what == kElement || what == kNode)
-                    members[what == kElement ? 0 : 1].push_back(whole(k + 1));
+                if (const Index what = whole(k); what == kUnvElement || what == kUnvNode)
+                    members[what == kUnvElement ? 0 : 1].push_back(whole(k + 1));
         }
         for (const auto kind : {DeckSet::Kind::elements, DeckSet::Kind::nodes}) {
             std::vector<DeckTag>& all = members[kind == DeckSet::Kind::elements ? 0 : 1];
@@ -281,6 +262,7 @@ private:
     std::vector<std::string_view> numbers_;    ///< words of the line
     std::string_view whole_;                   ///< the file
     std::string text_;                         ///< datasets that are no mesh
+    std::map<int, std::string> others_;        ///< elements that are no shells or solids, by dataset
     std::map<Index, std::size_t> frames_used_; ///< by nodes, and where first
     std::set<Index> frames_turned_;
 };

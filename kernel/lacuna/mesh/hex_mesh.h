@@ -35,6 +35,7 @@ struct SkinPatch {
     int tag = 0; ///< entity tag written to files, unique in the mesh, > 0
     /// Physical groups it belongs to: "source", "wall:12", a name of the input…
     std::vector<std::string> groups;
+    int face = 0; ///< tag of the given face it lies on; 0: it is a void one, or no face is known
 };
 
 /// Swept hexahedra, kept as source quads times layers: cells and skin are computed, never stored.

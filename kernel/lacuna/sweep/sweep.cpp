@@ -196,6 +196,7 @@ public:
             const Face& f = volume_.model[face];
             mesh::SkinPatch patch;
             patch.tag = static_cast<int>(mesh_.patches.size()) + 1;
+            if (f.origin != Origin::made_void) patch.face = f.tag;
             patch.groups.push_back(role_group(face));
             if (f.origin == Origin::made_void && volume_.role[face.index()] != Role::wall)
                 patch.groups.push_back("void:" + std::to_string(f.tag));

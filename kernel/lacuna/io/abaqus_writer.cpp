@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/cursor.h>
+#include <lacuna/io/detail/deck_writer.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+// A flat deck: nodes, elements by type and region, elements that are text, sets, cards. CalculiX reads no
+// more than 20 characters of a number.
+
+namespace lacuna::io {
+namespace {
+
+constexpr std::size_t kWidth = 20;   // characters of a coordinate
+constexpr std::size_t kPerLine = 16; // numbers of a line, at most
+
+/// The word of a shape that came from elsewhere.
+std::string_view type_of(DeckShape shape)
+{
+    switch (shape) {
+    case DeckShape::tri3:
+        return "S3";
+    case DeckShape::tri6:
+        return "STRI65";
+    case DeckShape::quad4:
+        return "S4";
+    case DeckShape::quad8:
+        return "S8R";
+    case DeckShape::quad9:
+        return "S9R5";
+    case DeckShape::tet4:
+        return "C3D4";
+    case DeckShape::tet10:
+        return "C3D10";
+    case DeckShape::pyramid5:
+        return "C3D5";
+    case DeckShape::wedge6:
+        return "C3D6";
+    case DeckShape::wedge15:
+        return "C3D15";
+    case DeckShape::hex8:
+        return "C3D8";
+    case DeckShape::hex20:
+        return "C3D20";
+    default:
+        return {};
+    }
+}
+
+/// Sets of several instances are "instance.set", which a flat deck cannot say.
+bool is_flat(const Deck& deck) { return deck.format == DeckFormat::abaqus && deck.instances.size() < 2; }
+
+/// Names of a part's nodes and sets without the part's one instance before them.
+std::string without_instance(std::string_view text, const std::string& instance)
+{
+    const std::string before = instance + ".";
+    std::string flat;
+    for (std::size_t i = 0; i < text.size();) {
+        const bool begins = i == 0 || (std::isalnum(static_cast<unsigned char>(text[i - 1])) == 0 &&
+                                       text[i - 1] != '_' && text[i - 1] != '-');
+        if (begins && same_word(text.substr(i, before.size()), before))
+            i += before.size();
+        else
+            flat += text[i++];
+    }
+    return flat;
+}
+
+struct Cards {
+    std::string elements, others;
+};
+
+/// Elements that are text go before the sets that may name them.
+Cards cards_of(const Deck& deck)
+{
+    Cards cards;
+    const std::string text = text_at(deck, DeckText::Place::cards);
+    bool elements = false;
+    for (std::string_view rest = text; !rest.empty();) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size() - 1) + 1;
+        const std::string_view line = rest.substr(0, end);
+        const bool keyword = line.starts_with('*') && !line.starts_with("**");
+        if (keyword) {
+            const std::string_view name = trimmed(line.substr(1, line.find(',') - 1));
+            elements = same_word(name, "ELEMENT");
+        }
+        (elements ? cards.elements : cards.others) += line;
+        rest.remove_prefix(end);
+    }
+    if (deck.instances.size() == 1) cards.others = without_instance(cards.others, deck.instances[0].name);
+    return cards;
+}
+
+class AbaqusWriter {
+public:
+    explicit AbaqusWriter(const Deck& deck) : deck_(deck), same_(is_flat(deck)) {}
+
+    DeckFile write()
+    {
+        Cards cards;
+        if (same_) {
+            add_text(text_at(deck_, DeckText::Place::head));
+            cards = cards_of(deck_);
+        } else if (deck_.format == DeckFormat::abaqus && !deck_.texts.empty()) {
+            file_.notes.push_back(
+                "the " + std::to_string(deck_.instances.size()) +
+                " instances become one mesh, sets are named instance_set, and cards are not "
+                "carried over: they name nodes by their instances");
+        }
+        add_nodes();
+        choose_sets();
+        for (const DeckBlock& block : deck_.blocks) add_elements(block);
+        add_text(cards.elements);
+        for (std::size_t s = 0; s < deck_.sets.size(); ++s)
+            if (!by_elements_[s]) add_set(deck_.sets[s]);
+        add_text(cards.others);
+        if (lines_ > 0) file_.notes.push_back(std::to_string(lines_) + " lines are not written");
+        return std::move(file_);
+    }
+
+private:
+    void add_text(const std::string& text) { file_.sections.push_back({text, 0, 0, {}}); }
+
+    [[nodiscard]] std::string name_of(const std::string& name) const
+    {
+        return same_ ? name : abaqus_name(name);
+    }
+
+    void add_nodes()
+    {
+        file_.sections.push_back({"*NODE\n", deck_.points.size(), kNumberBytes + 3 * (kWidth + 2) + 1,
+                                  [this_deck = &deck_](std::size_t begin, std::size_t end, char* out) {
+                                      for (std::size_t p = begin; p < end; ++p) {
+                                          out = put_text(out,
+                                                         static_cast<long long>(this_deck->point_tags[p]));
+                                          for (const double x : this_deck->points[p]) {
+                                              *out++ = ',';
+                                              *out++ = ' ';
+                                              out = put_real(out, x, kWidth);
+                                          }
+                                          *out++ = '\n';
+                                      }
+                                      return out;
+                                  }});
+    }
+
+    /// A set that is all elements of a region is made as its elements are written.
+    void choose_sets()
+    {
+        by_elements_.assign(deck_.sets.size(), false);
+        makes_set_.assign(deck_.regions.size(), !same_);
+        std::vector<std::vector<DeckTag>> members(deck_.regions.size());
+        for (const DeckBlock& block : deck_.blocks)
+            for (std::size_t e = 0; e < block.count(); ++e)
+                if (block.regions[e] >= 0) members[index(block.regions[e])].push_back(block.tags[e]);
+        for (std::size_t r = 0; r < members.size(); ++r) {
+            std::sort(members[r].begin(), members[r].end());
+            for (std::size_t s = 0; s < deck_.sets.size(); ++s) {
+                const DeckSet& set = deck_.sets[s];
+                if (set.kind != DeckSet::Kind::elements || !same_word(set.name, deck_.regions[r].name) ||
+                    set.members != members[r])
+                    continue;
+                by_elements_[s] = true;
+                makes_set_[r] = true;
+            }
+        }
+    }
+
+    void add_elements(const DeckBlock& block)
+    {
+        if (shape_info(block.shape).dimension == 1) {
+            lines_ += block.count();
+            return;
+        }
+        const bool own = is_abaqus_element(block.type, block.shape);
+        const std::string_view type = own ? std::string_view(block.type) : type_of(block.shape);
+        if (type.empty()) refuse_element(block, "Abaqus", "there is no such element");
+        if (std::ranges::find(block.nodes, -1) != block.nodes.end())
+            refuse_element(block, "Abaqus", "some have not all their middle nodes");
+        std::map<Index, std::vector<std::uint32_t>> of_region;
+        for (std::size_t e = 0; e < block.count(); ++e)
+            of_region[block.regions[e]].push_back(static_cast<std::uint32_t>(e));
+        const auto nodes = static_cast<std::size_t>(shape_info(block.shape).nodes);
+        for (auto& [region, elements] : of_region) {
+            std::string head = "*ELEMENT, TYPE=" + std::string(type);
+            if (region >= 0 && makes_set_[index(region)] && !deck_.regions[index(region)].name.empty())
+                head += ", ELSET=" + name_of(deck_.regions[index(region)].name);
+            const std::size_t count = elements.size();
+            file_.sections.push_back({head + "\n", count, (nodes + 1) * kNumberBytes + 4,
+                                      [deck = &deck_, of = &block, all = std::move(elements)](
+                                          std::size_t begin, std::size_t end, char* out) {
+                                          for (std::size_t i = begin; i < end; ++i)
+                                              out = put_element(*deck, *of, all[i], out);
+                                          return out;
+                                      }});
+        }
+    }
+
+    static char* put_element(const Deck& deck, const DeckBlock& block, std::size_t e, char* out)
+    {
+        out = put_text(out, static_cast<long long>(block.tags[e]));
+        std::size_t written = 1;
+        for (const Index node : block.element(e)) {
+            *out++ = ',';
+            *out++ = written++ % kPerLine == 0 ? '\n' : ' ';
+            out = put_text(out, static_cast<long long>(deck.point_tags[index(node)]));
+        }
+        *out++ = '\n';
+        return out;
+    }
+
+    void add_set(const DeckSet& set)
+    {
+        if (set.kind == DeckSet::Kind::sides) {
+            file_.sections.push_back({"*SURFACE, TYPE=ELEMENT, NAME=" + name_of(set.name) + "\n",
+                                      set.sides.size(), 2 * kNumberBytes,
+                                      [&set](std::size_t begin, std::size_t end, char* out) {
+                                          for (std::size_t i = begin; i < end; ++i)
+                                              out = put_side(set.sides[i], out);
+                                          return out;
+                                      }});
+            return;
+        }
+        const std::string word = set.kind == DeckSet::Kind::nodes ? "NSET" : "ELSET";
+        file_.sections.push_back(
+            {"*" + word + ", " + word + "=" + name_of(set.name) + "\n", set.members.size(), kNumberBytes + 2,
+             [&set](std::size_t begin, std::size_t end, char* out) {
+                 for (std::size_t i = begin; i < end; ++i) {
+                     out = put_text(out, static_cast<long long>(set.members[i]));
+                     const bool last = (i + 1) % kPerLine == 0 || i + 1 == set.members.size();
+                     *out++ = last ? '\n' : ',';
+                     if (!last) *out++ = ' ';
+                 }
+                 return out;
+             }});
+    }
+
+    static char* put_side(const DeckSide& side, char* out)
+    {
+        out = put_text(out, static_cast<long long>(side.element));
+        if (side.side < 1) return put_words(out, side.side == 0 ? ", SPOS\n" : ", SNEG\n");
+        out = put_words(out, ", S");
+        out = put_text(out, static_cast<long long>(side.side));
+        *out++ = '\n';
+        return out;
+    }
+
+    const Deck& deck_;
+    bool same_; ///< names and text stay
+    DeckFile file_;
+    std::vector<bool> by_elements_; ///< sets
+    std::vector<bool> makes_set_;   ///< regions
+    std::size_t lines_ = 0;
+};
+
+} // namespace
+
+DeckFile abaqus_file(const Deck& deck) { return AbaqusWriter(deck).write(); }
+
+} // namespace lacuna::io

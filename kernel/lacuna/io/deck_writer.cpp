@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/deck_writer.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/io/deck_file.h>
+#include <lacuna/io/detail/cursor.h>
+#include <lacuna/io/detail/deck_formats.h>
+#include <lacuna/io/detail/unv.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+namespace lacuna::io {
+namespace {
+
+/// Longer than any double with 17 digits behind the point and the shift of `with_point()`.
+constexpr std::size_t kRoom = 400;
+
+/// Digits as to_chars() has them, with a point and a short exponent.
+std::size_t with_point(char* text, std::size_t length, std::size_t width)
+{
+    std::string_view all(text, length);
+    const std::size_t e = all.find('e');
+    std::array<char, 8> exponent{};
+    std::size_t tail = 0;
+    if (e != std::string_view::npos) {
+        exponent[tail++] = 'E';
+        exponent[tail++] = text[e + 1];
+        std::size_t digit = e + 2;
+        while (digit + 1 < length && text[digit] == '0') ++digit;
+        while (digit < length) exponent[tail++] = text[digit++];
+        length = e;
+    }
+    if (std::string_view(text, length).find('.') == std::string_view::npos) text[length++] = '.';
+    const std::size_t sign = text[0] == '-' ? 1 : 0;
+    if (length + tail > width && length > sign + 2 && text[sign] == '0' && text[sign + 1] == '.') {
+        std::copy(text + sign + 1, text + length, text + sign);
+        --length;
+    }
+    std::copy_n(exponent.data(), tail, text + length);
+    return length + tail;
+}
+
+bool is_number_start(std::string_view text)
+{
+    return !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])) != 0;
+}
+
+/// Field 2 of a Nastran line.
+std::string_view second_field(std::string_view line)
+{
+    const std::size_t comma = line.find(',');
+    if (comma != std::string_view::npos) {
+        line.remove_prefix(comma + 1);
+        return trimmed(line.substr(0, line.find(',')));
+    }
+    if (const std::size_t tab = line.find('\t'); tab != std::string_view::npos) {
+        line = trimmed(line.substr(tab));
+        return line.substr(0, line.find_first_of(" \t"));
+    }
+    if (line.size() <= 8) return {};
+    return trimmed(line.substr(8, line.substr(0, 8).find('*') == std::string_view::npos ? 8 : 16));
+}
+
+void nastran_numbers(std::string_view line, TextNumbers& numbers)
+{
+    const auto starts = [&](std::string_view word) { return same_word(line.substr(0, word.size()), word); };
+    if (starts("SPOINT")) {
+        line.remove_prefix(6);
+        while (!line.empty()) {
+            const std::size_t end = std::min(line.find_first_of(", \t"), line.size());
+            if (const auto tag = parse_integer<DeckTag>(line.substr(0, end))) numbers.nodes.insert(*tag);
+            line.remove_prefix(std::min(end + 1, line.size()));
+        }
+        return;
+    }
+    const auto tag = parse_integer<DeckTag>(second_field(line));
+    if (!tag || *tag < 1) return;
+    if (starts("SET"))
+        numbers.set = std::max(numbers.set, *tag);
+    else if (starts("PLOTEL") || starts("GENEL") || (starts("C") && !starts("CORD")) || starts("R"))
+        numbers.cells.insert(*tag);
+    else if (starts("P"))
+        numbers.property = std::max(numbers.property, *tag);
+}
+
+/// Words of a line as numbers; 0 for what is none.
+std::vector<std::int64_t> numbers_of(std::string_view line)
+{
+    std::vector<std::int64_t> numbers;
+    while (!(line = trimmed(line)).empty()) {
+        const std::size_t length = std::min(line.find_first_of(" \t"), line.size());
+        numbers.push_back(parse_integer<std::int64_t>(line.substr(0, length)).value_or(0));
+        line.remove_prefix(length);
+    }
+    return numbers;
+}
+
+/// Of a dataset of elements, whose records are head, maybe orientation, nodes.
+void unv_numbers(std::string_view text, TextNumbers& numbers)
+{
+    const auto next = [&] {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        const std::string_view line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        return numbers_of(line);
+    };
+    next(); // the mark
+    const std::vector<std::int64_t> dataset = next();
+    while (!text.empty()) {
+        const std::vector<std::int64_t> head = next();
+        if (head.size() < 6) continue; // blank, or the mark
+        numbers.cells.insert(head[0]);
+        if (unv_has_orientation(head[1], static_cast<int>(dataset.at(0)))) next();
+        for (std::int64_t left = head.back(); left > 0 && !text.empty();)
+            left -= static_cast<std::int64_t>(next().size());
+    }
+}
+
+} // namespace
+
+char* put_real(char* out, double value, std::size_t width)
+{
+    char best[kRoom], text[kRoom];
+    std::size_t length = with_point(
+        best, static_cast<std::size_t>(std::to_chars(best, best + kRoom, value).ptr - best), width);
+    if (length > width) {
+        double error = HUGE_VAL;
+        length = 0;
+        for (const auto format : {std::chars_format::fixed, std::chars_format::scientific})
+            for (int digits = static_cast<int>(width); digits >= 0; --digits) {
+                const auto end = std::to_chars(text, text + kRoom - 10, value, format, digits);
+                if (end.ec != std::errc()) break;
+                const std::size_t found = with_point(text, static_cast<std::size_t>(end.ptr - text), width);
+                if (found > width) continue;
+                double back = 0;
+                std::from_chars(text, text + found, back);
+                if (std::abs(back - value) < error) {
+                    error = std::abs(back - value);
+                    length = found;
+                    std::copy_n(text, found, best);
+                }
+                break;
+            }
+    }
+    return std::copy_n(best, length, out);
+}
+
+std::string text_at(const Deck& deck, DeckText::Place place)
+{
+    std::string all;
+    for (const DeckText& text : deck.texts)
+        if (text.place == place) all += text.text;
+    return all;
+}
+
+std::string abaqus_name(std::string_view name)
+{
+    std::string fit(name);
+    for (char& c : fit)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
+    if (fit.empty() || std::isalpha(static_cast<unsigned char>(fit[0])) == 0) fit.insert(0, "G_");
+    return fit;
+}
+
+TextNumbers numbers_in_text(const Deck& deck)
+{
+    TextNumbers numbers;
+    bool elements = false; // of an Abaqus deck are read
+    for (const DeckText& text : deck.texts) {
+        if (text.place == DeckText::Place::head) continue;
+        if (deck.format == DeckFormat::unv) {
+            if (text.place == DeckText::Place::tail) unv_numbers(text.text, numbers);
+            continue;
+        }
+        for (std::string_view rest = text.text; !rest.empty();) {
+            const std::size_t end = std::min(rest.find('\n'), rest.size());
+            const std::string_view line = trimmed(rest.substr(0, end));
+            if (deck.format == DeckFormat::nastran) {
+                nastran_numbers(rest.substr(0, end), numbers);
+            } else if (deck.format == DeckFormat::abaqus && line.starts_with('*')) {
+                if (!line.starts_with("**")) elements = same_word(line.substr(0, 8), "*ELEMENT");
+            } else if (elements && is_number_start(line)) {
+                const auto tag = parse_integer<DeckTag>(trimmed(line.substr(0, line.find(','))));
+                if (tag) numbers.cells.insert(*tag);
+            }
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+        }
+    }
+    return numbers;
+}
+
+void refuse_element(const DeckBlock& block, std::string_view format, std::string_view why)
+{
+    throw InvalidInput("io.no_such_element", std::to_string(block.count()) + " elements " +
+                                                 (block.type.empty() ? "" : block.type + " ") + "of " +
+                                                 std::to_string(shape_info(block.shape).nodes) +
+                                                 " nodes cannot be written as " + std::string(format) + ": " +
+                                                 std::string(why));
+}
+
+bool find_deck_format(std::string_view ending, DeckFormat& format)
+{
+    const DeckFileFormat* found = deck_file_format(ending);
+    if (found == nullptr || (found->format != DeckFormat::nastran && found->format != DeckFormat::abaqus &&
+                             found->format != DeckFormat::unv))
+        return false;
+    format = found->format;
+    return true;
+}
+
+void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context)
+{
+    DeckFile file = format == DeckFormat::nastran  ? nastran_file(deck)
+                    : format == DeckFormat::abaqus ? abaqus_file(deck)
+                                                   : unv_file(deck);
+    const bool texts = std::ranges::any_of(
+        deck.texts, [](const DeckText& text) { return text.place == DeckText::Place::cards; });
+    if (format != deck.format && texts)
+        file.notes.push_back("materials, loads and other cards of " + deck.path +
+                             " are of another format and not carried over");
+    for (const std::string& note : file.notes) log_line(context, path.text() + ": " + note);
+    WholeFile whole(path);
+    write_sections(whole, file.sections, Sizes::varying, context);
+    whole.commit();
+}
+
+} // namespace lacuna::io

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/io/deck.h>
+#include <lacuna/io/detail/sections.h>
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What the writers of decks share. Internal to this folder.
+namespace lacuna::io {
+
+/// A file to be: sections refer to the deck.
+struct DeckFile {
+    std::vector<Section> sections;
+    std::vector<std::string> notes; ///< what the format cannot hold, a sentence each
+};
+
+DeckFile nastran_file(const Deck& deck);
+DeckFile abaqus_file(const Deck& deck);
+DeckFile unv_file(const Deck& deck);
+
+/// Text of one place, all parts.
+std::string text_at(const Deck& deck, DeckText::Place place);
+
+/// A name of Abaqus: letters, digits, - and _ , a letter first.
+std::string abaqus_name(std::string_view name);
+
+/// Whether Abaqus's word in capitals is an element of this shape.
+bool is_abaqus_element(std::string_view type, DeckShape shape);
+
+/// Numbers that the text of a deck takes.
+struct TextNumbers {
+    std::set<DeckTag> nodes, cells;
+    DeckTag set = 0, property = 0; ///< the highest
+};
+TextNumbers numbers_in_text(const Deck& deck);
+
+/// A real number of at most `width` characters, the nearest of these, with a point. @pre width >= 10
+char* put_real(char* out, double value, std::size_t width);
+
+inline char* put_words(char* out, std::string_view words) { return words.copy(out, words.size()) + out; }
+
+/// An element that a format does not have. @throw InvalidInput always
+[[noreturn]] void refuse_element(const DeckBlock& block, std::string_view format, std::string_view why);
+
+} // namespace lacuna::io

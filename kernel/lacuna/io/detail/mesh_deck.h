@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/io/deck_file.h>
+
+#include <span>
+
+/// Putting a swept mesh into a deck. Internal to this folder.
+namespace lacuna::io {
+
+struct AddedMesh {
+    std::span<const Index> points; ///< of each node of the mesh the deck's point it is; -1: a new one
+    double scale = 1;              ///< of the mesh's coordinates to the deck's
+    bool skin_cells = false;       ///< sets of the skin are quads that become elements
+};
+/// Add nodes, hexahedra, their region and the sets of the skin to a deck. @throw as `deck_of()`.
+void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options);
+
+} // namespace lacuna::io

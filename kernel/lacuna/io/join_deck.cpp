@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/mesh_deck.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/io/detail/deck_writer.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <unordered_map>
+
+namespace lacuna::io {
+namespace {
+
+/// How far a node of the mesh may be from the deck's that it is [-] × the diagonal: kept nodes are the deck's
+/// to the bit, but for the scale.
+constexpr double kTogether = 1e-9;
+
+/// Nodes rising: sides and faces are known by them.
+template <std::size_t N>
+struct Hash {
+    std::size_t operator()(const std::array<Index, N>& nodes) const
+    {
+        std::uint64_t all = 0;
+        for (const Index node : nodes)
+            all = (all ^ static_cast<std::uint64_t>(static_cast<std::uint32_t>(node))) *
+                  0x9e3779b97f4a7c15ULL;
+        return static_cast<std::size_t>(all ^ (all >> 32));
+    }
+};
+template <std::size_t N>
+std::array<Index, N> sorted(std::array<Index, N> nodes)
+{
+    std::sort(nodes.begin(), nodes.end());
+    return nodes;
+}
+
+class Joiner {
+public:
+    Joiner(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh)
+        : deck_(deck), model_(model), scale_(scale), mesh_(mesh)
+    {
+    }
+
+    /// Of each node of the mesh the deck's point; -1: none.
+    std::vector<Index> points()
+    {
+        find_nodes();
+        match_faces();
+        check_patches();
+        std::vector<Index> points(mesh_.nodes.size(), -1);
+        for (std::size_t n = 0; n < points.size(); ++n) points[n] = point_of(n);
+        return points;
+    }
+
+private:
+    void find_nodes()
+    {
+        std::vector<bool> on_skin(mesh_.nodes.size(), false);
+        for (std::size_t i = 0; i < mesh_.skin_count(); ++i)
+            for (const Index node : skin_quad(mesh_, i).nodes) on_skin[index(node)] = true;
+        std::vector<Vec3> places;
+        for (std::size_t n = 0; n < on_skin.size(); ++n)
+            if (on_skin[n]) {
+                skin_.push_back(static_cast<Index>(n));
+                places.push_back(mesh_.nodes[n]);
+            }
+        at_ = nodes_at(deck_, places, kTogether * model_.diagonal, scale_);
+        node_of_.assign(deck_.points.size(), -1);
+        candidates_.resize(mesh_.nodes.size());
+        for (std::size_t i = 0; i < skin_.size(); ++i)
+            for (const Index point : at_.at(i)) node_of_[index(point)] = skin_[i];
+        for (std::size_t i = 0; i < skin_.size(); ++i) candidates_[index(skin_[i])] = at_.at(i);
+    }
+
+    /// Votes of the deck's faces and sides that are the skin's for the nodes they use.
+    void match_faces()
+    {
+        by_face_.assign(mesh_.nodes.size(), {-1, -1});
+        by_side_ = by_face_;
+        matched_.assign(mesh_.skin_count(), false);
+        std::unordered_map<Quad, std::uint32_t, Hash<4>> faces;
+        std::unordered_map<Segment, char, Hash<2>> sides;
+        for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
+            const Quad quad = skin_quad(mesh_, i).nodes;
+            faces.emplace(sorted(quad), static_cast<std::uint32_t>(i));
+            for (std::size_t k = 0; k < 4; ++k) sides.emplace(sorted(Segment{quad[k], quad[(k + 1) % 4]}), 0);
+        }
+        const auto take = [&](std::span<const Index> points) {
+            Quad nodes{};
+            const std::size_t corners = points.size();
+            for (std::size_t k = 0; k < corners; ++k) nodes[k] = node_of_[index(points[k])];
+            if (corners == 4)
+                if (const auto found = faces.find(sorted(nodes)); found != faces.end()) {
+                    matched_[found->second] = true;
+                    for (std::size_t k = 0; k < 4; ++k) vote(by_face_, nodes[k], points[k]);
+                }
+            for (std::size_t k = 0; k < corners; ++k) {
+                const std::size_t next = (k + 1) % corners;
+                if (!sides.contains(sorted(Segment{nodes[k], nodes[next]}))) continue;
+                vote(by_side_, nodes[k], points[k]);
+                vote(by_side_, nodes[next], points[next]);
+            }
+        };
+        for (const DeckBlock& block : deck_.blocks)
+            for (std::size_t e = 0; e < block.count(); ++e) each_face(block, block.element(e), take);
+    }
+
+    /// Faces of an element of which two corners at least are on the skin.
+    template <class Take>
+    void each_face(const DeckBlock& block, std::span<const Index> element, const Take& take) const
+    {
+        const DeckShapeInfo& info = shape_info(block.shape);
+        const auto corners = element.first(index(info.corners));
+        const auto is_on = [&](Index point) { return node_of_[index(point)] >= 0; };
+        if (info.dimension < 2 || std::ranges::count_if(corners, is_on) < 2) return;
+        if (info.dimension == 2) return take(corners);
+        for (const Quad& face : face_corners(block.shape)) {
+            Quad points{};
+            const std::size_t count = face[3] < 0 ? 3 : 4;
+            for (std::size_t k = 0; k < count; ++k) points[k] = element[index(face[k])];
+            take(std::span<const Index>(points).first(count));
+        }
+    }
+
+    using Votes = std::vector<std::array<Index, 2>>; ///< two different points at most, of each node
+
+    static void vote(Votes& votes, Index node, Index point)
+    {
+        if (node < 0) return;
+        std::array<Index, 2>& of = votes[index(node)];
+        if (of[0] < 0 || of[0] == point)
+            of[0] = point;
+        else
+            of[1] = point;
+    }
+
+    [[nodiscard]] Index point_of(std::size_t node) const
+    {
+        const std::span<const Index> candidates = candidates_[node];
+        if (candidates.empty()) return -1;
+        if (candidates.size() == 1) return candidates[0];
+        for (const Votes* votes : {&by_face_, &by_side_}) {
+            const auto& [first, second] = (*votes)[node];
+            if (first < 0) continue;
+            if (second < 0) return first;
+            refuse(node, first, second);
+        }
+        refuse(node, candidates[0], candidates[1]);
+    }
+
+    [[noreturn]] void refuse(std::size_t node, Index first, Index second) const
+    {
+        const Vec3& p = mesh_.nodes[node];
+        throw InvalidInput("io.nodes_coincide",
+                           "nodes " + std::to_string(deck_.point_tags[index(first)]) + " and " +
+                               std::to_string(deck_.point_tags[index(second)]) +
+                               " of the deck both lie at (" + text_of(p.x()) + ", " + text_of(p.y()) + ", " +
+                               text_of(p.z()) +
+                               "), where the mesh has one node, and elements beside it use both; merge "
+                               "coincident nodes in the deck");
+    }
+
+    /// Every quad on a face of the deck must be one of the deck's.
+    void check_patches() const
+    {
+        std::vector<std::array<std::size_t, 2>> counts(mesh_.patches.size(), {0, 0});
+        for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
+            std::array<std::size_t, 2>& of = counts[index(skin_quad(mesh_, i).patch)];
+            ++of[0];
+            if (matched_[i]) ++of[1];
+        }
+        for (std::size_t p = 0; p < counts.size(); ++p) {
+            const auto [quads, matched] = counts[p];
+            const mesh::SkinPatch& patch = mesh_.patches[p];
+            const std::string name = patch.groups.empty() ? "face " + std::to_string(patch.face)
+                                                          : patch.groups.front() + " (face " +
+                                                                std::to_string(patch.face) + ")";
+            const topology::Face* face = face_of(patch);
+            if (face == nullptr || matched == quads || !is_of_deck(*face)) continue;
+            const std::size_t given = face->given_quads.size();
+            throw InvalidInput(
+                "io.not_conformal",
+                name + ": the deck has " + std::to_string(given) + " quads and " +
+                    std::to_string(face->triangles.size() - std::min(2 * given, face->triangles.size())) +
+                    " triangles there, and " + std::to_string(matched) + " of " + std::to_string(quads) +
+                    " quads of the mesh are faces of its elements; mesh:report says which meshes were kept");
+        }
+    }
+
+    /// Null where the patch is of a void face.
+    [[nodiscard]] const topology::Face* face_of(const mesh::SkinPatch& patch) const
+    {
+        if (patch.face == 0) return nullptr;
+        const auto found = std::ranges::find(model_.faces, patch.face, &topology::Face::tag);
+        if (found == model_.faces.end())
+            throw InvalidInput("io.other_model", "with: the mesh has face " + std::to_string(patch.face) +
+                                                     ", which the model does not; give the model the volume "
+                                                     "was made of");
+        return &*found;
+    }
+
+    /// Whether all the face's points are the deck's.
+    [[nodiscard]] bool is_of_deck(const topology::Face& face) const
+    {
+        std::vector<Vec3> places;
+        for (const Triangle& triangle : face.triangles)
+            for (const Index point : triangle) places.push_back(model_.points[index(point)]);
+        const NodesAt at = nodes_at(deck_, places, kTogether * model_.diagonal, scale_);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            if (at.at(i).empty()) return false;
+        return true;
+    }
+
+    const Deck& deck_;
+    const topology::Model& model_;
+    double scale_;
+    const mesh::HexMesh& mesh_;
+    std::vector<Index> skin_;                        ///< nodes of the mesh
+    NodesAt at_;                                     ///< of these
+    std::vector<std::span<const Index>> candidates_; ///< of each node of the mesh, in `at_`
+    std::vector<Index> node_of_;                     ///< of each of the deck's points the mesh's node; -1
+    Votes by_face_, by_side_;
+    std::vector<bool> matched_; ///< quads of the skin
+};
+
+} // namespace
+
+Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,
+               const MeshDeckOptions& options)
+{
+    const std::vector<Index> points = Joiner(deck, model, scale, mesh).points();
+    Deck joined = deck;
+    add_mesh(joined, mesh, {.points = points, .scale = scale}, options);
+    return joined;
+}
+
+} // namespace lacuna::io

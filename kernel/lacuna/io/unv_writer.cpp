@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/deck_writer.h>
+#include <lacuna/io/detail/unv.h>
+
+#include <lacuna/core/error.h>
+
+#include <algorithm>
+#include <charconv>
+
+// Datasets 2411 (nodes), 2412 (elements) and 2467 (groups) behind those that are text. Numbers are I10, real
+// numbers D25.16, which is all 17 digits.
+
+namespace lacuna::io {
+namespace {
+
+constexpr std::size_t kColumn = 10, kReal = 25; // characters
+constexpr std::size_t kPerLine = 8;             // nodes of a line
+constexpr std::string_view kMark = "    -1\n";
+
+char* put_right(char* out, std::string_view text, std::size_t width)
+{
+    for (std::size_t k = text.size(); k < width; ++k) *out++ = ' ';
+    return put_words(out, text);
+}
+
+char* put_column(char* out, long long number)
+{
+    char text[kNumberBytes];
+    return put_right(out, {text, static_cast<std::size_t>(put_text(text, number) - text)}, kColumn);
+}
+
+char* put_double(char* out, double value)
+{
+    char text[kNumberBytes + 10];
+    char* const end = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, 16).ptr;
+    std::replace(text, end, 'e', 'D');
+    return put_right(out, {text, static_cast<std::size_t>(end - text)}, kReal);
+}
+
+std::string columns(std::initializer_list<long long> numbers)
+{
+    std::string text(numbers.size() * kNumberBytes, '\0');
+    char* out = text.data();
+    for (const long long number : numbers) out = put_column(out, number);
+    text.resize(static_cast<std::size_t>(out - text.data()));
+    return text + "\n";
+}
+
+/// Thin shells of a shape; 0: it is none.
+int shell_of(DeckShape shape)
+{
+    switch (shape) {
+    case DeckShape::tri3:
+        return 91;
+    case DeckShape::tri6:
+        return 92;
+    case DeckShape::quad4:
+        return 94;
+    case DeckShape::quad8:
+        return 95;
+    default:
+        return 0;
+    }
+}
+
+void add_nodes(const Deck& deck, DeckFile& file)
+{
+    file.sections.push_back({std::string(kMark) + "  2411\n", deck.points.size(),
+                             5 * kNumberBytes + 3 * kReal,
+                             [&deck](std::size_t begin, std::size_t end, char* out) {
+                                 for (std::size_t p = begin; p < end; ++p) {
+                                     out = put_column(out, deck.point_tags[p]);
+                                     out = put_words(out, "         1         1        11\n");
+                                     for (const double x : deck.points[p]) out = put_double(out, x);
+                                     *out++ = '\n';
+                                 }
+                                 return out;
+                             }});
+    file.sections.push_back({std::string(kMark), 0, 0, {}});
+}
+
+void add_elements(const Deck& deck, const DeckBlock& block, DeckFile& file)
+{
+    const auto solid = std::ranges::find(kUnvSolids, block.shape, &UnvSolid::shape);
+    const bool is_solid = solid != std::end(kUnvSolids);
+    long long descriptor = is_solid ? solid->descriptor : shell_of(block.shape);
+    if (descriptor == 0) refuse_element(block, "UNV", "there is no such element");
+    if (std::ranges::find(block.nodes, -1) != block.nodes.end())
+        refuse_element(block, "UNV", "some have not all their middle nodes");
+    if (deck.format == DeckFormat::unv)
+        std::from_chars(block.type.data(), block.type.data() + block.type.size(), descriptor);
+    const DeckShapeInfo& info = shape_info(block.shape);
+    const auto nodes = static_cast<std::size_t>(info.nodes);
+    std::array<std::uint8_t, 20> place{};
+    const auto corners = static_cast<std::size_t>(info.corners);
+    for (std::size_t k = 0; k < nodes; ++k)
+        place[k] = is_solid ? solid->place[k]
+                            : static_cast<std::uint8_t>(unv_face_place(corners, nodes / corners, k));
+    file.sections.push_back(
+        {{},
+         block.count(),
+         (nodes + 7) * kNumberBytes + 4,
+         [&deck, &block, place, nodes, descriptor](std::size_t begin, std::size_t end, char* out) {
+             for (std::size_t e = begin; e < end; ++e) {
+                 const Index region = block.regions[e];
+                 out = put_column(out, block.tags[e]);
+                 out = put_column(out, descriptor);
+                 out = put_column(out, region < 0 ? 0 : deck.regions[index(region)].tag);
+                 out = put_words(out, "         1         7");
+                 out = put_column(out, static_cast<long long>(nodes));
+                 for (std::size_t k = 0; k < nodes; ++k) {
+                     if (k % kPerLine == 0) *out++ = '\n';
+                     out = put_column(out, deck.point_tags[index(block.element(e)[place[k]])]);
+                 }
+                 *out++ = '\n';
+             }
+             return out;
+         }});
+}
+
+/// Members of one kind, two to a line.
+void add_members(const DeckSet& set, std::string head, DeckFile& file)
+{
+    const int kind = set.kind == DeckSet::Kind::nodes ? kUnvNode : kUnvElement;
+    file.sections.push_back({std::move(head), set.members.size(), 4 * kNumberBytes + 1,
+                             [&set, kind](std::size_t begin, std::size_t end, char* out) {
+                                 for (std::size_t i = begin; i < end; ++i) {
+                                     out = put_column(out, kind);
+                                     out = put_column(out, set.members[i]);
+                                     out = put_words(out, "         0         0");
+                                     if (i % 2 == 1 || i + 1 == set.members.size()) *out++ = '\n';
+                                 }
+                                 return out;
+                             }});
+}
+
+} // namespace
+
+DeckFile unv_file(const Deck& deck)
+{
+    const bool same = deck.format == DeckFormat::unv;
+    DeckFile file;
+    if (same) file.sections.push_back({text_at(deck, DeckText::Place::cards), 0, 0, {}});
+    add_nodes(deck, file);
+    file.sections.push_back({std::string(kMark) + "  2412\n", 0, 0, {}});
+    std::size_t lines = 0, surfaces = 0;
+    for (const DeckBlock& block : deck.blocks) {
+        if (shape_info(block.shape).dimension == 1)
+            lines += block.count();
+        else
+            add_elements(deck, block, file);
+    }
+    file.sections.push_back({std::string(kMark), 0, 0, {}});
+    if (same) file.sections.push_back({text_at(deck, DeckText::Place::tail), 0, 0, {}});
+    std::string head = std::string(kMark) + "  2467\n";
+    bool groups = false;
+    int number = 0;
+    for (const DeckSet& set : deck.sets) number = std::max(number, set.tag);
+    for (std::size_t s = 0; s < deck.sets.size(); ++s) {
+        const DeckSet& set = deck.sets[s];
+        if (set.kind == DeckSet::Kind::sides || set.members.empty()) {
+            surfaces += set.kind == DeckSet::Kind::sides ? 1 : 0;
+            continue;
+        }
+        // Elements and nodes of one group were read as two sets.
+        const bool two = s + 1 < deck.sets.size() && set.tag > 0 && deck.sets[s + 1].tag == set.tag &&
+                         deck.sets[s + 1].name == set.name && deck.sets[s + 1].kind == DeckSet::Kind::nodes;
+        const std::size_t count = set.members.size() + (two ? deck.sets[s + 1].members.size() : 0);
+        head += columns({set.tag > 0 ? set.tag : ++number, 0, 0, 0, 0, 0, 0, static_cast<long long>(count)});
+        head += set.name + "\n";
+        add_members(set, std::move(head), file);
+        groups = true;
+        if (two) add_members(deck.sets[++s], {}, file);
+        head.clear();
+    }
+    if (groups) file.sections.push_back({std::string(kMark), 0, 0, {}});
+    if (lines > 0) file.notes.push_back(std::to_string(lines) + " lines are not written");
+    if (surfaces > 0)
+        file.notes.push_back(std::to_string(surfaces) + " sets of sides are not written: a UNV has none");
+    return file;
+}
+
+} // namespace lacuna::io

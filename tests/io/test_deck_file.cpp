@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "folder.h"
+
+#include <lacuna/io/deck_file.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <random>
+#include <span>
+
+using namespace lacuna;
+using io::Deck;
+using io::DeckFormat;
+using io::DeckShape;
+using test::Folder;
+
+namespace {
+
+const std::string kShared = std::string(LACUNA_SOURCE_DIR) + "/../shared/data/fem/";
+
+struct Target {
+    const char* ending;
+    DeckFormat format;
+    double precision; ///< of a coordinate, relative: half of the last digit where the exponent has two
+};
+constexpr Target kTargets[] = {
+    {".bdf", DeckFormat::nastran, 5e-10}, {".inp", DeckFormat::abaqus, 5e-14}, {".unv", DeckFormat::unv, 0}};
+
+Deck written(const Deck& deck, const Target& target)
+{
+    const Folder folder;
+    const std::string path = folder.file(std::string("deck") + target.ending);
+    io::write_deck(deck, target.format, path);
+    return io::read_deck(path);
+}
+
+/// One element of each shape with points of all sizes and tags that leave gaps.
+Deck deck_of_shapes(std::span<const DeckShape> shapes, unsigned seed)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> digits(-10, 10);
+    std::uniform_int_distribution<int> power(-12, 12);
+    Deck deck;
+    deck.format = DeckFormat::vtu;
+    deck.regions.push_back({4, "one", ""});
+    for (const DeckShape shape : shapes) {
+        io::DeckBlock block;
+        block.shape = shape;
+        for (int k = 0; k < io::shape_info(shape).nodes; ++k) {
+            block.nodes.push_back(static_cast<Index>(deck.points.size()));
+            Vec3 p;
+            for (double& x : p) x = digits(random) * std::pow(10, power(random));
+            deck.point_tags.push_back(3 * static_cast<io::DeckTag>(deck.points.size()) + 7);
+            deck.points.push_back(p);
+        }
+        block.tags.push_back(123456789 + static_cast<io::DeckTag>(deck.blocks.size()));
+        block.regions.push_back(0);
+        deck.blocks.push_back(std::move(block));
+    }
+    return deck;
+}
+
+/// Nodes of each element, by its tag.
+std::map<io::DeckTag, std::vector<io::DeckTag>> elements_of(const Deck& deck)
+{
+    std::map<io::DeckTag, std::vector<io::DeckTag>> elements;
+    for (const io::DeckBlock& block : deck.blocks)
+        for (std::size_t e = 0; e < block.count(); ++e)
+            for (const Index node : block.element(e))
+                elements[block.tags[e]].push_back(node < 0 ? -1 : deck.point_tags[index(node)]);
+    return elements;
+}
+
+void check_same(const Deck& a, const Deck& b, double precision)
+{
+    CHECK(a.point_tags == b.point_tags);
+    REQUIRE(a.points.size() == b.points.size());
+    for (std::size_t p = 0; p < a.points.size(); ++p)
+        for (int k = 0; k < 3; ++k)
+            CHECK(std::abs(a.points[p][k] - b.points[p][k]) <= precision * std::abs(a.points[p][k]));
+    CHECK(elements_of(a) == elements_of(b));
+}
+
+} // namespace
+
+TEST_CASE("elements of every shape a format has come back with their numbers and nodes in order")
+{
+    constexpr DeckShape shapes[] = {DeckShape::tri3, DeckShape::tri6,  DeckShape::quad4,  DeckShape::quad8,
+                                    DeckShape::tet4, DeckShape::tet10, DeckShape::wedge6, DeckShape::wedge15,
+                                    DeckShape::hex8, DeckShape::hex20};
+    for (unsigned seed = 1; seed <= 40; ++seed)
+        for (const Target& target : kTargets) {
+            CAPTURE(target.ending);
+            const Deck deck = deck_of_shapes(shapes, seed);
+            check_same(deck, written(deck, target), target.precision);
+        }
+}
+
+TEST_CASE("an element that a format does not have is refused by count, and nothing is written")
+{
+    constexpr DeckShape shapes[] = {DeckShape::pyramid14};
+    const Deck deck = deck_of_shapes(shapes, 1);
+    for (const Target& target : kTargets) {
+        const Folder folder;
+        const std::string path = folder.file(std::string("deck") + target.ending);
+        CHECK_THROWS_WITH_AS(io::write_deck(deck, target.format, path),
+                             doctest::Contains("1 elements of 14 nodes"), InvalidInput);
+        CHECK_FALSE(std::filesystem::exists(path));
+    }
+}
+
+TEST_CASE("sets of nodes, elements and sides come back from an Abaqus deck, text verbatim")
+{
+    const std::string text =
+        "*HEADING\n a deck\n*NODE, NSET=every\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n"
+        "6,1,0,1\n7,1,1,1\n8,0,1,1\n*ELEMENT, TYPE=C3D8I, ELSET=solid\n11,1,2,3,4,5,6,7,8\n"
+        "*ELEMENT, TYPE=S4, ELSET=skin\n12,1,2,3,4\n*ELEMENT, TYPE=SPRINGA, ELSET=springs\n"
+        "20,1,7\n*NSET, NSET=ends\n1,7\n*ELSET, ELSET=both\nsolid,springs\n*SURFACE, NAME=top\n"
+        "solid,S2\nskin,SPOS\n*MATERIAL, NAME=m\n*ELASTIC\n1.,0.\n";
+    const Deck deck = io::read_deck("a.inp", text);
+    const Deck again = written(deck, kTargets[1]);
+    check_same(deck, again, 0);
+    REQUIRE(again.texts.size() == deck.texts.size());
+    for (std::size_t t = 0; t < deck.texts.size(); ++t) CHECK(again.texts[t].text == deck.texts[t].text);
+    for (const io::DeckSet& set : deck.sets) {
+        CAPTURE(set.name);
+        const auto same = std::ranges::find_if(again.sets, [&](const io::DeckSet& other) {
+            return other.kind == set.kind && other.name == set.name;
+        });
+        REQUIRE(same != again.sets.end());
+        CHECK(same->members == set.members);
+        CHECK(same->sides == set.sides);
+    }
+    CHECK(again.sets.size() == deck.sets.size());
+}
+
+TEST_CASE("real decks written in their own format are the same decks")
+{
+    struct Real {
+        const char* name;
+        Target target;
+    };
+    for (const Real& real : {Real{"contact_model.bdf", kTargets[0]}, Real{"wingbox.bdf", kTargets[0]},
+                             Real{"codim_1-tube.inp", kTargets[1]}, Real{"salome_cube.unv", kTargets[2]}}) {
+        if (!std::filesystem::exists(kShared + real.name)) {
+            MESSAGE("skipped, the decks are not there: ", real.name);
+            continue;
+        }
+        CAPTURE(real.name);
+        const Deck deck = io::read_deck(kShared + real.name);
+        const Deck again = written(deck, real.target);
+        check_same(deck, again, 0);
+        REQUIRE(again.texts.size() == deck.texts.size());
+        for (std::size_t t = 0; t < deck.texts.size(); ++t) CHECK(again.texts[t].text == deck.texts[t].text);
+        CHECK(again.point_more == deck.point_more);
+        REQUIRE(again.sets.size() == deck.sets.size());
+        for (std::size_t s = 0; s < deck.sets.size(); ++s) {
+            CHECK(again.sets[s].name == deck.sets[s].name);
+            CHECK(again.sets[s].members == deck.sets[s].members);
+        }
+    }
+}

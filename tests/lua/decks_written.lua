@@ -1,0 +1,300 @@
+-- SPDX-License-Identifier: MIT
+-- Meshes as decks, alone and joined to the deck they fill a void of; CalculiX solves what was joined.
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local lacuna = require "lacuna"
+local params = lacuna.params { lacuna = "", scratch = "" }
+
+local function read(path)
+  local file <close> = assert(io.open(path, "rb"))
+  return file:read("a")
+end
+local function count(text, pattern) return select(2, text:gsub(pattern, "")) end
+
+-- A block of N³ cells, each moved a little where it is inside; `part(i, j, k)` says which cells there are.
+local N = 6
+local function node(i, j, k) return 10 + i + (N + 1) * (j + (N + 1) * k) end
+local function place(i, j, k)
+  local x, y, z = i, j, k
+  if i > 0 and i < N and j > 0 and j < N and k > 0 and k < N then
+    x = x + 0.07 * math.sin(i + 2 * j + 3 * k)
+    y = y + 0.07 * math.cos(3 * i - j + k)
+    z = z + 0.05 * math.sin(i - j)
+  end
+  return x / N, y / N, z / N
+end
+
+local function affine(x, y, z)
+  return 0.001 * x + 0.0004 * y - 0.0002 * z, -0.0003 * x + 0.002 * y + 0.0001 * z,
+    0.0005 * x - 0.0002 * y - 0.001 * z
+end
+
+-- The deck of the cells that are kept: nodes, cells, a set, a material, and a step.
+local function inp(part)
+  local lines = { "*HEADING", "a block with a void", "*NODE, NSET=all" }
+  local function add(...) lines[#lines + 1] = string.format(...) end
+  local used, cells = {}, {}
+  for k = 0, N - 1 do
+    for j = 0, N - 1 do
+      for i = 0, N - 1 do
+        if part(i, j, k) then
+          local corners = {}
+          for c, d in ipairs { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 },
+            { 1, 1, 1 }, { 0, 1, 1 } } do
+            corners[c] = node(i + d[1], j + d[2], k + d[3])
+            used[corners[c]] = { i + d[1], j + d[2], k + d[3] }
+          end
+          cells[#cells + 1] = corners
+        end
+      end
+    end
+  end
+  local nodes = {}
+  for tag in pairs(used) do nodes[#nodes + 1] = tag end
+  table.sort(nodes)
+  for _, tag in ipairs(nodes) do add("%d, %.12g, %.12g, %.12g", tag, place(table.unpack(used[tag]))) end
+  add("*ELEMENT, TYPE=C3D8, ELSET=part")
+  for c, corners in ipairs(cells) do add("%d, %s", 1000 + c, table.concat(corners, ", ")) end
+  add("*ELSET, ELSET=first")
+  add("1001, 1002")
+  add("*MATERIAL, NAME=steel\n*ELASTIC\n210000., 0.3")
+  add("*SOLID SECTION, ELSET=part, MATERIAL=steel\n*SOLID SECTION, ELSET=volume, MATERIAL=steel")
+  add("*STEP\n*STATIC")
+  add("*EL PRINT, ELSET=part\nS\n*EL PRINT, ELSET=volume\nS\n*END STEP")
+  return table.concat(lines, "\n") .. "\n", #nodes, #cells
+end
+
+-- Hooke's stresses of the displacement.
+local function stresses()
+  local e = { xx = 0.001, yy = 0.002, zz = -0.001, xy = 0.00005, xz = 0.00015, yz = -0.00005 }
+  local lambda, mu = 210000 * 0.3 / (1.3 * 0.4), 210000 / 2.6
+  local trace = lambda * (e.xx + e.yy + e.zz)
+  return { trace + 2 * mu * e.xx, trace + 2 * mu * e.yy, trace + 2 * mu * e.zz, 2 * mu * e.xy, 2 * mu * e.xz,
+    2 * mu * e.yz }
+end
+
+-- Cells of the void: a box of cells, and how it is open.
+local function outside(low, high)
+  return function(i, j, k)
+    local at = { i, j, k }
+    for axis = 1, 3 do
+      if at[axis] < low[axis] or at[axis] >= high[axis] then return true end
+    end
+    return false
+  end
+end
+-- The selector of the void's face at one end of an axis.
+local function face(low, high, axis, at)
+  local box = { {}, {} }
+  for k = 1, 3 do box[1][k], box[2][k] = low[k] / N - 0.03, high[k] / N + 0.03 end
+  box[1][axis], box[2][axis] = at / N - 0.03, at / N + 0.03
+  return { box = box }
+end
+local function given(at) return at > 0 and at < N end
+
+-- Voids of every class: a box of cells that reaches the block's outside where something is missing.
+local voids = {
+  { class = "I", low = { 0, 0, 2 }, high = { N, N, 4 } },
+  { class = "II", low = { 2, 2, 2 }, high = { N, N, 4 } },
+  { class = "III", low = { 2, 0, 2 }, high = { 4, N, 4 } },
+  { class = "IV", low = { 2, 2, 2 }, high = { 4, 4, N } },
+  { class = "V", low = { 2, 2, 0 }, high = { 4, 4, N } },
+  { class = "closed", low = { 2, 2, 2 }, high = { 4, 4, 5 } },
+}
+
+local function roles(void)
+  local found = { walls = {} }
+  if given(void.low[3]) then found.source = face(void.low, void.high, 3, void.low[3]) end
+  if given(void.high[3]) then found.target = face(void.low, void.high, 3, void.high[3]) end
+  for axis = 1, 2 do
+    for _, at in ipairs { void.low[axis], void.high[axis] } do
+      if given(at) then table.insert(found.walls, face(void.low, void.high, axis, at)) end
+    end
+  end
+  return found
+end
+
+local ccx = os.execute("command -v ccx >/dev/null 2>&1")
+if not ccx then print("CalculiX (ccx) is not here: no deck is solved") end
+
+-- Nodes and cells of a deck by their numbers.
+local function deck(text)
+  local nodes, cells = {}, {}
+  local into
+  for line in text:gmatch("[^\n]+") do
+    if line:sub(1, 1) == "*" then
+      local word = line:match("^%*(%a+)")
+      into = word == "NODE" and nodes or word == "ELEMENT" and cells or nil
+    elseif into then
+      local numbers = {}
+      for word in line:gmatch("[^,%s]+") do numbers[#numbers + 1] = assert(tonumber(word)) end
+      check.that(into[numbers[1]] == nil, "number " .. numbers[1] .. " twice")
+      into[numbers[1]] = { table.unpack(numbers, 2) }
+    end
+  end
+  return nodes, cells
+end
+local function size(list)
+  local count = 0
+  for _ in pairs(list) do count = count + 1 end
+  return count
+end
+
+-- CalculiX reads 20 characters of a number.
+local function solve(class, text, nodes)
+  local name = "solve_" .. class
+  local base = params.scratch .. "/" .. name
+  local lines = { "*STATIC\n*BOUNDARY" }
+  for tag, at in pairs(nodes) do
+    local outer = false
+    for axis = 1, 3 do outer = outer or at[axis] < 1e-9 or at[axis] > 1 - 1e-9 end
+    for axis, u in ipairs(outer and { affine(table.unpack(at)) } or {}) do
+      lines[#lines + 1] = ("%d, %d, %d, %.12e"):format(tag, axis, axis, u)
+    end
+  end
+  check.write(base .. ".inp", (text:gsub("%*STATIC", table.concat(lines, "\n"))))
+  check.that(os.execute(("cd '%s' && ccx %s > %s.log 2>&1"):format(params.scratch, name, name)))
+  local expected, points = stresses(), 0
+  for line in read(base .. ".dat"):gmatch("[^\n]+") do
+    local numbers = {}
+    for word in line:gmatch("%S+") do numbers[#numbers + 1] = tonumber(word) end
+    if #numbers == 8 then
+      points = points + 1
+      for s = 1, 6 do check.near(numbers[s + 2], expected[s], 1e-6 * expected[2]) end
+    end
+  end
+  return points
+end
+
+for _, void in ipairs(voids) do
+  local path = params.scratch .. "/" .. void.class .. ".inp"
+  local text, nodes, cells = inp(outside(void.low, void.high))
+  check.write(path, text)
+  local model = lacuna.load(path)
+  local volume = model:open_volume(roles(void))
+  check.equal(volume.class, void.class)
+  local mesh = volume:sweep { layers = void.high[3] - void.low[3], size = 1 / N }
+  local joined = params.scratch .. "/joined_" .. void.class .. ".inp"
+  mesh:write(joined, { with = model })
+  local written = read(joined)
+  local before, old_cells = deck(text)
+  local after, all_cells = deck(written)
+  -- What was there is there, with its number; the void is filled with no node twice.
+  for tag, at in pairs(before) do
+    for axis = 1, 3 do check.equal(after[tag][axis], at[axis]) end
+  end
+  for tag, corners in pairs(old_cells) do
+    check.equal(table.concat(all_cells[tag], " "), table.concat(corners, " "))
+  end
+  check.equal(size(all_cells), cells + mesh.hexes)
+  local places = {}
+  for tag, at in pairs(after) do
+    local key = ("%.7f %.7f %.7f"):format(table.unpack(at))
+    check.that(not places[key], "two nodes at " .. key)
+    places[key] = tag
+  end
+  check.that(written:find(text:match("%*MATERIAL.*$"), 1, true), "cards are not verbatim")
+  for _, set in ipairs { "first", "all", "source", "target" } do
+    check.that(written:find("SET, [EN]+SET=" .. set .. "\n") or written:find("SET=" .. set), set)
+  end
+  if ccx then check.equal(solve(void.class, written, after), 8 * size(all_cells), void.class) end
+end
+
+-- Alone: every format reads back with its cells, and numbers go on from where they are told.
+do
+  local path = params.scratch .. "/IV.inp"
+  local void = voids[4]
+  local model = lacuna.load(path)
+  local mesh = model:open_volume(roles(void)):sweep { layers = 4, size = 1 / N }
+  for _, format in ipairs { "inp", "bdf", "nas", "dat", "unv" } do
+    local alone = params.scratch .. "/alone." .. format
+    mesh:write(alone, { first_node = 501, first_cell = 901 })
+    check.equal(lacuna.check(alone).hexes, mesh.hexes, format)
+    local text = read(alone)
+    check.that(text:find("501", 1, true) and text:find("901", 1, true), format)
+    check.that(#lacuna.load(alone):faces() >= 6, format)
+    local joined = params.scratch .. "/other." .. format
+    mesh:write(joined, { with = model })
+    check.equal(lacuna.check(joined).hexes, N * N * N, format)
+  end
+  local alone = read(params.scratch .. "/alone.bdf")
+  check.equal(count(alone, "GRID%*"), mesh.nodes)
+  check.equal(count(alone, "CHEXA"), mesh.hexes)
+  check.that(alone:find("$ nodes of source", 1, true))
+  mesh:write(params.scratch .. "/soft.inp", { element = "c3d8i" })
+  check.that(read(params.scratch .. "/soft.inp"):find("TYPE=C3D8I", 1, true))
+
+  local out = params.scratch .. "/refused.inp"
+  check.fails(function() mesh:write(out, { element = "C3D20" }) end, "element", "C3D20", "C3D8I")
+  local taken = function() mesh:write(out, { with = model, first_node = 12 }) end
+  check.fails(taken, "first_node", "12", "first free")
+  check.fails(function() mesh:write(out, { with = model, first_cell = 1001 }) end, "first_cell", "1001")
+  check.fails(function() mesh:write(out, { with = lacuna.model() }) end, "with", "loaded")
+  check.fails(function() mesh:write(out, { quality = true }) end, "quality")
+  check.fails(function() mesh:write(params.scratch .. "/a.msh", { with = model }) end, "with")
+  check.that(not check.exists(out))
+  -- A mesh whose walls have other rows than the deck's.
+  local plain = lacuna.load(path, { keep_mesh = false })
+  local loose = plain:open_volume(roles(void)):sweep { layers = 3, size = 0.3 }
+  check.fails(function() loose:write(out, { with = plain }) end, "face", "quads of the mesh", " of ")
+end
+
+-- A deck whose two parts have nodes of their own where they meet: the void between three of them.
+do
+  local function split(low_part)
+    local lines = { "BEGIN BULK" }
+    local function add(...) lines[#lines + 1] = string.format(...) end
+    local function block(first, cell, property, z, twice)
+      for k = 0, 1 do
+        for j = 0, 1 do
+          for i = 0, 2 do add("GRID,%d,,%d.,%d.,%d.", first + i + 3 * j + 6 * k, i, j, z + k) end
+        end
+      end
+      if twice then -- the second cell has nodes of its own
+        for k = 0, 1 do
+          for j = 0, 1 do add("GRID,%d,,1.,%d.,%d.", first + 50 + 2 * k + j, j, z + k) end
+        end
+      end
+      for i = 0, 1 do
+        local n = {}
+        for k = 0, 1 do
+          for _, d in ipairs { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } } do
+            local tag = first + i + d[1] + 3 * d[2] + 6 * k
+            if twice and i == 1 and d[1] == 0 then tag = first + 50 + 2 * k + d[2] end
+            n[#n + 1] = tag
+          end
+        end
+        add("CHEXA,%d,%d,%d,%d,%d,%d,%d,%d,", cell + i, property, table.unpack(n, 1, 6))
+        add(",%d,%d", n[7], n[8])
+      end
+    end
+    block(100, 1, 7, 0, low_part)
+    block(200, 11, 8, 2, false)
+    add("PSOLID,7,1\nPSOLID,8,1\nMAT1,1,210000.,,0.3\nCBUSH,77,3,100\nENDDATA")
+    return table.concat(lines, "\n") .. "\n"
+  end
+  for _, twice in ipairs { false, true } do
+    local path = params.scratch .. "/between.bdf"
+    check.write(path, split(twice))
+    local model = lacuna.load(path)
+    local mesh = model:open_volume {
+      source = { box = { { -0.1, -0.1, 0.9 }, { 2.1, 1.1, 1.1 } } },
+      target = { box = { { -0.1, -0.1, 1.9 }, { 2.1, 1.1, 2.1 } } },
+    }:sweep { layers = 2 }
+    local joined = params.scratch .. "/between_joined.bdf"
+    if twice then
+      local why = check.fails(function() mesh:write(joined, { with = model }) end, "nodes", "merge")
+      check.that(why:find("107 and 152", 1, true) or why:find("110 and 153", 1, true), why)
+    else
+      mesh:write(joined, { with = model })
+      local text = read(joined)
+      check.equal(count(text, "GRID%*"), 24 + 6)
+      check.equal(count(text, "CHEXA"), 4 + 4)
+      for _, card in ipairs { "MAT1,1,210000.,,0.3", "CBUSH,77,3,100", "PSOLID,9,1" } do
+        check.that(text:find(card, 1, true), card)
+      end
+      check.that(text:find("CHEXA         78       9", 1, true), "cells go on above all elements")
+      check.equal(lacuna.check(joined).hexes, 8)
+    end
+  end
+end
+check.done()
