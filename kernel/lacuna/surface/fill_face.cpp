@@ -238,8 +238,8 @@ double least_corner_at(const quads::PlanarQuads& filling, const std::vector<std:
     return least;
 }
 
-/// Put the node nearest to each tip of the face on it, so that no quad cuts it off; where that would spoil the
-/// quads there the tip stays inside one.
+/// Put the node nearest to each tip of the face on it, so that no quad cuts it off; where that would spoil
+/// the quads there the tip stays inside one.
 void meet_tips(quads::PlanarQuads& filling, std::size_t rim, const std::vector<Vec2>& tips)
 {
     constexpr double kSpoiled = 0.2;      // least sine of a corner; a choice, not a measurement

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <numbers>
 #include <unordered_set>
 
 namespace lacuna::sweep {
@@ -28,8 +29,8 @@ constexpr double kShareOfSide = 0.25;
 /// Bent, twisted
 /// and ruled ones were off by up to 0.46.
 constexpr double kShareOnVoid = 1;
-/// Cosine that no turn of a quad against a void face is below: on sharply twisted walls, where neither skin is
-/// given, the facet nearest to a quad may face any way.
+/// Cosine that no turn of a quad against a void face is below: on sharply twisted walls, where neither skin
+/// is given, the facet nearest to a quad may face any way.
 constexpr double kTurnOnVoid = -2;
 /// A quad whose diagonals miss each other by less than this share of its longest side is flat: two triangles
 /// stand for it, else four. A choice, not a measurement.
@@ -125,6 +126,7 @@ public:
             sample_flat_quads(border);
         else
             sample_quads();
+        if (!flat_) find_tips();
         build_quads(border);
     }
 
@@ -329,7 +331,11 @@ private:
     {
         std::size_t facet = 0;
         sample.distance = distance_to_face(sample.point, facet);
-        sample.turned = sign_ * sample.normal.dot(shape_.normal(facet)) < limit_.turn * sample.normal.norm();
+        // Far off, as the middle of a long quad on a bend is, the nearest facet may be one across the face.
+        constexpr double kNear = 0.1; // of the quad's width; a choice, not a measurement
+        const double area = sample.normal.norm();
+        sample.turned = sample.distance * sample.side < kNear * area &&
+                        sign_ * sample.normal.dot(shape_.normal(facet)) < limit_.turn * area;
     }
 
     void compare_with_quads(Sample& sample) const
@@ -340,7 +346,44 @@ private:
         sample.distance = std::sqrt(hit.distance2);
     }
 
-    [[nodiscard]] double allowed(double side) const { return limit_.at(side) + shape_.slack; }
+    /// Round a tip four quads are as many as can be, however small: there a side is allowed.
+    [[nodiscard]] double allowed(const Sample& sample) const
+    {
+        constexpr double kReach = 2; // sides from the tip; a choice, not a measurement
+        const bool at_tip = limit_.length == 0 &&
+                            std::any_of(tips_.begin(), tips_.end(), [&](const Vec3& tip) {
+                                return (sample.point - tip).norm() < kReach * sample.side;
+                            });
+        return (at_tip ? kShareOnVoid * sample.side : limit_.at(sample.side)) + shape_.slack;
+    }
+
+    /// Points inside the face whose facets' angles lack much of a full turn.
+    void find_tips()
+    {
+        constexpr double kLack = 0.2 * std::numbers::pi; // as where faces are filled
+        constexpr std::size_t kMostTips = 64;            // with more, the facets are coarse
+        std::vector<double> angle(shape_.points.size(), 0);
+        std::unordered_set<std::uint64_t> sides;
+        for (const Triangle& t : shape_.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3& at = shape_.points[index(t[k])];
+                const Vec3 a = shape_.points[index(t[(k + 1) % 3])] - at;
+                const Vec3 b = shape_.points[index(t[(k + 2) % 3])] - at;
+                angle[index(t[k])] += std::atan2(a.cross(b).norm(), a.dot(b));
+                sides.insert(directed_key(t[k], t[(k + 1) % 3]));
+            }
+        }
+        for (const Triangle& t : shape_.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (!sides.contains(directed_key(t[(k + 1) % 3], t[k])))
+                    angle[index(t[k])] = angle[index(t[(k + 1) % 3])] = 0;
+            }
+        }
+        for (std::size_t p = 0; p < angle.size() && tips_.size() <= kMostTips; ++p) {
+            if (angle[p] > 0 && 2 * std::numbers::pi - angle[p] > kLack) tips_.push_back(shape_.points[p]);
+        }
+        if (tips_.size() > kMostTips) tips_.clear();
+    }
 
     void take(const std::vector<Sample>& samples)
     {
@@ -352,7 +395,7 @@ private:
                 result_.max_distance = sample.distance;
                 result_.place = sample.point;
             }
-            const double most = allowed(sample.side);
+            const double most = allowed(sample);
             const bool worse = sample.distance * result_.allowed > result_.found * most;
             if (result_.misfit != Misfit::folded && (worse || result_.allowed == 0)) {
                 set_found(sample, most);
@@ -403,6 +446,7 @@ private:
     surface::FaceShape shape_;
     geometry::FacetTree face_tree_, quad_tree_;
     std::vector<Index> quad_of_; ///< of each triangle in `quad_tree_`
+    std::vector<Vec3> tips_;
     std::vector<Sample> samples_;
     std::vector<Sample> in_plane_; ///< of a flat face: a quad each, compared with the plane
     Vec3 origin_ = Vec3::Zero(), normal_ = Vec3::Zero(); ///< of that plane
