@@ -67,7 +67,8 @@ need_packages()
 # What building needs, and with "tests" what testing needs besides.
 need_build_packages()
 {
-    local packages=(cmake ninja-build g++ libeigen3-dev liblua5.4-dev libedit-dev lua5.4 doctest-dev)
+    local packages=(cmake ninja-build g++ libeigen3-dev liblua5.4-dev libedit-dev lua5.4 doctest-dev
+        zlib1g-dev)
     # A Gmsh SDK of the person's own comes before the one of the distribution.
     [[ -n ${GMSH_ROOT:-} ]] || packages+=(libgmsh-dev)
     [[ ${1:-} != tests ]] || packages+=(python3-gmsh python3-numpy calculix-ccx)
