@@ -337,3 +337,17 @@ TEST_CASE("a rim with an odd number of given sides is filled, and the side that 
         return line.find("odd number of sides") != std::string::npos;
     }));
 }
+
+TEST_CASE("a source of quads and triangles is meshed anew inside its rim, and both are counted")
+{
+    const GivenSkin skin = skin_of(test::block({.columns = 4, .rows = 4, .layers = 3}));
+    Opened opened = open(skin, [](int part, const Vec3& p) {
+        if (part != 0) return part == 2 ? Given::quads : Given::no;
+        return p.x() < 0.5 ? Given::quads : Given::triangles;
+    });
+    const Swept result = filled(opened.volume, {});
+    test::check_valid(result.mesh);
+    CHECK(std::any_of(result.report.begin(), result.report.end(), [](const std::string& line) {
+        return line.find("8 quads and 16 triangles") != std::string::npos;
+    }));
+}

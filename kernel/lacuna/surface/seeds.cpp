@@ -47,6 +47,7 @@ public:
         for (const LinkingSurface& link : links) add_rim(link);
         for (const FaceId face : volume.faces(Role::source)) {
             if (keeps(face)) seeds_.kept.insert(face);
+            note_mixed(face);
             for (const Loop& loop : model_[face].loops) {
                 for (const EdgeUse& use : loop.uses) {
                     users_[use.edge].insert(face);
@@ -126,6 +127,17 @@ private:
             turning.push_back(target.between(from, from + step - past) + target.between(0, past));
         }
         return turning;
+    }
+
+    /// Say of a face of quads and triangles that it is meshed anew: no hexahedra stand on triangles.
+    void note_mixed(FaceId face)
+    {
+        const Face& f = model_[face];
+        const std::size_t quads = f.given_quads.size(), triangles = f.triangles.size() - 2 * quads;
+        if (!f.keeps_nodes || quads == 0 || triangles == 0) return;
+        seeds_.notes.push_back(name_of(model_, face) + " came with " + std::to_string(quads) + " quads and " +
+                               std::to_string(triangles) +
+                               " triangles, on which no hexahedra stand: it is meshed anew inside its rim");
     }
 
     /// Whether a face came with quads that are to be its mesh.

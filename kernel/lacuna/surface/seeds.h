@@ -47,7 +47,7 @@ struct Seeds {
     std::map<FaceId, std::vector<std::size_t>> corners;
     std::set<FaceId> submapped;     ///< faces whose counts are those of a grid of right angles
     std::set<FaceId> kept;          ///< faces whose own quads are the mesh
-    std::vector<std::string> notes; ///< a line for each given side that had to be divided
+    std::vector<std::string> notes; ///< a line for each given mesh that could not stay
     [[nodiscard]] int count(EdgeId edge) const;
     /// Fractions of the edge's nodes, both ends included.
     [[nodiscard]] std::vector<double> fractions(EdgeId edge) const;
