@@ -5,6 +5,7 @@
 #include <lacuna/geometry/flatten.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/tips.h>
 #include <lacuna/surface/detail/fine_facets.h>
 #include <lacuna/surface/edge_nodes.h>
 #include <lacuna/surface/projector.h>
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
 namespace lacuna::surface {
@@ -91,7 +91,6 @@ class FlatFace {
 public:
     FlatFace(const Model& model, FaceId face, const SizeField& size)
         : model_(model),
-          face_(face),
           fine_(fine_facets(model, face, size)),
           flat_(geometry::flatten(fine_.points, fine_.triangles))
     {
@@ -137,31 +136,11 @@ public:
         return size(on_face) * by;
     }
 
-    /// Where the face has a tip: a point inside whose facets' angles lack much of a full turn.
+    /// Where the tips of the face lie in the plane.
     [[nodiscard]] std::vector<Vec2> tips() const
     {
-        // A tenth of a turn: a cone 25° flatter than a plane's half angle. A choice, not a measurement.
-        constexpr double kLack = 0.2 * std::numbers::pi;
-        std::vector<double> angle(fine_.points.size(), 0);
-        for (const Triangle& t : fine_.triangles) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Vec3& at = fine_.points[static_cast<std::size_t>(t[k])];
-                const Vec3 a = fine_.points[static_cast<std::size_t>(t[(k + 1) % 3])] - at;
-                const Vec3 b = fine_.points[static_cast<std::size_t>(t[(k + 2) % 3])] - at;
-                angle[static_cast<std::size_t>(t[k])] += std::atan2(a.cross(b).norm(), a.dot(b));
-            }
-        }
-        for (const Loop& loop : border_loops(model_, face_)) {
-            for (const EdgeUse& use : loop.uses) {
-                for (const FineFacets::OnEdge& on : fine_.edges.at(use.edge))
-                    angle[static_cast<std::size_t>(on.point)] = 0;
-            }
-        }
         std::vector<Vec2> tips;
-        for (const Index p : flat_.used) {
-            const double sum = angle[static_cast<std::size_t>(p)];
-            if (sum > 0 && 2 * std::numbers::pi - sum > kLack) tips.push_back(position(p));
-        }
+        for (const Index p : geometry::find_tips(fine_.points, fine_.triangles)) tips.push_back(position(p));
         return tips;
     }
 
@@ -214,7 +193,6 @@ private:
     }
 
     const Model& model_;
-    FaceId face_;
     FineFacets fine_;
     geometry::Flattened flat_;
     geometry::PlanarLocator locator_;
@@ -242,9 +220,7 @@ double least_corner_at(const quads::PlanarQuads& filling, const std::vector<std:
 /// the quads there the tip stays inside one.
 void meet_tips(quads::PlanarQuads& filling, std::size_t rim, const std::vector<Vec2>& tips)
 {
-    constexpr double kSpoiled = 0.2;      // least sine of a corner; a choice, not a measurement
-    constexpr std::size_t kMostTips = 64; // with more, facets are coarse and no point of them is a tip
-    if (tips.size() > kMostTips) return;
+    constexpr double kSpoiled = 0.2; // least sine of a corner; a choice, not a measurement
     for (const Vec2& tip : tips) {
         std::size_t nearest = rim;
         for (std::size_t i = rim; i < filling.points.size(); ++i) {

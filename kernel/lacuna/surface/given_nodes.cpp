@@ -3,6 +3,7 @@
 
 #include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
+#include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/paired_breaks.h>
 
 #include <algorithm>
@@ -20,16 +21,8 @@ using namespace topology;
 
 namespace {
 
-/// Running lengths this near, as a share of the chain, are one: far below any side, far above rounding.
-constexpr double kSamePlace = 1e-9;
 /// Two rims with other numbers of nodes are compared node by node up to this many pairs: 32 MB and 0.1 s.
 constexpr std::size_t kMostPairs = 4'000'000;
-
-/// A given node on a chain.
-struct ChainNode {
-    double at = 0; ///< running length
-    Index point = -1;
-};
 
 /// Edges of faces that keep their mesh.
 std::set<EdgeId> kept_edges(const Model& model)
@@ -42,34 +35,6 @@ std::set<EdgeId> kept_edges(const Model& model)
         }
     }
     return edges;
-}
-
-/// Points of a closed chain in order; those of edges that `wanted` says.
-template <class Wanted>
-std::vector<ChainNode> chain_nodes(const Model& model, const Chain& chain, const Wanted& wanted)
-{
-    std::vector<ChainNode> nodes;
-    for (std::size_t u = 0; u < chain.uses().size(); ++u) {
-        if (!wanted(chain.uses()[u].edge)) continue;
-        const std::vector<Index> points = use_points(model, chain.uses()[u]);
-        double at = chain.start(u);
-        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-            nodes.push_back({at, points[i]});
-            at += (model.at(points[i + 1]) - model.at(points[i])).norm();
-        }
-    }
-    return nodes;
-}
-
-std::vector<ChainNode> all_nodes(const Model& model, const Chain& chain)
-{
-    return chain_nodes(model, chain, [](EdgeId) { return true; });
-}
-
-bool is_all_quads(const Face& face)
-{
-    return face.keeps_nodes && !face.given_quads.empty() &&
-           2 * face.given_quads.size() == face.triangles.size();
 }
 
 std::string place_of(const Model& model, const Quad& quad)
@@ -97,7 +62,7 @@ public:
     ColumnWalker(const OpenVolume& volume, const LinkingSurface& link) : model_(volume.model), link_(link)
     {
         for (const FaceId wall : link.walls) {
-            if (!is_all_quads(model_[wall])) continue;
+            if (!model_[wall].keeps_nodes || !has_quads_all_over(model_[wall])) continue;
             for (const Quad& quad : model_[wall].given_quads) {
                 for (std::size_t k = 0; k < 4; ++k)
                     beside_[edge_key(quad[k], quad[(k + 1) % 4])].push_back(quads_.size());
@@ -110,8 +75,8 @@ public:
     {
         GivenColumns columns;
         if (quads_.empty()) return columns;
-        const std::vector<ChainNode> source = all_nodes(model_, link_.source);
-        const std::vector<ChainNode> target = all_nodes(model_, link_.target);
+        const std::vector<ChainNode> source = chain_nodes(model_, link_.source);
+        const std::vector<ChainNode> target = chain_nodes(model_, link_.target);
         for (const ChainNode& node : target) target_at_.emplace(node.point, node.at);
         for (std::size_t i = 0; i < target.size(); ++i)
             target_sides_.insert(edge_key(target[i].point, target[(i + 1) % target.size()].point));
@@ -362,7 +327,7 @@ public:
         : model_(volume.model), kept_(kept), columns_(columns), link_(link)
     {
         for (const Face& face : model_.faces) {
-            if (!is_all_quads(face)) continue;
+            if (!face.keeps_nodes || !has_quads_all_over(face)) continue;
             for (const Loop& loop : face.loops) {
                 for (const EdgeUse& use : loop.uses) of_quads_.insert(use.edge);
             }

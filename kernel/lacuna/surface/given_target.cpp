@@ -2,6 +2,7 @@
 #include <lacuna/surface/given_target.h>
 
 #include <lacuna/core/edge_key.h>
+#include <lacuna/surface/detail/chain_nodes.h>
 
 #include <algorithm>
 #include <array>
@@ -13,9 +14,6 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
-
-/// Running lengths this near, as a share of the chain, are one: far below any side, far above rounding.
-constexpr double kSamePlace = 1e-9;
 
 /// Quads by their sides; a side has two at most.
 class QuadsBySide {
@@ -67,8 +65,7 @@ std::optional<TargetQuads> quads_of_target(const OpenVolume& volume, std::string
     std::string without;
     for (const FaceId id : volume.faces(Role::target)) {
         const Face& face = volume.model[id];
-        const bool whole = face.keeps_nodes && 2 * face.given_quads.size() == face.triangles.size();
-        if (!whole) without = name_of(volume.model, id);
+        if (!face.keeps_nodes || !has_quads_all_over(face)) without = name_of(volume.model, id);
         target.quads.insert(target.quads.end(), face.given_quads.begin(), face.given_quads.end());
         target.face.resize(target.quads.size(), id);
     }
@@ -81,31 +78,23 @@ std::optional<TargetQuads> quads_of_target(const OpenVolume& volume, std::string
 /// Model point of the target at a running length of its chain; -1 where there is none.
 class TargetPoints {
 public:
-    TargetPoints(const Model& model, const Chain& chain) : slack_(kSamePlace * chain.length())
+    TargetPoints(const Model& model, const Chain& chain)
+        : points_(chain_nodes(model, chain)), slack_(kSamePlace * chain.length()), length_(chain.length())
     {
-        for (std::size_t u = 0; u < chain.uses().size(); ++u) {
-            const std::vector<Index> points = use_points(model, chain.uses()[u]);
-            double at = chain.start(u);
-            for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-                points_.emplace_back(at, points[i]);
-                at += (model.at(points[i + 1]) - model.at(points[i])).norm();
-            }
-        }
-        length_ = chain.length();
     }
 
     [[nodiscard]] std::size_t count() const { return points_.size(); }
     [[nodiscard]] Index at(double place) const
     {
         if (place >= length_ - slack_) place -= length_;
-        const auto next = std::lower_bound(points_.begin(), points_.end(),
-                                           std::pair(place - slack_, Index(-1)));
-        return next != points_.end() && next->first <= place + slack_ ? next->second : -1;
+        const auto next = std::lower_bound(points_.begin(), points_.end(), place - slack_,
+                                           [](const ChainNode& node, double at) { return node.at < at; });
+        return next != points_.end() && next->at <= place + slack_ ? next->point : -1;
     }
 
 private:
-    std::vector<std::pair<double, Index>> points_;
-    double slack_, length_ = 0;
+    std::vector<ChainNode> points_;
+    double slack_, length_;
 };
 
 } // namespace

@@ -144,7 +144,7 @@ private:
     [[nodiscard]] bool keeps(FaceId face) const
     {
         const Face& f = model_[face];
-        const bool whole = !f.given_quads.empty() && 2 * f.given_quads.size() == f.triangles.size();
+        const bool whole = has_quads_all_over(f);
         if (style_ == QuadStyle::kept && !whole) {
             throw NotSweepable(
                 "surface.not_kept",

@@ -7,6 +7,7 @@
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/swept_patch.h>
 #include <lacuna/geometry/transfinite.h>
+#include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/linking_map.h>
 
 #include <algorithm>
@@ -25,8 +26,6 @@ namespace {
 /// A patch this far from its face, as a share of the shorter rim, is no guide to where nodes belong on it. A
 /// choice, not a measurement.
 constexpr double kFarFromPatch = 0.05;
-/// Running lengths this near, as a share of the chain, are one: far below any side, far above rounding.
-constexpr double kSamePlace = 1e-9;
 
 /// The faces of the segment of walls after each side line.
 std::vector<std::vector<FaceId>> panel_faces(const Model& model, const LinkingSurface& link)

@@ -58,7 +58,8 @@ Outcome outcome_of(const OpenVolume& volume, const SweepOptions& options, const 
 /// The end a volume is swept from, as the person named it.
 std::string end_of(const OpenVolume& volume) { return volume.turned_round ? "target" : "source"; }
 
-/// The options with the time that is left of one budget.
+} // namespace
+
 SweepOptions remaining(SweepOptions options, std::chrono::steady_clock::time_point start)
 {
     if (options.improving.seconds > 0) {
@@ -68,8 +69,6 @@ SweepOptions remaining(SweepOptions options, std::chrono::steady_clock::time_poi
     }
     return options;
 }
-
-} // namespace
 
 OpenVolume turned_round(OpenVolume volume)
 {

@@ -5,6 +5,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/parallel.h>
 #include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/tips.h>
 #include <lacuna/surface/face_shape.h>
 #include <lacuna/sweep/detail/words.h>
 
@@ -14,7 +15,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
-#include <numbers>
 #include <unordered_set>
 
 namespace lacuna::sweep {
@@ -29,9 +29,6 @@ constexpr double kShareOfSide = 0.25;
 /// Bent, twisted
 /// and ruled ones were off by up to 0.46.
 constexpr double kShareOnVoid = 1;
-/// Cosine that no turn of a quad against a void face is below: on sharply twisted walls, where neither skin
-/// is given, the facet nearest to a quad may face any way.
-constexpr double kTurnOnVoid = -2;
 /// A quad whose diagonals miss each other by less than this share of its longest side is flat: two triangles
 /// stand for it, else four. A choice, not a measurement.
 constexpr double kFlat = 1e-3;
@@ -76,7 +73,9 @@ private:
 struct Limit {
     double length = 0; ///< for all; 0: a share of the side
     double share = kShareOfSide;
-    double turn = 0; ///< a quad is folded whose normal has a smaller cosine with the face's [-]
+    /// Whether quads that face the other way are folds: on sharply twisted void walls, where neither skin is
+    /// given, the facet nearest to a quad may face any way.
+    bool folds = true;
 
     [[nodiscard]] double at(double side) const { return length > 0 ? length : share * side; }
 };
@@ -126,7 +125,10 @@ public:
             sample_flat_quads(border);
         else
             sample_quads();
-        if (!flat_) find_tips();
+        if (!flat_) {
+            for (const Index p : geometry::find_tips(shape_.points, shape_.triangles))
+                tips_.push_back(shape_.points[index(p)]);
+        }
         build_quads(border);
     }
 
@@ -224,7 +226,7 @@ private:
             const Vec3 across = (c[2] - c[0]).cross(c[3] - c[1]) / 2;
             const auto own = static_cast<Index>(q);
             Sample sample{c[0], across.norm(), 0, own, across};
-            sample.turned = sign_ * across.dot(normal_) < limit_.turn * across.norm();
+            sample.turned = limit_.folds && sign_ * across.dot(normal_) < 0;
             for (std::size_t k = 0; k < 4; ++k) {
                 const double off = std::abs(normal_.dot(c[k] - origin_));
                 sample.side = std::max(sample.side, (c[(k + 1) % 4] - c[k]).squaredNorm());
@@ -333,9 +335,8 @@ private:
         sample.distance = distance_to_face(sample.point, facet);
         // Far off, as the middle of a long quad on a bend is, the nearest facet may be one across the face.
         constexpr double kNear = 0.1; // of the quad's width; a choice, not a measurement
-        const double area = sample.normal.norm();
-        sample.turned = sample.distance * sample.side < kNear * area &&
-                        sign_ * sample.normal.dot(shape_.normal(facet)) < limit_.turn * area;
+        sample.turned = limit_.folds && sample.distance * sample.side < kNear * sample.normal.norm() &&
+                        sign_ * sample.normal.dot(shape_.normal(facet)) < 0;
     }
 
     void compare_with_quads(Sample& sample) const
@@ -355,34 +356,6 @@ private:
                                 return (sample.point - tip).norm() < kReach * sample.side;
                             });
         return (at_tip ? kShareOnVoid * sample.side : limit_.at(sample.side)) + shape_.slack;
-    }
-
-    /// Points inside the face whose facets' angles lack much of a full turn.
-    void find_tips()
-    {
-        constexpr double kLack = 0.2 * std::numbers::pi; // as where faces are filled
-        constexpr std::size_t kMostTips = 64;            // with more, the facets are coarse
-        std::vector<double> angle(shape_.points.size(), 0);
-        std::unordered_set<std::uint64_t> sides;
-        for (const Triangle& t : shape_.triangles) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Vec3& at = shape_.points[index(t[k])];
-                const Vec3 a = shape_.points[index(t[(k + 1) % 3])] - at;
-                const Vec3 b = shape_.points[index(t[(k + 2) % 3])] - at;
-                angle[index(t[k])] += std::atan2(a.cross(b).norm(), a.dot(b));
-                sides.insert(directed_key(t[k], t[(k + 1) % 3]));
-            }
-        }
-        for (const Triangle& t : shape_.triangles) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (!sides.contains(directed_key(t[(k + 1) % 3], t[k])))
-                    angle[index(t[k])] = angle[index(t[(k + 1) % 3])] = 0;
-            }
-        }
-        for (std::size_t p = 0; p < angle.size() && tips_.size() <= kMostTips; ++p) {
-            if (angle[p] > 0 && 2 * std::numbers::pi - angle[p] > kLack) tips_.push_back(shape_.points[p]);
-        }
-        if (tips_.size() > kMostTips) tips_.clear();
     }
 
     void take(const std::vector<Sample>& samples)
@@ -561,8 +534,7 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
         face.face = patch.face;
         face.quads = patch.quads.size();
         const bool made_void = model[patch.face].origin == Origin::made_void;
-        const Limit limit{options.max_deviation, made_void ? kShareOnVoid : kShareOfSide,
-                          made_void ? kTurnOnVoid : 0};
+        const Limit limit{options.max_deviation, made_void ? kShareOnVoid : kShareOfSide, !made_void};
         if (patch.quads.empty()) {
             face = left_out(model, mesh, patch.face, limit);
         } else if (!kept.contains(patch.face)) {

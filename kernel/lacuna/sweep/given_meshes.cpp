@@ -25,7 +25,7 @@ std::set<Index> nodes_to_keep(const Model& model, const Face& face)
 {
     std::set<Index> nodes;
     for (const Quad& quad : face.given_quads) nodes.insert(quad.begin(), quad.end());
-    if (2 * face.given_quads.size() == face.triangles.size()) return nodes;
+    if (has_quads_all_over(face)) return nodes;
     nodes.clear();
     for (const Loop& loop : face.loops) {
         for (const EdgeUse& use : loop.uses) {
@@ -114,7 +114,7 @@ void report_given(const OpenVolume& volume, Swept& swept)
         const auto found = std::count_if(nodes.begin(), nodes.end(), [&](Index point) {
             return std::binary_search(skin.begin(), skin.end(), model.at(point), before);
         });
-        const bool quads = 2 * face.given_quads.size() == face.triangles.size();
+        const bool quads = has_quads_all_over(face);
         swept.report.push_back("given: " + name_of(model, FaceId(f)) + ": " + std::to_string(found) + " of " +
                                std::to_string(nodes.size()) + (quads ? "" : " rim") + " nodes coincide");
     }

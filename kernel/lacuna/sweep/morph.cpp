@@ -208,28 +208,19 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
         const double before = found.worst;
         const double good_enough = model - kSameQuality;
         std::vector<Vec3> start = guess.nodes;
-        if (before < good_enough && !guess.affine) {
-            Candidate moved{displaced(source, columns, spreader, context), -1};
-            std::vector<Vec3> unprojected = moved.nodes;
-            project_nodes(moved.nodes, free_nodes, project);
-            moved.worst = worst_quad(source.quads, moved.nodes);
-            if (moved.worst > found.worst) {
-                found = std::move(moved);
-                start = std::move(unprojected);
-                result.report += ", from the source moved with its rim";
-            }
-        }
-        if (found.worst < kStandsUp * good_enough && !columns.rim.empty()) {
-            Candidate flat{harmonic_image(source, columns, spreader, context), -1};
-            std::vector<Vec3> unprojected = flat.nodes;
-            project_nodes(flat.nodes, free_nodes, project);
-            flat.worst = worst_quad(source.quads, flat.nodes);
-            if (flat.worst > found.worst) {
-                found = std::move(flat);
-                start = std::move(unprojected);
-                result.report += ", from its harmonic image";
-            }
-        }
+        const auto start_from = [&](std::vector<Vec3> unprojected, const char* words) {
+            Candidate other{unprojected, -1};
+            project_nodes(other.nodes, free_nodes, project);
+            other.worst = worst_quad(source.quads, other.nodes);
+            if (other.worst <= found.worst) return;
+            found = std::move(other);
+            start = std::move(unprojected);
+            result.report += words;
+        };
+        if (before < good_enough && !guess.affine)
+            start_from(displaced(source, columns, spreader, context), ", from the source moved with its rim");
+        if (found.worst < kStandsUp * good_enough && !columns.rim.empty())
+            start_from(harmonic_image(source, columns, spreader, context), ", from its harmonic image");
         if (found.worst < good_enough) {
             found = smoothed(source, columns, start, spreader, free_nodes, project, good_enough,
                              std::move(found), context);

@@ -294,7 +294,7 @@ bool is_all_quads(const OpenVolume& volume, Role end)
     const std::vector<FaceId> faces = volume.faces(end);
     return std::all_of(faces.begin(), faces.end(), [&](FaceId id) {
         const Face& face = volume.model[id];
-        return face.keeps_nodes && 2 * face.given_quads.size() == face.triangles.size();
+        return face.keeps_nodes && has_quads_all_over(face);
     });
 }
 
@@ -411,14 +411,9 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
         return link.branch.has_value();
     });
     if (same) return alone;
-    SweepOptions rest = options;
-    if (rest.improving.seconds > 0) { // One budget for both.
-        const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
-        rest.improving.seconds -= used.count();
-        rest.improve = rest.improve && rest.improving.seconds > 0;
-    }
     try { // What went wrong first says more than what goes wrong second.
-        ProvedSweep together = sweep_between(volume, as_one, heights, size, rest, context);
+        ProvedSweep together = sweep_between(volume, as_one, heights, size, remaining(options, start),
+                                             context);
         if (together.proof.finding) {
             log_line(context, "loops turned as one body: " + together.proof.finding->message);
         } else if (alone.proof.finding ||

@@ -197,6 +197,11 @@ double face_area(const Model& model, FaceId face)
     return sum / 2;
 }
 
+bool has_quads_all_over(const Face& face)
+{
+    return !face.given_quads.empty() && 2 * face.given_quads.size() == face.triangles.size();
+}
+
 Vec3 face_area_vector(const Model& model, FaceId face)
 {
     Vec3 sum = Vec3::Zero();

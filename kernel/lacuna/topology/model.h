@@ -108,6 +108,8 @@ double edge_length(const Model& model, EdgeId edge);
 /// Sum of the facet areas [model length²] and of the facets' area vectors.
 double face_area(const Model& model, FaceId face);
 Vec3 face_area_vector(const Model& model, FaceId face);
+/// Whether the face came with quads that cover it.
+bool has_quads_all_over(const Face& face);
 /// Area-weighted centre of the facets.
 Vec3 face_centroid(const Model& model, FaceId face);
 

@@ -4,6 +4,7 @@
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/sweep.h>
 
+#include <chrono>
 #include <functional>
 #include <set>
 #include <vector>
@@ -20,6 +21,9 @@ struct ProvedSweep {
 
 /// Sweeps a sealed volume from its source to its target.
 using OneWay = std::function<ProvedSweep(const topology::OpenVolume&, const SweepOptions&)>;
+
+/// The options with the time that is left of one budget for improving.
+SweepOptions remaining(SweepOptions options, std::chrono::steady_clock::time_point start);
 
 /// The sealed volume with source and target exchanged; groups keep the names the person gave.
 topology::OpenVolume turned_round(topology::OpenVolume volume);

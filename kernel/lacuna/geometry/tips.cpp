@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/geometry/tips.h>
+
+#include <lacuna/core/edge_key.h>
+
+#include <cmath>
+#include <numbers>
+#include <unordered_set>
+
+namespace lacuna::geometry {
+
+std::vector<Index> find_tips(std::span<const Vec3> points, std::span<const Triangle> triangles)
+{
+    // Both a choice, not a measurement.
+    constexpr double kLack = 0.2 * std::numbers::pi;
+    constexpr std::size_t kMostTips = 64;
+    std::vector<double> angle(points.size(), 0);
+    std::unordered_set<std::uint64_t> sides;
+    for (const Triangle& t : triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3& at = points[index(t[k])];
+            const Vec3 a = points[index(t[(k + 1) % 3])] - at;
+            const Vec3 b = points[index(t[(k + 2) % 3])] - at;
+            angle[index(t[k])] += std::atan2(a.cross(b).norm(), a.dot(b));
+            sides.insert(directed_key(t[k], t[(k + 1) % 3]));
+        }
+    }
+    for (const Triangle& t : triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (!sides.contains(directed_key(t[(k + 1) % 3], t[k])))
+                angle[index(t[k])] = angle[index(t[(k + 1) % 3])] = 0;
+        }
+    }
+    std::vector<Index> tips;
+    for (std::size_t p = 0; p < angle.size(); ++p) {
+        if (!(angle[p] > 0 && 2 * std::numbers::pi - angle[p] > kLack)) continue;
+        if (tips.size() == kMostTips) return {};
+        tips.push_back(static_cast<Index>(p));
+    }
+    return tips;
+}
+
+} // namespace lacuna::geometry

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/surface/edge_nodes.h>
+
+#include <vector>
+
+namespace lacuna::surface {
+
+/// Running lengths this near, as a share of the chain, are one: far below any side, far above rounding.
+constexpr double kSamePlace = 1e-9;
+
+/// A point of the model on a chain.
+struct ChainNode {
+    double at = 0; ///< running length
+    Index point = -1;
+};
+
+/// Points of a closed chain in order; those of edges that `wanted` says.
+template <class Wanted>
+std::vector<ChainNode> chain_nodes(const topology::Model& model, const Chain& chain, const Wanted& wanted)
+{
+    std::vector<ChainNode> nodes;
+    for (std::size_t u = 0; u < chain.uses().size(); ++u) {
+        if (!wanted(chain.uses()[u].edge)) continue;
+        const std::vector<Index> points = topology::use_points(model, chain.uses()[u]);
+        double at = chain.start(u);
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            nodes.push_back({at, points[i]});
+            at += (model.at(points[i + 1]) - model.at(points[i])).norm();
+        }
+    }
+    return nodes;
+}
+
+/// Points of a closed chain in order.
+inline std::vector<ChainNode> chain_nodes(const topology::Model& model, const Chain& chain)
+{
+    return chain_nodes(model, chain, [](EdgeId) { return true; });
+}
+
+} // namespace lacuna::surface
