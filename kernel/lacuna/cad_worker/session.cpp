@@ -136,8 +136,12 @@ void Session::fail(const std::string& message) const
         words = errors.empty() ? "it gave no reason" : errors.back();
     }
     if (words.starts_with("Out of memory")) throw std::bad_alloc(); // Gmsh's own allocator says so in words
-    throw BackendError("cad.gmsh",
-                       (subject_.empty() ? "" : subject_ + ": ") + std::string("Gmsh failed: ") + words);
+    refuse("cad.gmsh", "Gmsh failed: " + words);
+}
+
+void Session::refuse(const std::string& code, const std::string& words) const
+{
+    throw BackendError(code, (subject_.empty() ? "" : subject_ + ": ") + words);
 }
 
 GmshModel::GmshModel(Session& session)

@@ -62,8 +62,10 @@ public:
 
     /// Errors Gmsh has logged since the session began, without the word "Error".
     [[nodiscard]] std::vector<std::string> logged_errors() const;
-    /// @throw BackendError always.
+    /// @throw BackendError always: what Gmsh said, after the subject.
     [[noreturn]] void fail(const std::string& message) const;
+    /// @throw BackendError always: words of one's own under a code, after the subject.
+    [[noreturn]] void refuse(const std::string& code, const std::string& words) const;
 
 private:
     struct SavedNumber {

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include <sys/resource.h>
+#include <sys/stat.h>
+
 namespace lacuna::cad_worker {
 
 using cad_protocol::MakeSolidRequest;
@@ -130,11 +133,32 @@ Sewn sew(Session& session, const std::vector<int>& faces, const MakeSolidRequest
             return {out.front().second, tolerance};
         gmsh::model::occ::remove(out);
     }
-    throw BackendError(
+    session.refuse(
         "cad.not_sewn",
         "the " + std::to_string(faces.size()) + " faces could not be sewn into one solid, with gaps up to " +
             std::to_string(last) +
             " closed; load the file with a larger tolerance, or write the facets with write_facets");
+}
+
+/// Write the current model to a file, whole. Open CASCADE writes on where the system takes no more bytes, and may
+/// say nothing or anything of it: so the file is looked at against the limit.
+void write_whole(const Session& session, const std::string& path)
+{
+    const auto check_room = [&] {
+        rlimit limit{};
+        struct stat file {};
+        if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || ::stat(path.c_str(), &file) != 0) return;
+        if (limit.rlim_cur == RLIM_INFINITY || static_cast<rlim_t>(file.st_size) < limit.rlim_cur) return;
+        session.refuse("cad.file_limit", "the solid takes more than the " + std::to_string(limit.rlim_cur) +
+                                             " bytes that a file may have here; raise the limit (ulimit -f)");
+    };
+    try {
+        gmsh::write(path);
+    } catch (...) {
+        check_room();
+        throw;
+    }
+    check_room();
 }
 
 /// Write one solid of the current model, and nothing else there is.
@@ -147,13 +171,13 @@ void write_alone(Session& session, int solid, const SolidFiles& files)
     // Faces, curves and points are many; read on from a file, the solid comes without those that are not its
     // own.
     gmsh::model::occ::synchronize();
-    gmsh::write(files.all);
+    write_whole(session, files.all);
     const GmshModel alone(session);
     set_plain_import(session, 1);
     gmsh::vectorpair found;
     gmsh::model::occ::importShapes(files.all, found, true, "brep");
     gmsh::model::occ::synchronize();
-    gmsh::write(files.result);
+    write_whole(session, files.result);
 }
 
 /// Read back what was written. @return number of faces and volume.
@@ -168,27 +192,27 @@ std::pair<std::size_t, double> read_back(Session& session, const MakeSolidReques
                                        request.format == MakeSolidRequest::brep ? "brep" : "step");
         const std::string faults = faults_of_model(request.diagonal);
         if (!faults.empty())
-            throw BackendError("cad.reads_back",
-                               "the solid reads back with " + faults +
-                                   ", not as one closed solid; write the facets with write_facets");
+            session.refuse("cad.reads_back",
+                           "the solid reads back with " + faults +
+                               ", not as one closed solid; write the facets with write_facets");
         const double volume = volume_of(tags_of(3).front());
         if (!(std::abs(volume - expected) <= kSameVolume * expected)) {
-            throw BackendError("cad.reads_back", "the solid reads back with a volume of " +
-                                                     std::to_string(volume) + ", not " +
-                                                     std::to_string(expected) + "; write it as .brep");
+            session.refuse("cad.reads_back", "the solid reads back with a volume of " +
+                                                 std::to_string(volume) + ", not " +
+                                                 std::to_string(expected) + "; write it as .brep");
         }
         return std::pair(tags_of(2).size(), volume);
     });
 }
 
-void check_volume(double volume, const MakeSolidRequest& request)
+void check_volume(const Session& session, double volume, const MakeSolidRequest& request)
 {
     if (std::abs(volume - request.facet_volume) <= request.deviation * request.facet_volume) return;
-    throw BackendError("cad.volume_differs", "the solid has a volume of " + std::to_string(volume) +
-                                                 ", but the facets enclose " +
-                                                 std::to_string(request.facet_volume) +
-                                                 ": the surfaces fitted to void faces bulge; give more "
-                                                 "walls, or write the facets with write_facets");
+    session.refuse("cad.volume_differs", "the solid has a volume of " + std::to_string(volume) +
+                                             ", but the facets enclose " +
+                                             std::to_string(request.facet_volume) +
+                                             ": the surfaces fitted to void faces bulge; give more "
+                                             "walls, or write the facets with write_facets");
 }
 
 } // namespace
@@ -199,7 +223,7 @@ cad_protocol::MakeSolidReply write_solid(Session& session, const std::vector<int
     const CapturedOutput output;
     const Sewn sewn = sew(session, faces, request);
     const double volume = volume_of(sewn.solid);
-    check_volume(volume, request);
+    check_volume(session, volume, request);
     write_alone(session, sewn.solid, files);
     const auto [count, written] = read_back(session, request, files, volume);
     return {written, sewn.tolerance, count};
