@@ -463,6 +463,7 @@ Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, cons
     swept.fidelity = compare(volume, swept.mesh, result.faces, result.kept, result.proof.quality.volume,
                              {options.max_deviation}, context);
     swept.report.push_back(in_words(swept.fidelity));
+    swept.faces = std::move(result.faces);
     return std::move(swept);
 }
 

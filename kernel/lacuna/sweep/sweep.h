@@ -81,6 +81,7 @@ struct Swept {
     mesh::HexMesh mesh;
     double min_scaled_jacobian = 1;
     Fidelity fidelity;               ///< the skin against the sealed skin
+    std::vector<FaceId> faces;       ///< of the volume's model, that of each patch of the skin
     std::vector<std::string> report; ///< a line a stage: seeds, quads, walls, target, layers, shape
 };
 

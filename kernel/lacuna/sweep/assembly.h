@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/sweep/sweep.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// One volume of an assembly.
+struct AssemblyMember {
+    const topology::OpenVolume* volume = nullptr; ///< sealed
+    SweepOptions options;
+    std::string region; ///< its name, for messages and groups
+};
+
+/// A face that two members have in common, each on its own side of it.
+struct SharedFace {
+    std::size_t a = 0, b = 0; ///< places in the list of members, a < b
+    FaceId face_a, face_b;
+};
+
+/// The faces that members have in common: the same surface within the tolerance, however it is faceted.
+/// @throw InvalidInput "assembly.part_of_face"  a face that covers only part of another's;
+///                     "assembly.overlap"  two volumes on the same side of a face. Names them.
+/// @note  O((facets) log) for faces whose boxes meet.
+std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, const RunContext& context = {});
+
+/// Hexahedra of many sweeps, with one node where several meet.
+struct SweptAssembly {
+    std::vector<Swept> parts; ///< in the members' order, each with numbers of its own
+    /// Of each part's nodes, the number in the whole, from 0. Parts come one after the other; a node that
+    /// an earlier part has keeps that one's number.
+    std::vector<std::vector<Index>> number;
+    std::size_t nodes = 0;           ///< of the whole
+    std::vector<SharedFace> shared;  ///< whose quads are one
+    std::vector<std::string> report; ///< a line for each shared face, and the order they were meshed in
+};
+
+/// Sweep several sealed volumes so that the quads of faces they share are one.
+///
+/// Volumes are meshed one after the other, each keeping, node for node, what its neighbours' meshes are on
+/// the faces they share. A wall that is another's end comes first, since its rows can be paved round and
+/// paved quads are no rows. Volumes side by side, whose walls are shared along the sweep, get as many layers:
+/// what is asked of one, or the most that any of them wants by its size. Where a volume cannot keep what its
+/// neighbours have made, the order is changed so that it goes before them.
+/// @throw NotSweepable  as `sweep()`, the region named; "assembly.layers"  volumes side by side for which
+///         other numbers of layers are asked; "assembly.not_shared"  a shared face on which two meshes differ;
+///         "assembly.hanging_node"  a node of one mesh within a side of another's.
+/// @throw InvalidInput  as `shared_faces()` and `sweep()`.
+/// @post  conformal: every quad of a shared face is one of both volumes, no node of one lies within a side or
+///        a quad of another, and each volume is proved as `sweep()` does, its shape against its own sealed
+///        skin.
+SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunContext& context = {});
+
+} // namespace lacuna::sweep

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/core/edge_key.h>
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/sweep/assembly.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <unordered_map>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+/// Share of a face by which another may be off it and still be the same: rounding of the facets' rims.
+constexpr double kWhole = 0.999;
+/// Faces that share less touch along their rims.
+constexpr double kNothing = 1e-3;
+/// Facets are asked at the centres of this many parts of each side: a face of two facets, half covered, is
+/// seen to be.
+constexpr int kParts = 6;
+/// A face is asked at about this many places in all; more facets are asked at fewer places each.
+constexpr std::size_t kPlaces = 4000;
+
+/// A face ready to be compared.
+struct Side {
+    const OpenVolume* volume = nullptr;
+    FaceId face;
+    Eigen::AlignedBox3d box;
+    double sag = 0; ///< how far the facets may be off what they stand for [model length]
+    std::shared_ptr<geometry::FacetTree> tree;
+
+    [[nodiscard]] const Model& model() const { return volume->model; }
+    [[nodiscard]] const Face& face_data() const { return model()[face]; }
+    const geometry::FacetTree& facets()
+    {
+        if (!tree) tree = std::make_shared<geometry::FacetTree>(model().points, face_data().triangles);
+        return *tree;
+    }
+};
+
+Vec3 area_of(const Model& model, const Triangle& t)
+{
+    return (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])) / 2;
+}
+
+/// Facets that bend by an angle where they meet stand for an arc that is off them by about an eighth of it,
+/// times their height over the side they share.
+double sag_of(const Model& model, const Face& face)
+{
+    double sag = 0;
+    std::unordered_map<std::uint64_t, std::size_t> beside;
+    for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index a = face.triangles[t][k], b = face.triangles[t][(k + 1) % 3];
+            const auto [other, fresh] = beside.emplace(edge_key(a, b), t);
+            if (fresh) continue;
+            const Vec3 m = area_of(model, face.triangles[t]),
+                       n = area_of(model, face.triangles[other->second]);
+            const double side = (model.at(b) - model.at(a)).norm();
+            if (!(m.norm() > 0) || !(n.norm() > 0) || !(side > 0)) continue;
+            const double angle = std::atan2(m.cross(n).norm(), m.dot(n));
+            sag = std::max(sag, angle / 8 * 2 * std::max(m.norm(), n.norm()) / side);
+        }
+    }
+    return sag;
+}
+
+/// How much of a face lies on another, and whether it faces the same way there.
+struct Cover {
+    double share = 0;
+    double same_way = 0; ///< share of what lies on it whose normals agree
+};
+
+Cover cover_of(Side& one, Side& other, double limit, const RunContext& context)
+{
+    const Model& model = one.model();
+    const std::vector<Triangle>& triangles = one.face_data().triangles;
+    int parts = kParts;
+    while (parts > 1 && triangles.size() * static_cast<std::size_t>(parts * parts) > kPlaces) --parts;
+    const std::size_t step = std::max<std::size_t>(1, triangles.size() / kPlaces);
+    double all = 0, on = 0, same = 0;
+    for (std::size_t t = 0; t < triangles.size(); t += step) {
+        check_cancelled(context);
+        const Triangle& facet = triangles[t];
+        const Vec3 area = area_of(model, facet);
+        const double each = area.norm() / (parts * parts);
+        for (int i = 0; i < parts; ++i) {
+            for (int j = 0; j < 2 * (parts - i) - 1; ++j) {
+                // Centres of the parts of a facet divided evenly, those upright and those turned over.
+                const double third = j % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
+                const double u = (i + third) / parts, v = (j / 2 + third) / parts;
+                const Vec3 p = (1 - u - v) * model.at(facet[0]) + u * model.at(facet[1]) +
+                               v * model.at(facet[2]);
+                all += each;
+                const auto hit = other.facets().closest(p, limit * limit);
+                if (hit.triangle < 0) continue;
+                on += each;
+                const Vec3 there = area_of(other.model(), other.face_data().triangles[index(hit.triangle)]);
+                if (there.dot(area) > 0) same += each;
+            }
+        }
+    }
+    return {all > 0 ? on / all : 0, on > 0 ? same / on : 0};
+}
+
+std::string named(const AssemblyMember& member, FaceId face)
+{
+    return name_of(member.volume->model, face) + " of " + member.region;
+}
+
+/// Whether two faces of two members are one; refuses what is neither that nor apart.
+bool is_shared(const AssemblyMember& a, Side& one, const AssemblyMember& b, Side& other,
+               const RunContext& context)
+{
+    const double tolerance = std::max(a.volume->model.tolerance, b.volume->model.tolerance);
+    const double limit = tolerance + one.sag + other.sag;
+    if (!Eigen::AlignedBox3d(one.box.min().array() - limit, one.box.max().array() + limit)
+             .intersects(other.box))
+        return false;
+    const Cover there = cover_of(one, other, limit, context);
+    const Cover back = cover_of(other, one, limit, context);
+    if (there.share <= kNothing && back.share <= kNothing) return false;
+    const bool overlap = std::max(there.same_way, back.same_way) > 0.5;
+    if (there.share >= kWhole && back.share >= kWhole) {
+        if (!overlap) return true;
+        throw InvalidInput("assembly.overlap", named(a, one.face) + " and " + named(b, other.face) +
+                                                   " are one face, and both volumes lie on the same side of "
+                                                   "it: volumes of an assembly may touch, not overlap");
+    }
+    // Faces that bend away from each other along a common rim are near each other there, and no more.
+    if (std::max(there.share, back.share) < 0.5 && std::min(there.share, back.share) < 0.05 &&
+        limit > tolerance)
+        return false;
+    const auto percent = [](double share) { return std::to_string(std::lround(100 * share)) + " %"; };
+    throw InvalidInput(
+        "assembly.part_of_face",
+        percent(there.share) + " of " + named(a, one.face) + " lies on " + named(b, other.face) + ", and " +
+            percent(back.share) +
+            " of that on it: a face must be shared as a whole; split it along the other's rim");
+}
+
+} // namespace
+
+std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, const RunContext& context)
+{
+    std::vector<std::vector<Side>> sides(members.size());
+    std::vector<Eigen::AlignedBox3d> box(members.size());
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const OpenVolume& volume = *members[m].volume;
+        for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
+            Side side{&volume, FaceId(f), {}, sag_of(volume.model, volume.model.faces[f]), nullptr};
+            for (const Triangle& t : volume.model.faces[f].triangles) {
+                for (const Index p : t) side.box.extend(volume.model.at(p));
+            }
+            box[m].extend(side.box);
+            sides[m].push_back(std::move(side));
+        }
+    }
+    std::vector<SharedFace> shared;
+    for (std::size_t a = 0; a < members.size(); ++a) {
+        for (std::size_t b = a + 1; b < members.size(); ++b) {
+            const double margin = 1e-3 * (box[a].diagonal().norm() + box[b].diagonal().norm());
+            if (!Eigen::AlignedBox3d(box[a].min().array() - margin, box[a].max().array() + margin)
+                     .intersects(box[b]))
+                continue;
+            for (Side& one : sides[a]) {
+                for (Side& other : sides[b]) {
+                    if (is_shared(members[a], one, members[b], other, context))
+                        shared.push_back({a, b, one.face, other.face});
+                }
+            }
+        }
+    }
+    return shared;
+}
+
+} // namespace lacuna::sweep

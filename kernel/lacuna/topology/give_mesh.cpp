@@ -1,0 +1,473 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/topology/give_mesh.h>
+
+#include <lacuna/core/edge_key.h>
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/topology/side_points.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace lacuna::topology {
+
+namespace {
+
+/// A node of the mesh's rim may be off the face's loop by this part of the side next to it: a side that stands
+/// for a sixth of a turn is off its curve by an eighth.
+constexpr double kOffRim = 0.25;
+
+/// A node on a loop of the face.
+struct RimNode {
+    Index point = -1; ///< of the model
+    double at = 0;    ///< running length on the loop
+};
+
+/// A loop as one closed chain of model points.
+struct LoopChain {
+    std::vector<EdgeUse> uses;
+    std::vector<double> start; ///< running length where each use starts, and the whole length
+    std::vector<Index> points; ///< the first not repeated
+    std::vector<double> at;    ///< running length of each point, and the whole length
+};
+
+LoopChain chain_of(const Model& model, const Loop& loop)
+{
+    LoopChain chain{loop.uses, {}, {}, {0}};
+    for (const EdgeUse& use : loop.uses) {
+        chain.start.push_back(chain.at.back());
+        const std::vector<Index> points = use_points(model, use);
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            chain.points.push_back(points[i]);
+            chain.at.push_back(chain.at.back() + (model.at(points[i + 1]) - model.at(points[i])).norm());
+        }
+    }
+    chain.start.push_back(chain.at.back());
+    return chain;
+}
+
+/// The node cycles of the quads' boundary, quads on the left.
+std::vector<std::vector<Index>> cycles_of(std::span<const Quad> quads)
+{
+    std::unordered_map<std::uint64_t, int> uses;
+    for (const Quad& q : quads) {
+        for (std::size_t k = 0; k < 4; ++k) ++uses[edge_key(q[k], q[(k + 1) % 4])];
+    }
+    std::map<Index, Index> next;
+    for (const Quad& q : quads) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Index a = q[k], b = q[(k + 1) % 4];
+            if (uses.at(edge_key(a, b)) == 1 && !next.emplace(a, b).second) return {};
+        }
+    }
+    std::vector<std::vector<Index>> cycles;
+    while (!next.empty()) {
+        std::vector<Index>& cycle = cycles.emplace_back();
+        for (Index n = next.begin()->first; !next.empty();) {
+            const auto found = next.find(n);
+            if (found == next.end()) break;
+            cycle.push_back(n);
+            n = found->second;
+            next.erase(found);
+        }
+    }
+    return cycles;
+}
+
+/// Where a point is nearest to a chain.
+struct Nearest {
+    double at = 0, distance = std::numeric_limits<double>::infinity();
+};
+Nearest nearest_on(const Model& model, const LoopChain& chain, const Vec3& p)
+{
+    Nearest best;
+    for (std::size_t i = 0; i < chain.points.size(); ++i) {
+        const Vec3& a = model.at(chain.points[i]);
+        const Vec3& b = model.at(chain.points[(i + 1) % chain.points.size()]);
+        const double f = fraction_along(p, a, b);
+        const double distance = (p - ((1 - f) * a + f * b)).norm();
+        if (distance < best.distance) best = {chain.at[i] + f * (chain.at[i + 1] - chain.at[i]), distance};
+    }
+    return best;
+}
+
+class MeshGiver {
+public:
+    MeshGiver(OpenVolume& volume, FaceId face, std::span<const Vec3> nodes, std::span<const Quad> quads)
+        : model_(volume.model),
+          face_(face),
+          quads_(quads.begin(), quads.end()),
+          first_(static_cast<Index>(model_.points.size()))
+    {
+        model_.points.insert(model_.points.end(), nodes.begin(), nodes.end());
+        for (Quad& quad : quads_) {
+            for (Index& n : quad) n += first_;
+        }
+    }
+
+    void run()
+    {
+        const std::vector<Loop> loops = border_loops(model_, face_);
+        for (const Loop& loop : loops) chains_.push_back(chain_of(model_, loop));
+        place_rims();
+        find_seams();
+        for (std::size_t l = 0; l < chains_.size(); ++l) take_rim(chains_[l], rims_[l]);
+        cut_neighbours();
+        move_neighbours();
+        set_face(loops);
+        std::vector<FaceId> all;
+        for (std::size_t f = 0; f < model_.faces.size(); ++f) all.emplace_back(f);
+        std::vector<std::string> notes = std::move(model_.notes);
+        model_ = extract(model_, all);
+        model_.notes = std::move(notes);
+    }
+
+private:
+    [[noreturn]] void refuse(const std::string& code, const std::string& why) const
+    {
+        throw InvalidInput("topology." + code, why);
+    }
+
+    /// The rim's nodes on each loop, turned the loop's way.
+    void place_rims()
+    {
+        std::vector<std::vector<Index>> cycles = cycles_of(quads_);
+        if (cycles.size() != chains_.size()) {
+            refuse("mesh_unlike_face", "the mesh for " + name_of(model_, face_) + " has " +
+                                           std::to_string(cycles.size()) + " rims, where the face has " +
+                                           std::to_string(chains_.size()) + " loops");
+        }
+        rims_.resize(chains_.size());
+        int turned = 0;
+        for (const std::vector<Index>& cycle : cycles) {
+            std::size_t best = 0;
+            double least = std::numeric_limits<double>::infinity();
+            for (std::size_t l = 0; l < chains_.size(); ++l) {
+                double off = 0;
+                for (const Index n : cycle) off += nearest_on(model_, chains_[l], model_.at(n)).distance;
+                if (off < least) {
+                    least = off;
+                    best = l;
+                }
+            }
+            if (!rims_[best].empty())
+                refuse("mesh_unlike_face",
+                       "two rims of the mesh for " + name_of(model_, face_) + " lie on the same loop of it");
+            rims_[best] = place_rim(cycle, chains_[best]);
+            turned += is_turned(rims_[best], chains_[best].start.back()) ? 1 : 0;
+        }
+        if (turned != 0 && turned != static_cast<int>(cycles.size()))
+            refuse("mesh_unlike_face",
+                   "the rims of the mesh for " + name_of(model_, face_) + " do not run as its loops do");
+        if (turned == 0) return;
+        for (Quad& quad : quads_) std::swap(quad[1], quad[3]);
+        for (std::vector<RimNode>& rim : rims_) std::reverse(rim.begin(), rim.end());
+    }
+
+    [[nodiscard]] std::vector<RimNode> place_rim(const std::vector<Index>& cycle,
+                                                 const LoopChain& chain) const
+    {
+        std::vector<RimNode> rim;
+        for (std::size_t i = 0; i < cycle.size(); ++i) {
+            const Vec3& p = model_.at(cycle[i]);
+            const double side = std::max(
+                (model_.at(cycle[(i + 1) % cycle.size()]) - p).norm(),
+                (model_.at(cycle[(i + cycle.size() - 1) % cycle.size()]) - p).norm());
+            const Nearest place = nearest_on(model_, chain, p);
+            if (place.distance > std::max(model_.tolerance, kOffRim * side)) {
+                refuse("mesh_unlike_face", "a node of the mesh for " + name_of(model_, face_) + " is " +
+                                               std::to_string(place.distance) + " off its loops");
+            }
+            rim.push_back({cycle[i], place.at});
+        }
+        return rim;
+    }
+
+    /// Whether more nodes follow each other against the chain than with it.
+    static bool is_turned(const std::vector<RimNode>& rim, double length)
+    {
+        int steps = 0;
+        for (std::size_t i = 0; i < rim.size(); ++i) {
+            const double step = std::remainder(rim[(i + 1) % rim.size()].at - rim[i].at, length);
+            steps += step > 0 ? 1 : -1;
+        }
+        return steps < 0;
+    }
+
+    /// Edges used twice by one face, and how many others end at each vertex.
+    void find_seams()
+    {
+        uses_ = edge_uses(model_);
+        ends_.assign(model_.vertices.size(), 0);
+        for (std::size_t e = 0; e < uses_.size(); ++e) {
+            const std::vector<FaceUse>& uses = uses_[e];
+            if (uses.empty() || (uses.size() == 2 && uses[0].face == uses[1].face)) continue;
+            ++ends_[model_.edges[e].from.index()];
+            ++ends_[model_.edges[e].to.index()];
+        }
+    }
+
+    /// The node at a vertex; the nearest one where the vertex may go there.
+    std::size_t node_at(VertexId vertex, double at, const std::vector<RimNode>& rim, double length)
+    {
+        const Vec3& place = model_.at(model_[vertex].point);
+        std::size_t best = 0;
+        for (std::size_t i = 1; i < rim.size(); ++i) {
+            if (std::abs(std::remainder(rim[i].at - at, length)) <
+                std::abs(std::remainder(rim[best].at - at, length)))
+                best = i;
+        }
+        const double off = (model_.at(rim[best].point) - place).norm();
+        // Two edge ends of the loop itself, or those of a closed edge.
+        if (off > model_.tolerance && ends_[vertex.index()] > 2) {
+            refuse("mesh_misses_vertex", "the mesh for " + name_of(model_, face_) + " has no node at " +
+                                             name_of(model_, vertex) +
+                                             ", where edges of other faces end; "
+                                             "the nearest is " +
+                                             std::to_string(off) + " away");
+        }
+        return best;
+    }
+
+    /// Note which points are put on the edges of a loop, and where the old ones go.
+    void take_rim(const LoopChain& chain, std::vector<RimNode>& rim)
+    {
+        const double length = chain.start.back();
+        std::vector<std::size_t> corner;
+        for (std::size_t u = 0; u < chain.uses.size(); ++u) {
+            const VertexId vertex = use_from(model_, chain.uses[u]);
+            corner.push_back(node_at(vertex, chain.start[u], rim, length));
+        }
+        for (std::size_t u = 0; u < corner.size(); ++u) {
+            const std::size_t next = corner[(u + 1) % corner.size()];
+            if (corner.size() > 1 && corner[u] == next) {
+                refuse("mesh_unlike_face", "the mesh for " + name_of(model_, face_) + " has no side on " +
+                                               name_of(model_, chain.uses[u].edge));
+            }
+        }
+        for (std::size_t u = 0; u < corner.size(); ++u) {
+            // The nodes of the use, its ends included, in running lengths that rise from its first.
+            std::vector<RimNode> nodes;
+            const std::size_t last = corner[(u + 1) % corner.size()];
+            std::size_t i = corner[u];
+            double at = chain.start[u] + std::remainder(rim[i].at - chain.start[u], length);
+            nodes.push_back({rim[i].point, at});
+            do {
+                const std::size_t next = (i + 1) % rim.size();
+                at += std::remainder(rim[next].at - rim[i].at, length);
+                nodes.push_back({rim[next].point, at});
+                i = next;
+            } while (i != last);
+            for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+                if (nodes[k + 1].at > nodes[k].at) continue;
+                refuse("mesh_unlike_face", "the nodes of the mesh for " + name_of(model_, face_) + " on " +
+                                               name_of(model_, chain.uses[u].edge) +
+                                               " do not follow each other as the edge runs");
+            }
+            put_on_edge(chain, u, nodes);
+        }
+    }
+
+    /// @param nodes  on use `u` of the chain, ends included.
+    void put_on_edge(const LoopChain& chain, std::size_t u, const std::vector<RimNode>& nodes)
+    {
+        const EdgeUse use = chain.uses[u];
+        const std::vector<Index> old = use_points(model_, use);
+        std::vector<double> at{chain.start[u]};
+        for (std::size_t i = 0; i + 1 < old.size(); ++i)
+            at.push_back(at.back() + (model_.at(old[i + 1]) - model_.at(old[i])).norm());
+        check_other_meshes(use.edge, old, nodes);
+        // Inner nodes go between the old points; the ends stand for the vertices.
+        move_.insert_or_assign(old.front(), nodes.front().point);
+        move_.insert_or_assign(old.back(), nodes.back().point);
+        std::size_t node = 1;
+        std::vector<std::pair<double, Index>> all{{at.front(), old.front()}};
+        for (std::size_t i = 0; i + 1 < old.size(); ++i) {
+            std::vector<Index> between;
+            const bool last = i + 2 == old.size();
+            while (node + 1 < nodes.size() && (nodes[node].at < at[i + 1] || last)) {
+                between.push_back(nodes[node].point);
+                all.emplace_back(nodes[node].at, nodes[node].point);
+                ++node;
+            }
+            if (!between.empty()) sides_.add(old[i], old[i + 1], between);
+            all.emplace_back(at[i + 1], old[i + 1]);
+        }
+        for (std::size_t i = 1; i + 1 < old.size(); ++i) {
+            const auto nearest = std::min_element(nodes.begin(), nodes.end(),
+                                                  [&](const RimNode& a, const RimNode& b) {
+                                                      return std::abs(a.at - at[i]) < std::abs(b.at - at[i]);
+                                                  });
+            move_.insert_or_assign(old[i], nearest->point);
+        }
+        Chain& made = chains_made_.emplace_back();
+        made.edge = use.edge;
+        for (const auto& [where, point] : all) made.points.push_back(point);
+        for (const RimNode& n : nodes) made.kept.push_back(n.point);
+        if (use.reversed) {
+            std::reverse(made.points.begin(), made.points.end());
+            std::reverse(made.kept.begin(), made.kept.end());
+        }
+    }
+
+    /// What another face at the edge came with has to agree.
+    void check_other_meshes(EdgeId edge, const std::vector<Index>& old,
+                            const std::vector<RimNode>& nodes) const
+    {
+        for (const FaceUse& user : uses_[edge.index()]) {
+            if (user.face == face_ || !model_[user.face].keeps_nodes) continue;
+            bool same = old.size() == nodes.size();
+            for (std::size_t i = 0; same && i < old.size(); ++i)
+                same = (model_.at(old[i]) - model_.at(nodes[i].point)).norm() <= model_.tolerance;
+            if (same) continue;
+            refuse("meshes_differ",
+                   "the mesh for " + name_of(model_, face_) + " has " + std::to_string(nodes.size()) +
+                       " nodes on " + name_of(model_, edge) + ", and that of " + name_of(model_, user.face) +
+                       " " + std::to_string(old.size()) + (old.size() == nodes.size() ? " others" : ""));
+        }
+    }
+
+    [[nodiscard]] Index moved(Index point) const
+    {
+        const auto found = move_.find(point);
+        return found == move_.end() ? point : found->second;
+    }
+
+    void cut_neighbours()
+    {
+        for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+            if (FaceId(f) == face_ || sides_.empty() || model_.faces[f].keeps_nodes) continue;
+            cut_at_sides(model_.points, model_.faces[f], sides_);
+        }
+    }
+
+    /// Surface parameters along the edges of a face, as steps from point to point, by the facets beside them.
+    std::unordered_map<std::uint64_t, Vec2> steps_of(const Face& face) const
+    {
+        std::unordered_map<std::uint64_t, Vec2> steps; // from the lesser point to the greater
+        for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index a = face.triangles[t][k], b = face.triangles[t][(k + 1) % 3];
+                const Vec2 step = face.uv[t][(k + 1) % 3] - face.uv[t][k];
+                steps.insert_or_assign(edge_key(a, b), a < b ? step : Vec2(-step));
+            }
+        }
+        return steps;
+    }
+
+    /// By how much the parameters change where the points of the edges go to their nodes.
+    std::unordered_map<Index, Vec2> shifts_of(const Face& face) const
+    {
+        std::unordered_map<Index, Vec2> shifts;
+        const auto steps = steps_of(face);
+        for (const Chain& chain : chains_made_) {
+            std::vector<Vec2> param{Vec2::Zero()};
+            bool known = true;
+            for (std::size_t i = 0; known && i + 1 < chain.points.size(); ++i) {
+                const Index a = chain.points[i], b = chain.points[i + 1];
+                const auto found = steps.find(edge_key(a, b));
+                known = found != steps.end();
+                if (known) param.push_back(param.back() + (a < b ? found->second : Vec2(-found->second)));
+            }
+            if (!known) continue; // an edge of other faces
+            std::unordered_map<Index, Vec2> of;
+            for (std::size_t i = 0; i < chain.points.size(); ++i) of.emplace(chain.points[i], param[i]);
+            for (const Index point : chain.points) {
+                const auto to = of.find(moved(point));
+                if (to != of.end()) shifts.insert_or_assign(point, to->second - of.at(point));
+            }
+        }
+        return shifts;
+    }
+
+    void move_neighbours()
+    {
+        for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+            if (FaceId(f) == face_) continue;
+            Face& face = model_.faces[f];
+            std::unordered_map<Index, Vec2> shifts;
+            if (!face.uv.empty()) shifts = shifts_of(face);
+            std::size_t kept = 0;
+            for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+                Triangle triangle = face.triangles[t];
+                for (std::size_t k = 0; k < 3; ++k) {
+                    if (!face.uv.empty()) {
+                        if (const auto found = shifts.find(triangle[k]); found != shifts.end())
+                            face.uv[t][k] += found->second;
+                    }
+                    triangle[k] = moved(triangle[k]);
+                }
+                if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+                    continue;
+                face.triangles[kept] = triangle;
+                if (!face.uv.empty()) face.uv[kept] = face.uv[t];
+                ++kept;
+            }
+            face.triangles.resize(kept);
+            if (!face.uv.empty()) face.uv.resize(kept);
+            for (Quad& quad : face.given_quads) {
+                for (Index& n : quad) n = moved(n);
+            }
+        }
+        for (const Chain& chain : chains_made_) {
+            Edge& edge = model_[chain.edge];
+            edge.points = chain.kept;
+            edge.params.clear();
+            edge.curve = nullptr;
+        }
+        for (Edge& edge : model_.edges) {
+            edge.points.front() = moved(edge.points.front());
+            edge.points.back() = moved(edge.points.back());
+        }
+        for (Vertex& vertex : model_.vertices) vertex.point = moved(vertex.point);
+    }
+
+    void set_face(const std::vector<Loop>& loops)
+    {
+        Face& face = model_[face_];
+        face.triangles.clear();
+        face.uv.clear();
+        face.surface = nullptr;
+        face.given_quads = quads_;
+        face.keeps_nodes = true;
+        for (const Quad& q : quads_) {
+            face.triangles.push_back({q[0], q[1], q[2]});
+            face.triangles.push_back({q[0], q[2], q[3]});
+        }
+        face.loops = loops;
+    }
+
+    /// An edge before and after.
+    struct Chain {
+        EdgeId edge;
+        std::vector<Index> points; ///< old ones and nodes, as the edge runs
+        std::vector<Index> kept;   ///< nodes, the vertices' included
+    };
+
+    Model& model_;
+    FaceId face_;
+    std::vector<Quad> quads_;
+    Index first_;
+    std::vector<LoopChain> chains_;
+    std::vector<std::vector<RimNode>> rims_; ///< on each loop
+    std::vector<std::vector<FaceUse>> uses_; ///< of each edge
+    std::vector<int> ends_;                  ///< edge ends at each vertex, seams left out
+    SidePoints sides_;
+    std::unordered_map<Index, Index> move_; ///< old points of the edges to nodes
+    std::vector<Chain> chains_made_;
+};
+
+} // namespace
+
+void give_mesh(OpenVolume& volume, FaceId face, std::span<const Vec3> nodes, std::span<const Quad> quads)
+{
+    MeshGiver(volume, face, nodes, quads).run();
+}
+
+} // namespace lacuna::topology

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/topology/open_volume.h>
+
+#include <span>
+
+namespace lacuna::topology {
+
+/// Make quads the mesh a face came with, as if it had been read so: its facets become their halves, its edges
+/// the chains of their rim, and the faces beside it end at those.
+///
+/// Facets beside the face are cut at the rim's nodes, and the points of their edges that are none of them go
+/// to the nearest one along the edge. A vertex where other edges end must be a node of the rim. One where none
+/// does, such as the start of a closed edge, goes to the nearest node; so do the ends of seams. Edges lose
+/// their exact curve, and the face its exact surface: what they were needed for is there.
+/// @param nodes  of the mesh [model length].
+/// @param quads  of the mesh, one way round all of them; either way.
+/// @throw InvalidInput "topology.mesh_unlike_face"  quads that are no manifold, whose rim has other loops than
+///         the face, or is off them; "topology.mesh_misses_vertex"  a vertex that is no node;
+///         "topology.meshes_differ"  a face beside it whose own mesh has other nodes on their edge. Names them.
+/// @note  O(facets + quads + nodes of the rim × points of the loop).
+void give_mesh(OpenVolume& volume, FaceId face, std::span<const Vec3> nodes, std::span<const Quad> quads);
+
+} // namespace lacuna::topology
