@@ -216,6 +216,7 @@ TEST_CASE("grids of blocks swept along axes of their own are one mesh or refused
     int meshed = 0, refused = 0;
     std::map<std::string, int> why;
     for (unsigned seed = 1; seed <= 200; ++seed) {
+        if (getenv("SEED") && seed != (unsigned)atoi(getenv("SEED"))) continue;
         test::Dice dice(seed);
         const std::array<int, 3> n{dice.whole(1, 3), dice.whole(1, 2), dice.whole(1, 3)};
         std::array<std::vector<double>, 3> lines;

@@ -24,10 +24,13 @@ namespace {
 /// Two rims with other numbers of nodes are compared node by node up to this many pairs: 32 MB and 0.1 s.
 constexpr std::size_t kMostPairs = 4'000'000;
 
-/// Edges of faces that keep their mesh.
+/// Edges that keep their nodes, by themselves or with the mesh of a face.
 std::set<EdgeId> kept_edges(const Model& model)
 {
     std::set<EdgeId> edges;
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        if (model.edges[e].keeps_nodes) edges.emplace(e);
+    }
     for (const Face& face : model.faces) {
         if (!face.keeps_nodes) continue;
         for (const Loop& loop : face.loops) {

@@ -72,6 +72,9 @@ public:
                 for (const EdgeUse& use : loop.uses) keep_nodes(face, use.edge);
             }
         }
+        for (const auto& [edge, faces] : users_) {
+            if (model_[edge].keeps_nodes && !rim_.contains(edge)) keep_nodes(*faces.begin(), edge);
+        }
     }
 
     Seeds run()

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -75,7 +76,8 @@ public:
     {
         check_members();
         result_.shared = shared_faces(members_, context_);
-        plan_ = plan_assembly(members_, result_.shared);
+        find_order();
+        plan_ = plan_assembly(members_, result_.shared, context_);
         sweep_all();
         number_nodes();
         check_shared();
@@ -96,13 +98,80 @@ private:
         }
     }
 
+    [[nodiscard]] bool is_void(std::size_t m, FaceId face) const
+    {
+        return members_[m].volume->model[face].origin == Origin::made_void;
+    }
+    [[nodiscard]] bool is_wall(std::size_t m, FaceId face) const
+    {
+        return members_[m].volume->role[face.index()] == Role::wall;
+    }
+
+    /// Which members come after which: a face is what is given before what was made there, and rows before
+    /// ends, if they can.
+    void find_order()
+    {
+        after_.resize(members_.size());
+        for (const SharedFace& face : result_.shared) {
+            const bool void_a = is_void(face.a, face.face_a), void_b = is_void(face.b, face.face_b);
+            if (void_a && !void_b) after_[face.a].insert(face.b);
+            if (void_b && !void_a) after_[face.b].insert(face.a);
+        }
+        std::vector<std::size_t> order = order_of({});
+        if (order.size() == members_.size()) return;
+        std::string names;
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            if (std::ranges::find(order, m) == order.end())
+                names += (names.empty() ? "" : ", ") + members_[m].region;
+        }
+        throw NotSweepable("assembly.round",
+                           "each of " + names +
+                               " lacks a face that the next one has, all round, so none can "
+                               "be meshed first; give one of them that face too");
+    }
+
+    /// Members by what they wait for; of those that are free to come, `first` as listed, then those that share
+    /// an end with one that is there, those whose walls are no one's ends that wait, and by number.
+    [[nodiscard]] std::vector<std::size_t> order_of(std::span<const std::size_t> first) const
+    {
+        std::vector<char> placed(members_.size(), 0);
+        std::vector<std::size_t> order;
+        const auto has = [&](std::size_t m, bool wall, bool other_wall, bool there) {
+            return std::ranges::any_of(result_.shared, [&](const SharedFace& face) {
+                if (face.a != m && face.b != m) return false;
+                const bool is_a = face.a == m;
+                const std::size_t other = is_a ? face.b : face.a;
+                return (placed[other] != 0) == there &&
+                       is_wall(m, is_a ? face.face_a : face.face_b) == wall &&
+                       is_wall(other, is_a ? face.face_b : face.face_a) == other_wall;
+            });
+        };
+        for (;;) {
+            std::size_t next = members_.size();
+            const auto take = [&](std::size_t m, bool ready) {
+                if (next == members_.size() && placed[m] == 0 && ready &&
+                    std::ranges::all_of(after_[m], [&](std::size_t other) { return placed[other] != 0; }))
+                    next = m;
+            };
+            for (const std::size_t m : first) take(m, true);
+            const auto waits = [&](std::size_t m) { return has(m, false, true, false); };
+            for (std::size_t m = 0; m < members_.size(); ++m)
+                take(m, has(m, false, false, true) && !waits(m));
+            for (std::size_t m = 0; m < members_.size(); ++m) take(m, !waits(m));
+            for (std::size_t m = 0; m < members_.size(); ++m) take(m, true);
+            if (next == members_.size()) return order;
+            placed[next] = 1;
+            order.push_back(next);
+        }
+    }
+
     /// In the plan's order; where a member cannot keep what others have made, it goes before them.
     void sweep_all()
     {
         std::vector<std::size_t> first;
         std::optional<Failed> reason;
         for (std::size_t attempt = 0; attempt <= members_.size(); ++attempt) {
-            const std::vector<std::size_t> order = order_of(plan_, members_, result_.shared, first);
+            const std::vector<std::size_t> order = order_of(first);
             if (!first.empty() && order == order_) break;
             order_ = order;
             const std::optional<Failed> failed = sweep_in_order();
@@ -152,21 +221,23 @@ private:
         const AssemblyMember& member = members_[m];
         SweepOptions options = member.options;
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
-        OpenVolume volume = *member.volume;
+        OpenVolume volume = *member.volume, sealed = *member.volume;
+        give_edge_nodes(volume, plan_.nodes[m]);
         for (const SharedFace& face : result_.shared) {
             const bool is_a = face.a == m;
             const std::size_t other = is_a ? face.b : face.a;
             if ((!is_a && face.b != m) || done[other] == 0) continue;
             given = true;
-            hand_on(result_.parts[other], is_a ? face.face_b : face.face_a, volume,
-                    is_a ? face.face_a : face.face_b);
+            const FaceId own = is_a ? face.face_a : face.face_b, from = is_a ? face.face_b : face.face_a;
+            hand_on(result_.parts[other], from, volume, own);
+            // Where the face is void, what the neighbour has there is the shape.
+            if (is_void(m, own)) hand_on(result_.parts[other], from, sealed, own);
         }
         Swept part = sweep(volume, options, context_);
-        if (!given) return part;
+        if (plan_.nodes[m].empty()) return part;
         // Shape is that of the volume as it was sealed, not as its neighbours' quads bound it.
-        double cells = part.fidelity.volume;
-        part.fidelity = compare(*member.volume, part.mesh, part.faces, {}, cells, {options.max_deviation},
-                                context_);
+        part.fidelity = compare(sealed, part.mesh, part.faces, {}, part.fidelity.volume,
+                                {options.max_deviation}, context_);
         require(part.fidelity, part.mesh.layers, {options.max_deviation});
         return part;
     }
@@ -328,6 +399,7 @@ private:
     std::span<const AssemblyMember> members_;
     const RunContext& context_;
     AssemblyPlan plan_;
+    std::vector<std::set<std::size_t>> after_; ///< of each member, those that must come before it
     std::vector<std::size_t> order_;
     SweptAssembly result_;
 };

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/union_find.h>
 #include <lacuna/surface/linking_surface.h>
 #include <lacuna/surface/seeds.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
-#include <lacuna/sweep/detail/given_meshes.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
 #include <set>
 
 namespace lacuna::sweep {
@@ -15,162 +19,386 @@ using namespace topology;
 
 namespace {
 
-Role role_of(const AssemblyMember& member, FaceId face) { return member.volume->role[face.index()]; }
+/// Edges of two members are one where their middles are no further apart than this share of their length, ends
+/// apart: facets of other fineness have their middles a little elsewhere.
+constexpr double kSameMiddle = 1e-2;
+/// Rounds of making ends even. Each bumps a class; a choice, far above what families of blocks need.
+constexpr int kRounds = 64;
 
-/// Middles of the edges that a wall shares with the ends of its volume.
-std::vector<Vec3> rim_middles(const OpenVolume& volume, FaceId wall,
-                              const std::vector<std::vector<FaceUse>>& uses)
-{
-    std::vector<Vec3> middles;
-    for (const Loop& loop : volume.model[wall].loops) {
-        for (const EdgeUse& use : loop.uses) {
-            const bool rim = std::ranges::any_of(uses[use.edge.index()], [&](const FaceUse& user) {
-                return volume.role[user.face.index()] != Role::wall;
-            });
-            if (!rim) continue;
-            const std::vector<Index>& points = volume.model[use.edge].points;
-            middles.push_back((volume.model.at(points.front()) + volume.model.at(points.back())) / 2);
-        }
-    }
-    return middles;
-}
+/// An edge of a member.
+struct MemberEdge {
+    std::size_t member = 0;
+    EdgeId edge;
+    double length = 0;
+    Vec3 from = Vec3::Zero(), middle = Vec3::Zero(), to = Vec3::Zero();
+    Eigen::AlignedBox3d box;
+    bool closed = false;
+};
 
-/// Whether two sweeps run the same way along a wall they share: edges of it are rims of both.
-bool side_by_side(const AssemblyMember& a, FaceId wall_a, const AssemblyMember& b, FaceId wall_b,
-                  const std::vector<std::vector<FaceUse>>& uses_a,
-                  const std::vector<std::vector<FaceUse>>& uses_b)
-{
-    const double tolerance = std::max(a.volume->model.tolerance, b.volume->model.tolerance);
-    const std::vector<Vec3> middles = rim_middles(*b.volume, wall_b, uses_b);
-    for (const Vec3& p : rim_middles(*a.volume, wall_a, uses_a)) {
-        if (std::ranges::any_of(middles, [&](const Vec3& q) { return (p - q).norm() <= tolerance; }))
-            return true;
-    }
-    return false;
-}
-
-/// Layers a member asks for; 0: none.
-int layers_asked(const AssemblyMember& member)
-{
-    const LayerSpec& spec = member.options.layers;
-    return spec.heights.empty() ? spec.count : static_cast<int>(spec.heights.size());
-}
-
-/// Layers it would have by itself.
-int layers_wanted(const AssemblyMember& member)
-{
-    surface::SizeField size = member.options.size;
-    if (!size) size = [spacing = surface::rim_spacing(*member.volume)](const Vec3&) { return spacing; };
-    const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(*member.volume);
-    return static_cast<int>(default_heights(links, size, member.options.layers).size()) - 1;
-}
-
-/// The same number of layers for all of a group.
-int common_layers(std::span<const AssemblyMember> members, const std::vector<std::size_t>& group)
-{
-    const AssemblyMember* asked = nullptr;
-    for (const std::size_t m : group) {
-        if (layers_asked(members[m]) == 0) continue;
-        if (asked != nullptr && layers_asked(*asked) != layers_asked(members[m])) {
-            throw NotSweepable(
-                "assembly.layers",
-                asked->region + " and " + members[m].region +
-                    " lie side by side and are swept the same way, so they have as many layers; "
-                    "asked for are " +
-                    std::to_string(layers_asked(*asked)) + " and " +
-                    std::to_string(layers_asked(members[m])));
-        }
-        asked = &members[m];
-    }
-    if (asked != nullptr) return layers_asked(*asked);
-    int most = 1;
-    for (const std::size_t m : group) most = std::max(most, layers_wanted(members[m]));
-    return most;
-}
-
-bool is_free(const std::vector<std::size_t>& after, const std::vector<char>& placed)
-{
-    return std::ranges::all_of(after, [&](std::size_t m) { return placed[m] != 0; });
-}
-
-/// Refuse members that wait for each other; names them.
-void check_order(const AssemblyPlan& plan, std::span<const AssemblyMember> members)
-{
-    std::vector<char> placed(members.size(), 0);
-    for (bool more = true; more;) {
-        more = false;
+class Planner {
+public:
+    Planner(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
+            const RunContext& context)
+        : members_(members), shared_(shared), context_(context)
+    {
         for (std::size_t m = 0; m < members.size(); ++m) {
-            if (placed[m] != 0 || !is_free(plan.after[m], placed)) continue;
-            placed[m] = 1;
-            more = true;
+            const Model& model = members[m].volume->model;
+            first_.push_back(edges_.size());
+            for (std::size_t e = 0; e < model.edges.size(); ++e) edges_.push_back(read(m, EdgeId(e)));
+        }
+        first_.push_back(edges_.size());
+    }
+
+    AssemblyPlan run()
+    {
+        find_same();
+        classes_ = geometry::UnionFind(edges_.size());
+        for (std::size_t e = 0; e < edges_.size(); ++e) classes_.unite(same_.find(e), e);
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            check_cancelled(context_);
+            join_by_sweep(m);
+        }
+        join_opposite();
+        count();
+        make_even();
+        AssemblyPlan plan;
+        set_nodes(plan);
+        return plan;
+    }
+
+private:
+    [[nodiscard]] const Model& model(std::size_t m) const { return members_[m].volume->model; }
+    [[nodiscard]] std::size_t number(std::size_t m, EdgeId edge) const { return first_[m] + edge.index(); }
+
+    [[nodiscard]] MemberEdge read(std::size_t m, EdgeId id) const
+    {
+        const Edge& edge = model(m)[id];
+        std::vector<Vec3> line;
+        MemberEdge result;
+        for (const Index p : edge.points) {
+            line.push_back(model(m).at(p));
+            result.box.extend(line.back());
+        }
+        const std::vector<double> arc = geometry::arc_lengths(line);
+        result.member = m;
+        result.edge = id;
+        result.length = arc.back();
+        result.from = line.front();
+        result.to = line.back();
+        result.middle = geometry::point_at(line, arc, arc.back() / 2);
+        result.closed = edge.points.front() == edge.points.back();
+        return result;
+    }
+
+    [[nodiscard]] bool is_same(const MemberEdge& a, const MemberEdge& b) const
+    {
+        const double tolerance = std::max(model(a.member).tolerance, model(b.member).tolerance);
+        const double slack = tolerance + kSameMiddle * a.length;
+        if (a.closed != b.closed || std::abs(a.length - b.length) > slack) return false;
+        if (a.closed) {
+            return (a.box.min() - b.box.min()).norm() <= slack && (a.box.max() - b.box.max()).norm() <= slack;
+        }
+        const bool along = (a.from - b.from).norm() <= tolerance && (a.to - b.to).norm() <= tolerance;
+        const bool back = (a.from - b.to).norm() <= tolerance && (a.to - b.from).norm() <= tolerance;
+        return (along || back) && (a.middle - b.middle).norm() <= slack;
+    }
+
+    /// The same edge in several members.
+    void find_same()
+    {
+        std::vector<std::size_t> order(edges_.size());
+        for (std::size_t e = 0; e < order.size(); ++e) order[e] = e;
+        std::ranges::sort(order, {}, [&](std::size_t e) { return edges_[e].box.min().x(); });
+        same_ = geometry::UnionFind(edges_.size());
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            const MemberEdge& a = edges_[order[i]];
+            const double reach = a.box.min().x() + model(a.member).tolerance + kSameMiddle * a.length;
+            for (std::size_t k = i + 1; k < order.size() && edges_[order[k]].box.min().x() <= reach; ++k) {
+                const MemberEdge& b = edges_[order[k]];
+                if (a.member != b.member && is_same(a, b))
+                    same_.unite(std::min(order[i], order[k]), std::max(order[i], order[k]));
+            }
+        }
+        std::map<std::size_t, std::set<std::size_t>> members;
+        for (std::size_t e = 0; e < edges_.size(); ++e) members[same_.find(e)].insert(edges_[e].member);
+        common_.assign(edges_.size(), false);
+        for (std::size_t e = 0; e < edges_.size(); ++e) common_[e] = members.at(same_.find(e)).size() > 1;
+    }
+
+    /// Edges that one sweep gives the same number.
+    void join_by_sweep(std::size_t m)
+    {
+        std::map<EdgeId, std::set<EdgeId>> target_of, source_of;
+        for (const surface::LinkingSurface& link : surface::linking_surfaces(*members_[m].volume)) {
+            for (const surface::RimSegment& segment : link.segments) {
+                const EdgeId from = link.source.uses()[segment.use].edge;
+                const double whole = link.target.length();
+                double at = (segment.target_from + segment.target_to) / 2;
+                while (at >= whole) at -= whole;
+                const EdgeId to = link.target.uses()[link.target.position(at).use].edge;
+                target_of[from].insert(to);
+                source_of[to].insert(from);
+            }
+            for (const surface::LinkingLine& line : link.lines) {
+                if (line.line.uses.size() != 1) continue;
+                sides_[m].push_back({line.line.uses.front().edge, line.line.uses.front().reversed});
+                classes_.unite(number(m, sides_[m].front().edge), number(m, sides_[m].back().edge));
+            }
+        }
+        for (const auto& [from, to] : target_of) {
+            if (to.size() == 1 && source_of.at(*to.begin()).size() == 1)
+                classes_.unite(number(m, from), number(m, *to.begin()));
         }
     }
-    std::string names;
-    for (std::size_t m = 0; m < members.size(); ++m) {
-        if (placed[m] == 0) names += (names.empty() ? "" : ", ") + members[m].region;
+
+    /// An end of one member that is a wall of another has rows: opposite edges agree.
+    void join_opposite()
+    {
+        for (const SharedFace& face : shared_) {
+            join_opposite(face.a, face.face_a, face.b, face.face_b);
+            join_opposite(face.b, face.face_b, face.a, face.face_a);
+        }
     }
-    if (names.empty()) return;
-    throw NotSweepable("assembly.round", "walls of " + names +
-                                             " are ends of the next one all round, so none can be meshed "
-                                             "first; give one of them another source and target");
-}
+    void join_opposite(std::size_t m, FaceId end, std::size_t other, FaceId wall)
+    {
+        if (members_[m].volume->role[end.index()] == Role::wall ||
+            members_[other].volume->role[wall.index()] != Role::wall)
+            return;
+        const std::vector<Loop>& loops = model(m)[end].loops;
+        if (loops.size() != 1 || loops[0].uses.size() != 4) return;
+        for (std::size_t k = 0; k < 2; ++k)
+            classes_.unite(number(m, loops[0].uses[k].edge), number(m, loops[0].uses[k + 2].edge));
+    }
+
+    /// Sides an edge wants by its member's size and curvature.
+    [[nodiscard]] double wanted(const MemberEdge& edge) const
+    {
+        const AssemblyMember& member = members_[edge.member];
+        const Edge& e = model(edge.member)[edge.edge];
+        double sides = 0, turn = 0;
+        for (std::size_t i = 0; i + 1 < e.points.size(); ++i) {
+            const Vec3 &a = model(edge.member).at(e.points[i]), &b = model(edge.member).at(e.points[i + 1]);
+            sides += (b - a).norm() / size(edge.member, (a + b) / 2);
+            if (i == 0) continue;
+            const Vec3 before = a - model(edge.member).at(e.points[i - 1]);
+            turn += std::atan2(before.cross(b - a).norm(), before.dot(b - a));
+        }
+        return std::max(sides, turn * member.options.curvature / (2 * std::numbers::pi));
+    }
+
+    [[nodiscard]] double size(std::size_t m, const Vec3& p) const
+    {
+        if (members_[m].options.size) return members_[m].options.size(p);
+        if (spacing_.empty()) spacing_.assign(members_.size(), 0);
+        if (spacing_[m] == 0) spacing_[m] = surface::rim_spacing(*members_[m].volume);
+        return spacing_[m];
+    }
+
+    static int layers_asked(const AssemblyMember& member)
+    {
+        const LayerSpec& spec = member.options.layers;
+        return spec.heights.empty() ? spec.count : static_cast<int>(spec.heights.size());
+    }
+
+    /// A number for each class.
+    void count()
+    {
+        std::map<std::size_t, std::size_t> asked; // class: member
+        for (const auto& [m, sides] : sides_) {
+            if (layers_asked(members_[m]) == 0 || sides.empty()) continue;
+            const auto [found, fresh] = asked.try_emplace(classes_.find(number(m, sides.front().edge)), m);
+            const AssemblyMember &a = members_[found->second], &b = members_[m];
+            if (fresh || layers_asked(a) == layers_asked(b)) continue;
+            throw NotSweepable("assembly.layers",
+                               a.region + " and " + b.region +
+                                   " lie side by side and are swept the same way, so they have as many "
+                                   "layers; asked for are " +
+                                   std::to_string(layers_asked(a)) + " and " +
+                                   std::to_string(layers_asked(b)));
+        }
+        std::map<std::size_t, double> most;
+        for (std::size_t e = 0; e < edges_.size(); ++e) {
+            double& of = most[classes_.find(e)];
+            if (!asked.contains(classes_.find(e))) of = std::max(of, wanted(edges_[e]));
+        }
+        for (const auto& [of, sides] : most) {
+            if (!(sides < std::numeric_limits<Index>::max() / 16.0))
+                throw InvalidInput("sweep.too_many",
+                                   "an edge of the assembly would have more sides than can be numbered; ask "
+                                   "for a larger 'size'");
+            count_[of] = std::max(1, static_cast<int>(std::lround(sides)));
+        }
+        for (const auto& [of, m] : asked) {
+            count_[of] = layers_asked(members_[m]);
+            asked_.insert(of);
+        }
+        for (std::size_t e = 0; e < edges_.size(); ++e) {
+            if (edges_[e].closed) count_[classes_.find(e)] = std::max(count_[classes_.find(e)], 4);
+        }
+    }
+
+    /// Ends of which every edge is shared have an even number of sides in all.
+    void make_even()
+    {
+        for (int round = 0; round < kRounds; ++round) {
+            bool odd = false;
+            for (std::size_t m = 0; m < members_.size(); ++m) {
+                for (std::size_t f = 0; f < model(m).faces.size(); ++f) {
+                    if (members_[m].volume->role[f] != Role::wall)
+                        odd = make_even(m, FaceId(f), round) || odd;
+                }
+            }
+            if (!odd) return;
+        }
+    }
+
+    /// @return  whether a class got more.
+    bool make_even(std::size_t m, FaceId face, int round)
+    {
+        std::map<std::size_t, int> uses; // of each class
+        int sides = 0;
+        for (const Loop& loop : border_loops(model(m), face)) {
+            for (const EdgeUse& use : loop.uses) {
+                if (!common_[number(m, use.edge)]) return false;
+                const std::size_t of = classes_.find(number(m, use.edge));
+                ++uses[of];
+                sides += count_.at(of);
+            }
+        }
+        if (sides % 2 == 0) return false;
+        std::size_t best = edges_.size();
+        for (const auto& [of, times] : uses) {
+            if (times % 2 == 0 || asked_.contains(of)) continue;
+            // Later rounds take the next one, so that ends do not chase each other.
+            const auto before = [&](std::size_t a, std::size_t b) {
+                return std::pair(-bumps_[a], count_.at(a)) > std::pair(-bumps_[b], count_.at(b));
+            };
+            if (best == edges_.size() || before(of, best)) best = of;
+        }
+        if (best == edges_.size()) return false;
+        ++bumps_[best];
+        count_[best] += round < kRounds / 2 ? 1 : count_[best] % 2;
+        return true;
+    }
+
+    /// Nodes of an edge that several members have, as it runs in the first of them.
+    [[nodiscard]] std::vector<Vec3> places(std::size_t e, int count) const
+    {
+        const MemberEdge& edge = edges_[e];
+        std::vector<double> at;
+        for (int i = 0; i <= count; ++i) at.push_back(static_cast<double>(i) / count);
+        // Layers as they are spread in a member that asks for it.
+        for (const auto& [m, sides] : sides_) {
+            const LayerSpec& spec = members_[m].options.layers;
+            if (spec.heights.empty() && spec.bias == 1) continue;
+            for (const EdgeUse& side : sides) {
+                const std::size_t own = number(m, side.edge);
+                if (same_.find(own) != same_.find(e)) continue;
+                LayerSpec whole = spec;
+                if (whole.heights.empty()) whole.count = count;
+                at = layer_heights(whole);
+                if (members_[m].volume->turned_round) turn_round(at);
+                const bool along = (edges_[own].from - edge.from).norm() <=
+                                   (edges_[own].from - edge.to).norm();
+                if (side.reversed == along) turn_round(at);
+            }
+        }
+        return surface::edge_points(model(edge.member), edge.edge, at);
+    }
+    static void turn_round(std::vector<double>& at)
+    {
+        std::ranges::reverse(at);
+        for (double& h : at) h = 1 - h;
+    }
+
+    void set_nodes(AssemblyPlan& plan)
+    {
+        plan.nodes.resize(members_.size());
+        plan.layers.assign(members_.size(), 0);
+        std::map<std::size_t, std::vector<Vec3>> nodes;
+        for (std::size_t e = 0; e < edges_.size(); ++e) {
+            if (!common_[e]) continue;
+            auto found = nodes.find(same_.find(e));
+            if (found == nodes.end())
+                found = nodes.emplace(same_.find(e), places(exact_one(e), count_.at(classes_.find(e)))).first;
+            std::vector<Vec3> own = found->second;
+            turn(own, edges_[e]);
+            if (!edges_[e].closed) {
+                own.front() = corner_at(own.front(), model(edges_[e].member).tolerance);
+                own.back() = corner_at(own.back(), model(edges_[e].member).tolerance);
+            }
+            plan.nodes[edges_[e].member].push_back({edges_[e].edge, std::move(own)});
+        }
+        for (const auto& [m, sides] : sides_) {
+            const bool beside = std::ranges::any_of(
+                sides, [&, m = m](const EdgeUse& side) { return common_[number(m, side.edge)]; });
+            if (beside) plan.layers[m] = count_.at(classes_.find(number(m, sides.front().edge)));
+        }
+    }
+
+    /// The place of a vertex, the same to the bit for all edges and members that meet there.
+    const Vec3& corner_at(const Vec3& p, double tolerance)
+    {
+        for (const Vec3& corner : corners_)
+            if ((corner - p).norm() <= tolerance) return corner;
+        return corners_.emplace_back(p);
+    }
+
+    /// Of the same edge in several members, one with an exact curve.
+    [[nodiscard]] std::size_t exact_one(std::size_t e)
+    {
+        const std::size_t root = same_.find(e);
+        for (std::size_t other = 0; other < edges_.size(); ++other) {
+            if (same_.find(other) == root && model(edges_[other].member)[edges_[other].edge].curve != nullptr)
+                return other;
+        }
+        return root;
+    }
+
+    /// Nodes as a member's edge runs; a closed one starts at its own vertex's nearest.
+    void turn(std::vector<Vec3>& nodes, const MemberEdge& edge) const
+    {
+        if (!edge.closed) {
+            if ((nodes.front() - edge.from).norm() > (nodes.back() - edge.from).norm())
+                std::ranges::reverse(nodes);
+            return;
+        }
+        nodes.pop_back();
+        const auto nearest = std::ranges::min_element(nodes, {},
+                                                      [&](const Vec3& p) { return (p - edge.from).norm(); });
+        std::ranges::rotate(nodes, nearest);
+        // The way round: the node that follows is on the first half of the edge.
+        const Edge& e = model(edge.member)[edge.edge];
+        std::vector<Vec3> line;
+        for (const Index p : e.points) line.push_back(model(edge.member).at(p));
+        const std::vector<double> arc = geometry::arc_lengths(line);
+        const Vec3 quarter = geometry::point_at(line, arc, arc.back() / static_cast<double>(nodes.size()));
+        if ((nodes.back() - quarter).norm() < (nodes[1] - quarter).norm())
+            std::reverse(nodes.begin() + 1, nodes.end());
+        nodes.push_back(nodes.front());
+    }
+
+    std::span<const AssemblyMember> members_;
+    std::span<const SharedFace> shared_;
+    const RunContext& context_;
+    std::vector<std::size_t> first_; ///< number of each member's first edge
+    std::vector<MemberEdge> edges_;  ///< of all members
+    mutable geometry::UnionFind same_{0}, classes_{0};
+    std::vector<bool> common_;                          ///< of each edge: other members have it too
+    std::map<std::size_t, std::vector<EdgeUse>> sides_; ///< of each member: side lines of one edge
+    std::map<std::size_t, int> count_;                  ///< of each class
+    std::set<std::size_t> asked_;                       ///< classes whose number a person asked for
+    std::map<std::size_t, int> bumps_;                  ///< how often a class got more
+    std::vector<Vec3> corners_;                         ///< where edges of several members end
+    mutable std::vector<double> spacing_;               ///< of each member's rim
+};
 
 } // namespace
 
-AssemblyPlan plan_assembly(std::span<const AssemblyMember> members, std::span<const SharedFace> shared)
+AssemblyPlan plan_assembly(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
+                           const RunContext& context)
 {
-    AssemblyPlan plan;
-    plan.after.resize(members.size());
-    plan.layers.assign(members.size(), 0);
-    std::vector<std::vector<std::vector<FaceUse>>> uses;
-    for (const AssemblyMember& member : members) uses.push_back(edge_uses(member.volume->model));
-    geometry::UnionFind sides(members.size());
-    for (const SharedFace& face : shared) {
-        const AssemblyMember &a = members[face.a], &b = members[face.b];
-        const bool wall_a = role_of(a, face.face_a) == Role::wall,
-                   wall_b = role_of(b, face.face_b) == Role::wall;
-        if (wall_a && !wall_b) plan.after[face.b].push_back(face.a);
-        if (wall_b && !wall_a) plan.after[face.a].push_back(face.b);
-        if (wall_a && wall_b && side_by_side(a, face.face_a, b, face.face_b, uses[face.a], uses[face.b]))
-            sides.unite(face.a, face.b);
-    }
-    check_order(plan, members);
-    std::vector<std::vector<std::size_t>> groups(members.size());
-    for (std::size_t m = 0; m < members.size(); ++m) groups[sides.find(m)].push_back(m);
-    for (const std::vector<std::size_t>& group : groups) {
-        if (group.size() < 2) continue;
-        const int layers = common_layers(members, group);
-        for (const std::size_t m : group) plan.layers[m] = layers;
-    }
-    return plan;
-}
-
-std::vector<std::size_t> order_of(const AssemblyPlan& plan, std::span<const AssemblyMember> members,
-                                  std::span<const SharedFace> shared, std::span<const std::size_t> first)
-{
-    std::vector<char> placed(members.size(), 0);
-    std::vector<std::size_t> order;
-    const auto joins_end = [&](std::size_t m) {
-        return std::ranges::any_of(shared, [&](const SharedFace& face) {
-            const bool is_a = face.a == m, is_b = face.b == m;
-            if (!is_a && !is_b) return false;
-            const FaceId own = is_a ? face.face_a : face.face_b;
-            return placed[is_a ? face.b : face.a] != 0 && role_of(members[m], own) != Role::wall;
-        });
-    };
-    while (order.size() < members.size()) {
-        std::size_t next = members.size();
-        const auto take = [&](std::size_t m) {
-            if (next == members.size() && placed[m] == 0 && is_free(plan.after[m], placed)) next = m;
-        };
-        for (const std::size_t m : first) take(m);
-        for (std::size_t m = 0; m < members.size(); ++m)
-            if (next == members.size() && joins_end(m)) take(m);
-        for (std::size_t m = 0; m < members.size(); ++m) take(m);
-        placed[next] = 1;
-        order.push_back(next);
-    }
-    return order;
+    return Planner(members, shared, context).run();
 }
 
 } // namespace lacuna::sweep

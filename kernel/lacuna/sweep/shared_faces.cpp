@@ -3,6 +3,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/sweep/assembly.h>
+#include <lacuna/topology/side_points.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,10 @@ constexpr double kNothing = 1e-3;
 /// Facets are asked at the centres of this many parts of each side: a face of two facets, half covered, is
 /// seen to be.
 constexpr int kParts = 6;
+/// Facets may be off a curved edge by this part of their side: a twelfth of a turn is off by a fifteenth.
+constexpr double kRimSag = 0.07;
+/// Faces that touch along a rim and bend away are within their facets' own error for less than this share.
+constexpr double kAlongRim = 0.5;
 /// A face is asked at about this many places in all; more facets are asked at fewer places each.
 constexpr std::size_t kPlaces = 4000;
 
@@ -69,25 +74,19 @@ double sag_of(const Model& model, const Face& face)
     return sag;
 }
 
-/// How much of a face lies on another, and whether it faces the same way there.
-struct Cover {
-    double share = 0;
-    double same_way = 0; ///< share of what lies on it whose normals agree
-};
-
-Cover cover_of(Side& one, Side& other, double limit, const RunContext& context)
+/// Share of a face that lies on another.
+double cover_of(Side& one, Side& other, double limit, const RunContext& context)
 {
     const Model& model = one.model();
     const std::vector<Triangle>& triangles = one.face_data().triangles;
     int parts = kParts;
     while (parts > 1 && triangles.size() * static_cast<std::size_t>(parts * parts) > kPlaces) --parts;
     const std::size_t step = std::max<std::size_t>(1, triangles.size() / kPlaces);
-    double all = 0, on = 0, same = 0;
+    double all = 0, on = 0;
     for (std::size_t t = 0; t < triangles.size(); t += step) {
         check_cancelled(context);
         const Triangle& facet = triangles[t];
-        const Vec3 area = area_of(model, facet);
-        const double each = area.norm() / (parts * parts);
+        const double each = area_of(model, facet).norm() / (parts * parts);
         for (int i = 0; i < parts; ++i) {
             for (int j = 0; j < 2 * (parts - i) - 1; ++j) {
                 // Centres of the parts of a facet divided evenly, those upright and those turned over.
@@ -96,21 +95,52 @@ Cover cover_of(Side& one, Side& other, double limit, const RunContext& context)
                 const Vec3 p = (1 - u - v) * model.at(facet[0]) + u * model.at(facet[1]) +
                                v * model.at(facet[2]);
                 all += each;
-                const auto hit = other.facets().closest(p, limit * limit);
-                if (hit.triangle < 0) continue;
-                on += each;
-                const Vec3 there = area_of(other.model(), other.face_data().triangles[index(hit.triangle)]);
-                if (there.dot(area) > 0) same += each;
+                if (other.facets().closest(p, limit * limit).triangle >= 0) on += each;
             }
         }
     }
-    return {all > 0 ? on / all : 0, on > 0 ? same / on : 0};
+    return all > 0 ? on / all : 0;
+}
+
+/// Whether the loops of a face run along those of another.
+bool rim_lies_on(const Side& one, const Side& other, double tolerance)
+{
+    const auto points_of = [](const Side& side) {
+        std::vector<std::vector<Index>> loops;
+        for (const Loop& loop : border_loops(side.model(), side.face)) {
+            std::vector<Index>& points = loops.emplace_back();
+            for (const EdgeUse& use : loop.uses) {
+                const std::vector<Index> along = use_points(side.model(), use);
+                points.insert(points.end(), along.begin(), along.end());
+            }
+        }
+        return loops;
+    };
+    const std::vector<std::vector<Index>> there = points_of(other);
+    for (const std::vector<Index>& loop : points_of(one)) {
+        for (const Index point : loop) {
+            const Vec3& p = one.model().at(point);
+            const bool near = std::ranges::any_of(there, [&](const std::vector<Index>& chain) {
+                for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+                    const Vec3 &a = other.model().at(chain[i]), &b = other.model().at(chain[i + 1]);
+                    const double f = fraction_along(p, a, b);
+                    const double slack = tolerance + kRimSag * (b - a).norm();
+                    if ((p - ((1 - f) * a + f * b)).norm() <= slack) return true;
+                }
+                return false;
+            });
+            if (!near) return false;
+        }
+    }
+    return true;
 }
 
 std::string named(const AssemblyMember& member, FaceId face)
 {
     return name_of(member.volume->model, face) + " of " + member.region;
 }
+
+bool is_void(const Side& side) { return side.face_data().origin == Origin::made_void; }
 
 /// Whether two faces of two members are one; refuses what is neither that nor apart.
 bool is_shared(const AssemblyMember& a, Side& one, const AssemblyMember& b, Side& other,
@@ -121,26 +151,30 @@ bool is_shared(const AssemblyMember& a, Side& one, const AssemblyMember& b, Side
     if (!Eigen::AlignedBox3d(one.box.min().array() - limit, one.box.max().array() + limit)
              .intersects(other.box))
         return false;
-    const Cover there = cover_of(one, other, limit, context);
-    const Cover back = cover_of(other, one, limit, context);
-    if (there.share <= kNothing && back.share <= kNothing) return false;
-    const bool overlap = std::max(there.same_way, back.same_way) > 0.5;
-    if (there.share >= kWhole && back.share >= kWhole) {
-        if (!overlap) return true;
-        throw InvalidInput("assembly.overlap", named(a, one.face) + " and " + named(b, other.face) +
-                                                   " are one face, and both volumes lie on the same side of "
-                                                   "it: volumes of an assembly may touch, not overlap");
+    // A face that was made where none was given is the one that is given there.
+    bool same = (is_void(one) || is_void(other)) && rim_lies_on(one, other, tolerance) &&
+                rim_lies_on(other, one, tolerance);
+    if (!same) {
+        const double there = cover_of(one, other, limit, context);
+        const double back = cover_of(other, one, limit, context);
+        if (there <= kNothing && back <= kNothing) return false;
+        same = there >= kWhole && back >= kWhole;
+        // Faces that bend away from each other along a common rim are near each other there, and no more.
+        if (!same && limit > tolerance && std::max(there, back) < kAlongRim) return false;
+        if (!same) {
+            const auto percent = [](double share) { return std::to_string(std::lround(100 * share)) + " %"; };
+            throw InvalidInput("assembly.part_of_face",
+                               percent(there) + " of " + named(a, one.face) + " lies on " +
+                                   named(b, other.face) + ", and " + percent(back) +
+                                   " of that on it: a face must be shared as a whole; split it along the "
+                                   "other's rim");
+        }
     }
-    // Faces that bend away from each other along a common rim are near each other there, and no more.
-    if (std::max(there.share, back.share) < 0.5 && std::min(there.share, back.share) < 0.05 &&
-        limit > tolerance)
-        return false;
-    const auto percent = [](double share) { return std::to_string(std::lround(100 * share)) + " %"; };
-    throw InvalidInput(
-        "assembly.part_of_face",
-        percent(there.share) + " of " + named(a, one.face) + " lies on " + named(b, other.face) + ", and " +
-            percent(back.share) +
-            " of that on it: a face must be shared as a whole; split it along the other's rim");
+    if (face_area_vector(one.model(), one.face).dot(face_area_vector(other.model(), other.face)) <= 0)
+        return true;
+    throw InvalidInput("assembly.overlap", named(a, one.face) + " and " + named(b, other.face) +
+                                               " are one face, and both volumes lie on the same side of "
+                                               "it: volumes of an assembly may touch, not overlap");
 }
 
 } // namespace

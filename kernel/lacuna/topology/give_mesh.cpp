@@ -33,7 +33,7 @@ struct RimNode {
 struct LoopChain {
     std::vector<EdgeUse> uses;
     std::vector<double> start; ///< running length where each use starts, and the whole length
-    std::vector<Index> points; ///< the first not repeated
+    std::vector<Index> points; ///< the first again at the end
     std::vector<double> at;    ///< running length of each point, and the whole length
 };
 
@@ -49,6 +49,7 @@ LoopChain chain_of(const Model& model, const Loop& loop)
         }
     }
     chain.start.push_back(chain.at.back());
+    if (!chain.points.empty()) chain.points.push_back(chain.points.front());
     return chain;
 }
 
@@ -84,23 +85,183 @@ std::vector<std::vector<Index>> cycles_of(std::span<const Quad> quads)
 struct Nearest {
     double at = 0, distance = std::numeric_limits<double>::infinity();
 };
-Nearest nearest_on(const Model& model, const LoopChain& chain, const Vec3& p)
+Nearest nearest_on(const Model& model, std::span<const Index> points, std::span<const double> at,
+                   const Vec3& p, double from = 0)
 {
     Nearest best;
-    for (std::size_t i = 0; i < chain.points.size(); ++i) {
-        const Vec3& a = model.at(chain.points[i]);
-        const Vec3& b = model.at(chain.points[(i + 1) % chain.points.size()]);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        if (at[i + 1] < from) continue;
+        const Vec3 &a = model.at(points[i]), &b = model.at(points[i + 1]);
         const double f = fraction_along(p, a, b);
         const double distance = (p - ((1 - f) * a + f * b)).norm();
-        if (distance < best.distance) best = {chain.at[i] + f * (chain.at[i + 1] - chain.at[i]), distance};
+        if (distance < best.distance) best = {at[i] + f * (at[i + 1] - at[i]), distance};
     }
     return best;
 }
+
+/// Puts nodes on edges: facets are cut there, and the edges' other points go to the nodes.
+class EdgeRemesher {
+public:
+    explicit EdgeRemesher(Model& model) : model_(model), uses_(edge_uses(model)) {}
+
+    /// @param at     running lengths of the edge's points.
+    /// @param nodes  of the edge as it runs, ends included, rising; those of a closed edge may start anywhere.
+    void add(EdgeId id, const std::vector<double>& at, const std::vector<RimNode>& nodes)
+    {
+        const std::vector<Index>& old = model_[id].points;
+        // Inner nodes go between the old points; the ends stand for the vertices.
+        move_.insert_or_assign(old.front(), nodes.front().point);
+        move_.insert_or_assign(old.back(), nodes.back().point);
+        Chain made{id, {old.front()}, {}};
+        std::size_t node = 1;
+        for (std::size_t i = 0; i + 1 < old.size(); ++i) {
+            std::vector<Index> between;
+            const bool last = i + 2 == old.size();
+            while (node + 1 < nodes.size() && (nodes[node].at < at[i + 1] || last))
+                between.push_back(nodes[node++].point);
+            made.points.insert(made.points.end(), between.begin(), between.end());
+            made.points.push_back(old[i + 1]);
+            if (!between.empty()) sides_.add(old[i], old[i + 1], std::move(between));
+        }
+        for (std::size_t i = 1; i + 1 < old.size(); ++i) {
+            const auto nearest = std::ranges::min_element(
+                nodes, {}, [&](const RimNode& n) { return std::abs(n.at - at[i]); });
+            move_.insert_or_assign(old[i], nearest->point);
+        }
+        for (const RimNode& n : nodes) made.kept.push_back(n.point);
+        chains_.push_back(std::move(made));
+    }
+
+    [[nodiscard]] const std::vector<FaceUse>& users(EdgeId edge) const { return uses_[edge.index()]; }
+
+    /// Used twice by one face, or by none.
+    [[nodiscard]] bool is_seam(EdgeId edge) const
+    {
+        const std::vector<FaceUse>& uses = users(edge);
+        return uses.empty() || (uses.size() == 2 && uses[0].face == uses[1].face);
+    }
+
+    /// @param replaced  a face whose facets do not matter any more; may be none.
+    void apply(FaceId replaced)
+    {
+        for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+            if (FaceId(f) == replaced) continue;
+            Face& face = model_.faces[f];
+            if (!face.keeps_nodes && !sides_.empty()) cut_at_sides(model_.points, face, sides_);
+            move(face);
+        }
+        for (const Chain& chain : chains_) {
+            Edge& edge = model_[chain.edge];
+            edge.points = chain.kept;
+            edge.params.clear();
+            edge.curve = nullptr;
+            edge.keeps_nodes = true;
+        }
+        for (Edge& edge : model_.edges) {
+            edge.points.front() = moved(edge.points.front());
+            edge.points.back() = moved(edge.points.back());
+        }
+        for (Vertex& vertex : model_.vertices) vertex.point = moved(vertex.point);
+        // Points that nothing uses any more, and seams that are gone.
+        std::vector<FaceId> all;
+        for (std::size_t f = 0; f < model_.faces.size(); ++f) all.emplace_back(f);
+        Model whole = extract(model_, all);
+        whole.notes = std::move(model_.notes);
+        model_ = std::move(whole);
+    }
+
+private:
+    /// An edge before and after.
+    struct Chain {
+        EdgeId edge;
+        std::vector<Index> points; ///< old ones and nodes, as the edge runs
+        std::vector<Index> kept;   ///< nodes, the vertices' included
+    };
+
+    [[nodiscard]] Index moved(Index point) const
+    {
+        const auto found = move_.find(point);
+        return found == move_.end() ? point : found->second;
+    }
+
+    /// Surface parameters along the sides of a face's facets, as steps from the lesser point to the greater.
+    static std::unordered_map<std::uint64_t, Vec2> steps_of(const Face& face)
+    {
+        std::unordered_map<std::uint64_t, Vec2> steps;
+        for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index a = face.triangles[t][k], b = face.triangles[t][(k + 1) % 3];
+                const Vec2 step = face.uv[t][(k + 1) % 3] - face.uv[t][k];
+                steps.insert_or_assign(edge_key(a, b), a < b ? step : Vec2(-step));
+            }
+        }
+        return steps;
+    }
+
+    /// By how much the parameters change where the points of the edges go to their nodes.
+    [[nodiscard]] std::unordered_map<Index, Vec2> shifts_of(const Face& face) const
+    {
+        std::unordered_map<Index, Vec2> shifts;
+        const auto steps = steps_of(face);
+        for (const Chain& chain : chains_) {
+            std::unordered_map<Index, Vec2> param{{chain.points.front(), Vec2::Zero()}};
+            Vec2 last = Vec2::Zero();
+            bool known = true;
+            for (std::size_t i = 0; known && i + 1 < chain.points.size(); ++i) {
+                const Index a = chain.points[i], b = chain.points[i + 1];
+                const auto found = steps.find(edge_key(a, b));
+                known = found != steps.end();
+                if (known) last += a < b ? found->second : Vec2(-found->second);
+                param.emplace(b, last);
+            }
+            if (!known) continue; // an edge of other faces
+            for (const Index point : chain.points) {
+                const auto to = param.find(moved(point));
+                if (to != param.end()) shifts.insert_or_assign(point, to->second - param.at(point));
+            }
+        }
+        return shifts;
+    }
+
+    void move(Face& face) const
+    {
+        std::unordered_map<Index, Vec2> shifts;
+        if (!face.uv.empty()) shifts = shifts_of(face);
+        std::size_t kept = 0;
+        for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+            Triangle triangle = face.triangles[t];
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (!face.uv.empty()) {
+                    if (const auto found = shifts.find(triangle[k]); found != shifts.end())
+                        face.uv[t][k] += found->second;
+                }
+                triangle[k] = moved(triangle[k]);
+            }
+            if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+                continue;
+            face.triangles[kept] = triangle;
+            if (!face.uv.empty()) face.uv[kept] = face.uv[t];
+            ++kept;
+        }
+        face.triangles.resize(kept);
+        if (!face.uv.empty()) face.uv.resize(kept);
+        for (Quad& quad : face.given_quads) {
+            for (Index& n : quad) n = moved(n);
+        }
+    }
+
+    Model& model_;
+    std::vector<std::vector<FaceUse>> uses_; ///< of each edge
+    SidePoints sides_;
+    std::unordered_map<Index, Index> move_; ///< old points of the edges to nodes
+    std::vector<Chain> chains_;
+};
 
 class MeshGiver {
 public:
     MeshGiver(OpenVolume& volume, FaceId face, std::span<const Vec3> nodes, std::span<const Quad> quads)
         : model_(volume.model),
+          remesher_(volume.model),
           face_(face),
           quads_(quads.begin(), quads.end()),
           first_(static_cast<Index>(model_.points.size()))
@@ -116,16 +277,10 @@ public:
         const std::vector<Loop> loops = border_loops(model_, face_);
         for (const Loop& loop : loops) chains_.push_back(chain_of(model_, loop));
         place_rims();
-        find_seams();
+        count_ends();
         for (std::size_t l = 0; l < chains_.size(); ++l) take_rim(chains_[l], rims_[l]);
-        cut_neighbours();
-        move_neighbours();
         set_face(loops);
-        std::vector<FaceId> all;
-        for (std::size_t f = 0; f < model_.faces.size(); ++f) all.emplace_back(f);
-        std::vector<std::string> notes = std::move(model_.notes);
-        model_ = extract(model_, all);
-        model_.notes = std::move(notes);
+        remesher_.apply(face_);
     }
 
 private:
@@ -150,7 +305,8 @@ private:
             double least = std::numeric_limits<double>::infinity();
             for (std::size_t l = 0; l < chains_.size(); ++l) {
                 double off = 0;
-                for (const Index n : cycle) off += nearest_on(model_, chains_[l], model_.at(n)).distance;
+                for (const Index n : cycle)
+                    off += nearest_on(model_, chains_[l].points, chains_[l].at, model_.at(n)).distance;
                 if (off < least) {
                     least = off;
                     best = l;
@@ -179,7 +335,7 @@ private:
             const double side = std::max(
                 (model_.at(cycle[(i + 1) % cycle.size()]) - p).norm(),
                 (model_.at(cycle[(i + cycle.size() - 1) % cycle.size()]) - p).norm());
-            const Nearest place = nearest_on(model_, chain, p);
+            const Nearest place = nearest_on(model_, chain.points, chain.at, p);
             if (place.distance > std::max(model_.tolerance, kOffRim * side)) {
                 refuse("mesh_unlike_face", "a node of the mesh for " + name_of(model_, face_) + " is " +
                                                std::to_string(place.distance) + " off its loops");
@@ -200,14 +356,12 @@ private:
         return steps < 0;
     }
 
-    /// Edges used twice by one face, and how many others end at each vertex.
-    void find_seams()
+    /// How many edges end at each vertex, seams left out.
+    void count_ends()
     {
-        uses_ = edge_uses(model_);
         ends_.assign(model_.vertices.size(), 0);
-        for (std::size_t e = 0; e < uses_.size(); ++e) {
-            const std::vector<FaceUse>& uses = uses_[e];
-            if (uses.empty() || (uses.size() == 2 && uses[0].face == uses[1].face)) continue;
+        for (std::size_t e = 0; e < model_.edges.size(); ++e) {
+            if (remesher_.is_seam(EdgeId(e))) continue;
             ++ends_[model_.edges[e].from.index()];
             ++ends_[model_.edges[e].to.index()];
         }
@@ -275,157 +429,31 @@ private:
     }
 
     /// @param nodes  on use `u` of the chain, ends included.
-    void put_on_edge(const LoopChain& chain, std::size_t u, const std::vector<RimNode>& nodes)
+    void put_on_edge(const LoopChain& chain, std::size_t u, std::vector<RimNode> nodes)
     {
         const EdgeUse use = chain.uses[u];
-        const std::vector<Index> old = use_points(model_, use);
-        std::vector<double> at{chain.start[u]};
+        const std::vector<Index>& old = model_[use.edge].points;
+        check_other_meshes(use.edge, nodes);
+        std::vector<double> at{0};
         for (std::size_t i = 0; i + 1 < old.size(); ++i)
             at.push_back(at.back() + (model_.at(old[i + 1]) - model_.at(old[i])).norm());
-        check_other_meshes(use.edge, old, nodes);
-        // Inner nodes go between the old points; the ends stand for the vertices.
-        move_.insert_or_assign(old.front(), nodes.front().point);
-        move_.insert_or_assign(old.back(), nodes.back().point);
-        std::size_t node = 1;
-        std::vector<std::pair<double, Index>> all{{at.front(), old.front()}};
-        for (std::size_t i = 0; i + 1 < old.size(); ++i) {
-            std::vector<Index> between;
-            const bool last = i + 2 == old.size();
-            while (node + 1 < nodes.size() && (nodes[node].at < at[i + 1] || last)) {
-                between.push_back(nodes[node].point);
-                all.emplace_back(nodes[node].at, nodes[node].point);
-                ++node;
-            }
-            if (!between.empty()) sides_.add(old[i], old[i + 1], between);
-            all.emplace_back(at[i + 1], old[i + 1]);
-        }
-        for (std::size_t i = 1; i + 1 < old.size(); ++i) {
-            const auto nearest = std::min_element(nodes.begin(), nodes.end(),
-                                                  [&](const RimNode& a, const RimNode& b) {
-                                                      return std::abs(a.at - at[i]) < std::abs(b.at - at[i]);
-                                                  });
-            move_.insert_or_assign(old[i], nearest->point);
-        }
-        Chain& made = chains_made_.emplace_back();
-        made.edge = use.edge;
-        for (const auto& [where, point] : all) made.points.push_back(point);
-        for (const RimNode& n : nodes) made.kept.push_back(n.point);
-        if (use.reversed) {
-            std::reverse(made.points.begin(), made.points.end());
-            std::reverse(made.kept.begin(), made.kept.end());
-        }
+        for (RimNode& n : nodes)
+            n.at = use.reversed ? chain.start[u] + at.back() - n.at : n.at - chain.start[u];
+        if (use.reversed) std::reverse(nodes.begin(), nodes.end());
+        remesher_.add(use.edge, at, nodes);
     }
 
     /// What another face at the edge came with has to agree.
-    void check_other_meshes(EdgeId edge, const std::vector<Index>& old,
-                            const std::vector<RimNode>& nodes) const
+    void check_other_meshes(EdgeId edge, const std::vector<RimNode>& nodes) const
     {
-        for (const FaceUse& user : uses_[edge.index()]) {
-            if (user.face == face_ || !model_[user.face].keeps_nodes) continue;
-            bool same = old.size() == nodes.size();
-            for (std::size_t i = 0; same && i < old.size(); ++i)
-                same = (model_.at(old[i]) - model_.at(nodes[i].point)).norm() <= model_.tolerance;
-            if (same) continue;
-            refuse("meshes_differ",
-                   "the mesh for " + name_of(model_, face_) + " has " + std::to_string(nodes.size()) +
-                       " nodes on " + name_of(model_, edge) + ", and that of " + name_of(model_, user.face) +
-                       " " + std::to_string(old.size()) + (old.size() == nodes.size() ? " others" : ""));
+        const std::vector<Index>& old = model_[edge].points;
+        for (const FaceUse& user : remesher_.users(edge)) {
+            if (user.face == face_ || !model_[user.face].keeps_nodes || old.size() == nodes.size()) continue;
+            refuse("meshes_differ", "the mesh for " + name_of(model_, face_) + " has " +
+                                        std::to_string(nodes.size()) + " nodes on " + name_of(model_, edge) +
+                                        ", and that of " + name_of(model_, user.face) + " " +
+                                        std::to_string(old.size()));
         }
-    }
-
-    [[nodiscard]] Index moved(Index point) const
-    {
-        const auto found = move_.find(point);
-        return found == move_.end() ? point : found->second;
-    }
-
-    void cut_neighbours()
-    {
-        for (std::size_t f = 0; f < model_.faces.size(); ++f) {
-            if (FaceId(f) == face_ || sides_.empty() || model_.faces[f].keeps_nodes) continue;
-            cut_at_sides(model_.points, model_.faces[f], sides_);
-        }
-    }
-
-    /// Surface parameters along the edges of a face, as steps from point to point, by the facets beside them.
-    std::unordered_map<std::uint64_t, Vec2> steps_of(const Face& face) const
-    {
-        std::unordered_map<std::uint64_t, Vec2> steps; // from the lesser point to the greater
-        for (std::size_t t = 0; t < face.triangles.size(); ++t) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Index a = face.triangles[t][k], b = face.triangles[t][(k + 1) % 3];
-                const Vec2 step = face.uv[t][(k + 1) % 3] - face.uv[t][k];
-                steps.insert_or_assign(edge_key(a, b), a < b ? step : Vec2(-step));
-            }
-        }
-        return steps;
-    }
-
-    /// By how much the parameters change where the points of the edges go to their nodes.
-    std::unordered_map<Index, Vec2> shifts_of(const Face& face) const
-    {
-        std::unordered_map<Index, Vec2> shifts;
-        const auto steps = steps_of(face);
-        for (const Chain& chain : chains_made_) {
-            std::vector<Vec2> param{Vec2::Zero()};
-            bool known = true;
-            for (std::size_t i = 0; known && i + 1 < chain.points.size(); ++i) {
-                const Index a = chain.points[i], b = chain.points[i + 1];
-                const auto found = steps.find(edge_key(a, b));
-                known = found != steps.end();
-                if (known) param.push_back(param.back() + (a < b ? found->second : Vec2(-found->second)));
-            }
-            if (!known) continue; // an edge of other faces
-            std::unordered_map<Index, Vec2> of;
-            for (std::size_t i = 0; i < chain.points.size(); ++i) of.emplace(chain.points[i], param[i]);
-            for (const Index point : chain.points) {
-                const auto to = of.find(moved(point));
-                if (to != of.end()) shifts.insert_or_assign(point, to->second - of.at(point));
-            }
-        }
-        return shifts;
-    }
-
-    void move_neighbours()
-    {
-        for (std::size_t f = 0; f < model_.faces.size(); ++f) {
-            if (FaceId(f) == face_) continue;
-            Face& face = model_.faces[f];
-            std::unordered_map<Index, Vec2> shifts;
-            if (!face.uv.empty()) shifts = shifts_of(face);
-            std::size_t kept = 0;
-            for (std::size_t t = 0; t < face.triangles.size(); ++t) {
-                Triangle triangle = face.triangles[t];
-                for (std::size_t k = 0; k < 3; ++k) {
-                    if (!face.uv.empty()) {
-                        if (const auto found = shifts.find(triangle[k]); found != shifts.end())
-                            face.uv[t][k] += found->second;
-                    }
-                    triangle[k] = moved(triangle[k]);
-                }
-                if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
-                    continue;
-                face.triangles[kept] = triangle;
-                if (!face.uv.empty()) face.uv[kept] = face.uv[t];
-                ++kept;
-            }
-            face.triangles.resize(kept);
-            if (!face.uv.empty()) face.uv.resize(kept);
-            for (Quad& quad : face.given_quads) {
-                for (Index& n : quad) n = moved(n);
-            }
-        }
-        for (const Chain& chain : chains_made_) {
-            Edge& edge = model_[chain.edge];
-            edge.points = chain.kept;
-            edge.params.clear();
-            edge.curve = nullptr;
-        }
-        for (Edge& edge : model_.edges) {
-            edge.points.front() = moved(edge.points.front());
-            edge.points.back() = moved(edge.points.back());
-        }
-        for (Vertex& vertex : model_.vertices) vertex.point = moved(vertex.point);
     }
 
     void set_face(const std::vector<Loop>& loops)
@@ -443,27 +471,55 @@ private:
         face.loops = loops;
     }
 
-    /// An edge before and after.
-    struct Chain {
-        EdgeId edge;
-        std::vector<Index> points; ///< old ones and nodes, as the edge runs
-        std::vector<Index> kept;   ///< nodes, the vertices' included
-    };
-
     Model& model_;
+    EdgeRemesher remesher_;
     FaceId face_;
     std::vector<Quad> quads_;
     Index first_;
     std::vector<LoopChain> chains_;
     std::vector<std::vector<RimNode>> rims_; ///< on each loop
-    std::vector<std::vector<FaceUse>> uses_; ///< of each edge
     std::vector<int> ends_;                  ///< edge ends at each vertex, seams left out
-    SidePoints sides_;
-    std::unordered_map<Index, Index> move_; ///< old points of the edges to nodes
-    std::vector<Chain> chains_made_;
 };
 
 } // namespace
+
+void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges)
+{
+    Model& model = volume.model;
+    EdgeRemesher remesher(model);
+    for (const EdgeNodes& given : edges) {
+        std::vector<double> at{0};
+        const std::vector<Index> old = model[given.edge].points;
+        for (std::size_t i = 0; i + 1 < old.size(); ++i)
+            at.push_back(at.back() + (model.at(old[i + 1]) - model.at(old[i])).norm());
+        const bool closed = old.front() == old.back();
+        const auto refuse = [&](const std::string& why) {
+            throw InvalidInput("topology.nodes_off_edge",
+                               "the nodes for " + name_of(model, given.edge) + " " + why);
+        };
+        if (given.nodes.size() < (closed ? 4 : 2)) refuse("are too few");
+        std::vector<RimNode> nodes;
+        double last = 0;
+        for (std::size_t i = 0; i < given.nodes.size(); ++i) {
+            const bool end = i + 1 == given.nodes.size();
+            Nearest place{end ? at.back() : 0.0, 0};
+            if (i > 0 && !end) place = nearest_on(model, old, at, given.nodes[i], last);
+            if (i > 0 && place.at <= last) refuse("do not follow each other as it runs");
+            last = place.at;
+            // The ends are the vertices, which go where their nodes are.
+            const Index point = i == 0 ? old.front()
+                                : end  ? old.back()
+                                       : static_cast<Index>(model.points.size());
+            if (i == 0 || end)
+                model.points[index(point)] = given.nodes[i];
+            else
+                model.points.push_back(given.nodes[i]);
+            nodes.push_back({point, place.at});
+        }
+        remesher.add(given.edge, at, nodes);
+    }
+    remesher.apply(FaceId());
+}
 
 void give_mesh(OpenVolume& volume, FaceId face, std::span<const Vec3> nodes, std::span<const Quad> quads)
 {

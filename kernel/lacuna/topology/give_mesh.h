@@ -4,8 +4,25 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <span>
+#include <vector>
 
 namespace lacuna::topology {
+
+/// Nodes of an edge, as it runs, both ends included: first and last are its vertices' places, those of a
+/// closed edge the same one [model length].
+struct EdgeNodes {
+    EdgeId edge;
+    std::vector<Vec3> nodes;
+};
+
+/// Make points the nodes of edges, to be kept by whoever meshes the faces beside them.
+///
+/// The edges become the chains of their nodes and lose their exact curves. Facets beside them are cut at the
+/// nodes, and the edges' other points go to the nearest node along them.
+/// @throw InvalidInput "topology.nodes_off_edge"  nodes that do not follow each other as the edge runs, or too
+///         few of them; names the edge.
+/// @note  O(facets + nodes × points of an edge).
+void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges);
 
 /// Make quads the mesh a face came with, as if it had been read so: its facets become their halves, its edges
 /// the chains of their rim, and the faces beside it end at those.

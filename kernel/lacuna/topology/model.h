@@ -40,6 +40,7 @@ struct Edge {
     std::vector<Index> points;  ///< from..to inclusive, at least 2; closed: first == last
     std::vector<double> params; ///< the curve's parameter at each point; empty without `curve`
     std::shared_ptr<const geometry::ExactCurve> curve; ///< null where the facets are all there is
+    bool keeps_nodes = false;                          ///< its points are nodes of a mesh and stay
 };
 
 /// One use of an edge by a loop: as the edge runs, or against it.

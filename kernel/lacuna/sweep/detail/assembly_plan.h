@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/sweep/assembly.h>
+#include <lacuna/topology/give_mesh.h>
 
 #include <span>
 #include <vector>
@@ -10,20 +11,21 @@ namespace lacuna::sweep {
 
 /// What is decided over a whole assembly before anything is meshed.
 struct AssemblyPlan {
-    /// For each member that it comes after those named: they share a face that is a wall of theirs and an end
-    /// of its own.
-    std::vector<std::vector<std::size_t>> after;
+    std::vector<std::vector<topology::EdgeNodes>> nodes; ///< of each member's edges that others have too
     std::vector<int> layers; ///< of each member that has others by its side; 0: its own matter
 };
 
-/// Numbers of layers that agree along shared walls, and which members must wait for others.
-/// @throw NotSweepable "assembly.layers"  other numbers of layers asked for in volumes side by side;
-///                     "assembly.round"   walls and ends that wait for each other round a circle. Names them.
-AssemblyPlan plan_assembly(std::span<const AssemblyMember> members, std::span<const SharedFace> shared);
-
-/// An order that keeps to the plan; of those that are free to come, `first` as listed, then members that share
-/// an end with one already placed, then by number.
-std::vector<std::size_t> order_of(const AssemblyPlan& plan, std::span<const AssemblyMember> members,
-                                  std::span<const SharedFace> shared, std::span<const std::size_t> first);
+/// Numbers of sides for all edges of an assembly together (interval assignment), and the nodes of those that
+/// several members have.
+///
+/// Edges that need the same number make one class: the same edge in two members; an edge of a source's rim
+/// and the one of the target's it is swept to; the side lines of a member; opposite edges of a four-sided
+/// wall. A class gets the number that was asked for, else the most that any of its edges wants by its size.
+/// Where an end of which all edges are shared has an odd number of sides in all, its longest class gets one
+/// more. Nodes stand evenly, those of side lines as the layers are spread.
+/// @throw NotSweepable "assembly.layers"  other numbers of layers asked for in members whose side lines are of
+///         one class; names them.
+AssemblyPlan plan_assembly(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
+                           const RunContext& context = {});
 
 } // namespace lacuna::sweep
