@@ -133,8 +133,8 @@ void write_deck(const mesh::HexMesh& mesh, const io::OutputPath& path, const Wri
     const io::DeckFormat format = options.format;
     if (!arguments.with) return io::write_deck(io::deck_of(mesh, options), format, path, context);
     const io::Deck& deck = deck_with(*arguments.with);
-    io::write_deck(io::join_deck(deck, arguments.with->model, arguments.with->scale, mesh, options), format,
-                   path, context);
+    io::write_deck(io::join_deck(deck, arguments.with->model, arguments.with->scale, mesh, options, context),
+                   format, path, context);
 }
 
 /// A format by its ending, and which options it has.
@@ -206,6 +206,7 @@ int write(lua_State* L)
         const mesh::HexMesh& mesh = state.swept.mesh;
         const Format& format = format_of(path.text(), arguments);
         if (arguments.with) refresh(*arguments.with);
+        arguments.deck.material = state.material;
         for (const quality::Metric metric :
              format.is_deck ? std::vector<quality::Metric>{} : metrics_of(arguments))
             arguments.msh.fields.push_back(

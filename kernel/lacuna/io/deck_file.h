@@ -17,6 +17,9 @@ struct MeshDeckOptions {
     std::string element = "C3D8";           ///< of Abaqus: the word for hexahedra of eight nodes, in capitals
     DeckTag first_node = 0; ///< number of the first new node; 0: above all that are taken, from 1
     DeckTag first_cell = 0; ///< of the first hexahedron; 0: likewise
+    /// Of the hexahedra: a name or number that the deck they join has, in any capitals; empty: the material of
+    /// the elements beside the void, where the deck says it.
+    std::string material{};
 };
 
 /// The format of an ending: .bdf .nas .dat .inp .unv, in lower case. @return false  it is none of these.
@@ -41,8 +44,13 @@ Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options);
 /// node of the skin that lies on a node of the deck is that node.
 ///
 /// Groups of the skin are sets as in `deck_of()`, of nodes in UNV. The new region has the property above all
-/// others; in Nastran its PSOLID names material 1. Where nodes of the deck coincide, the skin takes the one
-/// of the elements whose face, else whose side, it shares.
+/// others. Where nodes of the deck coincide, the skin takes the one of the elements whose face, else whose
+/// side, it shares.
+///
+/// The region's material goes into a card of its own where the format is the deck's: a PSOLID in Nastran, a
+/// *SOLID SECTION before the first *STEP in Abaqus, unless the deck has a section of that set already. Where
+/// it is not said it is that of the region with most faces on the mesh, and the log says so; where that has
+/// none, Nastran's PSOLID names material 1 and Abaqus gets no section.
 /// @param model    the deck's faces, which the patches of the mesh name by their tags.
 /// @param scale    of the model's coordinates to the deck's [-].
 /// @param options  `format` is the one it will be written in.
@@ -50,10 +58,11 @@ Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options);
 ///                     "io.nodes_coincide" elements beside the void use both of two coincident nodes; names
 ///                                         both.
 ///                     "io.other_model"    a patch is of no face of the model.
+///                     "io.no_material"    the deck has no material called `material`; lists those it has.
 ///                     as `deck_of()`.
 /// @note  O(n log n) in the nodes of the deck; a copy of the deck is made.
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,
-               const MeshDeckOptions& options);
+               const MeshDeckOptions& options, const RunContext& context = {});
 
 /// Write a deck as Nastran bulk data, Abaqus input or a universal file: whole or not at all.
 ///

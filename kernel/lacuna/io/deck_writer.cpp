@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/io/deck_file.h>
+#include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/deck_formats.h>
 #include <lacuna/io/detail/unv.h>
@@ -85,6 +86,23 @@ void nastran_numbers(std::string_view line, TextNumbers& numbers)
         numbers.cells.insert(*tag);
     else if (starts("P"))
         numbers.property = std::max(numbers.property, *tag);
+}
+
+/// Call `take(keyword, where its line begins)` for every keyword of an Abaqus text; until it returns false.
+template <class Take>
+void each_keyword(std::string_view text, const Take& take)
+{
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t begin = at;
+        std::string words;
+        do {
+            const std::size_t end = std::min(text.find('\n', at), text.size());
+            words += trimmed(text.substr(at, end - at));
+            at = end + 1;
+        } while (words.starts_with('*') && !words.starts_with("**") && words.ends_with(',') &&
+                 at < text.size());
+        if (words.starts_with('*') && !words.starts_with("**") && !take(parse_keyword(words), begin)) return;
+    }
 }
 
 /// Words of a line as numbers; 0 for what is none.
@@ -191,6 +209,60 @@ TextNumbers numbers_in_text(const Deck& deck)
         }
     }
     return numbers;
+}
+
+std::vector<std::string> materials_in_text(const Deck& deck)
+{
+    std::vector<std::string> found;
+    const auto add = [&](const std::string& name) {
+        if (!name.empty() && std::ranges::find(found, name) == found.end()) found.push_back(name);
+    };
+    for (const DeckText& text : deck.texts) {
+        if (deck.format == DeckFormat::abaqus)
+            each_keyword(text.text, [&](const Keyword& keyword, std::size_t) {
+                if (keyword.name == "MATERIAL") add(keyword.value("NAME"));
+                return true;
+            });
+        if (deck.format != DeckFormat::nastran || text.place != DeckText::Place::cards) continue;
+        for (std::string_view rest = text.text; !rest.empty();) {
+            const std::size_t end = std::min(rest.find('\n'), rest.size());
+            const std::string_view line = rest.substr(0, end);
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+            // MAT1 to MAT11 and MATHP; MATS1, MATT1 and the like add to a material of the same number.
+            if (!same_word(line.substr(0, 3), "MAT") || line.size() < 5) continue;
+            if (std::isdigit(static_cast<unsigned char>(line[3])) == 0 && !same_word(line.substr(3, 2), "HP"))
+                continue;
+            if (const auto tag = parse_integer<DeckTag>(second_field(line))) add(std::to_string(*tag));
+        }
+    }
+    return found;
+}
+
+bool has_section(const Deck& deck, std::string_view set)
+{
+    bool found = false;
+    for (const DeckText& text : deck.texts)
+        each_keyword(text.text, [&](const Keyword& keyword, std::size_t) {
+            found = found || (is_section(keyword) && same_word(keyword.value("ELSET"), set));
+            return !found;
+        });
+    return found;
+}
+
+void add_model_cards(Deck& deck, const std::string& cards)
+{
+    for (DeckText& text : deck.texts) {
+        std::size_t step = std::string::npos;
+        if (text.place == DeckText::Place::cards)
+            each_keyword(text.text, [&](const Keyword& keyword, std::size_t begin) {
+                if (keyword.name == "STEP") step = begin;
+                return step == std::string::npos;
+            });
+        if (step == std::string::npos) continue;
+        text.text.insert(step, cards);
+        return;
+    }
+    deck.texts.push_back({DeckText::Place::cards, "", cards});
 }
 
 void refuse_element(const DeckBlock& block, std::string_view format, std::string_view why)

@@ -38,6 +38,13 @@ struct TextNumbers {
 };
 TextNumbers numbers_in_text(const Deck& deck);
 
+/// Materials that the text of a Nastran or Abaqus deck defines, as it calls them, each once.
+std::vector<std::string> materials_in_text(const Deck& deck);
+/// Whether the text of an Abaqus deck has a section of a set of elements.
+bool has_section(const Deck& deck, std::string_view set);
+/// Put cards of the model before the first step of an Abaqus deck.
+void add_model_cards(Deck& deck, const std::string& cards);
+
 /// A real number of at most `width` characters, the nearest of these, with a point. @pre width >= 10
 char* put_real(char* out, double value, std::size_t width);
 
