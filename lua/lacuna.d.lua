@@ -89,8 +89,8 @@
 ---@field version? 4.1|2.2
 ---@field binary? boolean
 ---@field quality? boolean|lacuna.MetricName|lacuna.MetricName[] metrics that go along for every cell, as $ElementData or cell arrays; true: the scaled Jacobian; default true, but false for version 2.2
----@field with? lacuna.Model loaded from one finite element mesh, which .inp, .bdf and .unv join the mesh to
----@field first_node? integer of .inp, .bdf and .unv; default above all that are taken
+---@field with? lacuna.Model loaded from one finite element mesh, that the mesh is joined to
+---@field first_node? integer of decks and with a model; default above all that are taken
 ---@field first_cell? integer likewise
 ---@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8"
 

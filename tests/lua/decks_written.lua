@@ -218,7 +218,8 @@ do
   end
   local foam = named("foam", "Soft Foam")
   check.equal(foam:groups()[#foam:groups()].name, "foam")
-  for ending, says in pairs { inp = "ELSET=foam", bdf = "$ property of foam", unv = "foam\n", msh = "\"foam\"" } do
+  local called = { inp = "ELSET=foam", bdf = "$ property of foam", unv = "foam\n", msh = "\"foam\"" }
+  for ending, says in pairs(called) do
     foam:write(params.scratch .. "/named." .. ending)
     check.that(read(params.scratch .. "/named." .. ending):find(says, 1, true), ending)
   end
@@ -227,7 +228,8 @@ do
   mesh:write(params.scratch .. "/unnamed.inp", { with = model }) -- the neighbour's
   check.that(read(params.scratch .. "/unnamed.inp"):find("ELSET=volume, MATERIAL=steel", 1, true))
   local missing = named("foam", "wood")
-  check.fails(function() missing:write(params.scratch .. "/no.inp", { with = model }) end, "wood", "steel, soft foam")
+  local unknown = function() missing:write(params.scratch .. "/no.inp", { with = model }) end
+  check.fails(unknown, "wood", "steel, soft foam")
   check.that(not check.exists(params.scratch .. "/no.inp"))
   missing:write(params.scratch .. "/alone_wood.inp")
   check.that(read(params.scratch .. "/alone_wood.inp"):find("ELSET=foam, MATERIAL=wood", 1, true))
@@ -258,7 +260,9 @@ do
   check.fails(function() mesh:write(out, { with = model, first_cell = 1001 }) end, "first_cell", "1001")
   check.fails(function() mesh:write(out, { with = lacuna.model() }) end, "with", "loaded")
   check.fails(function() mesh:write(out, { quality = true }) end, "quality")
-  check.fails(function() mesh:write(params.scratch .. "/a.msh", { with = model }) end, "with")
+  local judged = { with = model, quality = true }
+  check.fails(function() mesh:write(params.scratch .. "/a.msh", judged) end, "quality")
+  check.fails(function() mesh:write(params.scratch .. "/a.msh", { first_cell = 3 }) end, "first_cell")
   check.that(not check.exists(out))
   -- A mesh whose walls have other rows than the deck's.
   local plain = lacuna.load(path, { keep_mesh = false })

@@ -274,21 +274,38 @@ void refuse_element(const DeckBlock& block, std::string_view format, std::string
                                                  std::string(why));
 }
 
+DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& options)
+{
+    switch (format) {
+    case DeckFormat::nastran:
+        return nastran_file(deck);
+    case DeckFormat::abaqus:
+        return abaqus_file(deck);
+    case DeckFormat::msh:
+        return msh_of_deck(deck, options);
+    case DeckFormat::vtu:
+        return vtu_of_deck(deck);
+    case DeckFormat::vtk:
+        return vtk_of_deck(deck, options.binary);
+    default:
+        return unv_file(deck);
+    }
+}
+
 bool find_deck_format(std::string_view ending, DeckFormat& format)
 {
     const DeckFileFormat* found = deck_file_format(ending);
-    if (found == nullptr || (found->format != DeckFormat::nastran && found->format != DeckFormat::abaqus &&
-                             found->format != DeckFormat::unv))
-        return false;
+    using enum DeckFormat;
+    constexpr DeckFormat kWritten[] = {nastran, abaqus, unv, msh, vtk, vtu};
+    if (found == nullptr || std::ranges::find(kWritten, found->format) == std::end(kWritten)) return false;
     format = found->format;
     return true;
 }
 
-void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context)
+void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context,
+                const DeckFileOptions& options)
 {
-    DeckFile file = format == DeckFormat::nastran  ? nastran_file(deck)
-                    : format == DeckFormat::abaqus ? abaqus_file(deck)
-                                                   : unv_file(deck);
+    DeckFile file = file_of(deck, format, options);
     const bool texts = std::ranges::any_of(
         deck.texts, [](const DeckText& text) { return text.place == DeckText::Place::cards; });
     if (format != deck.format && texts)
@@ -296,7 +313,7 @@ void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, con
                              " are of another format and not carried over");
     for (const std::string& note : file.notes) log_line(context, path.text() + ": " + note);
     WholeFile whole(path);
-    write_sections(whole, file.sections, Sizes::varying, context);
+    write_sections(whole, file.sections, file.sizes, context);
     whole.commit();
 }
 

@@ -248,7 +248,9 @@ Deck join_deck(const Deck& deck, const topology::Model& model, double scale, con
 {
     Joiner joiner(deck, model, scale, mesh);
     const std::vector<Index> points = joiner.points();
+    using enum DeckFormat;
     AddedMesh added{.points = points, .scale = scale};
+    added.skin_cells = options.format == msh || options.format == vtk || options.format == vtu;
     if (const DeckRegion* neighbour = joiner.neighbour()) {
         added.neighbour_material = neighbour->material;
         added.neighbour = neighbour->name;

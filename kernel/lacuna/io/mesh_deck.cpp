@@ -110,7 +110,10 @@ private:
             log_line(context_, "the cells of " + volume_ + " are the set " + deck_.regions.back().name);
         const bool abaqus = options_.format == DeckFormat::abaqus;
         const bool nastran = options_.format == DeckFormat::nastran;
-        DeckBlock& block = block_of(DeckShape::hex8, abaqus ? options_.element : nastran ? "CHEXA" : "115");
+        DeckBlock& block = block_of(DeckShape::hex8, abaqus    ? options_.element
+                                                     : nastran ? "CHEXA"
+                                                     : unv()   ? "115"
+                                                               : "");
         for (std::size_t c = 0; c < mesh_.hex_count(); ++c) {
             for (const Index node : mesh_.hex(c)) block.nodes.push_back(point_[index(node)]);
             block.tags.push_back(first_cell_ + static_cast<DeckTag>(c));
@@ -120,6 +123,8 @@ private:
             for (const std::string& group : mesh_.volume_groups) add_volume_set(group);
         if (added_.skin_cells) add_skin_cells();
     }
+
+    [[nodiscard]] bool unv() const { return options_.format == DeckFormat::unv; }
 
     void add_volume_set(const std::string& group)
     {
@@ -132,8 +137,9 @@ private:
 
     void add_skin_cells()
     {
-        DeckBlock& block = block_of(DeckShape::quad4, "94");
-        const auto region = static_cast<Index>(deck_.regions.size() - 1);
+        DeckBlock& block = block_of(DeckShape::quad4, unv() ? "94" : "");
+        // A UNV needs a property of each; elsewhere the skin is in its groups alone.
+        const auto region = unv() ? static_cast<Index>(deck_.regions.size() - 1) : -1;
         for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
             for (const Index node : skin_quad(mesh_, i).nodes) block.nodes.push_back(point_[index(node)]);
             block.tags.push_back(skin_tag(i));

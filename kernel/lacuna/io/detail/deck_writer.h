@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/io/deck.h>
+#include <lacuna/io/deck_file.h>
 #include <lacuna/io/detail/sections.h>
 
 #include <set>
@@ -16,11 +16,16 @@ namespace lacuna::io {
 struct DeckFile {
     std::vector<Section> sections;
     std::vector<std::string> notes; ///< what the format cannot hold, a sentence each
+    Sizes sizes = Sizes::varying;
 };
 
+DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& options);
 DeckFile nastran_file(const Deck& deck);
 DeckFile abaqus_file(const Deck& deck);
 DeckFile unv_file(const Deck& deck);
+DeckFile msh_of_deck(const Deck& deck, const DeckFileOptions& options);
+DeckFile vtu_of_deck(const Deck& deck);
+DeckFile vtk_of_deck(const Deck& deck, bool binary);
 
 /// Text of one place, all parts.
 std::string text_at(const Deck& deck, DeckText::Place place);
