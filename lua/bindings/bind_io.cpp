@@ -167,6 +167,8 @@ const Format kFormats[] = {
     {".nas", false, false, true, false, write_deck},
     {".dat", false, false, true, false, write_deck},
     {".unv", false, false, true, false, write_deck},
+    {".exo", false, false, true, false, write_deck},
+    {".e", false, false, true, false, write_deck},
 };
 
 /// An option that was given and that the format does not have; null: none.

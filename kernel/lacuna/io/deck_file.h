@@ -13,7 +13,7 @@
 namespace lacuna::io {
 
 struct MeshDeckOptions {
-    DeckFormat format = DeckFormat::abaqus; ///< nastran, abaqus, unv, msh, vtk or vtu
+    DeckFormat format = DeckFormat::abaqus; ///< nastran, abaqus, unv, msh, vtk, vtu or exodus
     std::string element = "C3D8";           ///< of Abaqus: the word for hexahedra of eight nodes, in capitals
     DeckTag first_node = 0; ///< number of the first new node; 0: above all that are taken, from 1
     DeckTag first_cell = 0; ///< of the first hexahedron; 0: likewise
@@ -22,7 +22,7 @@ struct MeshDeckOptions {
     std::string material{};
 };
 
-/// The format of an ending: .bdf .nas .dat .inp .unv .msh .vtk .vtu, in lower case.
+/// The format of an ending: .bdf .nas .dat .inp .unv .msh .vtk .vtu .exo .e, in lower case.
 /// @return false  it is none of these.
 bool find_deck_format(std::string_view ending, DeckFormat& format);
 
@@ -32,6 +32,7 @@ bool find_deck_format(std::string_view ending, DeckFormat& format);
 /// | format | a group is |
 /// |---|---|
 /// | abaqus | a set of nodes, one of the cells behind the faces, and a surface of their sides |
+/// | exodus | a set of nodes and one of sides |
 /// | nastran | a set of nodes |
 /// | unv, msh, vtk, vtu | a set of quads, which are elements behind the hexahedra |
 ///
@@ -44,9 +45,9 @@ Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options);
 /// A deck and the mesh that fills a void of it as one conformal mesh. What the deck has keeps its numbers; a
 /// node of the skin that lies on a node of the deck is that node.
 ///
-/// Groups of the skin are sets as in `deck_of()`, of nodes in UNV too. The new region has the property above all
-/// others. Where nodes of the deck coincide, the skin takes the one of the elements whose face, else whose
-/// side, it shares.
+/// Groups of the skin are sets as in `deck_of()`, of nodes in UNV too. The new region has the property above
+/// all others. Where nodes of the deck coincide, the skin takes the one of the elements whose face, else
+/// whose side, it shares.
 ///
 /// The region's material goes into a card of its own where the format is the deck's: a PSOLID in Nastran, a
 /// *SOLID SECTION before the first *STEP in Abaqus, unless the deck has a section of that set already. Where
@@ -70,14 +71,15 @@ struct DeckFileOptions {
     double msh_version = 4.1; ///< or 2.2
 };
 
-/// Write a deck as Nastran bulk data, Abaqus input, a universal file, or for Gmsh or VTK: whole or not at
-/// all.
+/// Write a deck as Nastran bulk data, Abaqus input, a universal file, an Exodus file, or for Gmsh or VTK:
+/// whole or not at all.
 ///
 /// Numbers, sets and words of elements stay; text of the same format goes along verbatim. Coordinates are in
 /// the basic frame, as near as the format can say them: 16 characters in Nastran (10 to 15 digits), 20 in
 /// Abaqus (CalculiX reads no more; 14 to 17 digits), 17 digits in UNV. Another format than the deck's gets
 /// nodes, elements, regions and sets; the log says what is left out.
 ///
+/// Exodus has a block of each region and shape, sets of nodes, elements and sides, and numbers as maps.
 /// Regions and sets of elements are physical groups in .msh. In .vtk and .vtu elements that are in the same
 /// region and sets are an entity; cell arrays hold its number, the region's and the cell's, a point array the
 /// node's, and arrays of the whole file, called as the sets and regions are, list the entities of each. Sets

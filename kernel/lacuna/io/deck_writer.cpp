@@ -281,6 +281,8 @@ DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& opt
         return nastran_file(deck);
     case DeckFormat::abaqus:
         return abaqus_file(deck);
+    case DeckFormat::exodus:
+        return exodus_file(deck);
     case DeckFormat::msh:
         return msh_of_deck(deck, options);
     case DeckFormat::vtu:
@@ -294,6 +296,10 @@ DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& opt
 
 bool find_deck_format(std::string_view ending, DeckFormat& format)
 {
+    if (ending == ".exo" || ending == ".e") { // written alone
+        format = DeckFormat::exodus;
+        return true;
+    }
     const DeckFileFormat* found = deck_file_format(ending);
     using enum DeckFormat;
     constexpr DeckFormat kWritten[] = {nastran, abaqus, unv, msh, vtk, vtu};

@@ -191,11 +191,16 @@ private:
                 if (of.empty()) names.push_back(name);
                 of.push_back(static_cast<std::uint32_t>(i));
             }
-        if (options_.format == DeckFormat::abaqus) {
+        if (has_sides()) {
             cells_ = cells_of_skin(mesh_);
             sides_ = sides_of_skin(mesh_, cells_);
         }
         for (const std::string& name : names) add_group(name, quads[name]);
+    }
+
+    [[nodiscard]] bool has_sides() const
+    {
+        return options_.format == DeckFormat::abaqus || options_.format == DeckFormat::exodus;
     }
 
     void add_group(const std::string& name, const std::vector<std::uint32_t>& quads)
@@ -214,10 +219,12 @@ private:
             for (const Index node : skin_quad(mesh_, i).nodes)
                 nodes.members.push_back(deck_.point_tags[index(point_[index(node)])]);
         tidy(nodes.members);
-        if (options_.format != DeckFormat::abaqus) return;
-        DeckSet& cells = add(DeckSet::Kind::elements);
-        for (const std::uint32_t i : quads) cells.members.push_back(first_cell_ + cells_[i]);
-        tidy(cells.members);
+        if (!has_sides()) return;
+        if (options_.format == DeckFormat::abaqus) {
+            DeckSet& cells = add(DeckSet::Kind::elements);
+            for (const std::uint32_t i : quads) cells.members.push_back(first_cell_ + cells_[i]);
+            tidy(cells.members);
+        }
         DeckSet& sides = add(DeckSet::Kind::sides);
         for (const std::uint32_t i : quads) sides.sides.push_back({first_cell_ + cells_[i], sides_[i]});
         tidy(sides.sides);

@@ -24,6 +24,7 @@ DeckFile nastran_file(const Deck& deck);
 DeckFile abaqus_file(const Deck& deck);
 DeckFile unv_file(const Deck& deck);
 DeckFile msh_of_deck(const Deck& deck, const DeckFileOptions& options);
+DeckFile exodus_file(const Deck& deck);
 DeckFile vtu_of_deck(const Deck& deck);
 DeckFile vtk_of_deck(const Deck& deck, bool binary);
 
