@@ -49,6 +49,8 @@
 ---@field walls? lacuna.FaceRefs|"auto" "auto": every face reachable from the source's rim that is not the target
 ---@field faces? lacuna.FaceRefs instead of roles: these faces make the volume, and their roles are found
 ---@field class? lacuna.Class override
+---@field name? string what the cells are called: their group, set or property in files; default "volume"
+---@field material? string|integer of the cells, in decks; default: as the elements beside them
 
 ---@class lacuna.MatchOptions
 ---@field vertices? { [1]: integer, [2]: integer }[] tags: source, target
@@ -87,8 +89,8 @@
 ---@field version? 4.1|2.2
 ---@field binary? boolean
 ---@field quality? boolean|lacuna.MetricName|lacuna.MetricName[] metrics that go along for every cell, as $ElementData or cell arrays; true: the scaled Jacobian; default true, but false for version 2.2
----@field with? lacuna.Model loaded from one finite element mesh, which .inp, .bdf and .unv join the mesh to
----@field first_node? integer of .inp, .bdf and .unv; default above all that are taken
+---@field with? lacuna.Model loaded from one finite element mesh, that the mesh is joined to
+---@field first_node? integer of decks and with a model; default above all that are taken
 ---@field first_cell? integer likewise
 ---@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8"
 

@@ -132,9 +132,10 @@ void write_deck(const mesh::HexMesh& mesh, const io::OutputPath& path, const Wri
     io::find_deck_format(io::ending_of(path.text()), options.format);
     const io::DeckFormat format = options.format;
     if (!arguments.with) return io::write_deck(io::deck_of(mesh, options), format, path, context);
+    const io::DeckFileOptions file{arguments.msh.binary, arguments.msh.version};
     const io::Deck& deck = deck_with(*arguments.with);
-    io::write_deck(io::join_deck(deck, arguments.with->model, arguments.with->scale, mesh, options), format,
-                   path, context);
+    io::write_deck(io::join_deck(deck, arguments.with->model, arguments.with->scale, mesh, options, context),
+                   format, path, context, file);
 }
 
 /// A format by its ending, and which options it has.
@@ -148,14 +149,17 @@ struct Format {
 const Format kFormats[] = {
     {".msh", true, true, false, false,
      [](const auto& mesh, const auto& path, const auto& arguments, const auto& context) {
+         if (arguments.with) return write_deck(mesh, path, arguments, context);
          io::write_msh(mesh, path, arguments.msh, context);
      }},
     {".vtu", false, false, false, false,
      [](const auto& mesh, const auto& path, const auto& arguments, const auto& context) {
+         if (arguments.with) return write_deck(mesh, path, arguments, context);
          io::write_vtu(mesh, path, {arguments.msh.fields}, context);
      }},
     {".vtk", false, true, false, false,
      [](const auto& mesh, const auto& path, const auto& arguments, const auto& context) {
+         if (arguments.with) return write_deck(mesh, path, arguments, context);
          io::write_vtk(mesh, path, {arguments.msh.binary, arguments.msh.fields}, context);
      }},
     {".inp", false, false, true, true, write_deck},
@@ -163,6 +167,8 @@ const Format kFormats[] = {
     {".nas", false, false, true, false, write_deck},
     {".dat", false, false, true, false, write_deck},
     {".unv", false, false, true, false, write_deck},
+    {".exo", false, false, true, false, write_deck},
+    {".e", false, false, true, false, write_deck},
 };
 
 /// An option that was given and that the format does not have; null: none.
@@ -170,11 +176,11 @@ const char* idle_option(const Format& format, const WriteArguments& arguments)
 {
     if (arguments.version_given && !format.has_version) return "version";
     if (arguments.binary_given && !format.has_binary) return "binary";
-    if (arguments.quality_given && format.is_deck) return "quality";
+    const bool numbered = format.is_deck || arguments.with;
+    if (arguments.quality_given && numbered) return "quality";
     if (arguments.element_given && !format.has_element) return "element";
-    if (arguments.with && !format.is_deck) return "with";
-    if (arguments.deck.first_node != 0 && !format.is_deck) return "first_node";
-    if (arguments.deck.first_cell != 0 && !format.is_deck) return "first_cell";
+    if (arguments.deck.first_node != 0 && !numbered) return "first_node";
+    if (arguments.deck.first_cell != 0 && !numbered) return "first_cell";
     return nullptr;
 }
 
@@ -206,8 +212,9 @@ int write(lua_State* L)
         const mesh::HexMesh& mesh = state.swept.mesh;
         const Format& format = format_of(path.text(), arguments);
         if (arguments.with) refresh(*arguments.with);
+        arguments.deck.material = state.material;
         for (const quality::Metric metric :
-             format.is_deck ? std::vector<quality::Metric>{} : metrics_of(arguments))
+             format.is_deck || arguments.with ? std::vector<quality::Metric>{} : metrics_of(arguments))
             arguments.msh.fields.push_back(
                 {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
         format.write(mesh, path, arguments, context);

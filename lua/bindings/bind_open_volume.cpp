@@ -5,6 +5,7 @@
 
 #include <lacuna/topology/auto_roles.h>
 
+#include <cctype>
 #include <cstring>
 #include <utility>
 
@@ -29,6 +30,7 @@ struct RoleArguments {
     bool roles_named = false;
     bool faces_named = false;
     std::optional<VolumeClass> override_class;
+    std::string name, material;
 };
 
 template <auto List>
@@ -58,12 +60,41 @@ void read_class(lua_State* L, int index, const Where& where, RoleArguments& argu
     arguments.override_class = read_word(L, index, where, kClasses);
 }
 
+/// What files can hold as a name: no quotes and no ends of lines.
+void read_name(lua_State* L, int index, const Where& where, RoleArguments& arguments)
+{
+    const char* name = read_string(L, index, where);
+    for (const char* c = name; *c != '\0'; ++c)
+        if (std::iscntrl(static_cast<unsigned char>(*c)) != 0 || *c == '"')
+            fail_value(L, where, "a name without quotes and control characters", index);
+    guard(L, [&] { arguments.name = name; });
+}
+
+/// A name, as Abaqus has them, or a number, as Nastran has.
+void read_material(lua_State* L, int index, const Where& where, RoleArguments& arguments)
+{
+    if (lua_type(L, index) == LUA_TNUMBER) {
+        const int number = read_whole(L, index, where, 1);
+        guard(L, [&] { arguments.material = std::to_string(number); });
+        return;
+    }
+    if (lua_type(L, index) != LUA_TSTRING)
+        fail_value(L, where, "the name or the number of a material", index);
+    const char* name = read_string(L, index, where);
+    for (const char* c = name; *c != '\0'; ++c)
+        if (std::iscntrl(static_cast<unsigned char>(*c)) != 0 || *c == '"' || *c == ',')
+            fail_value(L, where, "a name without quotes, commas and control characters", index);
+    guard(L, [&] { arguments.material = name; });
+}
+
 const Option<RoleArguments> kRoleOptions[] = {
     {"source", read_role<&topology::Roles::source>},
     {"target", read_role<&topology::Roles::target>},
     {"walls", read_walls},
     {"faces", read_volume_faces},
     {"class", read_class},
+    {"name", read_name},
+    {"material", read_material},
 };
 
 /// The walls named "auto": what hangs together with the rim of the one end that is named.
@@ -94,10 +125,12 @@ VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, 
     state.volume = topology::open_volume(model, arguments.roles, context);
     state.volume.override_class = arguments.override_class;
     state.classification = topology::classify(state.volume);
+    state.name = arguments.name;
+    state.material = arguments.material;
     return state;
 }
 
-/// volume = model:open_volume { source=, target=, walls= [, class=] }
+/// volume = model:open_volume { source=, target=, walls= [, class=] [, name=] [, material=] }
 /// volume = model:open_volume { faces= }, or of all faces: their roles are found
 int open_volume(lua_State* L)
 {

@@ -255,6 +255,8 @@ int sweep_volume(lua_State* L)
         close_volume(state, {}, context);
         box = std::make_shared<MeshState>();
         box->swept = sweep::sweep(state.volume, arguments.options, context);
+        if (!state.name.empty()) box->swept.mesh.volume_groups = {state.name};
+        box->material = state.material;
     });
     return 1;
 }

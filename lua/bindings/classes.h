@@ -52,6 +52,8 @@ struct VolumeState {
     topology::Classification classification; ///< as the volume was given
     std::optional<matching::Match> match;
     std::optional<closure::Closure> closure;
+    std::string name;     ///< of the region its cells are; empty: the default
+    std::string material; ///< name or number of its material; empty: none was said
 };
 
 /// Marks a volume as worked on, so that a function of the recipe that is called meanwhile cannot change it.
@@ -75,6 +77,7 @@ void close_volume(VolumeState& state, const closure::CloseOptions& options, cons
 struct MeshState {
     sweep::Swept swept;
     std::optional<quality::Quality> quality;
+    std::string material; ///< of the volume
 };
 
 template <>

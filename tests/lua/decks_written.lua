@@ -57,9 +57,10 @@ local function inp(part)
   add("*ELSET, ELSET=first")
   add("1001, 1002")
   add("*MATERIAL, NAME=steel\n*ELASTIC\n210000., 0.3")
-  add("*SOLID SECTION, ELSET=part, MATERIAL=steel\n*SOLID SECTION, ELSET=volume, MATERIAL=steel")
+  add("*MATERIAL, NAME=\"soft foam\"\n*ELASTIC\n10., 0.1")
+  add("*SOLID SECTION, ELSET=part, MATERIAL=steel")
   add("*STEP\n*STATIC")
-  add("*EL PRINT, ELSET=part\nS\n*EL PRINT, ELSET=volume\nS\n*END STEP")
+  add("*EL PRINT, ELSET=part\nS\n*EL PRINT, ELSET=foam\nS\n*END STEP")
   return table.concat(lines, "\n") .. "\n", #nodes, #cells
 end
 
@@ -170,7 +171,9 @@ for _, void in ipairs(voids) do
   local text, nodes, cells = inp(outside(void.low, void.high))
   check.write(path, text)
   local model = lacuna.load(path)
-  local volume = model:open_volume(roles(void))
+  local asked = roles(void)
+  asked.name, asked.material = "foam", "Steel"
+  local volume = model:open_volume(asked)
   check.equal(volume.class, void.class)
   local mesh = volume:sweep { layers = void.high[3] - void.low[3], size = 1 / N }
   local joined = params.scratch .. "/joined_" .. void.class .. ".inp"
@@ -192,7 +195,9 @@ for _, void in ipairs(voids) do
     check.that(not places[key], "two nodes at " .. key)
     places[key] = tag
   end
-  check.that(written:find(text:match("%*MATERIAL.*$"), 1, true), "cards are not verbatim")
+  local before_step, steps = text:match("(%*MATERIAL.-)(%*STEP.*)$")
+  local section = "*SOLID SECTION, ELSET=foam, MATERIAL=steel\n"
+  check.that(written:find(before_step .. section .. steps, 1, true), "cards are not verbatim")
   for _, set in ipairs { "first", "all", "source", "target" } do
     check.that(written:find("SET, [EN]+SET=" .. set .. "\n") or written:find("SET=" .. set), set)
   end
@@ -205,6 +210,31 @@ do
   local void = voids[4]
   local model = lacuna.load(path)
   local mesh = model:open_volume(roles(void)):sweep { layers = 4, size = 1 / N }
+  -- The name of the region and its material, in every format.
+  local function named(name, material)
+    local asked = roles(void)
+    asked.name, asked.material = name, material
+    return model:open_volume(asked):sweep { layers = 4, size = 1 / N }
+  end
+  local foam = named("foam", "Soft Foam")
+  check.equal(foam:groups()[#foam:groups()].name, "foam")
+  local called = { inp = "ELSET=foam", bdf = "$ property of foam", unv = "foam\n", msh = "\"foam\"" }
+  for ending, says in pairs(called) do
+    foam:write(params.scratch .. "/named." .. ending)
+    check.that(read(params.scratch .. "/named." .. ending):find(says, 1, true), ending)
+  end
+  foam:write(params.scratch .. "/named.inp", { with = model })
+  check.that(read(params.scratch .. "/named.inp"):find("ELSET=foam, MATERIAL=soft foam", 1, true))
+  mesh:write(params.scratch .. "/unnamed.inp", { with = model }) -- the neighbour's
+  check.that(read(params.scratch .. "/unnamed.inp"):find("ELSET=volume, MATERIAL=steel", 1, true))
+  local missing = named("foam", "wood")
+  local unknown = function() missing:write(params.scratch .. "/no.inp", { with = model }) end
+  check.fails(unknown, "wood", "steel, soft foam")
+  check.that(not check.exists(params.scratch .. "/no.inp"))
+  missing:write(params.scratch .. "/alone_wood.inp")
+  check.that(read(params.scratch .. "/alone_wood.inp"):find("ELSET=foam, MATERIAL=wood", 1, true))
+  check.fails(function() named('a"b') end, "name")
+  check.fails(function() named("a", "b,c") end, "material")
   for _, format in ipairs { "inp", "bdf", "nas", "dat", "unv" } do
     local alone = params.scratch .. "/alone." .. format
     mesh:write(alone, { first_node = 501, first_cell = 901 })
@@ -230,7 +260,9 @@ do
   check.fails(function() mesh:write(out, { with = model, first_cell = 1001 }) end, "first_cell", "1001")
   check.fails(function() mesh:write(out, { with = lacuna.model() }) end, "with", "loaded")
   check.fails(function() mesh:write(out, { quality = true }) end, "quality")
-  check.fails(function() mesh:write(params.scratch .. "/a.msh", { with = model }) end, "with")
+  local judged = { with = model, quality = true }
+  check.fails(function() mesh:write(params.scratch .. "/a.msh", judged) end, "quality")
+  check.fails(function() mesh:write(params.scratch .. "/a.msh", { first_cell = 3 }) end, "first_cell")
   check.that(not check.exists(out))
   -- A mesh whose walls have other rows than the deck's.
   local plain = lacuna.load(path, { keep_mesh = false })
@@ -269,7 +301,7 @@ do
     end
     block(100, 1, 7, 0, low_part)
     block(200, 11, 8, 2, false)
-    add("PSOLID,7,1\nPSOLID,8,1\nMAT1,1,210000.,,0.3\nCBUSH,77,3,100\nENDDATA")
+    add("PSOLID,7,5\nPSOLID,8,5\nMAT1,5,70000.,,0.3\nMAT8,12,1.,1.,.3,1.\nMAT1,1,210000.,,0.3\nCBUSH,77,3,100\nENDDATA")
     return table.concat(lines, "\n") .. "\n"
   end
   for _, twice in ipairs { false, true } do
@@ -289,11 +321,25 @@ do
       local text = read(joined)
       check.equal(count(text, "GRID%*"), 24 + 6)
       check.equal(count(text, "CHEXA"), 4 + 4)
-      for _, card in ipairs { "MAT1,1,210000.,,0.3", "CBUSH,77,3,100", "PSOLID,9,1" } do
+      for _, card in ipairs { "MAT1,1,210000.,,0.3", "CBUSH,77,3,100", "PSOLID,9,5" } do
         check.that(text:find(card, 1, true), card)
       end
       check.that(text:find("CHEXA         78       9", 1, true), "cells go on above all elements")
       check.equal(lacuna.check(joined).hexes, 8)
+      for material, says in pairs { [12] = "PSOLID,9,12", [1] = "PSOLID,9,1", [3] = "" } do
+        local other = model:open_volume {
+          source = { box = { { -0.1, -0.1, 0.9 }, { 2.1, 1.1, 1.1 } } },
+          target = { box = { { -0.1, -0.1, 1.9 }, { 2.1, 1.1, 2.1 } } },
+          name = "glue", material = material,
+        }:sweep { layers = 2 }
+        if material == 3 then
+          local why = check.fails(function() other:write(joined, { with = model }) end, "material = 3")
+          check.that(why:find("5, 12, 1", 1, true), why)
+        else
+          other:write(joined, { with = model })
+          check.that(read(joined):find("$ property of glue\n" .. says .. "\n", 1, true), says)
+        end
+      end
     end
   end
 end

@@ -2,6 +2,7 @@
 //
 // Abaqus and CalculiX decks. Parts are read into meshes of their own and put in place instance by instance; a
 // deck without parts is one part without a name.
+#include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_files.h>
 #include <lacuna/io/detail/deck_writer.h>
@@ -60,31 +61,9 @@ bool shape_of(std::string_view type, DeckShape& shape)
     return false;
 }
 
-/// A line `*KEYWORD, KEY=value, KEY`.
-struct Keyword {
-    std::string name;                                            ///< in capitals, without blanks
-    std::vector<std::pair<std::string, std::string>> parameters; ///< keys in capitals
-
-    [[nodiscard]] const std::string* find(std::string_view key) const
-    {
-        for (const auto& [name_of, value] : parameters)
-            if (name_of == key) return &value;
-        return nullptr;
-    }
-    [[nodiscard]] std::string value(std::string_view key) const
-    {
-        const std::string* found = find(key);
-        return found == nullptr ? std::string() : *found;
-    }
-};
-
 /// Keywords that make nodes or elements from others, or move them: what they leave out would be misread.
 constexpr std::string_view kGenerators[] = {"NGEN",   "NFILL",  "NCOPY", "NMAP",  "ELGEN",
                                             "ELCOPY", "SYSTEM", "MODEL", "IMPORT"};
-constexpr std::string_view kSections[] = {"SOLIDSECTION",   "SHELLSECTION",        "MEMBRANESECTION",
-                                          "SURFACESECTION", "SHELLGENERALSECTION", "SOLIDSHELLSECTION",
-                                          "RIGIDBODY"};
-
 struct Scope {
     std::string name;
     DeckBuilder builder{DeckFormat::abaqus};
@@ -156,35 +135,11 @@ private:
         texts.back().text += '\n';
     }
 
-    Keyword parse(std::string_view words) const
-    {
-        Keyword keyword;
-        words.remove_prefix(1);
-        for (bool first = true; !words.empty() || first; first = false) {
-            const std::size_t end = std::min(words.find(','), words.size());
-            const std::string_view field = trimmed(words.substr(0, end));
-            words.remove_prefix(std::min(end + 1, words.size()));
-            const std::size_t equals = std::min(field.find('='), field.size());
-            std::string key = upper(field.substr(0, equals));
-            std::erase_if(key, [](char c) { return is_blank(c); });
-            if (first) {
-                keyword.name = key;
-                continue;
-            }
-            std::string_view value = equals < field.size() ? trimmed(field.substr(equals + 1))
-                                                           : std::string_view();
-            if (value.size() >= 2 && value.front() == '"' && value.back() == '"')
-                value = value.substr(1, value.size() - 2);
-            if (!key.empty()) keyword.parameters.emplace_back(std::move(key), std::string(value));
-        }
-        return keyword;
-    }
-
     // --- keywords ------------------------------------------------------------------------------------------
 
     void take_keyword(const std::string& words, const std::string& raw, int depth)
     {
-        const Keyword keyword = parse(words);
+        const Keyword keyword = parse_keyword(words);
         if (keyword.name == "INCLUDE") {
             const std::string name = keyword.value("INPUT");
             Cursor& included = files_.include(name, place_, depth);
@@ -216,7 +171,7 @@ private:
     void take_other(const Keyword& keyword, const std::string& raw)
     {
         keep(raw);
-        if (std::ranges::find(kSections, keyword.name) == std::end(kSections)) {
+        if (!is_section(keyword)) {
             into_.pass_over("*" + keyword.name);
             return;
         }
@@ -722,6 +677,51 @@ private:
 };
 
 } // namespace
+
+const std::string* Keyword::find(std::string_view key) const
+{
+    for (const auto& [name_of, value] : parameters)
+        if (name_of == key) return &value;
+    return nullptr;
+}
+
+std::string Keyword::value(std::string_view key) const
+{
+    const std::string* found = find(key);
+    return found == nullptr ? std::string() : *found;
+}
+
+Keyword parse_keyword(std::string_view words)
+{
+    Keyword keyword;
+    words.remove_prefix(1);
+    for (bool first = true; !words.empty() || first; first = false) {
+        const std::size_t end = std::min(words.find(','), words.size());
+        const std::string_view field = trimmed(words.substr(0, end));
+        words.remove_prefix(std::min(end + 1, words.size()));
+        const std::size_t equals = std::min(field.find('='), field.size());
+        std::string key = upper(field.substr(0, equals));
+        std::erase_if(key, [](char c) { return is_blank(c); });
+        if (first) {
+            keyword.name = key;
+            continue;
+        }
+        std::string_view value = equals < field.size() ? trimmed(field.substr(equals + 1))
+                                                       : std::string_view();
+        if (value.size() >= 2 && value.front() == '"' && value.back() == '"')
+            value = value.substr(1, value.size() - 2);
+        if (!key.empty()) keyword.parameters.emplace_back(std::move(key), std::string(value));
+    }
+    return keyword;
+}
+
+bool is_section(const Keyword& keyword)
+{
+    constexpr std::string_view kSections[] = {"SOLIDSECTION",   "SHELLSECTION",        "MEMBRANESECTION",
+                                              "SURFACESECTION", "SHELLGENERALSECTION", "SOLIDSHELLSECTION",
+                                              "RIGIDBODY"};
+    return std::ranges::find(kSections, keyword.name) != std::end(kSections);
+}
 
 bool is_abaqus_element(std::string_view type, DeckShape shape)
 {

@@ -15,7 +15,7 @@ namespace lacuna::io {
 /// Number of a node or an element as a file gives it, >= 0.
 using DeckTag = std::int64_t;
 
-enum class DeckFormat { nastran, abaqus, unv, msh, vtk, vtu, medit, stl, obj };
+enum class DeckFormat { nastran, abaqus, unv, msh, vtk, vtu, medit, stl, obj, exodus };
 
 /// What an element is, by its dimension and nodes.
 ///

@@ -6,6 +6,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/healing/weld.h>
 #include <lacuna/io/detail/deck_builder.h>
+#include <lacuna/io/detail/deck_entities.h>
 
 #include <algorithm>
 #include <map>
@@ -15,25 +16,6 @@
 
 namespace lacuna::io {
 namespace {
-
-/// Lists of sets, each list once; number 0 is the empty one.
-class SetLists {
-public:
-    int extended(int list, int set)
-    {
-        const auto [found, fresh] = next_.try_emplace({list, set}, static_cast<int>(lists_.size()));
-        if (fresh) {
-            lists_.push_back(lists_[index(list)]);
-            lists_.back().push_back(set);
-        }
-        return found->second;
-    }
-    [[nodiscard]] const std::vector<int>& operator[](int list) const { return lists_[index(list)]; }
-
-private:
-    std::map<std::pair<int, int>, int> next_;
-    std::vector<std::vector<int>> lists_{1};
-};
 
 /// The elements of one dimension, numbered through all blocks.
 class Elements {

@@ -13,13 +13,17 @@
 namespace lacuna::io {
 
 struct MeshDeckOptions {
-    DeckFormat format = DeckFormat::abaqus; ///< nastran, abaqus or unv
+    DeckFormat format = DeckFormat::abaqus; ///< nastran, abaqus, unv, msh, vtk, vtu or exodus
     std::string element = "C3D8";           ///< of Abaqus: the word for hexahedra of eight nodes, in capitals
     DeckTag first_node = 0; ///< number of the first new node; 0: above all that are taken, from 1
     DeckTag first_cell = 0; ///< of the first hexahedron; 0: likewise
+    /// Of the hexahedra: a name or number that the deck they join has, in any capitals; empty: that of the
+    /// elements beside the void, where the deck says it.
+    std::string material{};
 };
 
-/// The format of an ending: .bdf .nas .dat .inp .unv, in lower case. @return false  it is none of these.
+/// The format of an ending: .bdf .nas .dat .inp .unv .msh .vtk .vtu .exo .e, in lower case.
+/// @return false  it is none of these.
 bool find_deck_format(std::string_view ending, DeckFormat& format);
 
 /// A swept mesh as a deck of a format. Hexahedra are one region, named by the first of the volume's groups,
@@ -28,8 +32,9 @@ bool find_deck_format(std::string_view ending, DeckFormat& format);
 /// | format | a group is |
 /// |---|---|
 /// | abaqus | a set of nodes, one of the cells behind the faces, and a surface of their sides |
+/// | exodus | a set of nodes and one of sides |
 /// | nastran | a set of nodes |
-/// | unv | a set of quads, which are elements behind the hexahedra |
+/// | unv, msh, vtk, vtu | a set of quads, which are elements behind the hexahedra |
 ///
 /// Abaqus's names have letters, digits, - and _ : others become _ .
 /// @throw InvalidInput "io.element"       `element` is no hexahedron of eight nodes.
@@ -40,9 +45,14 @@ Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options);
 /// A deck and the mesh that fills a void of it as one conformal mesh. What the deck has keeps its numbers; a
 /// node of the skin that lies on a node of the deck is that node.
 ///
-/// Groups of the skin are sets as in `deck_of()`, of nodes in UNV. The new region has the property above all
-/// others; in Nastran its PSOLID names material 1. Where nodes of the deck coincide, the skin takes the one
-/// of the elements whose face, else whose side, it shares.
+/// Groups of the skin are sets as in `deck_of()`, of nodes in UNV too. The new region has the property above
+/// all others. Where nodes of the deck coincide, the skin takes the one of the elements whose face, else
+/// whose side, it shares.
+///
+/// The region's material goes into a card of its own where the format is the deck's: a PSOLID in Nastran, a
+/// *SOLID SECTION before the first *STEP in Abaqus, unless the deck has a section of that set already. Where
+/// it is not said it is that of the region with most faces on the mesh, and the log says so; where that has
+/// none, Nastran's PSOLID names material 1 and Abaqus gets no section.
 /// @param model    the deck's faces, which the patches of the mesh name by their tags.
 /// @param scale    of the model's coordinates to the deck's [-].
 /// @param options  `format` is the one it will be written in.
@@ -50,20 +60,34 @@ Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options);
 ///                     "io.nodes_coincide" elements beside the void use both of two coincident nodes; names
 ///                                         both.
 ///                     "io.other_model"    a patch is of no face of the model.
+///                     "io.no_material"    the deck has no material called `material`; lists those it has.
 ///                     as `deck_of()`.
 /// @note  O(n log n) in the nodes of the deck; a copy of the deck is made.
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,
-               const MeshDeckOptions& options);
+               const MeshDeckOptions& options, const RunContext& context = {});
 
-/// Write a deck as Nastran bulk data, Abaqus input or a universal file: whole or not at all.
+struct DeckFileOptions {
+    bool binary = true;       ///< of .msh and .vtk
+    double msh_version = 4.1; ///< or 2.2
+};
+
+/// Write a deck as Nastran bulk data, Abaqus input, a universal file, an Exodus file, or for Gmsh or VTK:
+/// whole or not at all.
 ///
 /// Numbers, sets and words of elements stay; text of the same format goes along verbatim. Coordinates are in
 /// the basic frame, as near as the format can say them: 16 characters in Nastran (10 to 15 digits), 20 in
 /// Abaqus (CalculiX reads no more; 14 to 17 digits), 17 digits in UNV. Another format than the deck's gets
 /// nodes, elements, regions and sets; the log says what is left out.
+///
+/// Exodus has a block of each region and shape, sets of nodes, elements and sides, and numbers as maps.
+/// Regions and sets of elements are physical groups in .msh. In .vtk and .vtu elements that are in the same
+/// region and sets are an entity; cell arrays hold its number, the region's and the cell's, a point array the
+/// node's, and arrays of the whole file, called as the sets and regions are, list the entities of each. Sets
+/// of nodes are such arrays too, "nodes:" before their names, with places of points from 0.
 /// @throw InvalidInput "io.no_such_element"  the format has no such element, or none without middle nodes.
 ///                     "io.folder" and the like as `WholeFile`.
 /// @throw BackendError  as `WholeFile`.
-void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context = {});
+void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context = {},
+                const DeckFileOptions& options = {});
 
 } // namespace lacuna::io

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/io/deck_file.h>
+#include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/deck_formats.h>
 #include <lacuna/io/detail/unv.h>
@@ -85,6 +86,23 @@ void nastran_numbers(std::string_view line, TextNumbers& numbers)
         numbers.cells.insert(*tag);
     else if (starts("P"))
         numbers.property = std::max(numbers.property, *tag);
+}
+
+/// Call `take(keyword, where its line begins)` for every keyword of an Abaqus text; until it returns false.
+template <class Take>
+void each_keyword(std::string_view text, const Take& take)
+{
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t begin = at;
+        std::string words;
+        do {
+            const std::size_t end = std::min(text.find('\n', at), text.size());
+            words += trimmed(text.substr(at, end - at));
+            at = end + 1;
+        } while (words.starts_with('*') && !words.starts_with("**") && words.ends_with(',') &&
+                 at < text.size());
+        if (words.starts_with('*') && !words.starts_with("**") && !take(parse_keyword(words), begin)) return;
+    }
 }
 
 /// Words of a line as numbers; 0 for what is none.
@@ -193,6 +211,60 @@ TextNumbers numbers_in_text(const Deck& deck)
     return numbers;
 }
 
+std::vector<std::string> materials_in_text(const Deck& deck)
+{
+    std::vector<std::string> found;
+    const auto add = [&](const std::string& name) {
+        if (!name.empty() && std::ranges::find(found, name) == found.end()) found.push_back(name);
+    };
+    for (const DeckText& text : deck.texts) {
+        if (deck.format == DeckFormat::abaqus)
+            each_keyword(text.text, [&](const Keyword& keyword, std::size_t) {
+                if (keyword.name == "MATERIAL") add(keyword.value("NAME"));
+                return true;
+            });
+        if (deck.format != DeckFormat::nastran || text.place != DeckText::Place::cards) continue;
+        for (std::string_view rest = text.text; !rest.empty();) {
+            const std::size_t end = std::min(rest.find('\n'), rest.size());
+            const std::string_view line = rest.substr(0, end);
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+            // MAT1 to MAT11 and MATHP; MATS1, MATT1 and the like add to a material of the same number.
+            if (!same_word(line.substr(0, 3), "MAT") || line.size() < 5) continue;
+            if (std::isdigit(static_cast<unsigned char>(line[3])) == 0 && !same_word(line.substr(3, 2), "HP"))
+                continue;
+            if (const auto tag = parse_integer<DeckTag>(second_field(line))) add(std::to_string(*tag));
+        }
+    }
+    return found;
+}
+
+bool has_section(const Deck& deck, std::string_view set)
+{
+    bool found = false;
+    for (const DeckText& text : deck.texts)
+        each_keyword(text.text, [&](const Keyword& keyword, std::size_t) {
+            found = found || (is_section(keyword) && same_word(keyword.value("ELSET"), set));
+            return !found;
+        });
+    return found;
+}
+
+void add_model_cards(Deck& deck, const std::string& cards)
+{
+    for (DeckText& text : deck.texts) {
+        std::size_t step = std::string::npos;
+        if (text.place == DeckText::Place::cards)
+            each_keyword(text.text, [&](const Keyword& keyword, std::size_t begin) {
+                if (keyword.name == "STEP") step = begin;
+                return step == std::string::npos;
+            });
+        if (step == std::string::npos) continue;
+        text.text.insert(step, cards);
+        return;
+    }
+    deck.texts.push_back({DeckText::Place::cards, "", cards});
+}
+
 void refuse_element(const DeckBlock& block, std::string_view format, std::string_view why)
 {
     throw InvalidInput("io.no_such_element", std::to_string(block.count()) + " elements " +
@@ -202,21 +274,44 @@ void refuse_element(const DeckBlock& block, std::string_view format, std::string
                                                  std::string(why));
 }
 
+DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& options)
+{
+    switch (format) {
+    case DeckFormat::nastran:
+        return nastran_file(deck);
+    case DeckFormat::abaqus:
+        return abaqus_file(deck);
+    case DeckFormat::exodus:
+        return exodus_file(deck);
+    case DeckFormat::msh:
+        return msh_of_deck(deck, options);
+    case DeckFormat::vtu:
+        return vtu_of_deck(deck);
+    case DeckFormat::vtk:
+        return vtk_of_deck(deck, options.binary);
+    default:
+        return unv_file(deck);
+    }
+}
+
 bool find_deck_format(std::string_view ending, DeckFormat& format)
 {
+    if (ending == ".exo" || ending == ".e") { // written alone
+        format = DeckFormat::exodus;
+        return true;
+    }
     const DeckFileFormat* found = deck_file_format(ending);
-    if (found == nullptr || (found->format != DeckFormat::nastran && found->format != DeckFormat::abaqus &&
-                             found->format != DeckFormat::unv))
-        return false;
+    using enum DeckFormat;
+    constexpr DeckFormat kWritten[] = {nastran, abaqus, unv, msh, vtk, vtu};
+    if (found == nullptr || std::ranges::find(kWritten, found->format) == std::end(kWritten)) return false;
     format = found->format;
     return true;
 }
 
-void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context)
+void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context,
+                const DeckFileOptions& options)
 {
-    DeckFile file = format == DeckFormat::nastran  ? nastran_file(deck)
-                    : format == DeckFormat::abaqus ? abaqus_file(deck)
-                                                   : unv_file(deck);
+    DeckFile file = file_of(deck, format, options);
     const bool texts = std::ranges::any_of(
         deck.texts, [](const DeckText& text) { return text.place == DeckText::Place::cards; });
     if (format != deck.format && texts)
@@ -224,7 +319,7 @@ void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, con
                              " are of another format and not carried over");
     for (const std::string& note : file.notes) log_line(context, path.text() + ": " + note);
     WholeFile whole(path);
-    write_sections(whole, file.sections, Sizes::varying, context);
+    write_sections(whole, file.sections, file.sizes, context);
     whole.commit();
 }
 

@@ -53,6 +53,19 @@ public:
         return points;
     }
 
+    /// The region with most faces on the mesh, of those whose material is known. @pre points() was called
+    [[nodiscard]] const DeckRegion* neighbour() const
+    {
+        const DeckRegion* best = nullptr;
+        std::size_t most = 0;
+        for (std::size_t r = 0; r < touching_.size(); ++r)
+            if (!deck_.regions[r].material.empty() && touching_[r] > most) {
+                best = &deck_.regions[r];
+                most = touching_[r];
+            }
+        return best;
+    }
+
 private:
     void find_nodes()
     {
@@ -86,13 +99,15 @@ private:
             faces.emplace(sorted(quad), static_cast<std::uint32_t>(i));
             for (std::size_t k = 0; k < 4; ++k) sides.emplace(sorted(Segment{quad[k], quad[(k + 1) % 4]}), 0);
         }
-        const auto take = [&](std::span<const Index> points) {
+        touching_.assign(deck_.regions.size(), 0);
+        const auto take = [&](std::span<const Index> points, Index region) {
             Quad nodes{};
             const std::size_t corners = points.size();
             for (std::size_t k = 0; k < corners; ++k) nodes[k] = node_of_[index(points[k])];
             if (corners == 4)
                 if (const auto found = faces.find(sorted(nodes)); found != faces.end()) {
                     matched_[found->second] = true;
+                    if (region >= 0) ++touching_[index(region)];
                     for (std::size_t k = 0; k < 4; ++k) vote(by_face_, nodes[k], points[k]);
                 }
             for (std::size_t k = 0; k < corners; ++k) {
@@ -103,23 +118,24 @@ private:
             }
         };
         for (const DeckBlock& block : deck_.blocks)
-            for (std::size_t e = 0; e < block.count(); ++e) each_face(block, block.element(e), take);
+            for (std::size_t e = 0; e < block.count(); ++e) each_face(block, e, take);
     }
 
     /// Faces of an element of which two corners at least are on the skin.
     template <class Take>
-    void each_face(const DeckBlock& block, std::span<const Index> element, const Take& take) const
+    void each_face(const DeckBlock& block, std::size_t e, const Take& take) const
     {
+        const std::span<const Index> element = block.element(e);
         const DeckShapeInfo& info = shape_info(block.shape);
         const auto corners = element.first(index(info.corners));
         const auto is_on = [&](Index point) { return node_of_[index(point)] >= 0; };
         if (info.dimension < 2 || std::ranges::count_if(corners, is_on) < 2) return;
-        if (info.dimension == 2) return take(corners);
+        if (info.dimension == 2) return take(corners, block.regions[e]);
         for (const Quad& face : face_corners(block.shape)) {
             Quad points{};
             const std::size_t count = face[3] < 0 ? 3 : 4;
             for (std::size_t k = 0; k < count; ++k) points[k] = element[index(face[k])];
-            take(std::span<const Index>(points).first(count));
+            take(std::span<const Index>(points).first(count), block.regions[e]);
         }
     }
 
@@ -221,17 +237,26 @@ private:
     std::vector<std::span<const Index>> candidates_; ///< of each node of the mesh, in `at_`
     std::vector<Index> node_of_;                     ///< of each of the deck's points the mesh's node; -1
     Votes by_face_, by_side_;
-    std::vector<bool> matched_; ///< quads of the skin
+    std::vector<bool> matched_;         ///< quads of the skin
+    std::vector<std::size_t> touching_; ///< faces of each region that are the skin's
 };
 
 } // namespace
 
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,
-               const MeshDeckOptions& options)
+               const MeshDeckOptions& options, const RunContext& context)
 {
-    const std::vector<Index> points = Joiner(deck, model, scale, mesh).points();
+    Joiner joiner(deck, model, scale, mesh);
+    const std::vector<Index> points = joiner.points();
+    using enum DeckFormat;
+    AddedMesh added{.points = points, .scale = scale};
+    added.skin_cells = options.format == msh || options.format == vtk || options.format == vtu;
+    if (const DeckRegion* neighbour = joiner.neighbour()) {
+        added.neighbour_material = neighbour->material;
+        added.neighbour = neighbour->name;
+    }
     Deck joined = deck;
-    add_mesh(joined, mesh, {.points = points, .scale = scale}, options);
+    add_mesh(joined, mesh, added, options, context);
     return joined;
 }
 

@@ -54,8 +54,9 @@ std::vector<int> sides_of_skin(const mesh::HexMesh& mesh, const std::vector<std:
 
 class MeshAdder {
 public:
-    MeshAdder(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options)
-        : deck_(deck), mesh_(mesh), added_(added), options_(options)
+    MeshAdder(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
+              const RunContext& context)
+        : deck_(deck), mesh_(mesh), added_(added), options_(options), context_(context)
     {
     }
 
@@ -69,6 +70,7 @@ public:
                                    "\": expected Abaqus's word for a hexahedron of eight nodes, "
                                    "such as C3D8, C3D8I or C3D8R; the mesh has no middle nodes");
         texts_ = numbers_in_text(deck_);
+        choose_material();
         add_points();
         add_cells();
         add_groups();
@@ -101,12 +103,17 @@ private:
         int highest = static_cast<int>(
             std::min<DeckTag>(texts_.property, std::numeric_limits<int>::max() - 2));
         for (const DeckRegion& region : deck_.regions) highest = std::max(highest, region.tag);
-        volume_ = mesh_.volume_groups.empty() ? "volume" : mesh_.volume_groups.front();
+        volume_ = volume();
         const auto region = static_cast<Index>(deck_.regions.size());
-        deck_.regions.push_back({highest + 1, set_name(DeckSet::Kind::elements, volume_), ""});
+        deck_.regions.push_back({highest + 1, set_name(DeckSet::Kind::elements, volume_), material_});
+        if (deck_.regions.back().name != volume_)
+            log_line(context_, "the cells of " + volume_ + " are the set " + deck_.regions.back().name);
         const bool abaqus = options_.format == DeckFormat::abaqus;
         const bool nastran = options_.format == DeckFormat::nastran;
-        DeckBlock& block = block_of(DeckShape::hex8, abaqus ? options_.element : nastran ? "CHEXA" : "115");
+        DeckBlock& block = block_of(DeckShape::hex8, abaqus    ? options_.element
+                                                     : nastran ? "CHEXA"
+                                                     : unv()   ? "115"
+                                                               : "");
         for (std::size_t c = 0; c < mesh_.hex_count(); ++c) {
             for (const Index node : mesh_.hex(c)) block.nodes.push_back(point_[index(node)]);
             block.tags.push_back(first_cell_ + static_cast<DeckTag>(c));
@@ -116,6 +123,8 @@ private:
             for (const std::string& group : mesh_.volume_groups) add_volume_set(group);
         if (added_.skin_cells) add_skin_cells();
     }
+
+    [[nodiscard]] bool unv() const { return options_.format == DeckFormat::unv; }
 
     void add_volume_set(const std::string& group)
     {
@@ -128,8 +137,9 @@ private:
 
     void add_skin_cells()
     {
-        DeckBlock& block = block_of(DeckShape::quad4, "94");
-        const auto region = static_cast<Index>(deck_.regions.size() - 1);
+        DeckBlock& block = block_of(DeckShape::quad4, unv() ? "94" : "");
+        // A UNV needs a property of each; elsewhere the skin is in its groups alone.
+        const auto region = unv() ? static_cast<Index>(deck_.regions.size() - 1) : -1;
         for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
             for (const Index node : skin_quad(mesh_, i).nodes) block.nodes.push_back(point_[index(node)]);
             block.tags.push_back(skin_tag(i));
@@ -181,11 +191,16 @@ private:
                 if (of.empty()) names.push_back(name);
                 of.push_back(static_cast<std::uint32_t>(i));
             }
-        if (options_.format == DeckFormat::abaqus) {
+        if (has_sides()) {
             cells_ = cells_of_skin(mesh_);
             sides_ = sides_of_skin(mesh_, cells_);
         }
         for (const std::string& name : names) add_group(name, quads[name]);
+    }
+
+    [[nodiscard]] bool has_sides() const
+    {
+        return options_.format == DeckFormat::abaqus || options_.format == DeckFormat::exodus;
     }
 
     void add_group(const std::string& name, const std::vector<std::uint32_t>& quads)
@@ -204,10 +219,12 @@ private:
             for (const Index node : skin_quad(mesh_, i).nodes)
                 nodes.members.push_back(deck_.point_tags[index(point_[index(node)])]);
         tidy(nodes.members);
-        if (options_.format != DeckFormat::abaqus) return;
-        DeckSet& cells = add(DeckSet::Kind::elements);
-        for (const std::uint32_t i : quads) cells.members.push_back(first_cell_ + cells_[i]);
-        tidy(cells.members);
+        if (!has_sides()) return;
+        if (options_.format == DeckFormat::abaqus) {
+            DeckSet& cells = add(DeckSet::Kind::elements);
+            for (const std::uint32_t i : quads) cells.members.push_back(first_cell_ + cells_[i]);
+            tidy(cells.members);
+        }
         DeckSet& sides = add(DeckSet::Kind::sides);
         for (const std::uint32_t i : quads) sides.sides.push_back({first_cell_ + cells_[i], sides_[i]});
         tidy(sides.sides);
@@ -220,19 +237,65 @@ private:
         values.erase(std::unique(values.begin(), values.end()), values.end());
     }
 
+    /// The one that is asked for, else that of the elements beside the mesh.
+    void choose_material()
+    {
+        material_ = options_.material;
+        if (deck_.points.empty()) return; // nothing it joins
+        const std::vector<std::string> known = materials_in_text(deck_);
+        const auto find = [&](const std::string& name) {
+            return std::ranges::find_if(known, [&](const std::string& of) { return same_word(of, name); });
+        };
+        if (material_.empty()) {
+            if (find(added_.neighbour_material) == known.end()) return;
+            material_ = added_.neighbour_material;
+            log_line(context_, volume() + ": its material is " + material_ + ", that of " + added_.neighbour +
+                                   " beside it; open_volume's material says another");
+            return;
+        }
+        if (const auto found = find(material_); found != known.end()) {
+            material_ = *found;
+            return;
+        }
+        std::string list;
+        for (std::size_t m = 0; m < std::min(known.size(), kMostListed); ++m)
+            list += (m > 0 ? ", " : "") + known[m];
+        if (known.size() > kMostListed)
+            list += " and " + std::to_string(known.size() - kMostListed) + " more";
+        throw InvalidInput("io.no_material", "material = " + material_ + ": " + deck_.path + " has " +
+                                                 (known.empty() ? "no materials" : "the materials " + list));
+    }
+    static constexpr std::size_t kMostListed = 20; // what still reads as a list
+
+    [[nodiscard]] std::string volume() const
+    {
+        return mesh_.volume_groups.empty() ? "volume" : mesh_.volume_groups.front();
+    }
+
     void add_region_card()
     {
-        if (deck_.format != DeckFormat::nastran) return;
-        const int property = deck_.regions.back().tag;
-        const std::string text = "$ property of " + volume_ + "\nPSOLID," + std::to_string(property) + ",1\n";
-        deck_.texts.push_back({DeckText::Place::cards, "", text});
+        if (options_.format != deck_.format) return;
+        const DeckRegion& region = deck_.regions.back();
+        if (deck_.format == DeckFormat::nastran) {
+            // A name is of another format: then the number is left for the person to set.
+            const std::string number = parse_integer<int>(material_) ? material_ : "1";
+            std::string text = "$ property of " + volume_;
+            if (number != material_ && !material_.empty()) text += ", material " + material_;
+            deck_.texts.push_back({DeckText::Place::cards, "",
+                                   text + "\nPSOLID," + std::to_string(region.tag) + "," + number + "\n"});
+        } else if (deck_.format == DeckFormat::abaqus && !material_.empty() &&
+                   !has_section(deck_, region.name)) {
+            add_model_cards(deck_, "*SOLID SECTION, ELSET=" + region.name + ", MATERIAL=" + material_ + "\n");
+        }
     }
 
     Deck& deck_;
     const mesh::HexMesh& mesh_;
     const AddedMesh& added_;
     const MeshDeckOptions& options_;
+    const RunContext& context_;
     TextNumbers texts_;
+    std::string material_;
     std::vector<Index> point_; ///< of each node of the mesh
     std::string volume_;
     DeckTag first_cell_ = 1;
@@ -242,9 +305,10 @@ private:
 
 } // namespace
 
-void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options)
+void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
+              const RunContext& context)
 {
-    MeshAdder(deck, mesh, added, options).add();
+    MeshAdder(deck, mesh, added, options, context).add();
 }
 
 Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options)

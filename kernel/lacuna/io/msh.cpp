@@ -19,20 +19,6 @@ constexpr int kHexType = 5;
 
 std::uint64_t node_tag(Index node) { return static_cast<std::uint64_t>(node) + 1; }
 
-/// Header and names, which are text in every version.
-std::string opening(const MshContent& content, const char* version, bool binary)
-{
-    std::string text = std::string("$MeshFormat\n") + version + (binary ? " 1 8\n" : " 0 8\n");
-    if (binary) {
-        put(text, int{1}); // tells the reader the order of bytes
-        text += "\n";
-    }
-    text += "$EndMeshFormat\n$PhysicalNames\n" + std::to_string(content.names.size()) + "\n";
-    for (const PhysicalName& name : content.names)
-        text += std::to_string(name.dimension) + " " + std::to_string(name.tag) + " \"" + name.name + "\"\n";
-    return text + "$EndPhysicalNames\n";
-}
-
 // ---- Version 4.1, binary
 
 void put_list(std::string& text, const std::vector<int>& tags)
@@ -139,7 +125,7 @@ std::vector<Section> binary_41(const mesh::HexMesh& mesh, const MshContent& cont
 {
     const std::size_t nodes = mesh.nodes.size();
     std::vector<Section> sections;
-    sections.push_back({opening(content, "4.1", true) + binary_entities(content) + "$Nodes\n" +
+    sections.push_back({msh_opening(content.names, "4.1", true) + binary_entities(content) + "$Nodes\n" +
                             counts_of(1, nodes) + block_head(3, kVolumeTag, 0, nodes),
                         nodes, sizeof(std::uint64_t), [](std::size_t begin, std::size_t end, char* out) {
                             for (std::size_t i = begin; i < end; ++i)
@@ -251,7 +237,7 @@ std::vector<Section> text_41(const mesh::HexMesh& mesh, const MshContent& conten
 {
     const std::size_t nodes = mesh.nodes.size();
     std::vector<Section> sections;
-    sections.push_back({opening(content, "4.1", false) + text_entities(content) + "$Nodes\n" +
+    sections.push_back({msh_opening(content.names, "4.1", false) + text_entities(content) + "$Nodes\n" +
                             words({1, nodes, 1, nodes}) + words({3, kVolumeTag, 0, nodes}),
                         nodes, kNumberBytes, [](std::size_t begin, std::size_t end, char* out) {
                             for (std::size_t i = begin; i < end; ++i) {
@@ -280,7 +266,7 @@ std::vector<Section> text_41(const mesh::HexMesh& mesh, const MshContent& conten
 std::vector<Section> text_22(const mesh::HexMesh& mesh, const MshContent& content)
 {
     std::vector<Section> sections;
-    sections.push_back({opening(content, "2.2", false) + "$Nodes\n" + words({mesh.nodes.size()}),
+    sections.push_back({msh_opening(content.names, "2.2", false) + "$Nodes\n" + words({mesh.nodes.size()}),
                         mesh.nodes.size(), 4 * kNumberBytes,
                         [&mesh](std::size_t begin, std::size_t end, char* out) {
                             for (std::size_t i = begin; i < end; ++i) {
@@ -324,7 +310,7 @@ std::string head_22(int type, std::size_t count)
 std::vector<Section> binary_22(const mesh::HexMesh& mesh, const MshContent& content)
 {
     std::vector<Section> sections;
-    sections.push_back({opening(content, "2.2", true) + "$Nodes\n" + words({mesh.nodes.size()}),
+    sections.push_back({msh_opening(content.names, "2.2", true) + "$Nodes\n" + words({mesh.nodes.size()}),
                         mesh.nodes.size(), sizeof(int) + sizeof(Vec3),
                         [&mesh](std::size_t begin, std::size_t end, char* out) {
                             for (std::size_t i = begin; i < end; ++i) {

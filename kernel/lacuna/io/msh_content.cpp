@@ -2,6 +2,7 @@
 #include <lacuna/io/detail/msh_content.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/io/detail/sections.h>
 
 #include <algorithm>
 
@@ -82,6 +83,19 @@ void check_skin(const mesh::HexMesh& mesh)
         if (patch.tag <= 0 || !tags.insert(patch.tag).second)
             throw InvalidInput("io.patch_tag", "the skin patch with tag " + std::to_string(patch.tag) +
                                                    " must have a positive tag of its own");
+}
+
+std::string msh_opening(const std::vector<PhysicalName>& names, const char* version, bool binary)
+{
+    std::string text = std::string("$MeshFormat\n") + version + (binary ? " 1 8\n" : " 0 8\n");
+    if (binary) {
+        put(text, int{1}); // tells the reader the order of bytes
+        text += "\n";
+    }
+    text += "$EndMeshFormat\n$PhysicalNames\n" + std::to_string(names.size()) + "\n";
+    for (const PhysicalName& name : names)
+        text += std::to_string(name.dimension) + " " + std::to_string(name.tag) + " \"" + name.name + "\"\n";
+    return text + "$EndPhysicalNames\n";
 }
 
 MshContent msh_content(const mesh::HexMesh& mesh)

@@ -2,10 +2,9 @@
 #include <lacuna/io/vtk.h>
 
 #include <lacuna/io/detail/msh_content.h>
-#include <lacuna/io/detail/sections.h>
+#include <lacuna/io/detail/vtk_file.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 
 namespace lacuna::io {
@@ -13,18 +12,6 @@ namespace {
 
 constexpr int kVtkQuad = 9;
 constexpr int kVtkHex = 12;
-
-using Fill = std::function<char*(std::size_t, std::size_t, char*)>;
-
-/// One record after the other by `put_one(i, out)`.
-template <class PutOne>
-Fill each(PutOne put_one)
-{
-    return [put_one](std::size_t begin, std::size_t end, char* out) {
-        for (std::size_t i = begin; i < end; ++i) out = put_one(i, out);
-        return out;
-    };
-}
 
 /// Fields of hexahedra and skin, what of the skin is looked up by the cell a quad belongs to.
 struct Fields {
@@ -49,16 +36,24 @@ int entity(const mesh::HexMesh& mesh, std::size_t skin)
     return mesh.patches[static_cast<std::size_t>(skin_quad(mesh, skin).patch)].tag;
 }
 
+/// The entities of each group.
+VtkTable groups_of(const mesh::HexMesh& mesh)
+{
+    VtkTable table;
+    const auto add = [&](const std::string& name, int entity) {
+        auto found = std::ranges::find(table, name, &VtkTable::value_type::first);
+        if (found == table.end()) found = table.insert(found, {name, {}});
+        found->second.push_back(entity);
+    };
+    for (const mesh::SkinPatch& patch : mesh.patches)
+        for (const std::string& name : patch.groups) add(name, patch.tag);
+    for (const std::string& name : mesh.volume_groups) add(name, 0);
+    return table;
+}
+
 // ---- XML
 
-struct Array {
-    std::string attributes;
-    std::size_t bytes;
-    std::vector<Section> sections;
-};
-
-/// Numbers in the order of this machine's bytes, which the head names.
-std::vector<Array> vtu_arrays(const mesh::HexMesh& mesh, const Fields& fields)
+std::vector<VtuArray> vtu_arrays(const mesh::HexMesh& mesh, const Fields& fields)
 {
     const std::size_t hexes = mesh.hex_count();
     const std::size_t skin = mesh.skin_count();
@@ -80,82 +75,38 @@ std::vector<Array> vtu_arrays(const mesh::HexMesh& mesh, const Fields& fields)
         std::memcpy(out, mesh.nodes[i].data(), sizeof(Vec3));
         return out + sizeof(Vec3);
     };
-    std::vector<Array> arrays{
-        {"type=\"Float64\" NumberOfComponents=\"3\"",
+    using enum VtuArray::Place;
+    std::vector<VtuArray> arrays{
+        {points,
+         "type=\"Float64\" NumberOfComponents=\"3\"",
          mesh.nodes.size() * sizeof(Vec3),
          {section(mesh.nodes.size(), sizeof(Vec3), each(put_point))}},
-        {"type=\"Int32\" Name=\"connectivity\"",
+        {cells,
+         "type=\"Int32\" Name=\"connectivity\"",
          hexes * sizeof(Hex) + skin * sizeof(Quad),
          {section(hexes, sizeof(Hex), each(put_hex)), section(skin, sizeof(Quad), each(put_quad))}},
-        {"type=\"Int64\" Name=\"offsets\"", (hexes + skin) * 8, {section(hexes + skin, 8, each(put_offset))}},
-        {"type=\"UInt8\" Name=\"types\"", hexes + skin, {section(hexes + skin, 1, each(put_type))}},
-        {"type=\"Int32\" Name=\"entity\"", (hexes + skin) * 4, {section(hexes + skin, 4, each(put_entity))}}};
+        {cells,
+         "type=\"Int64\" Name=\"offsets\"",
+         (hexes + skin) * 8,
+         {section(hexes + skin, 8, each(put_offset))}},
+        {cells, "type=\"UInt8\" Name=\"types\"", hexes + skin, {section(hexes + skin, 1, each(put_type))}},
+        {cell_data,
+         "type=\"Int32\" Name=\"entity\"",
+         (hexes + skin) * 4,
+         {section(hexes + skin, 4, each(put_entity))}}};
     for (const CellField& field : fields.fields) {
         const auto put_value = [&fields, &field](std::size_t i, char* out) {
             return put(out, fields.value(field, i));
         };
-        arrays.push_back({"type=\"Float64\" Name=\"" + field.name + "\"",
+        arrays.push_back({cell_data,
+                          "type=\"Float64\" Name=\"" + field.name + "\"",
                           (hexes + skin) * sizeof(double),
                           {section(hexes + skin, sizeof(double), each(put_value))}});
     }
     return arrays;
 }
 
-std::string vtu_head(const mesh::HexMesh& mesh, const std::vector<Array>& arrays)
-{
-    const char* order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
-    std::string text =
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
-    text.append(order).append("\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"");
-    text.append(std::to_string(mesh.nodes.size())).append("\" NumberOfCells=\"");
-    text.append(std::to_string(mesh.hex_count() + mesh.skin_count())).append("\">\n");
-    std::size_t offset = 0;
-    const auto array = [&](std::size_t i) {
-        text.append("<DataArray ").append(arrays[i].attributes).append(" format=\"appended\" offset=\"");
-        text.append(std::to_string(offset)).append("\"/>\n");
-        offset += sizeof(std::uint64_t) + arrays[i].bytes;
-    };
-    text += "<Points>\n";
-    array(0);
-    text += "</Points>\n<Cells>\n";
-    for (const std::size_t i : {1, 2, 3}) array(i);
-    text += "</Cells>\n<CellData Scalars=\"entity\">\n";
-    for (std::size_t i = 4; i < arrays.size(); ++i) array(i);
-    return text + "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-}
-
 // ---- Legacy
-
-/// Legacy files hold the highest byte first.
-template <class Value>
-char* put_big(char* out, Value value)
-{
-    char* end = put(out, value);
-    if (std::endian::native == std::endian::little) std::reverse(out, end);
-    return end;
-}
-
-char* put_number(char* out, double value, bool binary)
-{
-    if (binary) return put_big(out, value);
-    out = put_text(out, value);
-    *out++ = ' ';
-    return out;
-}
-
-char* put_number(char* out, std::int32_t value, bool binary)
-{
-    if (binary) return put_big(out, value);
-    out = put_text(out, static_cast<long long>(value));
-    *out++ = ' ';
-    return out;
-}
-
-char* end_line(char* out, bool binary)
-{
-    if (!binary) *out++ = '\n';
-    return out;
-}
 
 template <std::size_t N>
 char* put_cell(char* out, const std::array<Index, N>& nodes, bool binary)
@@ -185,9 +136,8 @@ std::vector<Section> vtk_sections(const mesh::HexMesh& mesh, const Fields& field
         const int tag = i < hexes ? 0 : entity(mesh, i - hexes);
         return end_line(put_number(out, static_cast<std::int32_t>(tag), binary), binary);
     };
-    std::string head = "# vtk DataFile Version 3.0\nhexahedra\n";
-    head.append(binary ? "BINARY" : "ASCII").append("\nDATASET UNSTRUCTURED_GRID\nPOINTS ");
-    head.append(std::to_string(mesh.nodes.size())).append(" double\n");
+    std::string head = vtk_head(groups_of(mesh), binary);
+    head.append("POINTS ").append(std::to_string(mesh.nodes.size())).append(" double\n");
     const std::string sizes = std::string(1, ' ').append(std::to_string(9 * hexes + 5 * skin)).append("\n");
     std::vector<Section> sections{
         {head, mesh.nodes.size(), bytes(3, 8), each(put_point)},
@@ -217,13 +167,8 @@ void write_vtu(const mesh::HexMesh& mesh, const OutputPath& path, const VtuOptio
 {
     check_skin(mesh);
     const Fields fields(mesh, options.fields);
-    std::vector<Array> arrays = vtu_arrays(mesh, fields);
-    std::vector<Section> sections{{vtu_head(mesh, arrays), 0, 0, {}}};
-    for (Array& array : arrays) {
-        put(array.sections.front().text, static_cast<std::uint64_t>(array.bytes));
-        for (Section& section : array.sections) sections.push_back(std::move(section));
-    }
-    sections.push_back({"\n</AppendedData>\n</VTKFile>\n", 0, 0, {}});
+    const std::vector<Section> sections = vtu_file(mesh.nodes.size(), mesh.hex_count() + mesh.skin_count(),
+                                                   vtu_arrays(mesh, fields), groups_of(mesh));
     WholeFile file(path);
     write_sections(file, sections, Sizes::exact, context);
     file.commit();

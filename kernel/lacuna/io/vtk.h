@@ -16,7 +16,8 @@ struct VtuOptions {
 };
 
 /// Write hexahedra, then skin quads, for ParaView: XML, numbers raw behind it. The cell array "entity" holds
-/// the tag of the skin patch, 0 for hexahedra. Whole or not at all.
+/// the tag of the skin patch, 0 for hexahedra; arrays of the whole file called as the groups list the
+/// entities of each. Whole or not at all.
 /// @throw InvalidInput  the folder does not exist, a skin quad belongs to no patch, as `check_fields()`.
 /// @throw BackendError  the disk is full or the file cannot be written; nothing is left behind.
 void write_vtu(const mesh::HexMesh& mesh, const OutputPath& path, const VtuOptions& options = {},

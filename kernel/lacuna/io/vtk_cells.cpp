@@ -100,6 +100,14 @@ const VtkType* vtk_type(std::string_view name)
     return nullptr;
 }
 
+int vtk_type_of(DeckShape shape)
+{
+    for (const CellType& type : kCellTypes)
+        if (type.kind == Kind::shape && type.shape == shape && type.points == shape_info(shape).nodes)
+            return static_cast<int>(type.number);
+    return 0; // of lines, which are not written
+}
+
 void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& cursor)
 {
     if (!cells.types.empty() && cells.types.size() != cells.ends.size())

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/io/deck.h>
+#include <lacuna/io/deck_file.h>
 #include <lacuna/io/detail/sections.h>
 
 #include <set>
@@ -16,11 +16,17 @@ namespace lacuna::io {
 struct DeckFile {
     std::vector<Section> sections;
     std::vector<std::string> notes; ///< what the format cannot hold, a sentence each
+    Sizes sizes = Sizes::varying;
 };
 
+DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& options);
 DeckFile nastran_file(const Deck& deck);
 DeckFile abaqus_file(const Deck& deck);
 DeckFile unv_file(const Deck& deck);
+DeckFile msh_of_deck(const Deck& deck, const DeckFileOptions& options);
+DeckFile exodus_file(const Deck& deck);
+DeckFile vtu_of_deck(const Deck& deck);
+DeckFile vtk_of_deck(const Deck& deck, bool binary);
 
 /// Text of one place, all parts.
 std::string text_at(const Deck& deck, DeckText::Place place);
@@ -37,6 +43,13 @@ struct TextNumbers {
     DeckTag set = 0, property = 0; ///< the highest
 };
 TextNumbers numbers_in_text(const Deck& deck);
+
+/// Materials that the text of a Nastran or Abaqus deck defines, as it calls them, each once.
+std::vector<std::string> materials_in_text(const Deck& deck);
+/// Whether the text of an Abaqus deck has a section of a set of elements.
+bool has_section(const Deck& deck, std::string_view set);
+/// Put cards of the model before the first step of an Abaqus deck.
+void add_model_cards(Deck& deck, const std::string& cards);
 
 /// A real number of at most `width` characters, the nearest of these, with a point. @pre width >= 10
 char* put_real(char* out, double value, std::size_t width);

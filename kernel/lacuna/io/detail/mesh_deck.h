@@ -12,8 +12,11 @@ struct AddedMesh {
     std::span<const Index> points; ///< of each node of the mesh the deck's point it is; -1: a new one
     double scale = 1;              ///< of the mesh's coordinates to the deck's
     bool skin_cells = false;       ///< sets of the skin are quads that become elements
+    /// Of the elements beside the mesh, and the name of their region; empty: none is known.
+    std::string neighbour_material{}, neighbour{};
 };
-/// Add nodes, hexahedra, their region and the sets of the skin to a deck. @throw as `deck_of()`.
-void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options);
+/// Add nodes, hexahedra, their region and the sets of the skin to a deck. @throw as `join_deck()`.
+void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
+              const RunContext& context = {});
 
 } // namespace lacuna::io

@@ -56,6 +56,9 @@ struct MshContent {
 
 inline constexpr int kVolumeTag = 1;
 
+/// Header and names, which are text in every version.
+std::string msh_opening(const std::vector<PhysicalName>& names, const char* version, bool binary);
+
 /// @throw InvalidInput  a skin quad belongs to no patch, or two patches share a tag.
 void check_skin(const mesh::HexMesh& mesh);
 

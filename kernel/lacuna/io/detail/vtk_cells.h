@@ -15,6 +15,8 @@ struct VtkType {
 };
 /// Null where the name is unknown.
 const VtkType* vtk_type(std::string_view name);
+/// VTK's number of a shape.
+int vtk_type_of(DeckShape shape);
 
 /// Cells over one list of points.
 struct VtkCells {

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/deck_entities.h>
+
+#include <lacuna/io/detail/deck_builder.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace lacuna::io {
+
+int SetLists::extended(int list, int set)
+{
+    const auto [found, fresh] = next_.try_emplace({list, set}, static_cast<int>(lists_.size()));
+    if (fresh) {
+        lists_.push_back(lists_[index(list)]);
+        lists_.back().push_back(set);
+    }
+    return found->second;
+}
+
+DeckEntities entities_of(const Deck& deck)
+{
+    std::vector<DeckTag> tags;
+    for (const DeckBlock& block : deck.blocks) tags.insert(tags.end(), block.tags.begin(), block.tags.end());
+    const TagPlaces places(tags, [](Index, Index) {});
+    SetLists lists;
+    std::vector<int> list(tags.size(), 0);
+    for (std::size_t s = 0; s < deck.sets.size(); ++s) {
+        if (deck.sets[s].kind != DeckSet::Kind::elements) continue;
+        for (const DeckTag tag : deck.sets[s].members)
+            if (const Index e = places.find(tag); e >= 0)
+                list[index(e)] = lists.extended(list[index(e)], static_cast<int>(s));
+    }
+
+    DeckEntities found;
+    std::map<std::tuple<int, Index, int>, Index> known;
+    std::size_t e = 0;
+    for (const DeckBlock& block : deck.blocks) {
+        std::vector<Index>& of = found.of.emplace_back(block.count());
+        const int dimension = shape_info(block.shape).dimension;
+        std::tuple<int, Index, int> last{-1, 0, 0};
+        Index place = 0;
+        for (std::size_t b = 0; b < block.count(); ++b, ++e) {
+            const std::tuple<int, Index, int> key{dimension, block.regions[b], list[e]};
+            if (key != last) {
+                const auto [at, fresh] = known.try_emplace(key, static_cast<Index>(found.all.size()));
+                if (fresh) {
+                    DeckEntity& entity = found.all.emplace_back();
+                    entity.dimension = dimension;
+                    entity.region = block.regions[b];
+                    for (const int set : lists[list[e]]) entity.groups.push_back(deck.sets[index(set)].name);
+                    if (entity.region >= 0) entity.groups.push_back(deck.regions[index(entity.region)].name);
+                }
+                place = at->second;
+                last = key;
+            }
+            of[b] = place;
+            ++found.all[index(place)].count;
+        }
+    }
+
+    std::map<std::pair<std::string, int>, std::size_t> at;
+    for (std::size_t n = 0; n < found.all.size(); ++n) {
+        std::vector<std::string>& groups = found.all[n].groups;
+        std::erase(groups, "");
+        for (auto name = groups.begin(); name != groups.end();)
+            name = std::find(groups.begin(), name, *name) != name ? groups.erase(name) : name + 1;
+        for (const std::string& name : groups) {
+            const auto [place, fresh] = at.try_emplace({name, found.all[n].dimension}, found.groups.size());
+            if (fresh) found.groups.push_back({name, {}});
+            found.groups[place->second].second.push_back(static_cast<int>(n) + 1);
+        }
+    }
+    for (const auto& [key, place] : at)
+        if (key.second == 2 && at.contains({key.first, 3})) found.groups[place].first += ":faces";
+    return found;
+}
+
+} // namespace lacuna::io

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+//
+// A deck as VTK has it: cells in the deck's order, with arrays of their entities, regions and numbers.
+#include <lacuna/io/detail/deck_entities.h>
+#include <lacuna/io/detail/deck_writer.h>
+#include <lacuna/io/detail/vtk_cells.h>
+#include <lacuna/io/detail/vtk_file.h>
+
+#include <cstring>
+#include <memory>
+
+namespace lacuna::io {
+namespace {
+
+/// The cells, block after block; what the sections of the file refer to.
+struct Cells {
+    const Deck& deck;
+    DeckEntities entities;
+    std::vector<std::size_t> blocks;     ///< those that are written
+    std::size_t count = 0, lists = 0;    ///< of cells, and of their nodes
+    std::vector<std::size_t> first_node; ///< of each block that is written, in the list of nodes
+};
+
+std::shared_ptr<const Cells> cells_of(const Deck& deck, DeckFile& file)
+{
+    auto cells = std::make_shared<Cells>(Cells{deck, entities_of(deck), {}, 0, 0, {}});
+    std::size_t lines = 0;
+    for (std::size_t b = 0; b < deck.blocks.size(); ++b) {
+        const DeckBlock& block = deck.blocks[b];
+        if (shape_info(block.shape).dimension == 1) {
+            lines += block.count();
+            continue;
+        }
+        if (std::ranges::find(block.nodes, -1) != block.nodes.end())
+            refuse_element(block, "VTK", "some have not all their middle nodes");
+        cells->blocks.push_back(b);
+        cells->first_node.push_back(cells->lists);
+        cells->count += block.count();
+        cells->lists += block.nodes.size();
+    }
+    if (lines > 0) file.notes.push_back(std::to_string(lines) + " lines are not written");
+    return cells;
+}
+
+/// Names with the entities that are in them; sets of nodes with the places of these, from 0.
+VtkTable table_of(const Deck& deck, const DeckEntities& entities, DeckFile& file)
+{
+    VtkTable table = entities.groups;
+    std::size_t surfaces = 0;
+    std::unique_ptr<TagPlaces> places;
+    for (const DeckSet& set : deck.sets) {
+        if (set.kind == DeckSet::Kind::sides) ++surfaces;
+        if (set.kind != DeckSet::Kind::nodes) continue;
+        if (!places) places = std::make_unique<TagPlaces>(deck.point_tags, [](Index, Index) {});
+        std::vector<int> points;
+        for (const DeckTag tag : set.members)
+            if (const Index point = places->find(tag); point >= 0) points.push_back(point);
+        table.push_back({"nodes:" + set.name, std::move(points)});
+    }
+    std::erase_if(table, [](const auto& of) { return of.second.empty(); });
+    if (surfaces > 0)
+        file.notes.push_back(std::to_string(surfaces) + " sets of sides are not written: VTK has none");
+    return table;
+}
+
+/// A section of each block, with a record an element by `put_one(block, element, out)`.
+template <class PutOne>
+std::vector<Section> by_blocks(const std::shared_ptr<const Cells>& cells,
+                               const std::function<std::size_t(const DeckBlock&)>& bytes,
+                               const PutOne& put_one)
+{
+    std::vector<Section> sections;
+    for (std::size_t at = 0; at < cells->blocks.size(); ++at) {
+        const DeckBlock& block = cells->deck.blocks[cells->blocks[at]];
+        sections.push_back(
+            {{}, block.count(), bytes(block), each([cells, at, put_one](std::size_t e, char* out) {
+                 return put_one(*cells, at, e, out);
+             })});
+    }
+    if (sections.empty()) sections.emplace_back();
+    return sections;
+}
+
+const DeckBlock& block_at(const Cells& cells, std::size_t at) { return cells.deck.blocks[cells.blocks[at]]; }
+
+std::int32_t entity_at(const Cells& cells, std::size_t at, std::size_t e)
+{
+    return cells.entities.of[cells.blocks[at]][e] + 1;
+}
+
+std::int32_t region_at(const Cells& cells, std::size_t at, std::size_t e)
+{
+    const Index region = block_at(cells, at).regions[e];
+    return region < 0 ? 0 : cells.deck.regions[index(region)].tag;
+}
+
+std::int32_t type_at(const Cells& cells, std::size_t at) { return vtk_type_of(block_at(cells, at).shape); }
+
+} // namespace
+
+DeckFile vtu_of_deck(const Deck& deck)
+{
+    DeckFile file;
+    file.sizes = Sizes::exact;
+    const auto cells = cells_of(deck, file);
+    const auto fixed = [](std::size_t bytes) { return [bytes](const DeckBlock&) { return bytes; }; };
+    using Place = VtuArray::Place;
+    std::vector<VtuArray> arrays;
+    arrays.push_back({Place::points,
+                      "type=\"Float64\" NumberOfComponents=\"3\"",
+                      deck.points.size() * sizeof(Vec3),
+                      {{{}, deck.points.size(), sizeof(Vec3), each([&deck](std::size_t i, char* out) {
+                            std::memcpy(out, deck.points[i].data(), sizeof(Vec3));
+                            return out + sizeof(Vec3);
+                        })}}});
+    arrays.push_back({Place::point_data,
+                      "type=\"Int64\" Name=\"node_number\"",
+                      deck.points.size() * 8,
+                      {{{}, deck.points.size(), 8, each([&deck](std::size_t i, char* out) {
+                            return put(out, static_cast<std::int64_t>(deck.point_tags[i]));
+                        })}}});
+    const auto add = [&](Place place, const char* attributes, std::size_t bytes, auto put_one) {
+        arrays.push_back({place, attributes, cells->count * bytes, by_blocks(cells, fixed(bytes), put_one)});
+    };
+    arrays.push_back({Place::cells, "type=\"Int32\" Name=\"connectivity\"", cells->lists * 4,
+                      by_blocks(
+                          cells,
+                          [](const DeckBlock& block) {
+                              return static_cast<std::size_t>(shape_info(block.shape).nodes) * 4;
+                          },
+                          [](const Cells& of, std::size_t at, std::size_t e, char* out) {
+                              for (const Index node : block_at(of, at).element(e))
+                                  out = put(out, static_cast<std::int32_t>(node));
+                              return out;
+                          })});
+    add(Place::cells, "type=\"Int64\" Name=\"offsets\"", 8,
+        [](const Cells& of, std::size_t at, std::size_t e, char* out) {
+            const auto nodes = static_cast<std::size_t>(shape_info(block_at(of, at).shape).nodes);
+            return put(out, static_cast<std::int64_t>(of.first_node[at] + nodes * (e + 1)));
+        });
+    add(Place::cells, "type=\"UInt8\" Name=\"types\"", 1,
+        [](const Cells& of, std::size_t at, std::size_t, char* out) {
+            return put(out, static_cast<std::uint8_t>(type_at(of, at)));
+        });
+    add(Place::cell_data, "type=\"Int32\" Name=\"entity\"", 4,
+        [](const Cells& of, std::size_t at, std::size_t e, char* out) {
+            return put(out, entity_at(of, at, e));
+        });
+    add(Place::cell_data, "type=\"Int32\" Name=\"region\"", 4,
+        [](const Cells& of, std::size_t at, std::size_t e, char* out) {
+            return put(out, region_at(of, at, e));
+        });
+    add(Place::cell_data, "type=\"Int64\" Name=\"cell_number\"", 8,
+        [](const Cells& of, std::size_t at, std::size_t e, char* out) {
+            return put(out, static_cast<std::int64_t>(block_at(of, at).tags[e]));
+        });
+    const VtkTable table = table_of(deck, cells->entities, file);
+    file.sections = vtu_file(deck.points.size(), cells->count, std::move(arrays), table);
+    return file;
+}
+
+DeckFile vtk_of_deck(const Deck& deck, bool binary)
+{
+    DeckFile file;
+    file.sizes = binary ? Sizes::exact : Sizes::varying;
+    const auto cells = cells_of(deck, file);
+    const auto room = [binary](std::size_t numbers, std::size_t bytes) {
+        return binary ? numbers * bytes : numbers * kNumberBytes + 1;
+    };
+    const std::string count = std::to_string(cells->count);
+    const VtkTable table = table_of(deck, cells->entities, file);
+    std::string head = vtk_head(table, binary);
+    head.append("POINTS ").append(std::to_string(deck.points.size())).append(" double\n");
+    file.sections.push_back(
+        {head, deck.points.size(), room(3, 8), each([&deck, binary](std::size_t i, char* out) {
+             for (const double x : deck.points[i]) out = put_number(out, x, binary);
+             return end_line(out, binary);
+         })});
+    const auto add = [&](const std::string& before, std::vector<Section> sections) {
+        sections.front().text = before;
+        for (Section& section : sections) file.sections.push_back(std::move(section));
+    };
+    const auto one = [&](const std::string& before, std::size_t bytes, auto value) {
+        add(before, by_blocks(
+                        cells, [bytes, room](const DeckBlock&) { return room(1, bytes); },
+                        [value, binary](const Cells& of, std::size_t at, std::size_t e, char* out) {
+                            return end_line(put_number(out, value(of, at, e), binary), binary);
+                        }));
+    };
+    add("\nCELLS " + count + " " + std::to_string(cells->count + cells->lists) + "\n",
+        by_blocks(
+            cells,
+            [room](const DeckBlock& block) {
+                return room(static_cast<std::size_t>(shape_info(block.shape).nodes) + 1, 4);
+            },
+            [binary](const Cells& of, std::size_t at, std::size_t e, char* out) {
+                const std::span<const Index> nodes = block_at(of, at).element(e);
+                out = put_number(out, static_cast<std::int32_t>(nodes.size()), binary);
+                for (const Index node : nodes) out = put_number(out, static_cast<std::int32_t>(node), binary);
+                return end_line(out, binary);
+            }));
+    one("\nCELL_TYPES " + count + "\n", 4,
+        [](const Cells& of, std::size_t at, std::size_t) { return type_at(of, at); });
+    one("\nCELL_DATA " + count + "\nSCALARS entity int 1\nLOOKUP_TABLE default\n", 4, entity_at);
+    one("\nSCALARS region int 1\nLOOKUP_TABLE default\n", 4, region_at);
+    one("\nSCALARS cell_number long 1\nLOOKUP_TABLE default\n", 8,
+        [](const Cells& of, std::size_t at, std::size_t e) {
+            return static_cast<std::int64_t>(block_at(of, at).tags[e]);
+        });
+    file.sections.push_back({"\nPOINT_DATA " + std::to_string(deck.points.size()) +
+                                 "\nSCALARS node_number long 1\nLOOKUP_TABLE default\n",
+                             deck.points.size(), room(1, 8), each([&deck, binary](std::size_t i, char* out) {
+                                 const auto tag = static_cast<std::int64_t>(deck.point_tags[i]);
+                                 return end_line(put_number(out, tag, binary), binary);
+                             })});
+    file.sections.push_back({"\n", 0, 0, {}});
+    return file;
+}
+
+} // namespace lacuna::io

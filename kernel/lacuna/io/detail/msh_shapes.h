@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/io/deck.h>
+
+#include <span>
+
+/// Shapes as Gmsh has them. Internal to this folder.
+namespace lacuna::io {
+
+/// Gmsh's number of a shape.
+int gmsh_type(DeckShape shape);
+/// Where Gmsh has the nodes of a shape, in the order of DeckShape; empty: in the same places.
+std::span<const std::uint8_t> gmsh_places(DeckShape shape);
+
+} // namespace lacuna::io

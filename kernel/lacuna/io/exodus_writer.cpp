@@ -1,0 +1,461 @@
+// SPDX-License-Identifier: MIT
+//
+// Exodus II: dimensions and arrays by agreed names in a netCDF file of the classic format with offsets of 64
+// bits (https://docs.unidata.ucar.edu/nug/current/file_format_specifications.html). Written here: the library
+// of Debian 12 (exodusii 6.02) needs fifty others, HDF5 and curl among them, and writes to paths alone.
+#include <lacuna/core/error.h>
+#include <lacuna/io/detail/cursor.h>
+#include <lacuna/io/detail/deck_builder.h>
+#include <lacuna/io/detail/deck_writer.h>
+#include <lacuna/io/detail/vtk_file.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <set>
+
+namespace lacuna::io {
+namespace {
+
+enum class NcType : std::int32_t { text = 2, whole = 4, real32 = 5, real = 6 };
+
+std::size_t bytes_of(NcType type) { return type == NcType::text ? 1 : type == NcType::real ? 8 : 4; }
+std::size_t padded(std::size_t bytes) { return (bytes + 3) / 4 * 4; }
+
+template <class Value>
+void put_big(std::string& out, Value value)
+{
+    char bytes[sizeof value];
+    io::put_big(static_cast<char*>(bytes), value);
+    out.append(bytes, sizeof bytes);
+}
+
+void put_name(std::string& out, std::string_view name)
+{
+    put_big(out, static_cast<std::int32_t>(name.size()));
+    out += name;
+    out.append(padded(name.size()) - name.size(), '\0');
+}
+
+struct Attribute {
+    std::string name;
+    NcType type;
+    std::string values{}; ///< as they lie in the file
+    std::size_t count = 1;
+};
+
+Attribute text_attribute(const std::string& name, const std::string& value)
+{
+    return {name, NcType::text, value, value.size()};
+}
+template <class Value>
+Attribute number_attribute(const std::string& name, NcType type, Value value)
+{
+    Attribute attribute{name, type};
+    put_big(attribute.values, value);
+    return attribute;
+}
+
+/// A netCDF file: dimensions, attributes, arrays.
+class NcFile {
+public:
+    int dimension(const std::string& name, std::size_t length)
+    {
+        dimensions_.emplace_back(name, length);
+        return static_cast<int>(dimensions_.size()) - 1;
+    }
+    void attribute(Attribute attribute) { attributes_.push_back(std::move(attribute)); }
+    /// @param fill  records of `record` numbers, which are put with the highest byte first.
+    void array(const std::string& name, NcType type, std::vector<int> dimensions, std::size_t record,
+               Fill fill, std::vector<Attribute> attributes = {})
+    {
+        std::size_t count = 1;
+        for (const int d : dimensions) count *= dimensions_[index(d)].second;
+        arrays_.push_back(
+            {name, type, std::move(dimensions), std::move(attributes), count, record, std::move(fill)});
+    }
+    /// One number after the other by `value(i)`.
+    template <class Value>
+    void wholes(const std::string& name, std::vector<int> dimensions, Value value,
+                std::vector<Attribute> attributes = {})
+    {
+        array(name, NcType::whole, std::move(dimensions), 1, each([value](std::size_t i, char* out) {
+                  return io::put_big(out, static_cast<std::int32_t>(value(i)));
+              }),
+              std::move(attributes));
+    }
+    /// Names of the same length, zeros behind them.
+    void names(const std::string& name, std::vector<int> dimensions, std::vector<std::string> all)
+    {
+        const std::size_t length = dimensions_[index(dimensions.back())].second;
+        array(name, NcType::text, std::move(dimensions), length,
+              each([length, all = std::move(all)](std::size_t i, char* out) {
+                  std::fill_n(out, length, '\0');
+                  all[i].copy(out, length - 1);
+                  return out + length;
+              }));
+    }
+
+    /// The file's sections. @throw InvalidInput  an array that the format cannot hold.
+    std::vector<Section> take()
+    {
+        std::string head("CDF\2", 4);
+        put_big(head, std::int32_t{0}); // no time steps
+        put_big(head, std::int32_t{10});
+        put_big(head, static_cast<std::int32_t>(dimensions_.size()));
+        for (const auto& [name, length] : dimensions_) {
+            put_name(head, name);
+            put_big(head, static_cast<std::int32_t>(length));
+        }
+        put_attributes(head, attributes_);
+        put_big(head, std::int32_t{11});
+        put_big(head, static_cast<std::int32_t>(arrays_.size() + 1));
+        std::size_t begin = head.size() + size_of_array("time_whole", 1, {});
+        for (const Array& array : arrays_)
+            begin += size_of_array(array.name, array.dimensions.size(), array.attributes);
+        std::vector<Section> sections(1);
+        for (Array& array : arrays_) {
+            const std::size_t bytes = array.count * bytes_of(array.type);
+            constexpr std::size_t kMost = 0xffff'fffb; // what the format's counts of bytes hold
+            if (bytes > kMost)
+                throw InvalidInput("io.too_large", array.name + " would have " + std::to_string(bytes) +
+                                                       " bytes, more than an array of netCDF can hold");
+            put_array(head, array.name, array.dimensions, array.attributes, array.type, padded(bytes), begin);
+            begin += padded(bytes);
+            sections.push_back({{},
+                                array.record == 0 ? 0 : array.count / array.record,
+                                array.record * bytes_of(array.type),
+                                std::move(array.fill)});
+            // Zeros up to the next multiple of four, before the array that follows.
+            sections.push_back({std::string(padded(bytes) - bytes, '\0'), 0, 0, {}});
+        }
+        put_array(head, "time_whole", {kTimeStep}, {}, NcType::real, 8, begin);
+        sections.front().text = std::move(head);
+        return sections;
+    }
+
+    static constexpr int kTimeStep = 0; ///< the first dimension, whose length is that of the records: none
+
+private:
+    struct Array {
+        std::string name;
+        NcType type;
+        std::vector<int> dimensions;
+        std::vector<Attribute> attributes;
+        std::size_t count, record;
+        Fill fill;
+    };
+
+    static void put_attributes(std::string& out, const std::vector<Attribute>& all)
+    {
+        put_big(out, static_cast<std::int32_t>(all.empty() ? 0 : 12));
+        put_big(out, static_cast<std::int32_t>(all.size()));
+        for (const Attribute& attribute : all) {
+            put_name(out, attribute.name);
+            put_big(out, static_cast<std::int32_t>(attribute.type));
+            put_big(out, static_cast<std::int32_t>(attribute.count));
+            out += attribute.values;
+            out.append(padded(attribute.values.size()) - attribute.values.size(), '\0');
+        }
+    }
+
+    static void put_array(std::string& out, const std::string& name, const std::vector<int>& dimensions,
+                          const std::vector<Attribute>& attributes, NcType type, std::size_t bytes,
+                          std::size_t begin)
+    {
+        put_name(out, name);
+        put_big(out, static_cast<std::int32_t>(dimensions.size()));
+        for (const int d : dimensions) put_big(out, static_cast<std::int32_t>(d));
+        put_attributes(out, attributes);
+        put_big(out, static_cast<std::int32_t>(type));
+        put_big(out, static_cast<std::uint32_t>(bytes));
+        put_big(out, static_cast<std::uint64_t>(begin));
+    }
+
+    static std::size_t size_of_array(const std::string& name, std::size_t dimensions,
+                                     const std::vector<Attribute>& attributes)
+    {
+        std::string text;
+        put_array(text, name, std::vector<int>(dimensions, 0), attributes, NcType::whole, 0, 0);
+        return text.size();
+    }
+
+    std::vector<std::pair<std::string, std::size_t>> dimensions_;
+    std::vector<Attribute> attributes_;
+    std::vector<Array> arrays_;
+};
+
+/// What Exodus calls a shape; null: it has none.
+const char* exodus_type(DeckShape shape)
+{
+    switch (shape) {
+    case DeckShape::tri3:
+        return "TRI3";
+    case DeckShape::tri6:
+        return "TRI6";
+    case DeckShape::quad4:
+        return "SHELL4";
+    case DeckShape::quad8:
+        return "SHELL8";
+    case DeckShape::quad9:
+        return "SHELL9";
+    case DeckShape::tet4:
+        return "TETRA";
+    case DeckShape::tet10:
+        return "TETRA10";
+    case DeckShape::pyramid5:
+        return "PYRAMID";
+    case DeckShape::pyramid13:
+        return "PYRAMID13";
+    case DeckShape::wedge6:
+        return "WEDGE";
+    case DeckShape::wedge15:
+        return "WEDGE15";
+    case DeckShape::hex8:
+        return "HEX8";
+    case DeckShape::hex20:
+        return "HEX20";
+    case DeckShape::hex27:
+        return "HEX27";
+    default:
+        return nullptr;
+    }
+}
+
+/// Abaqus has the faces below and above first, Exodus has them last; tetrahedra have one below.
+int exodus_side(DeckShape shape, int side)
+{
+    const DeckShapeInfo& info = shape_info(shape);
+    if (info.dimension == 2) return side == 0 ? 1 : side == -1 ? 2 : side + 2;
+    const int ends = info.corners == 4 || info.corners == 5 ? 1 : 2;
+    const int faces = static_cast<int>(face_corners(shape).size());
+    return side <= ends ? faces - ends + side : side - ends;
+}
+
+/// Elements of one region and shape.
+struct Block {
+    Index region = -1;
+    std::size_t of = 0; ///< block of the deck
+    std::vector<std::uint32_t> elements{};
+    std::size_t first = 0; ///< number of the first, from 0
+    std::string name{};
+    int id = 0;
+};
+
+class ExodusWriter {
+public:
+    explicit ExodusWriter(const Deck& deck) : deck_(deck) {}
+
+    DeckFile write()
+    {
+        find_blocks();
+        name_blocks();
+        find_sets();
+        std::size_t longest = kLeastName;
+        for (const Block& block : blocks_) longest = std::max(longest, block.name.size());
+        for (const DeckSet& set : deck_.sets) longest = std::max(longest, set.name.size());
+        nc_.dimension("time_step", 0);
+        name_ = nc_.dimension("len_name", longest + 1);
+        nc_.dimension("len_string", kLeastName + 1);
+        nc_.dimension("len_line", 81);
+        nc_.dimension("four", 4);
+        nc_.attribute(number_attribute("api_version", NcType::real32, 5.22F));
+        nc_.attribute(number_attribute("version", NcType::real32, 5.22F));
+        nc_.attribute(number_attribute("floating_point_word_size", NcType::whole, std::int32_t{8}));
+        nc_.attribute(number_attribute("file_size", NcType::whole, std::int32_t{1}));
+        nc_.attribute(
+            number_attribute("maximum_name_length", NcType::whole, static_cast<std::int32_t>(longest)));
+        nc_.attribute(number_attribute("int64_status", NcType::whole, std::int32_t{0}));
+        nc_.attribute(text_attribute("title", "hexahedra"));
+        add_points();
+        add_blocks();
+        add_sets("node_sets", "ns", "num_nod_ns", "node_ns", nodes_);
+        add_sets("elem_sets", "els", "num_ele_els", "elem_els", cells_);
+        add_sets("side_sets", "ss", "num_side_ss", "elem_ss", sides_);
+        file_.sections = nc_.take();
+        file_.sizes = Sizes::exact;
+        return std::move(file_);
+    }
+
+private:
+    static constexpr std::size_t kLeastName = 32; // characters that every reader has room for
+
+    struct Set {
+        std::string name;
+        std::shared_ptr<std::vector<std::int32_t>> members, sides; ///< from 1
+    };
+
+    void find_blocks()
+    {
+        std::size_t lines = 0;
+        for (std::size_t b = 0; b < deck_.blocks.size(); ++b) {
+            const DeckBlock& block = deck_.blocks[b];
+            if (shape_info(block.shape).dimension == 1) {
+                lines += block.count();
+                continue;
+            }
+            if (exodus_type(block.shape) == nullptr)
+                refuse_element(block, "Exodus", "there is no such element");
+            if (std::ranges::find(block.nodes, -1) != block.nodes.end())
+                refuse_element(block, "Exodus", "some have not all their middle nodes");
+            std::map<Index, std::size_t> of_region;
+            for (std::size_t e = 0; e < block.count(); ++e) {
+                const auto [at, fresh] = of_region.try_emplace(block.regions[e], blocks_.size());
+                if (fresh) blocks_.push_back({.region = block.regions[e], .of = b});
+                blocks_[at->second].elements.push_back(static_cast<std::uint32_t>(e));
+            }
+        }
+        for (Block& block : blocks_) {
+            block.first = elements_;
+            elements_ += block.elements.size();
+        }
+        if (lines > 0) file_.notes.push_back(std::to_string(lines) + " lines are not written");
+    }
+
+    /// A region's name and tag where it has one block, else numbers above all tags.
+    void name_blocks()
+    {
+        std::set<std::string> names;
+        std::set<int> ids;
+        int next = 0;
+        for (const DeckRegion& region : deck_.regions) next = std::max(next, region.tag);
+        for (Block& block : blocks_) {
+            const int tag = block.region < 0 ? 0 : deck_.regions[index(block.region)].tag;
+            block.id = tag > 0 && ids.insert(tag).second ? tag : ++next;
+            ids.insert(block.id);
+            const std::string base = block.region < 0 ? "skin" : deck_.regions[index(block.region)].name;
+            block.name = base;
+            for (int i = 2; !block.name.empty() && !names.insert(block.name).second; ++i)
+                block.name = base + "_" + std::to_string(i);
+        }
+    }
+
+    void find_sets()
+    {
+        std::vector<DeckTag> tags;
+        std::vector<std::int32_t> number;
+        std::vector<DeckShape> shapes;
+        for (const Block& block : blocks_)
+            for (const std::uint32_t e : block.elements) {
+                tags.push_back(deck_.blocks[block.of].tags[e]);
+                shapes.push_back(deck_.blocks[block.of].shape);
+            }
+        const TagPlaces cells(tags, [](Index, Index) {});
+        const TagPlaces points(deck_.point_tags, [](Index, Index) {});
+        for (const DeckSet& set : deck_.sets) {
+            Set found{set.name, std::make_shared<std::vector<std::int32_t>>(), nullptr};
+            const bool of_nodes = set.kind == DeckSet::Kind::nodes;
+            for (const DeckTag tag : set.members)
+                if (const Index at = (of_nodes ? points : cells).find(tag); at >= 0)
+                    found.members->push_back(at + 1);
+            if (set.kind == DeckSet::Kind::sides) {
+                found.sides = std::make_shared<std::vector<std::int32_t>>();
+                for (const DeckSide& side : set.sides)
+                    if (const Index at = cells.find(side.element); at >= 0) {
+                        found.members->push_back(at + 1);
+                        found.sides->push_back(exodus_side(shapes[index(at)], side.side));
+                    }
+            }
+            if (found.members->empty()) continue;
+            (of_nodes ? nodes_ : set.kind == DeckSet::Kind::sides ? sides_ : cells_).push_back(found);
+        }
+    }
+
+    void add_points()
+    {
+        const int dimension = nc_.dimension("num_dim", 3);
+        const int nodes = nc_.dimension("num_nodes", deck_.points.size());
+        nc_.names("coor_names", {dimension, name_}, {"x", "y", "z"});
+        for (const int axis : {0, 1, 2})
+            nc_.array(
+                std::string("coord") + "xyz" [axis], NcType::real, { nodes }, 1,
+                each([deck = &deck_, axis](std::size_t i, char* out) {
+                    return io::put_big(out, deck->points[i][axis]);
+                }));
+        nc_.wholes("node_num_map", {nodes}, [deck = &deck_](std::size_t i) { return deck->point_tags[i]; });
+    }
+
+    void add_blocks()
+    {
+        const int elements = nc_.dimension("num_elem", elements_);
+        const int count = nc_.dimension("num_el_blk", blocks_.size());
+        std::vector<std::string> names;
+        std::vector<int> ids;
+        auto tags = std::make_shared<std::vector<DeckTag>>();
+        for (const Block& block : blocks_) {
+            names.push_back(block.name);
+            ids.push_back(block.id);
+            for (const std::uint32_t e : block.elements) tags->push_back(deck_.blocks[block.of].tags[e]);
+        }
+        nc_.wholes("eb_status", {count}, [](std::size_t) { return 1; });
+        nc_.wholes("eb_prop1", {count}, [ids](std::size_t i) { return ids[i]; },
+                   {text_attribute("name", "ID")});
+        nc_.names("eb_names", {count, name_}, names);
+        nc_.wholes("elem_num_map", {elements}, [tags](std::size_t i) { return (*tags)[i]; });
+        for (std::size_t b = 0; b < blocks_.size(); ++b) {
+            const std::string number = std::to_string(b + 1);
+            auto block = std::make_shared<Block>(blocks_[b]);
+            const DeckBlock& of = deck_.blocks[block->of];
+            const auto nodes = static_cast<std::size_t>(shape_info(of.shape).nodes);
+            const int rows = nc_.dimension("num_el_in_blk" + number, block->elements.size());
+            const int columns = nc_.dimension("num_nod_per_el" + number, nodes);
+            nc_.array("connect" + number, NcType::whole, {rows, columns}, nodes,
+                      each([block, &of](std::size_t i, char* out) {
+                          for (const Index node : of.element(block->elements[i]))
+                              out = io::put_big(out, static_cast<std::int32_t>(node) + 1);
+                          return out;
+                      }),
+                      {text_attribute("elem_type", exodus_type(of.shape))});
+        }
+    }
+
+    void add_sets(const std::string& kind, const std::string& prefix, const std::string& length,
+                  const std::string& list, const std::vector<Set>& sets)
+    {
+        if (sets.empty()) return;
+        const int count = nc_.dimension("num_" + kind, sets.size());
+        std::vector<std::string> names;
+        for (const Set& set : sets) names.push_back(set.name);
+        nc_.wholes(prefix + "_status", {count}, [](std::size_t) { return 1; });
+        nc_.wholes(prefix + "_prop1", {count}, [](std::size_t i) { return i + 1; },
+                   {text_attribute("name", "ID")});
+        nc_.names(prefix + "_names", {count, name_}, names);
+        for (std::size_t s = 0; s < sets.size(); ++s) {
+            const std::string number = std::to_string(s + 1);
+            const int members = nc_.dimension(length + number, sets[s].members->size());
+            nc_.wholes(list + number, {members},
+                       [all = sets[s].members](std::size_t i) { return (*all)[i]; });
+            if (sets[s].sides)
+                nc_.wholes("side_ss" + number, {members},
+                           [all = sets[s].sides](std::size_t i) { return (*all)[i]; });
+        }
+    }
+
+    const Deck& deck_;
+    DeckFile file_;
+    NcFile nc_;
+    std::vector<Block> blocks_;
+    std::vector<Set> nodes_, cells_, sides_;
+    std::size_t elements_ = 0;
+    int name_ = 0; ///< dimension of names
+};
+
+} // namespace
+
+DeckFile exodus_file(const Deck& deck)
+{
+    constexpr DeckTag kMost = std::numeric_limits<std::int32_t>::max();
+    const auto too_high = [](const std::vector<DeckTag>& tags) {
+        return std::ranges::any_of(tags, [](DeckTag tag) { return tag > kMost; });
+    };
+    bool high = too_high(deck.point_tags);
+    for (const DeckBlock& block : deck.blocks) high = high || too_high(block.tags);
+    if (high)
+        throw InvalidInput("io.number_taken",
+                           deck.path + " has numbers above " + std::to_string(kMost) +
+                               ", more than an Exodus file holds; give first_node and first_cell");
+    return ExodusWriter(deck).write();
+}
+
+} // namespace lacuna::io
