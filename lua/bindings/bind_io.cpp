@@ -26,7 +26,8 @@ struct WriteArguments {
     bool quality_given = false;
     io::MeshDeckOptions deck;
     bool element_given = false;
-    Box<ModelState> with; ///< null: the mesh alone
+    Box<ModelState> with;    ///< null: the mesh alone
+    bool interfaces = false; ///< of an assembly: quads between its volumes too
 };
 
 /// Metrics to be written. Version 2.2 is for readers that know no other, some of which (meshio 5) refuse a
@@ -112,6 +113,7 @@ const Option<WriteArguments> kWriteOptions[] = {
     {"first_node", read_first<&io::MeshDeckOptions::first_node>},
     {"first_cell", read_first<&io::MeshDeckOptions::first_cell>},
     {"element", read_element},
+    {"interfaces", boolean<&WriteArguments::interfaces>},
 };
 
 /// The one deck a model was read from.
@@ -211,6 +213,9 @@ int write(lua_State* L)
     guard(L, [&] {
         const mesh::HexMesh& mesh = state.swept.mesh;
         const Format& format = format_of(path.text(), arguments);
+        if (arguments.interfaces)
+            throw InvalidInput("lua.idle_option", "write: meshes of one volume have no option 'interfaces'; "
+                                                  "leave it out");
         if (arguments.with) refresh(*arguments.with);
         arguments.deck.material = state.material;
         for (const quality::Metric metric :
@@ -218,6 +223,49 @@ int write(lua_State* L)
             arguments.msh.fields.push_back(
                 {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
         format.write(mesh, path, arguments, context);
+    });
+    return 0;
+}
+
+/// The parts of an assembly's mesh in one deck, or with the deck they fill voids of.
+io::Deck deck_of_parts(const AssemblyMeshState& state, WriteArguments& arguments, const RunContext& context)
+{
+    io::MeshDeckOptions& options = arguments.deck;
+    if (!arguments.with) {
+        std::vector<mesh::MeshPart> parts;
+        for (std::size_t p = 0; p < state.regions.size(); ++p)
+            parts.push_back({&state.swept.parts[p].mesh, state.swept.number[p]});
+        return io::deck_of(parts, options, arguments.interfaces);
+    }
+    refresh(*arguments.with);
+    const ModelState& with = *arguments.with;
+    io::Deck deck = deck_with(with);
+    for (std::size_t p = 0; p < state.regions.size(); ++p) {
+        options.material = state.materials[p];
+        deck = io::join_deck(deck, with.model, with.scale, state.swept.parts[p].mesh, options, context);
+        options.first_node = options.first_cell = 0;
+    }
+    return deck;
+}
+
+/// assembly_mesh:write(path [, options])
+int write_assembly(lua_State* L)
+{
+    lua_settop(L, 3);
+    const auto& state = hold<AssemblyMeshState>(L, 1);
+    const io::OutputPath& path = push_output_path(L, 2, "write");
+    auto& arguments = temporary<WriteArguments>(L);
+    read_options(L, 3, "write", kWriteOptions, arguments);
+    RunContext& context = push_context(L);
+    guard(L, [&] {
+        if (arguments.quality_given)
+            throw InvalidInput("lua.idle_option",
+                               "write: meshes of assemblies are written without 'quality'; "
+                               "leave it out");
+        static_cast<void>(format_of(path.text(), arguments)); // refuses what the format has not
+        io::find_deck_format(io::ending_of(path.text()), arguments.deck.format);
+        io::write_deck(deck_of_parts(state, arguments, context), arguments.deck.format, path, context,
+                       {arguments.msh.binary, arguments.msh.version});
     });
     return 0;
 }
@@ -371,6 +419,8 @@ void bind_io(lua_State* L)
 {
     luaL_setfuncs(L, kFunctions, 0);
     add_methods(L, kClassName<MeshState>, kMeshMethods);
+    const luaL_Reg assembly[] = {{"write", write_assembly}, {nullptr, nullptr}};
+    add_methods(L, kClassName<AssemblyMeshState>, assembly);
     add_methods(L, kClassName<VolumeState>, kVolumeMethods);
 }
 

@@ -168,7 +168,27 @@ int mesh_quality(lua_State* L)
     return 1;
 }
 
+/// quality = assembly_mesh:quality()
+int assembly_quality(lua_State* L)
+{
+    lua_settop(L, 1);
+    auto& mesh = hold<AssemblyMeshState>(L, 1);
+    auto& source = temporary<QualitySource>(L);
+    const int at = lua_gettop(L);
+    RunContext& context = push_context(L);
+    guard(L, [&] {
+        WholeCells whole = whole_cells(mesh.swept);
+        if (!mesh.quality) mesh.quality = quality::measure_cells(whole.nodes, whole.hexes, context);
+        source.quality = *mesh.quality;
+        source.nodes = std::move(whole.nodes);
+        source.hexes = std::move(whole.hexes);
+    });
+    push_quality(L, at);
+    return 1;
+}
+
 const luaL_Reg kMeshMethods[] = {{"quality", mesh_quality}, {nullptr, nullptr}};
+const luaL_Reg kAssemblyMethods[] = {{"quality", assembly_quality}, {nullptr, nullptr}};
 
 } // namespace
 
@@ -216,6 +236,7 @@ void bind_quality(lua_State* L)
     set_string(L, "__metatable", "Quality");
     lua_pop(L, 1);
     add_methods(L, kClassName<MeshState>, kMeshMethods);
+    add_methods(L, kClassName<AssemblyMeshState>, kAssemblyMethods);
 }
 
 } // namespace lacuna::lua

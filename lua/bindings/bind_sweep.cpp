@@ -5,6 +5,7 @@
 
 #include <lacuna/cad/load.h>
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
@@ -271,10 +272,93 @@ int sweep_to(lua_State* L)
     fail(L, "sweep_to is not available yet; use volume:sweep(options):write(path)");
 }
 
+// --- several volumes as one ---------------------------------------------------------------------------
+
+/// The options of one volume: those for all, which have words as keys, and what [volume] says over them. Left
+/// on the stack.
+void push_options_of(lua_State* L, int index, const Box<VolumeState>& volume)
+{
+    lua_newtable(L);
+    const int merged = lua_gettop(L);
+    const auto lay_over = [&](int from) {
+        for (lua_pushnil(L); lua_next(L, from) != 0;) {
+            if (lua_type(L, -2) == LUA_TSTRING) {
+                lua_pushvalue(L, -2);
+                lua_insert(L, -2);
+                lua_rawset(L, merged);
+            } else {
+                lua_pop(L, 1);
+            }
+        }
+    };
+    lay_over(index);
+    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
+        const Box<VolumeState>* const key = test_box<VolumeState>(L, -2);
+        if (key == nullptr || *key != volume) continue;
+        if (lua_type(L, -1) != LUA_TTABLE) fail_value(L, {"sweep", "[volume]"}, "a table of options", -1);
+        lay_over(lua_absindex(L, -1));
+    }
+}
+
+/// Refuse keys that are neither words nor volumes of the assembly.
+void check_volume_keys(lua_State* L, int index, const AssemblyState& assembly)
+{
+    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
+        if (lua_type(L, -2) == LUA_TSTRING) continue;
+        const Box<VolumeState>* const key = test_box<VolumeState>(L, -2);
+        const auto& volumes = assembly.volumes;
+        if (key == nullptr || std::find(volumes.begin(), volumes.end(), *key) == volumes.end())
+            fail(L, "sweep: the keys of the options are words, or volumes of the assembly");
+    }
+}
+
+/// mesh = assembly:sweep(options)
+int sweep_assembly(lua_State* L)
+{
+    lua_settop(L, 2);
+    const auto& assembly = hold<AssemblyState>(L, 1);
+    if (lua_isnoneornil(L, 2)) {
+        lua_newtable(L);
+        lua_replace(L, 2);
+    }
+    if (lua_type(L, 2) != LUA_TTABLE) fail_value(L, {"sweep", nullptr}, "a table of options", 2);
+    check_volume_keys(L, 2, assembly);
+    auto& arguments = temporary<std::vector<const SweepArguments*>>(L);
+    for (const Box<VolumeState>& volume : assembly.volumes) {
+        luaL_checkstack(L, 16, "too many volumes");
+        push_options_of(L, 2, volume);
+        const SweepArguments& own = push_arguments(L, lua_gettop(L), "sweep");
+        guard(L, [&] { arguments.push_back(&own); });
+    }
+    RunContext& context = push_context(L);
+    context.threads = arguments.front()->threads;
+    lua_gc(L, LUA_GCCOLLECT);
+    auto& box = new_box<AssemblyMeshState>(L);
+    guard(L, [&] {
+        std::vector<sweep::AssemblyMember> members;
+        std::vector<std::unique_ptr<Busy>> busy;
+        auto mesh = std::make_shared<AssemblyMeshState>();
+        for (std::size_t m = 0; m < assembly.volumes.size(); ++m) {
+            VolumeState& state = *assembly.volumes[m];
+            busy.push_back(std::make_unique<Busy>(state, "sweep"));
+            close_volume(state, {}, context);
+            mesh->regions.push_back(state.name.empty() ? "volume_" + std::to_string(m + 1) : state.name);
+            mesh->materials.push_back(state.material);
+            members.push_back({&state.volume, arguments[m]->options, mesh->regions.back()});
+        }
+        mesh->swept = sweep::sweep_assembly(members, context);
+        box = std::move(mesh);
+    });
+    return 1;
+}
+
+const luaL_Reg kAssemblyMethods[] = {{"sweep", sweep_assembly}, {nullptr, nullptr}};
 const luaL_Reg kVolumeMethods[] = {{"sweep", sweep_volume}, {"sweep_to", sweep_to}, {nullptr, nullptr}};
 
 } // namespace
 
 void bind_sweep(lua_State* L) { add_methods(L, kClassName<VolumeState>, kVolumeMethods); }
+
+void bind_assembly_sweep(lua_State* L) { add_methods(L, kClassName<AssemblyState>, kAssemblyMethods); }
 
 } // namespace lacuna::lua

@@ -12,6 +12,7 @@
 #include <lacuna/io/deck.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/quality/quality.h>
+#include <lacuna/sweep/assembly.h>
 #include <lacuna/sweep/sweep.h>
 #include <lacuna/topology/model.h>
 #include <lacuna/topology/open_volume.h>
@@ -80,8 +81,32 @@ struct MeshState {
     std::string material; ///< of the volume
 };
 
+/// Volumes to be meshed as one.
+struct AssemblyState {
+    std::vector<std::shared_ptr<VolumeState>> volumes;
+};
+
+/// The mesh of an assembly.
+struct AssemblyMeshState {
+    sweep::SweptAssembly swept;
+    std::vector<std::string> regions;   ///< of each part
+    std::vector<std::string> materials; ///< of each part; empty ones: none was said
+    std::optional<quality::Quality> quality;
+};
+
+/// The nodes and cells of all parts, numbered as one mesh.
+struct WholeCells {
+    std::vector<Vec3> nodes;
+    std::vector<Hex> hexes;
+};
+WholeCells whole_cells(const sweep::SweptAssembly& swept);
+
 template <>
 inline constexpr const char* kClassName<ModelState> = "Model";
+template <>
+inline constexpr const char* kClassName<AssemblyState> = "Assembly";
+template <>
+inline constexpr const char* kClassName<AssemblyMeshState> = "AssemblyMesh";
 template <>
 inline constexpr const char* kClassName<FaceHandle> = "Face";
 template <>
@@ -121,6 +146,8 @@ void bind_open_volume(lua_State* L);
 void bind_matching(lua_State* L);
 void bind_closure(lua_State* L);
 void bind_sweep(lua_State* L);
+void bind_assembly(lua_State* L);
+void bind_assembly_sweep(lua_State* L);
 void bind_mesh(lua_State* L);
 void bind_quality(lua_State* L);
 void bind_io(lua_State* L);

@@ -14,8 +14,8 @@ int gmsh_version(lua_State* L);
 namespace {
 
 void (*const kBinders[])(lua_State*) = {
-    bind_topology, bind_open_volume, bind_matching, bind_closure, bind_mesh,
-    bind_sweep,    bind_quality,     bind_io,       bind_cad,
+    bind_topology, bind_open_volume,    bind_matching, bind_closure, bind_mesh, bind_sweep,
+    bind_assembly, bind_assembly_sweep, bind_quality,  bind_io,      bind_cad,
 };
 
 // --- what the embedded Lua sources get besides the module ---------------------------------------------

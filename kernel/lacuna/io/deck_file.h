@@ -5,8 +5,10 @@
 #include <lacuna/io/deck.h>
 #include <lacuna/io/whole_file.h>
 #include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/mesh/mesh_part.h>
 #include <lacuna/topology/model.h>
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -41,6 +43,12 @@ bool find_deck_format(std::string_view ending, DeckFormat& format);
 ///                     "io.number_taken"  a first number is below 1, or the last would be too high.
 /// @note  O(nodes + cells).
 Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options);
+
+/// The same of several swept meshes that have nodes in common: a region each, groups named as theirs.
+/// @param interfaces  where groups are sets of quads: quads that two of the meshes have are elements too, one
+///                    for both. Else the quads are the skin of the whole.
+/// @throw  as `deck_of()`.
+Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& options, bool interfaces = false);
 
 /// A deck and the mesh that fills a void of it as one conformal mesh. What the deck has keeps its numbers; a
 /// node of the skin that lies on a node of the deck is that node.

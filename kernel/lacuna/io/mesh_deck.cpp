@@ -141,15 +141,29 @@ private:
         // A UNV needs a property of each; elsewhere the skin is in its groups alone.
         const auto region = unv() ? static_cast<Index>(deck_.regions.size() - 1) : -1;
         for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
-            for (const Index node : skin_quad(mesh_, i).nodes) block.nodes.push_back(point_[index(node)]);
+            if (is_inner(i)) continue;
+            Quad nodes{};
+            for (std::size_t k = 0; k < 4; ++k) nodes[k] = point_[index(skin_quad(mesh_, i).nodes[k])];
+            if (added_.skin_tags != nullptr) {
+                Quad rising = nodes;
+                std::sort(rising.begin(), rising.end());
+                const auto [found, fresh] = added_.skin_tags->try_emplace(rising, skin_tag(i));
+                if (!fresh) skin_of_.emplace(i, found->second);
+                if (!fresh) continue;
+            }
+            block.nodes.insert(block.nodes.end(), nodes.begin(), nodes.end());
             block.tags.push_back(skin_tag(i));
             block.regions.push_back(region);
         }
     }
 
+    [[nodiscard]] bool is_inner(std::size_t i) const { return !added_.inner.empty() && added_.inner[i] != 0; }
+
     [[nodiscard]] DeckTag skin_tag(std::size_t i) const
     {
-        return first_cell_ + static_cast<DeckTag>(mesh_.hex_count() + i);
+        const auto known = skin_of_.find(i);
+        return known != skin_of_.end() ? known->second
+                                       : first_cell_ + static_cast<DeckTag>(mesh_.hex_count() + i);
     }
 
     DeckBlock& block_of(DeckShape shape, const std::string& type)
@@ -185,12 +199,14 @@ private:
     {
         std::vector<std::string> names;
         std::map<std::string, std::vector<std::uint32_t>> quads;
-        for (std::size_t i = 0; i < mesh_.skin_count(); ++i)
+        for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
+            if (added_.skin_cells && is_inner(i)) continue;
             for (const std::string& name : mesh_.patches[index(skin_quad(mesh_, i).patch)].groups) {
                 std::vector<std::uint32_t>& of = quads[name];
                 if (of.empty()) names.push_back(name);
                 of.push_back(static_cast<std::uint32_t>(i));
             }
+        }
         if (has_sides()) {
             cells_ = cells_of_skin(mesh_);
             sides_ = sides_of_skin(mesh_, cells_);
@@ -212,6 +228,7 @@ private:
         if (added_.skin_cells) {
             DeckSet& set = add(DeckSet::Kind::elements);
             for (const std::uint32_t i : quads) set.members.push_back(skin_tag(i));
+            tidy(set.members);
             return;
         }
         DeckSet& nodes = add(DeckSet::Kind::nodes);
@@ -299,8 +316,9 @@ private:
     std::vector<Index> point_; ///< of each node of the mesh
     std::string volume_;
     DeckTag first_cell_ = 1;
-    std::vector<std::uint32_t> cells_; ///< behind each quad of the skin
-    std::vector<int> sides_;           ///< of these cells
+    std::vector<std::uint32_t> cells_;       ///< behind each quad of the skin
+    std::vector<int> sides_;                 ///< of these cells
+    std::map<std::size_t, DeckTag> skin_of_; ///< quads of the skin that were elements already
 };
 
 } // namespace
@@ -311,16 +329,65 @@ void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, con
     MeshAdder(deck, mesh, added, options, context).add();
 }
 
-Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options)
+namespace {
+
+/// A deck without a mesh.
+Deck empty_deck(DeckFormat format)
 {
     Deck deck;
-    deck.format = options.format;
-    if (options.format == DeckFormat::nastran) {
+    deck.format = format;
+    if (format == DeckFormat::nastran) {
         deck.texts.push_back({DeckText::Place::head, "", "BEGIN BULK\n"});
         deck.texts.push_back({DeckText::Place::tail, "", "ENDDATA\n"});
     }
+    return deck;
+}
+
+bool has_skin_cells(DeckFormat format)
+{
+    return format == DeckFormat::unv || format == DeckFormat::msh || format == DeckFormat::vtk ||
+           format == DeckFormat::vtu;
+}
+
+} // namespace
+
+Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options)
+{
+    Deck deck = empty_deck(options.format);
     const std::vector<Index> points(mesh.nodes.size(), -1);
-    add_mesh(deck, mesh, {.points = points, .skin_cells = options.format == DeckFormat::unv}, options);
+    add_mesh(deck, mesh, {.points = points, .skin_cells = has_skin_cells(options.format)}, options);
+    return deck;
+}
+
+Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& options, bool interfaces)
+{
+    Deck deck = empty_deck(options.format);
+    const auto rising = [](const mesh::MeshPart& part, std::size_t i) {
+        Quad quad = skin_quad(*part.mesh, i).nodes;
+        for (Index& n : quad) n = part.number[index(n)];
+        std::sort(quad.begin(), quad.end());
+        return quad;
+    };
+    std::map<Quad, int> uses;
+    const bool cells = has_skin_cells(options.format);
+    for (const mesh::MeshPart& part : parts) {
+        for (std::size_t i = 0; cells && i < part.mesh->skin_count(); ++i) ++uses[rising(part, i)];
+    }
+    std::vector<Index> point; // of each node of the whole
+    std::map<Quad, DeckTag> skin_tags;
+    MeshDeckOptions next = options;
+    for (const mesh::MeshPart& part : parts) {
+        std::vector<Index> points;
+        for (const Index number : part.number)
+            points.push_back(index(number) < point.size() ? point[index(number)] : -1);
+        AddedMesh added{.points = points, .skin_cells = cells, .skin_tags = &skin_tags};
+        for (std::size_t i = 0; cells && !interfaces && i < part.mesh->skin_count(); ++i)
+            added.inner.push_back(uses.at(rising(part, i)) > 1 ? 1 : 0);
+        const auto before = static_cast<Index>(deck.points.size());
+        add_mesh(deck, *part.mesh, added, next);
+        for (auto p = before; p < static_cast<Index>(deck.points.size()); ++p) point.push_back(p);
+        next.first_node = next.first_cell = 0;
+    }
     return deck;
 }
 

@@ -82,6 +82,7 @@ public:
         number_nodes();
         check_shared();
         check_no_hanging_nodes();
+        name_groups();
         return std::move(result_);
     }
 
@@ -239,7 +240,24 @@ private:
         part.fidelity = compare(sealed, part.mesh, part.faces, {}, part.fidelity.volume,
                                 {options.max_deviation}, context_);
         require(part.fidelity, part.mesh.layers, {options.max_deviation});
+        std::erase_if(part.report, [](const std::string& line) { return line.starts_with("shape: volume"); });
+        part.report.push_back(in_words(part.fidelity));
         return part;
+    }
+
+    /// Each part's own words for its faces are told apart by its region's name; names of the input stay.
+    void name_groups()
+    {
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            mesh::HexMesh& mesh = result_.parts[m].mesh;
+            const Model& model = members_[m].volume->model;
+            mesh.volume_groups = {members_[m].region};
+            for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+                for (std::string& group : mesh.patches[p].groups)
+                    if (group != model[result_.parts[m].faces[p]].name)
+                        group = members_[m].region + ":" + group;
+            }
+        }
     }
 
     /// One number for nodes in one place, on the skins.

@@ -217,7 +217,11 @@ private:
             if (!known) continue; // an edge of other faces
             for (const Index point : chain.points) {
                 const auto to = param.find(moved(point));
-                if (to != param.end()) shifts.insert_or_assign(point, to->second - param.at(point));
+                if (to == param.end()) continue;
+                const Vec2 own = param.at(point), shift = to->second - own;
+                // The vertex of a closed edge stands at both its ends, a period apart on what is round.
+                const bool closing = to->first == chain.points.back() && (last - own).norm() < shift.norm();
+                shifts.insert_or_assign(point, closing ? Vec2(last - own) : shift);
             }
         }
         return shifts;

@@ -3,7 +3,9 @@
 
 #include <lacuna/io/deck_file.h>
 
+#include <map>
 #include <span>
+#include <vector>
 
 /// Putting a swept mesh into a deck. Internal to this folder.
 namespace lacuna::io {
@@ -12,6 +14,11 @@ struct AddedMesh {
     std::span<const Index> points; ///< of each node of the mesh the deck's point it is; -1: a new one
     double scale = 1;              ///< of the mesh's coordinates to the deck's
     bool skin_cells = false;       ///< sets of the skin are quads that become elements
+    /// Quads of the skin that the deck has already as elements, by their nodes rising; those added join them.
+    /// Null: none are to be shared.
+    std::map<Quad, DeckTag>* skin_tags = nullptr;
+    /// Of each quad of the skin, whether it is left out of the elements; empty: none is.
+    std::vector<char> inner{};
     /// Of the elements beside the mesh, and the name of their region; empty: none is known.
     std::string neighbour_material{}, neighbour{};
 };
