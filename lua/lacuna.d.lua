@@ -93,6 +93,7 @@
 ---@field first_node? integer of decks and with a model; default above all that are taken
 ---@field first_cell? integer likewise
 ---@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8"
+---@field interfaces? boolean of an assembly: quads between its volumes are elements too; default false
 
 ---@class lacuna.Classification
 ---@field class lacuna.Class
@@ -272,6 +273,39 @@ function Mesh:write(path, options) end
 ---@param path string .html
 function Mesh:view(path) end
 
+--- Several volumes to be meshed as one.
+---@class lacuna.Assembly
+local Assembly = {}
+--- Options for all volumes; `[volume] = options` lays those of one over them.
+---@param options? lacuna.SweepOptions|table<lacuna.Volume, lacuna.SweepOptions>
+---@return lacuna.AssemblyMesh
+function Assembly:sweep(options) end
+
+--- The mesh of an assembly, a region each.
+---@class lacuna.AssemblyMesh
+---@field fidelity { volume: number, sealed_volume: number, max_distance: number, mean_distance: number, regions: table<string, lacuna.Fidelity> }
+---@field nodes integer
+---@field hexes integer
+---@field layers table<string, integer> by region
+---@field regions string[]
+---@field report string[]
+local AssemblyMesh = {}
+---@return lacuna.Quality
+function AssemblyMesh:quality() end
+---@return { name: string, dim: integer, cells: integer }[]
+function AssemblyMesh:groups() end
+---@param i integer
+---@return number x
+---@return number y
+---@return number z
+function AssemblyMesh:node(i) end
+---@param i integer
+---@return integer ...
+function AssemblyMesh:hex(i) end
+---@param path string
+---@param options? lacuna.WriteOptions
+function AssemblyMesh:write(path, options) end
+
 ---@class lacuna.Synthetic
 local synthetic = {}
 
@@ -316,6 +350,10 @@ function lacuna.model(options) end
 ---@param defaults T
 ---@return T
 function lacuna.params(defaults) end
+--- Volumes that share faces, to be meshed as one.
+---@param volumes lacuna.Volume[]
+---@return lacuna.Assembly
+function lacuna.assembly(volumes) end
 --- Quality of the hexahedra of a mesh or deck in any format that is read.
 ---@param path string
 ---@return lacuna.Quality

@@ -217,6 +217,8 @@ int groups(lua_State* L)
         push_group(L, state.regions[p], 3, state.swept.parts[p].mesh.hex_count());
         lua_rawseti(L, -2, next++);
     }
+    push_group(L, "volume", 3, hex_count(state));
+    lua_rawseti(L, -2, next);
     return 1;
 }
 

@@ -140,8 +140,8 @@ Sewn sew(Session& session, const std::vector<int>& faces, const MakeSolidRequest
             " closed; load the file with a larger tolerance, or write the facets with write_facets");
 }
 
-/// Write the current model to a file, whole. Open CASCADE writes on where the system takes no more bytes, and may
-/// say nothing or anything of it: so the file is looked at against the limit.
+/// Write the current model to a file, whole. Open CASCADE writes on where the system takes no more bytes, and
+/// may say nothing or anything of it: so the file is looked at against the limit.
 void write_whole(const Session& session, const std::string& path)
 {
     const auto check_room = [&] {

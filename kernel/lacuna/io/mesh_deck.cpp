@@ -128,11 +128,20 @@ private:
 
     void add_volume_set(const std::string& group)
     {
-        DeckSet set{.kind = DeckSet::Kind::elements, .tag = next_set(), .name = {}};
-        set.name = group == volume_ ? deck_.regions.back().name : set_name(set.kind, group);
+        DeckSet& set = set_of(DeckSet::Kind::elements, group);
+        if (group == volume_) set.name = deck_.regions.back().name;
         for (std::size_t c = 0; c < mesh_.hex_count(); ++c)
             set.members.push_back(first_cell_ + static_cast<DeckTag>(c));
-        deck_.sets.push_back(std::move(set));
+    }
+
+    /// The set of a group: a new one, or that of the meshes added before.
+    DeckSet& set_of(DeckSet::Kind kind, const std::string& group)
+    {
+        const std::string name = options_.format == DeckFormat::abaqus ? abaqus_name(group) : group;
+        for (std::size_t s = added_.own_sets; s < deck_.sets.size(); ++s)
+            if (deck_.sets[s].kind == kind && same_word(deck_.sets[s].name, name)) return deck_.sets[s];
+        return deck_.sets.emplace_back(
+            DeckSet{.kind = kind, .tag = next_set(), .name = set_name(kind, group)});
     }
 
     void add_skin_cells()
@@ -221,10 +230,7 @@ private:
 
     void add_group(const std::string& name, const std::vector<std::uint32_t>& quads)
     {
-        const auto add = [&](DeckSet::Kind kind) -> DeckSet& {
-            return deck_.sets.emplace_back(
-                DeckSet{.kind = kind, .tag = next_set(), .name = set_name(kind, name)});
-        };
+        const auto add = [&](DeckSet::Kind kind) -> DeckSet& { return set_of(kind, name); };
         if (added_.skin_cells) {
             DeckSet& set = add(DeckSet::Kind::elements);
             for (const std::uint32_t i : quads) set.members.push_back(skin_tag(i));
@@ -380,7 +386,7 @@ Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& optio
         std::vector<Index> points;
         for (const Index number : part.number)
             points.push_back(index(number) < point.size() ? point[index(number)] : -1);
-        AddedMesh added{.points = points, .skin_cells = cells, .skin_tags = &skin_tags};
+        AddedMesh added{.points = points, .skin_cells = cells, .skin_tags = &skin_tags, .own_sets = 0};
         for (std::size_t i = 0; cells && !interfaces && i < part.mesh->skin_count(); ++i)
             added.inner.push_back(uses.at(rising(part, i)) > 1 ? 1 : 0);
         const auto before = static_cast<Index>(deck.points.size());

@@ -91,6 +91,11 @@ private:
     {
         if (members_.empty()) throw InvalidInput("assembly.empty", "an assembly needs one volume at least");
         for (std::size_t m = 0; m < members_.size(); ++m) {
+            if (members_[m].region == "volume")
+                throw InvalidInput(
+                    "assembly.same_name",
+                    "a volume of an assembly is named \"volume\", which is the group of all of "
+                    "them; give it another name");
             for (std::size_t n = 0; n < m; ++n) {
                 if (members_[m].region == members_[n].region)
                     throw InvalidInput("assembly.same_name", "two volumes of the assembly are named \"" +
@@ -131,8 +136,8 @@ private:
                                "be meshed first; give one of them that face too");
     }
 
-    /// Members by what they wait for; of those that are free to come, `first` as listed, then those that share
-    /// an end with one that is there, those whose walls are no one's ends that wait, and by number.
+    /// Members by what they wait for; of those that are free to come, `first` as listed, then those that
+    /// share an end with one that is there, those whose walls are no one's ends that wait, and by number.
     [[nodiscard]] std::vector<std::size_t> order_of(std::span<const std::size_t> first) const
     {
         std::vector<char> placed(members_.size(), 0);
@@ -245,17 +250,16 @@ private:
         return part;
     }
 
-    /// Each part's own words for its faces are told apart by its region's name; names of the input stay.
+    /// Groups of each part's own, told apart by its region's name, beside those that all parts have.
     void name_groups()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
             mesh::HexMesh& mesh = result_.parts[m].mesh;
-            const Model& model = members_[m].volume->model;
-            mesh.volume_groups = {members_[m].region};
-            for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
-                for (std::string& group : mesh.patches[p].groups)
-                    if (group != model[result_.parts[m].faces[p]].name)
-                        group = members_[m].region + ":" + group;
+            mesh.volume_groups.insert(mesh.volume_groups.begin(), members_[m].region);
+            for (mesh::SkinPatch& patch : mesh.patches) {
+                const std::vector<std::string> groups = patch.groups;
+                for (const std::string& group : groups)
+                    patch.groups.push_back(members_[m].region + ":" + group);
             }
         }
     }
@@ -355,8 +359,8 @@ private:
         return std::ranges::find(order_, a) > std::ranges::find(order_, b);
     }
 
-    /// Nodes on the edges of a part's faces against such sides of the others: volumes that touch along an edge
-    /// alone have no face to agree on.
+    /// Nodes on the edges of a part's faces against such sides of the others: volumes that touch along an
+    /// edge alone have no face to agree on.
     void check_no_hanging_nodes() const
     {
         struct EdgeSide {

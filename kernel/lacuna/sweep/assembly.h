@@ -25,8 +25,8 @@ struct SharedFace {
     FaceId face_a, face_b;
 };
 
-/// The faces that members have in common: the same surface within the tolerance, however it is faceted; or, of
-/// void faces, with the same rim.
+/// The faces that members have in common: the same surface within the tolerance, however it is faceted; or,
+/// of void faces, with the same rim.
 /// @throw InvalidInput "assembly.part_of_face"  a face that covers only part of another's;
 ///                     "assembly.overlap"  two volumes on the same side of a face. Names them.
 /// @note  O((facets) log) for faces whose boxes meet.
@@ -47,12 +47,12 @@ struct SweptAssembly {
 ///
 /// First the edges that several volumes have get their nodes, by numbers of sides that agree over the whole
 /// assembly (`layers` asked of one volume hold for those at its side). Then volumes are meshed one after the
-/// other, each keeping, node for node, what its neighbours' meshes are on the faces they share. Where a volume
-/// cannot keep what its neighbours have made, the order is changed so that it goes before them. A void face
-/// with the rim of a neighbour's given one is that face.
+/// other, each keeping, node for node, what its neighbours' meshes are on the faces they share. Where a
+/// volume cannot keep what its neighbours have made, the order is changed so that it goes before them. A void
+/// face with the rim of a neighbour's given one is that face.
 /// @throw NotSweepable  as `sweep()`, the region named; "assembly.layers"  volumes side by side for which
-///         other numbers of layers are asked; "assembly.round"  volumes each of which lacks a face that the next
-///         one has; "assembly.not_shared"  a shared face on which two meshes differ;
+///         other numbers of layers are asked; "assembly.round"  volumes each of which lacks a face that the
+///         next one has; "assembly.not_shared"  a shared face on which two meshes differ;
 ///         "assembly.hanging_node"  a node of one mesh within a side of another's.
 /// @throw InvalidInput  as `shared_faces()` and `sweep()`.
 /// @post  conformal: every quad of a shared face is one of both volumes, no node of one lies within a side or

@@ -19,8 +19,8 @@ using namespace topology;
 
 namespace {
 
-/// Edges of two members are one where their middles are no further apart than this share of their length, ends
-/// apart: facets of other fineness have their middles a little elsewhere.
+/// Edges of two members are one where their middles are no further apart than this share of their length,
+/// ends apart: facets of other fineness have their middles a little elsewhere.
 constexpr double kSameMiddle = 1e-2;
 /// Rounds of making ends even. Each bumps a class; a choice, far above what families of blocks need.
 constexpr int kRounds = 64;

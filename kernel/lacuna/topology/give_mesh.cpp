@@ -19,8 +19,8 @@ namespace lacuna::topology {
 
 namespace {
 
-/// A node of the mesh's rim may be off the face's loop by this part of the side next to it: a side that stands
-/// for a sixth of a turn is off its curve by an eighth.
+/// A node of the mesh's rim may be off the face's loop by this part of the side next to it: a side that
+/// stands for a sixth of a turn is off its curve by an eighth.
 constexpr double kOffRim = 0.25;
 
 /// A node on a loop of the face.
@@ -105,7 +105,8 @@ public:
     explicit EdgeRemesher(Model& model) : model_(model), uses_(edge_uses(model)) {}
 
     /// @param at     running lengths of the edge's points.
-    /// @param nodes  of the edge as it runs, ends included, rising; those of a closed edge may start anywhere.
+    /// @param nodes  of the edge as it runs, ends included, rising; those of a closed edge may start
+    ///     anywhere.
     void add(EdgeId id, const std::vector<double>& at, const std::vector<RimNode>& nodes)
     {
         const std::vector<Index>& old = model_[id].points;

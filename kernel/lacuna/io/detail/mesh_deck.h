@@ -3,6 +3,7 @@
 
 #include <lacuna/io/deck_file.h>
 
+#include <limits>
 #include <map>
 #include <span>
 #include <vector>
@@ -17,6 +18,8 @@ struct AddedMesh {
     /// Quads of the skin that the deck has already as elements, by their nodes rising; those added join them.
     /// Null: none are to be shared.
     std::map<Quad, DeckTag>* skin_tags = nullptr;
+    /// Sets from this one on are those of meshes added before, and join this one's of the same names.
+    std::size_t own_sets = std::numeric_limits<std::size_t>::max();
     /// Of each quad of the skin, whether it is left out of the elements; empty: none is.
     std::vector<char> inner{};
     /// Of the elements beside the mesh, and the name of their region; empty: none is known.

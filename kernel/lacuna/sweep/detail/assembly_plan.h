@@ -23,7 +23,8 @@ struct AssemblyPlan {
 /// wall. A class gets the number that was asked for, else the most that any of its edges wants by its size.
 /// Where an end of which all edges are shared has an odd number of sides in all, its longest class gets one
 /// more. Nodes stand evenly, those of side lines as the layers are spread.
-/// @throw NotSweepable "assembly.layers"  other numbers of layers asked for in members whose side lines are of
+/// @throw NotSweepable "assembly.layers"  other numbers of layers asked for in members whose side lines are
+///     of
 ///         one class; names them.
 AssemblyPlan plan_assembly(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
                            const RunContext& context = {});
