@@ -4,6 +4,7 @@
 #include "bindings/options.h"
 
 #include <lacuna/cad/load.h>
+#include <lacuna/closure/steps.h>
 
 #include <algorithm>
 #include <cmath>
@@ -241,6 +242,34 @@ SweepArguments& push_arguments(lua_State* L, int index, const char* call)
     return arguments;
 }
 
+/// Sweep the pieces of a volume with steps as an assembly; layers asked for are those of the pieces that go from
+/// end to end.
+int sweep_steps(lua_State* L, VolumeState& state, const SweepArguments& arguments, const RunContext& context)
+{
+    auto& box = new_box<AssemblyMeshState>(L);
+    guard(L, [&] {
+        const Busy busy(state, "sweep");
+        auto mesh = std::make_shared<AssemblyMeshState>();
+        std::vector<VolumeState> pieces;
+        for (closure::StepPiece& piece : closure::cut_steps(state.volume, context)) {
+            pieces.emplace_back().volume = std::move(piece.volume);
+            close_volume(pieces.back(), {}, context);
+            mesh->regions.push_back((state.name.empty() ? "piece" : state.name) + "_" +
+                                    std::to_string(pieces.size()));
+            mesh->materials.push_back(state.material);
+            mesh->levels.push_back(piece.level);
+        }
+        std::vector<sweep::AssemblyMember> members;
+        for (std::size_t p = 0; p < pieces.size(); ++p) {
+            members.push_back({&pieces[p].volume, arguments.options, mesh->regions[p]});
+            if (mesh->levels[p] > 0) members.back().options.layers = {};
+        }
+        mesh->swept = sweep::sweep_assembly(members, context);
+        box = std::move(mesh);
+    });
+    return 1;
+}
+
 /// mesh = volume:sweep(options)
 int sweep_volume(lua_State* L)
 {
@@ -249,6 +278,9 @@ int sweep_volume(lua_State* L)
     SweepArguments& arguments = push_arguments(L, 2, "sweep");
     RunContext& context = push_context(L);
     context.threads = arguments.threads;
+    bool steps = false;
+    guard(L, [&] { steps = !state.closure && closure::has_steps(state.volume); });
+    if (steps) return sweep_steps(L, state, arguments, context);
     lua_gc(L, LUA_GCCOLLECT); // to Lua a mesh is a few bytes: it would let old ones pile up
     auto& box = new_box<MeshState>(L);
     guard(L, [&] {

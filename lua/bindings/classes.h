@@ -91,6 +91,7 @@ struct AssemblyMeshState {
     sweep::SweptAssembly swept;
     std::vector<std::string> regions;   ///< of each part
     std::vector<std::string> materials; ///< of each part; empty ones: none was said
+    std::vector<int> levels;            ///< of pieces of a volume with steps; else empty
     std::optional<quality::Quality> quality;
 };
 

@@ -80,7 +80,6 @@ public:
         plan_ = plan_assembly(members_, result_.shared, context_);
         sweep_all();
         number_nodes();
-        check_shared();
         check_no_hanging_nodes();
         name_groups();
         return std::move(result_);
@@ -204,6 +203,7 @@ private:
     std::optional<Failed> sweep_in_order()
     {
         result_.parts.assign(members_.size(), {});
+        result_.report.clear();
         std::vector<char> done(members_.size(), 0);
         for (const std::size_t m : order_) {
             check_cancelled(context_);
@@ -240,6 +240,7 @@ private:
             if (is_void(m, own)) hand_on(result_.parts[other], from, sealed, own);
         }
         Swept part = sweep(volume, options, context_);
+        check_kept(m, part, done);
         if (plan_.nodes[m].empty()) return part;
         // Shape is that of the volume as it was sealed, not as its neighbours' quads bound it.
         part.fidelity = compare(sealed, part.mesh, part.faces, {}, part.fidelity.volume,
@@ -322,41 +323,45 @@ private:
         return name_of(members_[member].volume->model, face) + " of " + members_[member].region;
     }
 
-    [[nodiscard]] std::set<Quad> shared_quads(std::size_t member, FaceId face) const
+    /// Corners of a quad in an order of their own.
+    using Places = std::array<std::array<double, 3>, 4>;
+    static std::set<Places> places_on(const Swept& part, FaceId face)
     {
-        std::set<Quad> quads;
-        for (Quad quad : quads_on(result_.parts[member], face)) {
-            for (Index& n : quad) n = result_.number[member][index(n)];
-            std::sort(quad.begin(), quad.end());
-            quads.insert(quad);
+        std::set<Places> quads;
+        for (const Quad& quad : quads_on(part, face)) {
+            Places corners{};
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Vec3& p = part.mesh.nodes[index(quad[k])];
+                corners[k] = {p.x(), p.y(), p.z()};
+            }
+            std::sort(corners.begin(), corners.end());
+            quads.insert(corners);
         }
         return quads;
     }
 
-    void check_shared()
+    /// The quads of faces that members before this one have too are theirs, to the bit.
+    void check_kept(std::size_t m, const Swept& part, const std::vector<char>& done)
     {
         for (const SharedFace& face : result_.shared) {
-            const std::set<Quad> a = shared_quads(face.a, face.face_a), b = shared_quads(face.b, face.face_b);
-            if (a != b) {
-                std::string why;
-                for (const std::string& line :
-                     result_.parts[is_later(face.a, face.b) ? face.a : face.b].report)
-                    if (line.find("not kept") != std::string::npos) why += "; " + line;
-                throw NotSweepable(
-                    "assembly.not_shared",
-                    named(face.a, face.face_a) + " and " + named(face.b, face.face_b) +
-                        " are one face, and their meshes differ on it: " + std::to_string(a.size()) +
-                        " quads and " + std::to_string(b.size()) + why);
+            const bool is_a = face.a == m;
+            const std::size_t other = is_a ? face.b : face.a;
+            if ((!is_a && face.b != m) || done[other] == 0) continue;
+            const FaceId own = is_a ? face.face_a : face.face_b, there = is_a ? face.face_b : face.face_a;
+            const std::set<Places> a = places_on(part, own), b = places_on(result_.parts[other], there);
+            if (a == b) {
+                result_.report.push_back("shared: " + named(other, there) + " and " + named(m, own) + ", " +
+                                         std::to_string(a.size()) + (a.size() == 1 ? " quad" : " quads"));
+                continue;
             }
-            result_.report.push_back("shared: " + named(face.a, face.face_a) + " and " +
-                                     named(face.b, face.face_b) + ", " + std::to_string(a.size()) +
-                                     (a.size() == 1 ? " quad" : " quads"));
+            std::string why;
+            for (const std::string& line : part.report)
+                if (line.find("not kept") != std::string::npos) why += "; " + line;
+            throw NotSweepable("assembly.not_shared", named(m, own) + " and " + named(other, there) +
+                                                          " are one face, and their meshes differ on it: " +
+                                                          std::to_string(a.size()) + " quads and " +
+                                                          std::to_string(b.size()) + why);
         }
-    }
-
-    [[nodiscard]] bool is_later(std::size_t a, std::size_t b) const
-    {
-        return std::ranges::find(order_, a) > std::ranges::find(order_, b);
     }
 
     /// Nodes on the edges of a part's faces against such sides of the others: volumes that touch along an

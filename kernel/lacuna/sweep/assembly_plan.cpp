@@ -59,6 +59,8 @@ public:
             join_by_sweep(m);
         }
         join_opposite();
+        for (std::size_t e = 0; e < edges_.size(); ++e)
+            if (stacked_.contains(same_.find(e))) common_[e] = false;
         count();
         make_even();
         AssemblyPlan plan;
@@ -140,7 +142,11 @@ private:
                 source_of[to].insert(from);
             }
             for (const surface::LinkingLine& line : link.lines) {
-                if (line.line.uses.size() != 1) continue;
+                if (line.line.uses.size() != 1) { // how many sides each edge gets is the sweep's matter
+                    for (const EdgeUse& use : line.line.uses)
+                        stacked_.insert(same_.find(number(m, use.edge)));
+                    continue;
+                }
                 sides_[m].push_back({line.line.uses.front().edge, line.line.uses.front().reversed});
                 classes_.unite(number(m, sides_[m].front().edge), number(m, sides_[m].back().edge));
             }
@@ -151,9 +157,13 @@ private:
         }
     }
 
-    /// An end of one member that is a wall of another has rows: opposite edges agree.
+    /// Walls have rows and columns, and so has an end of one member that is a wall of another: opposite edges
+    /// agree.
     void join_opposite()
     {
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            for (const FaceId wall : members_[m].volume->faces(Role::wall)) join_opposite(m, wall);
+        }
         for (const SharedFace& face : shared_) {
             join_opposite(face.a, face.face_a, face.b, face.face_b);
             join_opposite(face.b, face.face_b, face.a, face.face_a);
@@ -164,7 +174,13 @@ private:
         if (members_[m].volume->role[end.index()] == Role::wall ||
             members_[other].volume->role[wall.index()] != Role::wall)
             return;
-        const std::vector<Loop>& loops = model(m)[end].loops;
+        join_opposite(m, end);
+    }
+    void join_opposite(std::size_t m, FaceId face)
+    {
+        const std::vector<Loop> loops = border_loops(model(m), face);
+        if (loops.size() == 2 && loops[0].uses.size() == 1 && loops[1].uses.size() == 1)
+            classes_.unite(number(m, loops[0].uses[0].edge), number(m, loops[1].uses[0].edge));
         if (loops.size() != 1 || loops[0].uses.size() != 4) return;
         for (std::size_t k = 0; k < 2; ++k)
             classes_.unite(number(m, loops[0].uses[k].edge), number(m, loops[0].uses[k + 2].edge));
@@ -317,7 +333,7 @@ private:
         plan.layers.assign(members_.size(), 0);
         std::map<std::size_t, std::vector<Vec3>> nodes;
         for (std::size_t e = 0; e < edges_.size(); ++e) {
-            if (!common_[e]) continue;
+            if (!common_[e] || !is_on_frame(e)) continue;
             auto found = nodes.find(same_.find(e));
             if (found == nodes.end())
                 found = nodes.emplace(same_.find(e), places(exact_one(e), count_.at(classes_.find(e)))).first;
@@ -334,6 +350,22 @@ private:
                 sides, [&, m = m](const EdgeUse& side) { return common_[number(m, side.edge)]; });
             if (beside) plan.layers[m] = count_.at(classes_.find(number(m, sides.front().edge)));
         }
+    }
+
+    /// Whether an edge is on the rim of an end or a side line: others, round the walls, follow from those.
+    [[nodiscard]] bool is_on_frame(std::size_t e)
+    {
+        const std::size_t m = edges_[e].member;
+        if (frame_.empty()) frame_.resize(members_.size());
+        if (frame_[m].empty()) {
+            const std::vector<std::vector<FaceUse>> uses = edge_uses(model(m));
+            for (const std::vector<FaceUse>& users : uses)
+                frame_[m].push_back(std::ranges::any_of(users, [&](const FaceUse& user) {
+                    return members_[m].volume->role[user.face.index()] != Role::wall;
+                }));
+            for (const EdgeUse& side : sides_[m]) frame_[m][side.edge.index()] = true;
+        }
+        return frame_[m][edges_[e].edge.index()];
     }
 
     /// The place of a vertex, the same to the bit for all edges and members that meet there.
@@ -387,10 +419,12 @@ private:
     std::vector<bool> common_;                          ///< of each edge: other members have it too
     std::map<std::size_t, std::vector<EdgeUse>> sides_; ///< of each member: side lines of one edge
     std::map<std::size_t, int> count_;                  ///< of each class
-    std::set<std::size_t> asked_;                       ///< classes whose number a person asked for
-    std::map<std::size_t, int> bumps_;                  ///< how often a class got more
-    std::vector<Vec3> corners_;                         ///< where edges of several members end
-    mutable std::vector<double> spacing_;               ///< of each member's rim
+    std::set<std::size_t> stacked_;        ///< edges that are parts of side lines in some member, by `same_`
+    std::set<std::size_t> asked_;          ///< classes whose number a person asked for
+    std::map<std::size_t, int> bumps_;     ///< how often a class got more
+    std::vector<std::vector<bool>> frame_; ///< of each member's edges
+    std::vector<Vec3> corners_;            ///< where edges of several members end
+    mutable std::vector<double> spacing_;  ///< of each member's rim
 };
 
 } // namespace
