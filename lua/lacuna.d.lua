@@ -215,9 +215,12 @@ function Volume:free_edges() end
 function Volume:tree() end
 ---@return string
 function Volume:describe() end
---- Closes first where the recipe did not.
+--- The pieces of a volume one of whose ends lies at several heights; itself where none does.
+---@return lacuna.Volume[]
+function Volume:cut() end
+--- Closes first where the recipe did not. A volume with steps is cut into pieces and meshed as an assembly.
 ---@param options lacuna.SweepOptions
----@return lacuna.Mesh
+---@return lacuna.Mesh|lacuna.AssemblyMesh
 function Volume:sweep(options) end
 ---@param path string a .msh
 ---@param options lacuna.SweepOptions

@@ -2,6 +2,8 @@
 #include "bindings/classes.h"
 #include "bindings/options.h"
 
+#include <lacuna/closure/steps.h>
+
 namespace lacuna::lua {
 
 namespace {
@@ -115,7 +117,37 @@ int is_watertight(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kVolumeMethods[] = {{"close", close}, {"is_watertight", is_watertight}, {nullptr, nullptr}};
+/// { volume, ... } = volume:cut(): at its steps, pieces from end to end first
+int cut(lua_State* L)
+{
+    lua_settop(L, 2);
+    const auto& state = hold<VolumeState>(L, 1);
+    if (!lua_isnil(L, 2))
+        fail(L,
+             "cut: cutting by a plane or a face is not available yet; without options the volume is cut at "
+             "its steps");
+    RunContext& context = push_context(L);
+    auto& pieces = temporary<std::vector<Box<VolumeState>>>(L);
+    guard(L, [&] {
+        for (closure::StepPiece& piece : closure::cut_steps(state.volume, context)) {
+            pieces.push_back(std::make_shared<VolumeState>());
+            VolumeState& own = *pieces.back();
+            own.volume = std::move(piece.volume);
+            own.classification = topology::classify(own.volume);
+            own.material = state.material;
+            if (!state.name.empty()) own.name = state.name + "_" + std::to_string(pieces.size());
+        }
+    });
+    lua_createtable(L, static_cast<int>(pieces.size()), 0);
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        new_box<VolumeState>(L) = pieces[p];
+        lua_rawseti(L, -2, to_lua(p));
+    }
+    return 1;
+}
+
+const luaL_Reg kVolumeMethods[] = {
+    {"close", close}, {"cut", cut}, {"is_watertight", is_watertight}, {nullptr, nullptr}};
 
 } // namespace
 

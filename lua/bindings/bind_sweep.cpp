@@ -279,7 +279,7 @@ int sweep_volume(lua_State* L)
     RunContext& context = push_context(L);
     context.threads = arguments.threads;
     bool steps = false;
-    guard(L, [&] { steps = !state.closure && closure::has_steps(state.volume); });
+    guard(L, [&] { steps = closure::has_steps(state.volume); });
     if (steps) return sweep_steps(L, state, arguments, context);
     lua_gc(L, LUA_GCCOLLECT); // to Lua a mesh is a few bytes: it would let old ones pile up
     auto& box = new_box<MeshState>(L);

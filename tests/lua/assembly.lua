@@ -81,4 +81,41 @@ check.fails(function()
     return 0.4
   end }
 end, "sweep")
+-- Steps: what stands in a box gets room above it.
+local function boxed()
+  local model = lacuna.model()
+  local function quad(name, a, b, c, d) model:add_face { name = name, points = { a, b, c, d }, cells = { { 1, 2, 3, 4 } } } end
+  local function sides(name, low, high, z1, z2, inward)
+    local p = { { low, low }, { high, low }, { high, high }, { low, high } }
+    for i = 1, 4 do
+      local a, b = p[i], p[i % 4 + 1]
+      if inward then a, b = b, a end
+      quad(name .. i, { a[1], a[2], z1 }, { b[1], b[2], z1 }, { b[1], b[2], z2 }, { a[1], a[2], z2 })
+    end
+  end
+  model:add_face { name = "floor", points = { { 0, 0, 0 }, { 4, 0, 0 }, { 4, 4, 0 }, { 0, 4, 0 },
+      { 1, 1, 0 }, { 3, 1, 0 }, { 3, 3, 0 }, { 1, 3, 0 } },
+    cells = { { 1, 5, 6, 2 }, { 2, 6, 7, 3 }, { 3, 7, 8, 4 }, { 4, 8, 5, 1 } } }
+  quad("top", { 1, 1, 1.5 }, { 1, 3, 1.5 }, { 3, 3, 1.5 }, { 3, 1, 1.5 })
+  quad("lid", { 0, 0, 4 }, { 4, 0, 4 }, { 4, 4, 4 }, { 0, 4, 4 })
+  sides("side_", 0, 4, 0, 4, false)
+  sides("skin_", 1, 3, 0, 1.5, true)
+  return model
+end
+local model = boxed()
+local walls = {}
+for _, face in ipairs(model:faces()) do
+  if face.name:find "^s" then walls[#walls + 1] = face end
+end
+local function stepped() return model:open_volume { source = { "floor", "top" }, target = "lid", walls = walls } end
+local whole = stepped():sweep { layers = 8, size = 0.5, quads = "paved" }
+check.equal(#whole.regions, 2)
+check.equal(whole.layers.piece_1, 8)
+check.equal(whole.layers.piece_2, 5)
+check.near(whole.fidelity.volume, 64 - 6, 1e-9)
+check.equal(whole:quality().certified, true)
+local pieces = stepped():cut()
+check.equal(#pieces, 2)
+check.near(lacuna.assembly(pieces):sweep { size = 0.5 }.fidelity.volume, 58, 1e-9)
+check.fails(function() stepped():cut { plane = {} } end, "plane")
 check.done()
