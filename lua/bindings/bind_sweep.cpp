@@ -242,8 +242,8 @@ SweepArguments& push_arguments(lua_State* L, int index, const char* call)
     return arguments;
 }
 
-/// Sweep the pieces of a volume with steps as an assembly; layers asked for are those of the pieces that go from
-/// end to end.
+/// Sweep the pieces of a volume with steps as an assembly; layers asked for are those of the pieces that go
+/// from end to end.
 int sweep_steps(lua_State* L, VolumeState& state, const SweepArguments& arguments, const RunContext& context)
 {
     auto& box = new_box<AssemblyMeshState>(L);

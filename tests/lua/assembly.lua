@@ -84,7 +84,9 @@ end, "sweep")
 -- Steps: what stands in a box gets room above it.
 local function boxed()
   local model = lacuna.model()
-  local function quad(name, a, b, c, d) model:add_face { name = name, points = { a, b, c, d }, cells = { { 1, 2, 3, 4 } } } end
+  local function quad(name, a, b, c, d)
+    model:add_face { name = name, points = { a, b, c, d }, cells = { { 1, 2, 3, 4 } } }
+  end
   local function sides(name, low, high, z1, z2, inward)
     local p = { { low, low }, { high, low }, { high, high }, { low, high } }
     for i = 1, 4 do
@@ -107,7 +109,9 @@ local walls = {}
 for _, face in ipairs(model:faces()) do
   if face.name:find "^s" then walls[#walls + 1] = face end
 end
-local function stepped() return model:open_volume { source = { "floor", "top" }, target = "lid", walls = walls } end
+local function stepped()
+  return model:open_volume { source = { "floor", "top" }, target = "lid", walls = walls }
+end
 local whole = stepped():sweep { layers = 8, size = 0.5, quads = "paved" }
 check.equal(#whole.regions, 2)
 check.equal(whole.layers.piece_1, 8)
