@@ -37,6 +37,12 @@
 ---@class lacuna.ModelOptions
 ---@field tolerance? number points closer than this are one [model length]; default 1e-6 × the diagonal
 
+---@class lacuna.FaceFromOptions
+---@field near lacuna.Vector the facet closest to it is where the face begins [model length]
+---@field angle? number the face goes on over sides that turn by no more [degrees]; default 20
+---@field region? string only over faces that bound it
+---@field free? boolean only over faces that bound one region alone, or two
+
 ---@class lacuna.NewFace
 ---@field name? string
 ---@field points lacuna.Vector[]
@@ -183,6 +189,10 @@ function Model:faces(selector) end
 ---@param which lacuna.FaceRef
 ---@return lacuna.Face
 function Model:face(which) end
+--- A face grown from the facet closest to a place, taken out of the faces it goes over.
+---@param options lacuna.FaceFromOptions
+---@return lacuna.Face
+function Model:face_from(options) end
 ---@param face lacuna.NewFace
 ---@return lacuna.Face
 function Model:add_face(face) end
