@@ -75,7 +75,7 @@ struct DeckFileOptions {
 /// whole or not at all.
 ///
 /// Numbers, sets and words of elements stay; text of the same format goes along verbatim. Coordinates are in
-/// the basic frame, as near as the format can say them: 16 characters in Nastran (10 to 15 digits), 20 in
+/// the basic frame, as near as the format can say them: 16 characters in Nastran (11 to 15 digits), 20 in
 /// Abaqus (CalculiX reads no more; 14 to 17 digits), 17 digits in UNV. Another format than the deck's gets
 /// nodes, elements, regions and sets; the log says what is left out.
 ///

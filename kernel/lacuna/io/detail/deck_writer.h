@@ -51,8 +51,11 @@ bool has_section(const Deck& deck, std::string_view set);
 /// Put cards of the model before the first step of an Abaqus deck.
 void add_model_cards(Deck& deck, const std::string& cards);
 
+/// How the exponent of a real number begins: with an E, or with its sign alone, as in 1.5-3.
+enum class RealForm { plain, nastran };
+
 /// A real number of at most `width` characters, the nearest of these, with a point. @pre width >= 10
-char* put_real(char* out, double value, std::size_t width);
+char* put_real(char* out, double value, std::size_t width, RealForm form = RealForm::plain);
 
 inline char* put_words(char* out, std::string_view words) { return words.copy(out, words.size()) + out; }
 
