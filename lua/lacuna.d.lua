@@ -95,7 +95,8 @@
 ---@field version? 4.1|2.2
 ---@field binary? boolean
 ---@field quality? boolean|lacuna.MetricName|lacuna.MetricName[] metrics that go along for every cell, as $ElementData or cell arrays; true: the scaled Jacobian; default true, but false for version 2.2
----@field with? lacuna.Model loaded from one finite element mesh, that the mesh is joined to
+---@field with? lacuna.Model|lacuna.Model[] loaded from finite element meshes, that the mesh is joined to; the volume's first
+---@field renumber? boolean numbers and names that several decks have in common become others; default false
 ---@field first_node? integer of decks and with a model; default above all that are taken
 ---@field first_cell? integer likewise
 ---@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8"

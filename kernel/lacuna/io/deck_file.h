@@ -7,6 +7,7 @@
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/topology/model.h>
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -65,6 +66,26 @@ Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options);
 /// @note  O(n log n) in the nodes of the deck; a copy of the deck is made.
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,
                const MeshDeckOptions& options, const RunContext& context = {});
+
+struct DeckInScale {
+    const Deck* deck = nullptr; ///< read, not kept
+    double scale = 1;           ///< of the coordinates it is used in to its own [-]
+};
+struct MergeOptions {
+    /// Where decks have numbers, sets or materials in common, those of the later one get numbers and names of
+    /// their own, and its cards, which name the old ones, stay behind; otherwise that is refused.
+    bool renumber = false;
+};
+
+/// Several decks as one, in the coordinates and the format of the first.
+///
+/// Cards of decks of the same format go along; before the steps of the first, where it has any; the steps of
+/// the others and what stands before their bulk data do not. Nodes that coincide stay apart. The log says
+/// what is left out.
+/// @throw InvalidInput "io.numbers_clash"  a node, element, property, set or material of two decks; names it.
+/// @note  O(n log n).
+Deck merge_decks(std::span<const DeckInScale> decks, const MergeOptions& options = {},
+                 const RunContext& context = {});
 
 struct DeckFileOptions {
     bool binary = true;       ///< of .msh and .vtk

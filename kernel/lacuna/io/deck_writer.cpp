@@ -250,17 +250,24 @@ bool has_section(const Deck& deck, std::string_view set)
     return found;
 }
 
+std::pair<std::string, std::string> model_and_steps(const std::string& cards)
+{
+    std::size_t step = cards.size();
+    each_keyword(cards, [&](const Keyword& keyword, std::size_t begin) {
+        if (keyword.name != "STEP") return true;
+        step = begin;
+        return false;
+    });
+    return {cards.substr(0, step), cards.substr(step)};
+}
+
 void add_model_cards(Deck& deck, const std::string& cards)
 {
     for (DeckText& text : deck.texts) {
-        std::size_t step = std::string::npos;
-        if (text.place == DeckText::Place::cards)
-            each_keyword(text.text, [&](const Keyword& keyword, std::size_t begin) {
-                if (keyword.name == "STEP") step = begin;
-                return step == std::string::npos;
-            });
-        if (step == std::string::npos) continue;
-        text.text.insert(step, cards);
+        if (text.place != DeckText::Place::cards) continue;
+        const auto [model, steps] = model_and_steps(text.text);
+        if (steps.empty()) continue;
+        text.text = model + cards + steps;
         return;
     }
     deck.texts.push_back({DeckText::Place::cards, "", cards});

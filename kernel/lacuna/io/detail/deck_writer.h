@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 /// What the writers of decks share. Internal to this folder.
@@ -48,6 +49,8 @@ TextNumbers numbers_in_text(const Deck& deck);
 std::vector<std::string> materials_in_text(const Deck& deck);
 /// Whether the text of an Abaqus deck has a section of a set of elements.
 bool has_section(const Deck& deck, std::string_view set);
+/// Cards of an Abaqus deck up to its first step, and from there on.
+std::pair<std::string, std::string> model_and_steps(const std::string& cards);
 /// Put cards of the model before the first step of an Abaqus deck.
 void add_model_cards(Deck& deck, const std::string& cards);
 
