@@ -37,6 +37,12 @@
 ---@class lacuna.ModelOptions
 ---@field tolerance? number points closer than this are one [model length]; default 1e-6 × the diagonal
 
+---@class lacuna.FaceFromOptions
+---@field near lacuna.Vector the facet closest to it is where the face begins [model length]
+---@field angle? number the face goes on over sides that turn by no more [degrees]; default 20
+---@field region? string only over faces that bound it
+---@field free? boolean only over faces that bound one region alone, or two
+
 ---@class lacuna.NewFace
 ---@field name? string
 ---@field points lacuna.Vector[]
@@ -89,7 +95,8 @@
 ---@field version? 4.1|2.2
 ---@field binary? boolean
 ---@field quality? boolean|lacuna.MetricName|lacuna.MetricName[] metrics that go along for every cell, as $ElementData or cell arrays; true: the scaled Jacobian; default true, but false for version 2.2
----@field with? lacuna.Model loaded from one finite element mesh, that the mesh is joined to
+---@field with? lacuna.Model|lacuna.Model[] loaded from finite element meshes, that the mesh is joined to; the volume's first
+---@field renumber? boolean numbers and names that several decks have in common become others; default false
 ---@field first_node? integer of decks and with a model; default above all that are taken
 ---@field first_cell? integer likewise
 ---@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8"
@@ -184,6 +191,10 @@ function Model:faces(selector) end
 ---@param which lacuna.FaceRef
 ---@return lacuna.Face
 function Model:face(which) end
+--- A face grown from the facet closest to a place, taken out of the faces it goes over.
+---@param options lacuna.FaceFromOptions
+---@return lacuna.Face
+function Model:face_from(options) end
 ---@param face lacuna.NewFace
 ---@return lacuna.Face
 function Model:add_face(face) end

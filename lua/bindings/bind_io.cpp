@@ -26,7 +26,8 @@ struct WriteArguments {
     bool quality_given = false;
     io::MeshDeckOptions deck;
     bool element_given = false;
-    Box<ModelState> with;    ///< null: the mesh alone
+    std::vector<Box<ModelState>> with; ///< the first is the volume's; empty: the mesh alone
+    bool renumber = false, renumber_given = false;
     bool interfaces = false; ///< of an assembly: quads between its volumes too
 };
 
@@ -100,9 +101,21 @@ void read_element(lua_State* L, int index, const Where& where, WriteArguments& a
 
 void read_with(lua_State* L, int index, const Where& where, WriteArguments& arguments)
 {
-    const Box<ModelState>* model = test_box<ModelState>(L, index);
-    if (model == nullptr || !*model) fail_value(L, where, "a Model", index);
-    arguments.with = *model;
+    const char* const expected = "a Model or an array of Models";
+    const auto add = [&](int at, const Where& element) {
+        const Box<ModelState>* model = test_box<ModelState>(L, at);
+        if (model == nullptr || !*model) fail_value(L, element, expected, at);
+        guard(L, [&] { arguments.with.push_back(*model); });
+    };
+    if (lua_type(L, index) != LUA_TTABLE) return add(index, where);
+    read_array(L, index, where, expected, add);
+    if (arguments.with.empty()) fail_value(L, where, expected, index);
+}
+
+void read_renumber(lua_State* L, int index, const Where& where, WriteArguments& arguments)
+{
+    arguments.renumber = read_boolean(L, index, where);
+    arguments.renumber_given = true;
 }
 
 const Option<WriteArguments> kWriteOptions[] = {
@@ -110,21 +123,28 @@ const Option<WriteArguments> kWriteOptions[] = {
     {"binary", read_binary},
     {"quality", read_quality},
     {"with", read_with},
+    {"renumber", read_renumber},
     {"first_node", read_first<&io::MeshDeckOptions::first_node>},
     {"first_cell", read_first<&io::MeshDeckOptions::first_cell>},
     {"element", read_element},
     {"interfaces", boolean<&WriteArguments::interfaces>},
 };
 
-/// The one deck a model was read from.
-const io::Deck& deck_with(const ModelState& model)
+/// The decks that models were read from as one; `merged` holds it where there are several.
+const io::Deck& deck_with(const WriteArguments& arguments, io::Deck& merged, const RunContext& context)
 {
-    if (model.decks.size() != 1)
-        throw InvalidInput("lua.no_deck",
-                           "write: with: expected a model that was loaded from one finite element "
-                           "mesh, found one of " +
-                               std::to_string(model.decks.size()));
-    return *model.decks.front();
+    std::vector<io::DeckInScale> decks;
+    for (const Box<ModelState>& model : arguments.with) {
+        if (model->decks.empty())
+            throw InvalidInput("lua.no_deck", "write: with: expected a model that was loaded from a finite "
+                                              "element mesh, found " +
+                                                  (model->model.source.empty() ? "one without a file"
+                                                                               : model->model.source));
+        for (const auto& deck : model->decks) decks.push_back({deck.get(), model->scale});
+    }
+    if (decks.size() == 1) return *decks.front().deck;
+    merged = io::merge_decks(decks, {arguments.renumber}, context);
+    return merged;
 }
 
 void write_deck(const mesh::HexMesh& mesh, const io::OutputPath& path, const WriteArguments& arguments,
@@ -133,11 +153,13 @@ void write_deck(const mesh::HexMesh& mesh, const io::OutputPath& path, const Wri
     io::MeshDeckOptions options = arguments.deck;
     io::find_deck_format(io::ending_of(path.text()), options.format);
     const io::DeckFormat format = options.format;
-    if (!arguments.with) return io::write_deck(io::deck_of(mesh, options), format, path, context);
+    if (arguments.with.empty()) return io::write_deck(io::deck_of(mesh, options), format, path, context);
     const io::DeckFileOptions file{arguments.msh.binary, arguments.msh.version};
-    const io::Deck& deck = deck_with(*arguments.with);
-    io::write_deck(io::join_deck(deck, arguments.with->model, arguments.with->scale, mesh, options, context),
-                   format, path, context, file);
+    io::Deck merged;
+    const io::Deck& deck = deck_with(arguments, merged, context);
+    const ModelState& model = *arguments.with.front();
+    io::write_deck(io::join_deck(deck, model.model, model.scale, mesh, options, context), format, path,
+                   context, file);
 }
 
 /// A format by its ending, and which options it has.
@@ -151,17 +173,17 @@ struct Format {
 const Format kFormats[] = {
     {".msh", true, true, false, false,
      [](const auto& mesh, const auto& path, const auto& arguments, const auto& context) {
-         if (arguments.with) return write_deck(mesh, path, arguments, context);
+         if (!arguments.with.empty()) return write_deck(mesh, path, arguments, context);
          io::write_msh(mesh, path, arguments.msh, context);
      }},
     {".vtu", false, false, false, false,
      [](const auto& mesh, const auto& path, const auto& arguments, const auto& context) {
-         if (arguments.with) return write_deck(mesh, path, arguments, context);
+         if (!arguments.with.empty()) return write_deck(mesh, path, arguments, context);
          io::write_vtu(mesh, path, {arguments.msh.fields}, context);
      }},
     {".vtk", false, true, false, false,
      [](const auto& mesh, const auto& path, const auto& arguments, const auto& context) {
-         if (arguments.with) return write_deck(mesh, path, arguments, context);
+         if (!arguments.with.empty()) return write_deck(mesh, path, arguments, context);
          io::write_vtk(mesh, path, {arguments.msh.binary, arguments.msh.fields}, context);
      }},
     {".inp", false, false, true, true, write_deck},
@@ -178,8 +200,9 @@ const char* idle_option(const Format& format, const WriteArguments& arguments)
 {
     if (arguments.version_given && !format.has_version) return "version";
     if (arguments.binary_given && !format.has_binary) return "binary";
-    const bool numbered = format.is_deck || arguments.with;
+    const bool numbered = format.is_deck || !arguments.with.empty();
     if (arguments.quality_given && numbered) return "quality";
+    if (arguments.renumber_given && arguments.with.empty()) return "renumber";
     if (arguments.element_given && !format.has_element) return "element";
     if (arguments.deck.first_node != 0 && !numbered) return "first_node";
     if (arguments.deck.first_cell != 0 && !numbered) return "first_cell";
@@ -216,10 +239,11 @@ int write(lua_State* L)
         if (arguments.interfaces)
             throw InvalidInput("lua.idle_option", "write: meshes of one volume have no option 'interfaces'; "
                                                   "leave it out");
-        if (arguments.with) refresh(*arguments.with);
+        for (const Box<ModelState>& model : arguments.with) refresh(*model);
         arguments.deck.material = state.material;
-        for (const quality::Metric metric :
-             format.is_deck || arguments.with ? std::vector<quality::Metric>{} : metrics_of(arguments))
+        for (const quality::Metric metric : format.is_deck || !arguments.with.empty()
+                                                ? std::vector<quality::Metric>{}
+                                                : metrics_of(arguments))
             arguments.msh.fields.push_back(
                 {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
         format.write(mesh, path, arguments, context);
@@ -227,19 +251,20 @@ int write(lua_State* L)
     return 0;
 }
 
-/// The parts of an assembly's mesh in one deck, or with the deck they fill voids of.
+/// The parts of an assembly's mesh in one deck, or with the decks they fill voids of.
 io::Deck deck_of_parts(const AssemblyMeshState& state, WriteArguments& arguments, const RunContext& context)
 {
     io::MeshDeckOptions& options = arguments.deck;
-    if (!arguments.with) {
+    if (arguments.with.empty()) {
         std::vector<mesh::MeshPart> parts;
         for (std::size_t p = 0; p < state.regions.size(); ++p)
             parts.push_back({&state.swept.parts[p].mesh, state.swept.number[p]});
         return io::deck_of(parts, options, arguments.interfaces);
     }
-    refresh(*arguments.with);
-    const ModelState& with = *arguments.with;
-    io::Deck deck = deck_with(with);
+    for (const Box<ModelState>& model : arguments.with) refresh(*model);
+    const ModelState& with = *arguments.with.front();
+    io::Deck merged;
+    io::Deck deck = deck_with(arguments, merged, context);
     for (std::size_t p = 0; p < state.regions.size(); ++p) {
         options.material = state.materials[p];
         deck = io::join_deck(deck, with.model, with.scale, state.swept.parts[p].mesh, options, context);

@@ -194,6 +194,16 @@ int face(lua_State* L)
     return 1;
 }
 
+/// face = model:face_from { near = [, angle =] [, region =] [, free =] }
+int face_from(lua_State* L)
+{
+    lua_settop(L, 2);
+    const Box<ModelState>& state = hold_model(L, 1);
+    const FaceId face = grow_face(L, 2, state);
+    push_face(L, state, face);
+    return 1;
+}
+
 /// text = model:describe()
 int describe_model(lua_State* L)
 {
@@ -222,7 +232,11 @@ int model_length(lua_State* L)
 }
 
 const luaL_Reg kModelMethods[] = {
-    {"faces", faces},   {"face", face}, {"add_face", add_face}, {"describe", describe_model},
+    {"faces", faces},
+    {"face", face},
+    {"face_from", face_from},
+    {"add_face", add_face},
+    {"describe", describe_model},
     {nullptr, nullptr},
 };
 const luaL_Reg kModelMeta[] = {{"__tostring", model_to_string}, {nullptr, nullptr}};
@@ -234,18 +248,26 @@ const Field kModelFields[] = {
 
 // --- Face -----------------------------------------------------------------------------------------------
 
-/// The face at index 1, held, its model up to date; indices of faces never change.
-const FaceHandle& hold_face(lua_State* L)
+/// The face at index 1, held, its model up to date.
+struct HeldFace {
+    const topology::Model& model;
+    FaceId face;
+};
+HeldFace hold_face(lua_State* L)
 {
     const auto& handle = hold<FaceHandle>(L, 1);
-    guard(L, [&] { refresh(*handle.model); });
-    return handle;
+    FaceId face;
+    guard(L, [&] {
+        refresh(*handle.model);
+        face = face_of(handle);
+    });
+    return {handle.model->model, face};
 }
 
 const topology::Face& this_face(lua_State* L)
 {
-    const FaceHandle& handle = hold_face(L);
-    return handle.model->model[handle.face];
+    const HeldFace held = hold_face(L);
+    return held.model[held.face];
 }
 
 int face_tag(lua_State* L)
@@ -270,22 +292,22 @@ int face_kind(lua_State* L)
 
 int face_area(lua_State* L)
 {
-    const FaceHandle& handle = hold_face(L);
-    lua_pushnumber(L, topology::face_area(handle.model->model, handle.face));
+    const HeldFace held = hold_face(L);
+    lua_pushnumber(L, topology::face_area(held.model, held.face));
     return 1;
 }
 
 int face_normal(lua_State* L)
 {
-    const FaceHandle& handle = hold_face(L);
-    push_vector(L, mean_normal(handle.model->model, handle.face));
+    const HeldFace held = hold_face(L);
+    push_vector(L, mean_normal(held.model, held.face));
     return 1;
 }
 
 int face_centroid(lua_State* L)
 {
-    const FaceHandle& handle = hold_face(L);
-    push_vector(L, topology::face_centroid(handle.model->model, handle.face));
+    const HeldFace held = hold_face(L);
+    push_vector(L, topology::face_centroid(held.model, held.face));
     return 1;
 }
 
@@ -311,8 +333,8 @@ int face_has_mesh(lua_State* L)
 
 int face_to_string(lua_State* L)
 {
-    const FaceHandle& handle = hold_face(L);
-    push_text(L, [&] { return topology::name_of(handle.model->model, handle.face); });
+    const HeldFace held = hold_face(L);
+    push_text(L, [&] { return topology::name_of(held.model, held.face); });
     return 1;
 }
 
@@ -320,7 +342,8 @@ int face_equal(lua_State* L)
 {
     const Box<FaceHandle>* a = test_box<FaceHandle>(L, 1);
     const Box<FaceHandle>* b = test_box<FaceHandle>(L, 2);
-    lua_pushboolean(L, a && b && *a && *b && (*a)->model == (*b)->model && (*a)->face == (*b)->face);
+    const bool alike = a && b && *a && *b && (*a)->model == (*b)->model;
+    lua_pushboolean(L, alike && face_now(**a) == face_now(**b) && face_now(**a).valid());
     return 1;
 }
 

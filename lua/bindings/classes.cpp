@@ -93,6 +93,23 @@ void refresh(ModelState& state)
     state.stale = false;
 }
 
+FaceId face_now(const FaceHandle& handle)
+{
+    FaceId face = handle.face;
+    for (std::size_t m = handle.moves; m < handle.model->moves.size() && face.valid(); ++m)
+        face = handle.model->moves[m][face.index()];
+    return face;
+}
+
+FaceId face_of(const FaceHandle& handle)
+{
+    const FaceId face = face_now(handle);
+    if (!face.valid())
+        throw InvalidInput("lua.face_grown_over", "this face is part of one that face_from grew since; take "
+                                                  "that one, or pick faces after face_from");
+    return face;
+}
+
 Busy::Busy(VolumeState& state, const char* method) : state_(state)
 {
     if (state.busy)
@@ -231,7 +248,7 @@ void set_strings(lua_State* L, const char* key, const std::vector<std::string>& 
 void push_face(lua_State* L, const Box<ModelState>& model, FaceId face)
 {
     auto& box = new_box<FaceHandle>(L);
-    guard(L, [&] { box = std::make_shared<FaceHandle>(FaceHandle{model, face}); });
+    guard(L, [&] { box = std::make_shared<FaceHandle>(FaceHandle{model, face, model->moves.size()}); });
 }
 
 } // namespace lacuna::lua

@@ -35,6 +35,8 @@ struct ModelState {
     bool stale = false;                                 ///< `model` lacks faces of `added`
     std::vector<std::shared_ptr<const io::Deck>> decks; ///< the meshes it was read from
     double scale = 1;                                   ///< of its coordinates to theirs
+    /// Of each time a face was grown, where each face there was went; not valid: into the grown one.
+    std::vector<std::vector<FaceId>> moves;
 };
 
 /// Bring `model` up to date with what was added.
@@ -43,8 +45,15 @@ void refresh(ModelState& state);
 
 struct FaceHandle {
     std::shared_ptr<ModelState> model;
-    FaceId face;
+    FaceId face;           ///< as its model was
+    std::size_t moves = 0; ///< after so many of the model's
 };
+
+/// The face a handle means in its model as it is; not valid: it is part of another by now.
+FaceId face_now(const FaceHandle& handle);
+/// The same where there must be one.
+/// @throw InvalidInput "lua.face_grown_over"  it is part of another by now.
+FaceId face_of(const FaceHandle& handle);
 
 struct VolumeState {
     topology::OpenVolume volume;

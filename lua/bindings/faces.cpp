@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/facet_tree.h>
+#include <lacuna/healing/grow_face.h>
 #include <lacuna/topology/face_radius.h>
 
 #include <algorithm>
@@ -111,8 +112,10 @@ void read_normal_within(lua_State* L, int index, const Where& where, Selector& s
 void read_touching(lua_State* L, int index, const Where& where, Selector& selector)
 {
     if (const Box<FaceHandle>* handle = test_box<FaceHandle>(L, index); handle && *handle) {
-        selector.touching_model = (*handle)->model;
-        selector.touching = (*handle)->face;
+        guard(L, [&] {
+            selector.touching = face_of(**handle);
+            selector.touching_model = (*handle)->model;
+        });
     } else if (lua_type(L, index) == LUA_TNUMBER) {
         selector.touching_tag = read_whole(L, index, where, 0);
     } else if (lua_type(L, index) == LUA_TSTRING) {
@@ -252,10 +255,9 @@ void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelS
     const topology::Model& model = state->model;
     if (const Box<FaceHandle>* handle = test_box<FaceHandle>(L, index)) {
         if (!*handle || (*handle)->model != state) fail_option(L, where, "is a face of another model");
-        const FaceId face = (*handle)->face;
         guard(L, [&] {
             refresh(*state); // a finalizer may have added the face since the call began
-            faces.push_back(face);
+            faces.push_back(face_of(**handle));
         });
         return;
     }
@@ -285,7 +287,52 @@ void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelS
     append(L, where, model, faces, none, [&] { return select(model, wanted); });
 }
 
+struct GrowArguments {
+    Selector selector;
+    double angle = healing::GrowOptions{}.angle;
+};
+
+template <auto Read>
+void selecting(lua_State* L, int index, const Where& where, GrowArguments& arguments)
+{
+    Read(L, index, where, arguments.selector);
+}
+
+void read_angle(lua_State* L, int index, const Where& where, GrowArguments& arguments)
+{
+    arguments.angle = read_positive(L, index, where);
+    if (arguments.angle > 180) fail_value(L, where, "degrees in (0, 180]", index);
+}
+
+const Option<GrowArguments> kGrowOptions[] = {
+    {"near", selecting<read_near>},
+    {"angle", read_angle},
+    {"region", selecting<read_text<&Selector::region>>},
+    {"free", selecting<read_free>},
+};
+
 } // namespace
+
+FaceId grow_face(lua_State* L, int index, const Box<ModelState>& state)
+{
+    auto& arguments = temporary<GrowArguments>(L);
+    read_options(L, index, "face_from", kGrowOptions, arguments);
+    if (!arguments.selector.near) fail(L, "face_from: option 'near' is missing: a place, { x, y, z }");
+    if (state->hand_made)
+        fail(L, "face_from: faces are grown in a model that was loaded; those of this one are as the recipe "
+                "adds them");
+    RunContext& context = push_context(L);
+    FaceId face;
+    guard(L, [&] {
+        const Vec3 near = *std::exchange(arguments.selector.near, std::nullopt);
+        const std::vector<FaceId> among = select(state->model, arguments.selector);
+        healing::GrownFace grown = healing::grow_face(state->model, near, among, {arguments.angle}, context);
+        face = grown.face;
+        state->moves.push_back(std::move(grown.now));
+        state->model = std::move(grown.model);
+    });
+    return face;
+}
 
 void read_selector(lua_State* L, int index, const char* call, Selector& selector)
 {

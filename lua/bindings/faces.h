@@ -41,6 +41,10 @@ std::vector<FaceId> select(const topology::Model& model, const Selector& selecto
 void read_faces(lua_State* L, int index, const Where& where, const Box<ModelState>& model,
                 std::vector<FaceId>& faces);
 
+/// Grow a face by the options of face_from at `index`; the model is another afterwards. Leaves temporaries on
+/// the stack. @pre the model is up to date.
+FaceId grow_face(lua_State* L, int index, const Box<ModelState>& model);
+
 /// Unit mean normal of the facets; zero where they have none, as all round a tube.
 Vec3 mean_normal(const topology::Model& model, FaceId face);
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <random>
 #include <set>
 
 using namespace lacuna;
@@ -55,6 +56,17 @@ std::vector<Vec3> reference(io::DeckShape shape)
     if (info.nodes > info.corners)
         for (const auto& [a, b] : io::side_corners(shape)) at.push_back((at[index(a)] + at[index(b)]) / 2);
     return at;
+}
+
+/// Nastran lines in groups; each group's first line is a card, the others name what they go on from.
+std::string dealt(std::vector<std::vector<std::string>> cards, std::mt19937& random)
+{
+    std::vector<std::string> lines;
+    for (const auto& card : cards) lines.insert(lines.end(), card.begin(), card.end());
+    std::shuffle(lines.begin(), lines.end(), random);
+    std::string text;
+    for (const std::string& line : lines) text += line + "\n";
+    return text;
 }
 
 /// The nodes of the one element of a deck, in the order the deck gives them.
@@ -549,4 +561,66 @@ TEST_CASE("every shared deck has its nodes, elements and sets")
         const io::NodesAt nodes = io::nodes_at(deck, loaded.model.points, loaded.model.tolerance);
         for (std::size_t p = 0; p < loaded.model.points.size(); ++p) CHECK(!nodes.at(p).empty());
     }
+}
+
+TEST_CASE("named continuations of Nastran are found wherever they lie, and kept cards lose no line")
+{
+    std::mt19937 random(11);
+    for (int trial = 0; trial < 60; ++trial) {
+        CAPTURE(trial);
+        std::vector<std::vector<std::string>> cards;
+        std::string plain;
+        for (int n = 1; n <= 27; ++n)
+            cards.push_back({"GRID," + std::to_string(n) + ",," + std::to_string(n % 3) + ".," +
+                             std::to_string(n / 3 % 3) + "." + "," + std::to_string(n / 9) + "."});
+        for (int e = 1; e <= 4; ++e) {
+            // Large fields in some, three lines and a half; small ones in others.
+            char line[200];
+            const bool large = (e + trial) % 2 == 0;
+            const auto n = [&](int k) { return 1 + (7 * e + 5 * k) % 27; };
+            std::vector<std::string> card;
+            if (large) {
+                std::snprintf(line, sizeof line, "CHEXA*  %16d%16d%16d%16d*A%d", e, 3, n(0), n(1), e);
+                card.push_back(line);
+                std::snprintf(line, sizeof line, "*A%-6d%16d%16d%16d%16d*B%d", e, n(2), n(3), n(4), n(5), e);
+                card.push_back(line);
+                std::snprintf(line, sizeof line, "*B%-6d%16d%16d", e, n(6), n(7));
+                card.push_back(line);
+            } else {
+                std::snprintf(line, sizeof line, "CHEXA   %8d%8d%8d%8d%8d%8d%8d%8d+C%d", e, 3, n(0), n(1),
+                              n(2), n(3), n(4), n(5), e);
+                card.push_back(line);
+                std::snprintf(line, sizeof line, "+C%-6d%8d%8d", e, n(6), n(7));
+                card.push_back(line);
+            }
+            cards.push_back(card);
+        }
+        cards.push_back({"MAT9,5,1.,2.,3.,4.,5.,6.,7.,+M", "+M,8.,9.,10.,11."});
+        cards.push_back({"PSOLID,3,5"});
+        for (const auto& card : cards)
+            for (const std::string& line : card) plain += line + "\n";
+        const io::Deck expected = io::read_deck("a.bdf", plain);
+        const std::string text = dealt(cards, random);
+        CAPTURE(text);
+        const io::Deck found = io::read_deck("a.bdf", text);
+        const auto elements = [](const io::Deck& deck) {
+            std::map<io::DeckTag, std::vector<io::DeckTag>> all;
+            for (const io::DeckBlock& block : deck.blocks)
+                for (std::size_t e = 0; e < block.count(); ++e)
+                    for (const Index node : block.element(e))
+                        all[block.tags[e]].push_back(deck.point_tags[index(node)]);
+            return all;
+        };
+        CHECK(elements(found) == elements(expected));
+        CHECK(found.points.size() == 27);
+        REQUIRE(found.texts.size() == 1);
+        for (const char* line : {"MAT9,5,1.", "+M,8.,9.", "PSOLID,3,5"})
+            CHECK(has(found.texts[0].text, line));
+        CHECK(!has(found.texts[0].text, "C1"));
+    }
+    // One that goes on nowhere is refused; a mark behind a card alone is none.
+    const std::string flat = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n";
+    const std::string astray = flat + "CTRIA3,7,1,1,2,3,,,,+W\n+X,1,2\n";
+    CHECK(has(failure("a.bdf", astray), "line 5: a continuation '+X,1,2' of no card"));
+    CHECK(io::read_deck("a.bdf", flat + "CTRIA3,7,1,1,2,3,,,,+Y\nCTRIA3,8,1,1,2,3\n").element_count() == 2);
 }

@@ -73,6 +73,36 @@ for _, format in ipairs { "bdf", "inp" } do
   check.equal(lacuna.check(path).hexes, 16 * 2 + 12 * 2)
 end
 
+-- Faces grown from a facet: over the edges of a block, and no further than asked.
+do
+  local path = params.scratch .. "/blocks.bdf"
+  local model = lacuna.load(path)
+  local before = #model:faces()
+  local top = model:face { near = { 0.5, 0.5, 4 }, region = "pid:2" }
+  local side = model:face { name = "pid:1", facing = { 1, 0, 0 } }
+  check.equal(model:face_from { near = { 0.5, 0.5, 4.1 }, region = "pid:2", free = true, angle = 5 }, top)
+  check.equal(#model:faces(), before)
+  local skin = model:face_from { near = { 5, 2, 1 }, region = "pid:1", free = true, angle = 95 }
+  check.near(skin.area, 4 * 8 + 16, 1e-9) -- up to where the upper block stands
+  check.that(skin ~= top and skin == model:face(skin.tag))
+  check.fails(function() return side.area end, "face_from")
+  check.fails(function() model:face { touching = side } end, "face_from")
+  check.that(side ~= skin and top.area > 0)
+  check.fails(function() model:face_from { angle = 3 } end, "near")
+  check.fails(function() model:face_from { near = { 0, 0, 0 }, angle = 181 } end, "angle")
+  check.fails(function() model:face_from { near = { 0, 0, 0 }, region = "none" } end, "say less")
+  check.fails(function() model:face_from { near = { 0, 0, 0 }, regoin = "none" } end, "region")
+  check.fails(function() lacuna.model():face_from { near = { 0, 0, 0 } } end, "loaded")
+  -- The bottom of the hole and one wall as one, where a volume takes them like any other.
+  local again = lacuna.load(path)
+  local pit = again:face_from { near = { 2, 2, 2 }, region = "pid:1", free = true, angle = 30 }
+  check.near(pit.area, 4, 1e-9)
+  local walls = { name = "pid:2", box = { { 1, 1, 2 }, { 3, 3, 4 } } }
+  local void = again:open_volume { source = pit, walls = walls }
+  check.equal(void.class, "IV")
+  check.equal(void:sweep { layers = 2 }.hexes, 8)
+end
+
 -- A tube of shells has a radius, a plate none.
 local tube = lacuna.synthetic.prism { sides = 48, radius = 3, height = 5 }
 check.equal(#tube:faces { radius = { 2.9, 3.1 } }, #tube:faces { radius = { 0, math.huge } })

@@ -343,4 +343,87 @@ do
     end
   end
 end
+-- Two decks of a part each, as one model and as two; numbers that both have are refused by name, or raised.
+do
+  local function slab(format, first, property, z, cards)
+    local lines = { format == "bdf" and "BEGIN BULK" or "*NODE" }
+    local function add(...) lines[#lines + 1] = string.format(...) end
+    for k = 0, 1 do
+      for j = 0, 1 do
+        for i = 0, 2 do
+          local form = format == "bdf" and "GRID,%d,,%d.,%d.,%d." or "%d,%d.,%d.,%d."
+          add(form, first + i + 3 * j + 6 * k, i, j, z + k)
+        end
+      end
+    end
+    if format == "inp" then add("*ELEMENT, TYPE=C3D8, ELSET=part%d", property) end
+    for i = 0, 1 do
+      local n = {}
+      for k = 0, 1 do
+        for _, d in ipairs { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } } do
+          n[#n + 1] = first + i + d[1] + 3 * d[2] + 6 * k
+        end
+      end
+      if format == "bdf" then
+        add("CHEXA,%d,%d,%d,%d,%d,%d,%d,%d,", first + i, property, table.unpack(n, 1, 6))
+        add(",%d,%d", n[7], n[8])
+      else
+        add("%d,%s", first + i, table.concat(n, ","))
+      end
+    end
+    for _, card in ipairs(cards) do add("%s", card) end
+    return table.concat(lines, "\n") .. "\n"
+  end
+  local ends = {
+    source = { box = { { -0.1, -0.1, 0.9 }, { 2.1, 1.1, 1.1 } } },
+    target = { box = { { -0.1, -0.1, 1.9 }, { 2.1, 1.1, 2.1 } } },
+    name = "glue",
+  }
+  local function cards(format, property, material)
+    if format == "bdf" then
+      return { ("PSOLID,%d,%s"):format(property, material), ("MAT1,%s,1.,,.3"):format(material), "ENDDATA" }
+    end
+    return { ("*MATERIAL, NAME=M%s\n*ELASTIC\n1.,.3"):format(material),
+      ("*SOLID SECTION, ELSET=part%d, MATERIAL=M%s"):format(property, material), "*STEP\n*STATIC\n*END STEP" }
+  end
+  for _, format in ipairs { "bdf", "inp" } do
+    local function file(name, ...)
+      check.write(params.scratch .. "/" .. name .. "." .. format, slab(format, ...))
+      return params.scratch .. "/" .. name .. "." .. format
+    end
+    local low = file("low", 1, 7, 0, cards(format, 7, 5))
+    local high = file("high", 101, 8, 2, cards(format, 8, 6))
+    local same = file("same", 1, 7, 2, cards(format, 7, 6))
+    local joined = params.scratch .. "/two." .. format
+    local whole = lacuna.load { low, high }
+    local mesh = whole:open_volume(ends):sweep { layers = 2 }
+    mesh:write(joined, { with = whole })
+    local text = read(joined)
+    check.equal(lacuna.check(joined).hexes, 8)
+    local kept = {
+      bdf = { "PSOLID,7,5", "PSOLID,8,6", "MAT1,5,", "MAT1,6,", "PSOLID,9,5" },
+      inp = { "NAME=M5", "NAME=M6", "ELSET=part7", "ELSET=part8", "ELSET=glue, MATERIAL=M5" },
+    }
+    for _, card in ipairs(kept[format]) do
+      check.that(text:find(card, 1, true), card)
+    end
+    check.equal(count(text, "ENDDATA"), format == "bdf" and 1 or 0)
+    check.equal(count(text, "%*STEP"), format == "inp" and 1 or 0)
+    check.equal(count(text, format == "bdf" and "GRID%*" or "\n%d+, %-?%d*%.%d*, "), 24 + 6)
+    mesh:write(joined, { with = { whole } })
+    check.equal(read(joined), text)
+    -- Numbers that clash.
+    local clash = lacuna.load { low, same }
+    local again = clash:open_volume(ends):sweep { layers = 2 }
+    check.fails(function() again:write(joined, { with = clash }) end, "node 1 ", "low", "same", "renumber")
+    again:write(joined, { with = clash, renumber = true })
+    check.equal(lacuna.check(joined).hexes, 8)
+    check.that(not read(joined):find(format == "bdf" and "MAT1,6" or "NAME=M6", 1, true))
+    again:write(params.scratch .. "/two.msh", { with = clash, renumber = true })
+    check.equal(lacuna.check(params.scratch .. "/two.msh").hexes, 8)
+    check.fails(function() again:write(joined, { renumber = true }) end, "renumber")
+    check.fails(function() again:write(joined, { with = {} }) end, "with")
+    check.fails(function() again:write(joined, { with = { 7 } }) end, "with")
+  end
+end
 check.done()

@@ -74,6 +74,26 @@ Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& optio
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,
                const MeshDeckOptions& options, const RunContext& context = {});
 
+struct DeckInScale {
+    const Deck* deck = nullptr; ///< read, not kept
+    double scale = 1;           ///< of the coordinates it is used in to its own [-]
+};
+struct MergeOptions {
+    /// Where decks have numbers, sets or materials in common, those of the later one get numbers and names of
+    /// their own, and its cards, which name the old ones, stay behind; otherwise that is refused.
+    bool renumber = false;
+};
+
+/// Several decks as one, in the coordinates and the format of the first.
+///
+/// Cards of decks of the same format go along; before the steps of the first, where it has any; the steps of
+/// the others and what stands before their bulk data do not. Nodes that coincide stay apart. The log says
+/// what is left out.
+/// @throw InvalidInput "io.numbers_clash"  a node, element, property, set or material of two decks; names it.
+/// @note  O(n log n).
+Deck merge_decks(std::span<const DeckInScale> decks, const MergeOptions& options = {},
+                 const RunContext& context = {});
+
 struct DeckFileOptions {
     bool binary = true;       ///< of .msh and .vtk
     double msh_version = 4.1; ///< or 2.2
@@ -83,7 +103,7 @@ struct DeckFileOptions {
 /// whole or not at all.
 ///
 /// Numbers, sets and words of elements stay; text of the same format goes along verbatim. Coordinates are in
-/// the basic frame, as near as the format can say them: 16 characters in Nastran (10 to 15 digits), 20 in
+/// the basic frame, as near as the format can say them: 16 characters in Nastran (11 to 15 digits), 20 in
 /// Abaqus (CalculiX reads no more; 14 to 17 digits), 17 digits in UNV. Another format than the deck's gets
 /// nodes, elements, regions and sets; the log says what is left out.
 ///

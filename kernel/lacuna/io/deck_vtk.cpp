@@ -33,6 +33,7 @@ std::shared_ptr<const Cells> cells_of(const Deck& deck, DeckFile& file)
         }
         if (std::ranges::find(block.nodes, -1) != block.nodes.end())
             refuse_element(block, "VTK", "some have not all their middle nodes");
+        if (vtk_type_of(block.shape) == 0) refuse_element(block, "VTK", "there is no such cell");
         cells->blocks.push_back(b);
         cells->first_node.push_back(cells->lists);
         cells->count += block.count();

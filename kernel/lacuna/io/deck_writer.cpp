@@ -20,15 +20,15 @@ namespace {
 /// Longer than any double with 17 digits behind the point and the shift of `with_point()`.
 constexpr std::size_t kRoom = 400;
 
-/// Digits as to_chars() has them, with a point and a short exponent.
-std::size_t with_point(char* text, std::size_t length, std::size_t width)
+/// Digits as to_chars() has them, with a point and a short exponent, a letter before it unless that is 0.
+std::size_t with_point(char* text, std::size_t length, std::size_t width, char e_letter)
 {
     std::string_view all(text, length);
     const std::size_t e = all.find('e');
     std::array<char, 8> exponent{};
     std::size_t tail = 0;
     if (e != std::string_view::npos) {
-        exponent[tail++] = 'E';
+        if (e_letter != 0) exponent[tail++] = e_letter;
         exponent[tail++] = text[e + 1];
         std::size_t digit = e + 2;
         while (digit + 1 < length && text[digit] == '0') ++digit;
@@ -140,11 +140,12 @@ void unv_numbers(std::string_view text, TextNumbers& numbers)
 
 } // namespace
 
-char* put_real(char* out, double value, std::size_t width)
+char* put_real(char* out, double value, std::size_t width, RealForm form)
 {
     char best[kRoom], text[kRoom];
+    const char letter = form == RealForm::nastran ? '\0' : 'E';
     std::size_t length = with_point(
-        best, static_cast<std::size_t>(std::to_chars(best, best + kRoom, value).ptr - best), width);
+        best, static_cast<std::size_t>(std::to_chars(best, best + kRoom, value).ptr - best), width, letter);
     if (length > width) {
         double error = HUGE_VAL;
         length = 0;
@@ -152,10 +153,10 @@ char* put_real(char* out, double value, std::size_t width)
             for (int digits = static_cast<int>(width); digits >= 0; --digits) {
                 const auto end = std::to_chars(text, text + kRoom - 10, value, format, digits);
                 if (end.ec != std::errc()) break;
-                const std::size_t found = with_point(text, static_cast<std::size_t>(end.ptr - text), width);
+                const std::size_t found = with_point(text, static_cast<std::size_t>(end.ptr - text), width,
+                                                     letter);
                 if (found > width) continue;
-                double back = 0;
-                std::from_chars(text, text + found, back);
+                const double back = parse_real({text, found}, Exponents::fortran).value_or(HUGE_VAL);
                 if (std::abs(back - value) < error) {
                     error = std::abs(back - value);
                     length = found;
@@ -249,17 +250,24 @@ bool has_section(const Deck& deck, std::string_view set)
     return found;
 }
 
+std::pair<std::string, std::string> model_and_steps(const std::string& cards)
+{
+    std::size_t step = cards.size();
+    each_keyword(cards, [&](const Keyword& keyword, std::size_t begin) {
+        if (keyword.name != "STEP") return true;
+        step = begin;
+        return false;
+    });
+    return {cards.substr(0, step), cards.substr(step)};
+}
+
 void add_model_cards(Deck& deck, const std::string& cards)
 {
     for (DeckText& text : deck.texts) {
-        std::size_t step = std::string::npos;
-        if (text.place == DeckText::Place::cards)
-            each_keyword(text.text, [&](const Keyword& keyword, std::size_t begin) {
-                if (keyword.name == "STEP") step = begin;
-                return step == std::string::npos;
-            });
-        if (step == std::string::npos) continue;
-        text.text.insert(step, cards);
+        if (text.place != DeckText::Place::cards) continue;
+        const auto [model, steps] = model_and_steps(text.text);
+        if (steps.empty()) continue;
+        text.text = model + cards + steps;
         return;
     }
     deck.texts.push_back({DeckText::Place::cards, "", cards});

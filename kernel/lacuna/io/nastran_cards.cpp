@@ -31,6 +31,15 @@ bool begins_bulk(std::string_view line)
 
 bool is_large(std::string_view first) { return first.find('*') != std::string_view::npos; }
 
+/// Whether the last field of a line names a continuation.
+bool is_named(std::string_view marker) { return marker.size() > 1 && (marker[0] == '+' || marker[0] == '*'); }
+
+void check_half(const Card& card, bool large, const DeckPlace& place)
+{
+    if (card.fields.size() % kFields != 0 && !large)
+        place.fail("expected the second half of a card of large fields, which begins with *");
+}
+
 } // namespace
 
 std::string_view Card::field(std::size_t number) const
@@ -78,7 +87,7 @@ std::string Card::text(std::size_t first) const
     return all;
 }
 
-BulkData::BulkData(Cursor& cursor) : main_(cursor), files_(cursor), bulk_(true)
+BulkData::BulkData(Cursor& cursor) : main_(cursor), start_(cursor), files_(cursor), bulk_(true)
 {
     for (Cursor scout = cursor; bulk_ && !scout.at_end();) bulk_ = !begins_bulk(scout.line());
 }
@@ -90,6 +99,7 @@ void BulkData::read(const std::function<CardUse(std::string_view)>& use,
     take_ = take;
     read_file(main_, 0, 0);
     end_card();
+    finish();
 }
 
 std::vector<DeckText> BulkData::texts() const
@@ -204,13 +214,14 @@ void BulkData::read_line(const Cursor& cursor, std::uint64_t file, std::string_v
         fixed_fields(line);
     const std::string_view first = line_.front();
     if (first.empty() || first[0] == '+' || first[0] == '*') {
-        if (!open_) cursor.fail("a continuation " + shown(first) + " of no card");
+        const DeckPlace place{&cursor, cursor.last(), file};
         const bool both_named = first.size() > 1 && marker_.size() > 1;
-        if (both_named && !same_word(first.substr(1), marker_.substr(1)))
-            cursor.fail("expected the continuation " + shown(marker_) + ", found " + shown(first) +
-                        "; put continuations behind their cards");
-        if (card_.fields.size() % kFields != 0 && !is_large(first))
-            cursor.fail("expected the second half of a card of large fields, which begins with *");
+        const bool another = both_named && !same_word(first.substr(1), marker_.substr(1));
+        // Behind a card that names none, a name that no line has is a mark of somebody's.
+        const bool unsaid = first.size() > 1 && marker_.size() <= 1 && open_ && is_awaited(first.substr(1));
+        if (first.size() > 1 && (!open_ || another || unsaid)) return take_elsewhere(place, raw);
+        if (!open_) cursor.fail("a continuation " + shown(first) + " of no card");
+        check_half(card_, is_large(first), place);
     } else {
         end_card();
         const std::string_view name = first.substr(0, first.find('*'));
@@ -236,10 +247,105 @@ void BulkData::read_line(const Cursor& cursor, std::uint64_t file, std::string_v
 void BulkData::end_card()
 {
     if (!std::exchange(open_, false)) return;
-    take_(card_);
+    if (is_named(marker_)) {
+        own_fields(card_);
+        go_on({card_, card_use_, owned_.emplace_back(marker_), false, {}});
+    } else {
+        take_(card_);
+    }
     card_.fields.clear();
     marker_ = {};
     while (expanded_.size() > 1) expanded_.pop_front(); // the last may be the line that ends the card
+}
+
+/// Whether a line of the deck names this continuation. The deck is looked through the first time it is asked.
+bool BulkData::is_awaited(std::string_view name)
+{
+    if (!awaited_) {
+        awaited_.emplace();
+        const std::vector<std::string_view> line = line_;
+        const std::size_t before = expanded_.size();
+        for (Cursor scout = start_; !scout.at_end();) {
+            const std::string_view raw = scout.raw_line();
+            const std::string_view words = raw.substr(0, raw.find('$'));
+            line_.clear();
+            // Lines of too many fields are refused when their turn comes.
+            if (words.find(',') == std::string_view::npos)
+                fixed_fields(words);
+            else if (std::ranges::count(words, ',') <= static_cast<std::ptrdiff_t>(kFields) + 1)
+                free_fields(scout, words);
+            else
+                continue;
+            if (is_named(line_.back())) awaited_->insert(upper(line_.back().substr(1)));
+            while (expanded_.size() > before) expanded_.pop_back();
+        }
+        line_ = line;
+    }
+    return awaited_->contains(upper(name));
+}
+
+/// Fields that stay when the line they are of has gone.
+void BulkData::own_fields(Card& card)
+{
+    for (std::string_view& field : card.fields)
+        if (!field.empty()) field = owned_.emplace_back(field);
+}
+
+/// The continuation in `line_`, which is not of the card before it.
+void BulkData::take_elsewhere(const DeckPlace& place, std::string_view raw)
+{
+    Waiting found{
+        {std::string(line_.front().substr(1)), {}, place}, CardUse::keep, {}, false, std::string(raw)};
+    found.large = is_large(line_.front());
+    found.card.fields.assign(line_.begin() + 1, line_.end() - 1);
+    own_fields(found.card);
+    found.marker = owned_.emplace_back(line_.back());
+    const std::string name = upper(found.card.name);
+    const auto card = cards_.find(name);
+    continuations_.emplace(name, std::move(found));
+    if (card == cards_.end()) return;
+    Waiting waiting = std::move(card->second);
+    cards_.erase(card);
+    go_on(std::move(waiting));
+}
+
+/// Add the continuations that a card names, as far as they have come, and hand it over where none is missing.
+void BulkData::go_on(Waiting waiting)
+{
+    while (is_named(waiting.marker)) {
+        const std::string name = upper(waiting.marker.substr(1));
+        const auto next = continuations_.find(name);
+        if (next == continuations_.end()) {
+            cards_.emplace(name, std::move(waiting));
+            return;
+        }
+        const Waiting& line = next->second;
+        check_half(waiting.card, line.large, line.card.place);
+        waiting.card.fields.insert(waiting.card.fields.end(), line.card.fields.begin(),
+                                   line.card.fields.end());
+        waiting.marker = line.marker;
+        if (waiting.use != CardUse::read) {
+            kept_ += line.raw;
+            kept_ += '\n';
+        }
+        continuations_.erase(next);
+    }
+    take_(waiting.card);
+}
+
+void BulkData::finish()
+{
+    if (!continuations_.empty()) {
+        const auto first = std::ranges::min_element(
+            continuations_, {}, [](const auto& line) { return line.second.card.place.number(); });
+        first->second.card.place.fail("a continuation " + shown(first->second.raw.substr(0, kField)) +
+                                      " of no card");
+    }
+    // What they name never came: a mark of somebody's.
+    std::map<std::uint64_t, const Card*> in_order;
+    for (const auto& [name, waiting] : cards_) in_order.emplace(waiting.card.place.number(), &waiting.card);
+    for (const auto& [place, card] : in_order) take_(*card);
+    cards_.clear();
 }
 
 } // namespace lacuna::io

@@ -60,7 +60,7 @@ public:
     void add_real(double value)
     {
         char* const at = digits_.data() + used_;
-        char* const end = put_real(at, value, kLarge);
+        char* const end = put_real(at, value, kLarge, RealForm::nastran);
         used_ += kNumber;
         fields_.emplace_back(at, static_cast<std::size_t>(end - at));
     }

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 /// What the writers of decks share. Internal to this folder.
@@ -48,11 +49,16 @@ TextNumbers numbers_in_text(const Deck& deck);
 std::vector<std::string> materials_in_text(const Deck& deck);
 /// Whether the text of an Abaqus deck has a section of a set of elements.
 bool has_section(const Deck& deck, std::string_view set);
+/// Cards of an Abaqus deck up to its first step, and from there on.
+std::pair<std::string, std::string> model_and_steps(const std::string& cards);
 /// Put cards of the model before the first step of an Abaqus deck.
 void add_model_cards(Deck& deck, const std::string& cards);
 
+/// How the exponent of a real number begins: with an E, or with its sign alone, as in 1.5-3.
+enum class RealForm { plain, nastran };
+
 /// A real number of at most `width` characters, the nearest of these, with a point. @pre width >= 10
-char* put_real(char* out, double value, std::size_t width);
+char* put_real(char* out, double value, std::size_t width, RealForm form = RealForm::plain);
 
 inline char* put_words(char* out, std::string_view words) { return words.copy(out, words.size()) + out; }
 

@@ -7,6 +7,8 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <optional>
+#include <set>
 #include <vector>
 
 /// Nastran bulk data below its nodes and elements: cards and coordinate frames. Internal to this folder.
@@ -41,7 +43,8 @@ enum class CardUse { read, keep, both };
 /// The cards of a deck and of the files it includes, which lie in its folder or below.
 ///
 /// A deck without BEGIN BULK is bulk data from its first line. Free, small and large fields, tabs, capitals
-/// or not, continuations that follow their card.
+/// or not, continuations that follow their card or, where they are named (+A1), lie anywhere. A card whose
+/// continuation comes later is handed over when it has come; one that names one that never comes, at the end.
 class BulkData {
 public:
     explicit BulkData(Cursor& cursor);
@@ -61,7 +64,22 @@ private:
     void free_fields(const Cursor& cursor, std::string_view line);
     void end_card();
 
+    /// A card that waits for its continuation, or a continuation that waits for its card.
+    struct Waiting {
+        Card card;
+        CardUse use = CardUse::keep;
+        std::string_view marker; ///< the continuation that is to come
+        bool large = false;
+        std::string raw; ///< of a continuation alone
+    };
+    bool is_awaited(std::string_view name);
+    void own_fields(Card& card);
+    void take_elsewhere(const DeckPlace& place, std::string_view raw);
+    void go_on(Waiting card);
+    void finish();
+
     Cursor& main_;
+    Cursor start_; ///< at its beginning
     DeckFiles files_;
     std::function<CardUse(std::string_view)> use_;
     std::function<void(const Card&)> take_;
@@ -72,6 +90,9 @@ private:
     std::deque<std::string> expanded_;   ///< lines of the card that held tabs
     std::string_view marker_;            ///< last field of the line before, which names its continuation
     bool open_ = false, bulk_ = false, ended_ = false;
+    std::multimap<std::string, Waiting> cards_, continuations_; ///< by the names of continuations
+    std::deque<std::string> owned_;                             ///< fields of these
+    std::optional<std::set<std::string>> awaited_;              ///< continuations that lines of the deck name
 };
 
 /// Coordinate frames, each given by three points in another frame or by three nodes.

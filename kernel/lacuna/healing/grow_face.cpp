@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/healing/grow_face.h>
+
+#include <lacuna/core/edge_key.h>
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/healing/split_facets.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <unordered_map>
+
+namespace lacuna::healing {
+namespace {
+
+/// A triangle, whose fourth corner is -1, or a given quad.
+struct Cell {
+    Quad corners;
+    Index face;
+    [[nodiscard]] std::size_t count() const { return corners[3] < 0 ? 3 : 4; }
+};
+
+std::array<Index, 3> rising(Triangle t)
+{
+    std::sort(t.begin(), t.end());
+    return t;
+}
+
+/// The quads of a face and its triangles that are no halves of these. The triangle each cell was met with
+/// first goes to `cell_of`.
+void add_cells(const topology::Face& face, Index number, std::vector<Cell>& cells,
+               std::vector<Index>& cell_of)
+{
+    std::map<std::array<Index, 3>, Index> halves;
+    for (const Quad& quad : face.given_quads) {
+        for (std::size_t k = 0; k < 4; ++k)
+            halves.emplace(rising({quad[k], quad[(k + 1) % 4], quad[(k + 2) % 4]}),
+                           static_cast<Index>(cells.size()));
+        cells.push_back({quad, number});
+    }
+    for (const Triangle& t : face.triangles) {
+        const auto found = halves.find(rising(t));
+        cell_of.push_back(found != halves.end() ? found->second : static_cast<Index>(cells.size()));
+        if (found == halves.end()) cells.push_back({{t[0], t[1], t[2], -1}, number});
+    }
+}
+
+class Grower {
+public:
+    Grower(const topology::Model& model, double angle) : model_(model)
+    {
+        constexpr double kSlack = 1e-6; // as where facets are cut: files of 32-bit floats are no finer
+        least_cosine_ = std::cos(std::min(angle * std::numbers::pi / 180 + kSlack, std::numbers::pi));
+        for (std::size_t f = 0; f < model.faces.size(); ++f)
+            add_cells(model.faces[f], static_cast<Index>(f), cells_, cell_of_triangle_);
+        for (std::size_t c = 0; c < cells_.size(); ++c)
+            for (std::size_t k = 0; k < cells_[c].count(); ++k)
+                users_[key(cells_[c], k)].push_back(static_cast<Index>(c));
+    }
+
+    [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
+
+    /// Whether each cell was grown.
+    std::vector<bool> grow(const Vec3& near, std::span<const FaceId> among, const RunContext& context)
+    {
+        std::vector<bool> may(model_.faces.size(), false);
+        for (const FaceId face : among) may[face.index()] = true;
+        std::vector<bool> grown(cells_.size(), false);
+        std::vector<Index> front{nearest(near, may)};
+        grown[index(front[0])] = true;
+        for (std::size_t i = 0; i < front.size(); ++i) {
+            if (i % 4096 == 0) check_cancelled(context); // often enough to be felt as at once
+            const Index from = front[i];
+            for (std::size_t k = 0; k < cells_[index(from)].count(); ++k) {
+                const std::vector<Index>& here = users_.at(key(cells_[index(from)], k));
+                if (here.size() != 2) continue;
+                const Index to = here[0] == from ? here[1] : here[0];
+                if (grown[index(to)] || !may[index(cells_[index(to)].face)]) continue;
+                const double sign = runs(to, corner(from, k), corner(from, k + 1)) ? -1 : 1;
+                if (sign * normal(from).dot(normal(to)) < least_cosine_) continue;
+                grown[index(to)] = true;
+                front.push_back(to);
+            }
+        }
+        seed_ = cells_[index(front[0])].face;
+        return grown;
+    }
+    [[nodiscard]] Index seed_face() const { return seed_; }
+
+private:
+    [[nodiscard]] Index corner(Index c, std::size_t k) const
+    {
+        return cells_[index(c)].corners[k % cells_[index(c)].count()];
+    }
+    static std::uint64_t key(const Cell& cell, std::size_t k)
+    {
+        return edge_key(cell.corners[k], cell.corners[(k + 1) % cell.count()]);
+    }
+    [[nodiscard]] bool runs(Index c, Index a, Index b) const
+    {
+        for (std::size_t k = 0; k < cells_[index(c)].count(); ++k)
+            if (corner(c, k) == a && corner(c, k + 1) == b) return true;
+        return false;
+    }
+    [[nodiscard]] Vec3 normal(Index c) const
+    {
+        Vec3 sum = Vec3::Zero();
+        const Vec3& origin = model_.at(corner(c, 0));
+        for (std::size_t k = 1; k + 1 < cells_[index(c)].count(); ++k)
+            sum += (model_.at(corner(c, k)) - origin).cross(model_.at(corner(c, k + 1)) - origin);
+        return sum.normalized();
+    }
+
+    [[nodiscard]] Index nearest(const Vec3& near, const std::vector<bool>& may) const
+    {
+        std::vector<Triangle> triangles;
+        std::vector<Index> cell;
+        std::size_t at = 0;
+        for (std::size_t f = 0; f < model_.faces.size(); ++f)
+            for (const Triangle& t : model_.faces[f].triangles) {
+                if (may[f]) {
+                    triangles.push_back(t);
+                    cell.push_back(cell_of_triangle_[at]);
+                }
+                ++at;
+            }
+        return cell[index(geometry::FacetTree(model_.points, triangles).closest(near).triangle)];
+    }
+
+    const topology::Model& model_;
+    double least_cosine_ = 0;
+    std::vector<Cell> cells_;
+    std::vector<Index> cell_of_triangle_; ///< face after face
+    std::unordered_map<std::uint64_t, std::vector<Index>> users_;
+    Index seed_ = -1;
+};
+
+/// The facets as a soup whose labels are the faces, and one more the grown cells.
+FacetSoup soup_of(const topology::Model& model, const std::vector<Cell>& cells,
+                  const std::vector<bool>& grown)
+{
+    FacetSoup soup;
+    soup.points = model.points;
+    const auto grown_label = static_cast<int>(model.faces.size());
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        const int label = grown[c] ? grown_label : cells[c].face;
+        const Quad& q = cells[c].corners;
+        if (q[3] < 0) {
+            soup.triangles.push_back({q[0], q[1], q[2]});
+            soup.triangle_label.push_back(label);
+        } else {
+            soup.quads.push_back(q);
+            soup.quad_label.push_back(label);
+        }
+    }
+    for (int label = 0; label <= grown_label; ++label) soup.label_name.push_back(std::to_string(label));
+    soup.label_keeps_nodes.assign(model.faces.size() + 1, 0);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        if (model.faces[index(cells[c].face)].keeps_nodes)
+            soup.label_keeps_nodes[grown[c] ? index(grown_label) : index(cells[c].face)] = 1;
+    return soup;
+}
+
+/// Put the faces in the order of those before, the others behind, and give them what they had.
+void arrange(const topology::Model& before, Index seed, GrownFace& found)
+{
+    topology::Model& model = found.model;
+    const std::size_t count = before.faces.size();
+    std::vector<std::vector<std::size_t>> parts(count + 1); // of each label, the largest first
+    for (std::size_t f = 0; f < model.faces.size(); ++f) parts[std::stoul(model.faces[f].name)].push_back(f);
+    for (std::vector<std::size_t>& of : parts)
+        std::ranges::stable_sort(of, std::greater{},
+                                 [&](std::size_t f) { return model.faces[f].triangles.size(); });
+    int next = 0;
+    for (const topology::Face& face : before.faces) next = std::max(next, face.tag);
+    std::vector<topology::Face> all;
+    const auto take = [&](std::size_t from, std::size_t as, int tag) {
+        topology::Face& face = all.emplace_back(std::move(model.faces[from]));
+        const topology::Face& old = before.faces[as];
+        face.tag = tag;
+        face.name = old.name;
+        face.groups = old.groups;
+        face.regions = old.regions;
+        face.origin = old.origin;
+        face.geometry = old.geometry;
+    };
+    found.now.assign(count, FaceId());
+    for (std::size_t f = 0; f < count; ++f) {
+        if (parts[f].empty()) continue;
+        found.now[f] = FaceId(all.size());
+        take(parts[f][0], f, before.faces[f].tag);
+    }
+    found.face = FaceId(all.size());
+    take(parts[count].at(0), index(seed), ++next);
+    for (std::size_t f = 0; f < count; ++f)
+        for (std::size_t p = 1; p < parts[f].size(); ++p) take(parts[f][p], f, ++next);
+    for (std::size_t p = 1; p < parts[count].size(); ++p) take(parts[count][p], index(seed), ++next);
+    model.faces = std::move(all);
+}
+
+} // namespace
+
+GrownFace grow_face(const topology::Model& model, const Vec3& near, std::span<const FaceId> among,
+                    const GrowOptions& options, const RunContext& context)
+{
+    if (!(options.angle > 0 && options.angle <= 180))
+        throw InvalidInput("topology.bad_angle", "the angle is " + std::to_string(options.angle) +
+                                                     " degrees; it must be above 0 and at most 180");
+    if (among.empty())
+        throw InvalidInput("healing.nothing_to_grow", "no face fits what is asked for; say less");
+    for (std::size_t f = 0; f < model.faces.size(); ++f)
+        if (model.faces[f].surface)
+            throw InvalidInput("healing.exact_faces", topology::name_of(model, FaceId(f)) +
+                                                          " is a surface of CAD, and a part of it would be "
+                                                          "none; faces are grown in meshes");
+    Grower grower(model, options.angle);
+    const std::vector<bool> grown = grower.grow(near, among, context);
+    const Index seed = grower.seed_face();
+    // A face as it is.
+    bool same = true;
+    for (std::size_t c = 0; c < grown.size(); ++c)
+        same = same && grown[c] == (grower.cells()[c].face == seed);
+    if (same) {
+        GrownFace found{model, FaceId(index(seed)), {}};
+        for (std::size_t f = 0; f < model.faces.size(); ++f) found.now.emplace_back(f);
+        return found;
+    }
+    GrownFace found;
+    found.model = split_facets(soup_of(model, grower.cells(), grown),
+                               {options.feature_angle, model.tolerance, true}, context);
+    arrange(model, seed, found);
+    found.model.source = model.source;
+    found.model.diagonal = model.diagonal;
+    found.model.notes = model.notes;
+    return found;
+}
+
+} // namespace lacuna::healing

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/deck_file.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/io/detail/cursor.h>
+#include <lacuna/io/detail/deck_writer.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace lacuna::io {
+namespace {
+
+/// Tags of all elements.
+std::vector<DeckTag> cells_of(const Deck& deck)
+{
+    std::vector<DeckTag> tags;
+    for (const DeckBlock& block : deck.blocks) tags.insert(tags.end(), block.tags.begin(), block.tags.end());
+    return tags;
+}
+
+/// What both have, rising.
+std::vector<DeckTag> in_both(std::vector<DeckTag> a, std::vector<DeckTag> b)
+{
+    std::ranges::sort(a);
+    std::ranges::sort(b);
+    std::vector<DeckTag> both;
+    std::ranges::set_intersection(a, b, std::back_inserter(both));
+    return both;
+}
+
+class Merger {
+public:
+    Merger(Deck& all, const Deck& more, const MergeOptions& options, const RunContext& context)
+        : all_(all), more_(more), options_(options), context_(context), same_(all.format == more.format)
+    {
+    }
+
+    void merge(double scale)
+    {
+        const TextNumbers texts = numbers_in_text(all_), own = numbers_in_text(more_);
+        std::vector<DeckTag> nodes = all_.point_tags, cells = cells_of(all_);
+        nodes.insert(nodes.end(), texts.nodes.begin(), texts.nodes.end());
+        cells.insert(cells.end(), texts.cells.begin(), texts.cells.end());
+        std::vector<DeckTag> own_nodes = more_.point_tags, own_cells = cells_of(more_);
+        if (same_) {
+            own_nodes.insert(own_nodes.end(), own.nodes.begin(), own.nodes.end());
+            own_cells.insert(own_cells.end(), own.cells.begin(), own.cells.end());
+        }
+        check_clash("node", in_both(nodes, own_nodes));
+        check_clash("element", in_both(cells, own_cells));
+        if (same_ && more_.format != DeckFormat::abaqus) check_clash("property", shared_properties());
+        if (same_) check_names();
+        if (clashes_) {
+            node_offset_ = offset("node", nodes, own_nodes);
+            cell_offset_ = offset("element", cells, own_cells);
+        }
+        add_points(scale);
+        const auto first_region = static_cast<Index>(all_.regions.size());
+        add_regions();
+        add_blocks(first_region);
+        add_sets();
+        add_texts();
+        all_.path += ", " + more_.path;
+        all_.notes.insert(all_.notes.end(), more_.notes.begin(), more_.notes.end());
+    }
+
+private:
+    /// Refuse, or mark, what both decks have.
+    void check_clash(const std::string& what, const std::vector<DeckTag>& both)
+    {
+        if (both.empty()) return;
+        clashes_ = true;
+        if (options_.renumber) return;
+        refuse(what + " " + std::to_string(both.front()), both.size());
+    }
+
+    [[noreturn]] void refuse(const std::string& first, std::size_t count) const
+    {
+        throw InvalidInput("io.numbers_clash",
+                           "with: " + first + " is in " + all_.path + " and in " + more_.path +
+                               (count > 1 ? ", and so are " + std::to_string(count - 1) + " more" : "") +
+                               "; renumber = true gives those of the later deck numbers and names of their "
+                               "own, and leaves its cards out, which name the old ones");
+    }
+
+    [[nodiscard]] std::vector<DeckTag> shared_properties() const
+    {
+        std::vector<DeckTag> a, b;
+        for (const DeckRegion& region : all_.regions) a.push_back(region.tag);
+        for (const DeckRegion& region : more_.regions) b.push_back(region.tag);
+        return in_both(a, b);
+    }
+
+    [[nodiscard]] static bool has_set(const Deck& deck, const DeckSet& wanted, const std::string& name)
+    {
+        return std::ranges::any_of(deck.sets, [&](const DeckSet& set) {
+            return set.kind == wanted.kind && same_word(set.name, name);
+        });
+    }
+
+    /// Cards name sets and materials.
+    void check_names()
+    {
+        std::vector<std::string> both;
+        for (const DeckSet& set : more_.sets)
+            if (has_set(all_, set, set.name)) both.push_back("the set " + set.name);
+        const std::vector<std::string> known = materials_in_text(all_);
+        for (const std::string& name : materials_in_text(more_))
+            if (std::ranges::any_of(known, [&](const std::string& of) { return same_word(of, name); }))
+                both.push_back("material " + name);
+        if (both.empty()) return;
+        clashes_ = true;
+        if (!options_.renumber) refuse(both.front(), both.size());
+    }
+
+    static DeckTag offset(const char* what, const std::vector<DeckTag>& taken,
+                          const std::vector<DeckTag>& own)
+    {
+        if (in_both(taken, own).empty()) return 0;
+        const DeckTag highest = *std::ranges::max_element(taken), last = *std::ranges::max_element(own);
+        if (highest + last > std::numeric_limits<Index>::max())
+            throw InvalidInput("io.number_taken", std::string("with: the highest ") + what +
+                                                      " would have the number " +
+                                                      std::to_string(highest + last));
+        return highest;
+    }
+
+    void add_points(double scale)
+    {
+        first_point_ = static_cast<Index>(all_.points.size());
+        for (const Vec3& p : more_.points) all_.points.push_back(scale == 1 ? p : Vec3(p * scale));
+        for (const DeckTag tag : more_.point_tags) all_.point_tags.push_back(tag + node_offset_);
+        if (!same_ || clashes_) return; // frames are cards
+        for (const auto& [at, text] : more_.point_more)
+            all_.point_more.emplace_back(index(first_point_) + at, text);
+    }
+
+    void add_regions()
+    {
+        int highest = static_cast<int>(
+            std::min<DeckTag>(numbers_in_text(all_).property, std::numeric_limits<int>::max() / 2));
+        for (const DeckRegion& region : all_.regions) highest = std::max(highest, region.tag);
+        for (DeckRegion region : more_.regions) {
+            const bool taken = std::ranges::any_of(
+                all_.regions, [&](const DeckRegion& other) { return other.tag == region.tag; });
+            if (taken) region.tag = highest + 1;
+            highest = std::max(highest, region.tag);
+            all_.regions.push_back(std::move(region));
+        }
+    }
+
+    void add_blocks(Index first_region)
+    {
+        for (const DeckBlock& block : more_.blocks) {
+            const std::string type = same_ ? block.type : std::string();
+            auto found = std::ranges::find_if(all_.blocks, [&](const DeckBlock& other) {
+                return other.shape == block.shape && other.type == type;
+            });
+            if (found == all_.blocks.end()) {
+                found = all_.blocks.insert(found, DeckBlock{.shape = block.shape, .type = type});
+            }
+            const std::size_t before = found->count();
+            for (const Index node : block.nodes) found->nodes.push_back(node < 0 ? -1 : first_point_ + node);
+            for (const DeckTag tag : block.tags) found->tags.push_back(tag + cell_offset_);
+            for (const Index region : block.regions)
+                found->regions.push_back(region < 0 ? -1 : first_region + region);
+            if (!same_ || clashes_) continue;
+            for (const auto& [at, text] : block.more) found->more.emplace_back(before + at, text);
+        }
+    }
+
+    void add_sets()
+    {
+        int tag = 0;
+        for (const DeckSet& set : all_.sets) tag = std::max(tag, set.tag);
+        for (DeckSet set : more_.sets) {
+            const std::string name = set.name;
+            for (int i = 2; has_set(all_, set, set.name); ++i) set.name = name + "_" + std::to_string(i);
+            if (set.tag > 0) set.tag = ++tag;
+            const DeckTag raise = set.kind == DeckSet::Kind::nodes ? node_offset_ : cell_offset_;
+            for (DeckTag& member : set.members) member += raise;
+            for (DeckSide& side : set.sides) side.element += cell_offset_;
+            all_.sets.push_back(std::move(set));
+        }
+    }
+
+    void add_texts()
+    {
+        const bool any = std::ranges::any_of(
+            more_.texts, [](const DeckText& text) { return text.place == DeckText::Place::cards; });
+        if (!any) return;
+        if (!same_ || clashes_ || !more_.instances.empty()) {
+            log_line(context_, "cards of " + more_.path + " are left out: " +
+                                   (!same_     ? "they are of another format"
+                                    : clashes_ ? "they name numbers and sets that are others now"
+                                               : "they name nodes by their instances"));
+            return;
+        }
+        if (all_.format != DeckFormat::abaqus) {
+            for (const DeckText& text : more_.texts)
+                if (text.place == DeckText::Place::cards) all_.texts.push_back(text);
+            return;
+        }
+        const auto [model, steps] = model_and_steps(text_at(more_, DeckText::Place::cards));
+        if (!steps.empty())
+            log_line(context_, "the steps of " + more_.path + " are left out; those of the first deck stay");
+        add_model_cards(all_, model);
+    }
+
+    Deck& all_;
+    const Deck& more_;
+    const MergeOptions& options_;
+    const RunContext& context_;
+    bool same_, clashes_ = false;
+    DeckTag node_offset_ = 0, cell_offset_ = 0;
+    Index first_point_ = 0;
+};
+
+} // namespace
+
+Deck merge_decks(std::span<const DeckInScale> decks, const MergeOptions& options, const RunContext& context)
+{
+    if (decks.empty()) throw InvalidInput("io.no_file", "no deck was given");
+    Deck all = *decks.front().deck;
+    for (const DeckInScale& more : decks.subspan(1))
+        Merger(all, *more.deck, options, context).merge(more.scale / decks.front().scale);
+    return all;
+}
+
+} // namespace lacuna::io
