@@ -15,6 +15,8 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
+#include <random>
 #include <set>
 
 /// Voids whose faces come with meshes: the skins of meshes, of which parts are given.
@@ -53,6 +55,29 @@ inline GivenSkin skin_of(const mesh::HexMesh& mesh)
         skin.part.push_back(static_cast<int>(quad.patch));
     }
     return skin;
+}
+
+/// The same skin with its points and quads in any order, each quad from any corner.
+inline GivenSkin shuffled(const GivenSkin& skin, unsigned seed)
+{
+    std::mt19937 random(seed);
+    std::vector<Index> number(skin.nodes.size());
+    std::iota(number.begin(), number.end(), 0);
+    std::shuffle(number.begin(), number.end(), random);
+    std::vector<std::size_t> order(skin.quads.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::shuffle(order.begin(), order.end(), random);
+    GivenSkin result{std::vector<Vec3>(skin.nodes.size()), {}, {}};
+    for (std::size_t n = 0; n < number.size(); ++n)
+        result.nodes[static_cast<std::size_t>(number[n])] = skin.nodes[n];
+    for (const std::size_t q : order) {
+        Quad quad = skin.quads[q];
+        for (Index& n : quad) n = number[static_cast<std::size_t>(n)];
+        std::rotate(quad.begin(), quad.begin() + static_cast<std::ptrdiff_t>(random() % 4), quad.end());
+        result.quads.push_back(quad);
+        result.part.push_back(skin.part[q]);
+    }
+    return result;
 }
 
 /// Which quads are given, and how.

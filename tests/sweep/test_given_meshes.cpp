@@ -44,6 +44,43 @@ TEST_CASE("given quads of source, target and walls are faces of the mesh, bit fo
     MESSAGE(meshed << " blocks, every given quad kept");
 }
 
+TEST_CASE("ends of the same graph are kept both, however their points and quads are numbered")
+{
+    int meshed = 0;
+    for (Vec3 (*map)(const Vec3&) : {uneven, twisted, bent}) {
+        for (const char* value : {"I", "II", "III"}) {
+            const auto missing_faces = std::find_if(kMissing.begin(), kMissing.end(), [&](const Missing& m) {
+                return std::string(m.value) == value;
+            });
+            for (unsigned seed = 1; seed < 6; ++seed) {
+                CAPTURE(value);
+                CAPTURE(seed);
+                // An outline with a bay, so that the quads' graph is no plain grid.
+                const auto bay = [](int column, int row) { return row == 0 && column == 1; };
+                const test::BlockOptions plain{.columns = 4, .rows = 5, .layers = 3, .leave_out = bay};
+                test::BlockOptions moved = plain;
+                moved.map = map;
+                const GivenSkin before = shuffled(skin_of(test::block(plain)), seed);
+                std::size_t next = 0;
+                Opened opened = open(shuffled(skin_of(test::block(moved)), seed), [&](int part, const Vec3&) {
+                    Vec3 centre = Vec3::Zero();
+                    for (const Index n : before.quads[next])
+                        centre += before.nodes[static_cast<std::size_t>(n)] / 4;
+                    ++next;
+                    return missing_faces->gone(part, centre) ? Given::no : Given::quads;
+                });
+                SweepOptions options;
+                options.layers.count = 3;
+                const Swept result = filled(opened.volume, options);
+                test::check_valid(result.mesh);
+                CHECK(kept(result.mesh, opened.quads) == opened.quads.size());
+                ++meshed;
+            }
+        }
+    }
+    MESSAGE(meshed << " blocks with a bay, every given quad kept");
+}
+
 TEST_CASE("a void in a ring of given quads keeps the rows on both of its walls")
 {
     const GivenSkin skin = skin_of(test::ring(14, 5));
