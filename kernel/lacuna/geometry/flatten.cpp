@@ -225,8 +225,8 @@ void align(Positions& positions, const Positions& model)
 }
 
 /// Whether facets close round between two loops: walked within them, the outer loop turns by less than half
-/// of what the outline of a flat ring does. Of a cylinder it does not turn at all, of a cone by half where its
-/// side is 60° steep. A sheet that is rolled up and has a hole is no tube.
+/// of what the outline of a flat ring does. Of a cylinder it does not turn at all, of a cone by half where
+/// its side is 60° steep. A sheet that is rolled up and has a hole is no tube.
 bool is_tube(const Facets& facets)
 {
     if (facets.loops.size() != 2) return false;
