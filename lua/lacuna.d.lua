@@ -82,6 +82,7 @@
 ---@field gap? integer least number of quads across a narrow place of the source; default: none
 ---@field max_deviation? number how far the skin may be from the sealed skin [model length]; default: a quarter of a quad's side
 ---@field quads? "auto"|"paved"|"mapped"|"gmsh"|"keep" default "auto"; the report says which way each face was meshed
+---@field wedges? boolean triangles that an end came with stay, with wedges on them; default false: quads among triangles are an error
 ---@field rows? integer rows of quads from every loop of the source that stay as they are laid; default: what the paver finds good
 ---@field row_height? number|fun(x: number, y: number, z: number): number of those rows (one at least); default: the size
 ---@field order? 1|2 default 1
@@ -159,6 +160,7 @@
 --- Prints as a table, with a histogram and a line a metric.
 ---@class lacuna.Quality
 ---@field hexes integer
+---@field wedges integer
 ---@field min_scaled_jacobian number
 ---@field mean_scaled_jacobian number
 ---@field inverted integer cells with a corner that is not positive
@@ -265,6 +267,7 @@ function Volume:write_cad(path, options) end
 ---@field fidelity lacuna.Fidelity
 ---@field nodes integer
 ---@field hexes integer
+---@field wedges integer
 ---@field layers integer
 ---@field report string[] a line a stage of the sweep
 local Mesh = {}
@@ -277,6 +280,9 @@ function Mesh:groups() end
 ---@return number y
 ---@return number z
 function Mesh:node(i) end
+---@param i integer
+---@return integer ... six numbers of nodes
+function Mesh:wedge(i) end
 --- Eight node numbers, Gmsh order.
 ---@param i integer
 ---@return integer ...

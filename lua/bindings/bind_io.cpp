@@ -395,18 +395,23 @@ int load(lua_State* L)
     return 1;
 }
 
-/// The corners of all hexahedra of a deck; other solids cannot be judged, and their number is an error.
+/// The corners of all hexahedra and wedges of a deck; other solids cannot be judged, and where there are no
+/// others their number is an error.
 std::vector<Hex> hexes_of(const io::Deck& deck)
 {
     std::vector<Hex> hexes;
     for (const io::DeckBlock& block : deck.blocks) {
-        if (io::shape_info(block.shape).corners != 8) continue;
-        for (std::size_t e = 0; e < block.count(); ++e)
-            std::copy_n(block.element(e).begin(), 8, hexes.emplace_back().begin());
+        const io::DeckShapeInfo& info = io::shape_info(block.shape);
+        if (info.dimension != 3 || (info.corners != 8 && info.corners != 6)) continue;
+        for (std::size_t e = 0; e < block.count(); ++e) {
+            Hex& hex = hexes.emplace_back();
+            std::copy_n(block.element(e).begin(), info.corners, hex.begin());
+            if (info.corners == 6) hex = mesh::hex_of({hex[0], hex[1], hex[2], hex[3], hex[4], hex[5]});
+        }
     }
     if (hexes.empty())
         throw InvalidInput("lua.no_hexahedra",
-                           "check: " + deck.path + " holds no hexahedra" +
+                           "check: " + deck.path + " holds no hexahedra and no wedges" +
                                (deck.element_count(3) > 0
                                     ? ", only " + std::to_string(deck.element_count(3)) + " other solids"
                                     : ""));

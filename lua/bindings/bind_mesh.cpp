@@ -21,6 +21,12 @@ int mesh_hexes(lua_State* L)
     return 1;
 }
 
+int mesh_wedges(lua_State* L)
+{
+    lua_pushinteger(L, static_cast<lua_Integer>(check<MeshState>(L, 1).swept.mesh.wedge_count()));
+    return 1;
+}
+
 int mesh_layers(lua_State* L)
 {
     lua_pushinteger(L, check<MeshState>(L, 1).swept.mesh.layers);
@@ -98,9 +104,21 @@ int hex(lua_State* L)
 {
     lua_settop(L, 2);
     const mesh::HexMesh& mesh = check<MeshState>(L, 1).swept.mesh;
-    for (const Index corner : mesh.hex(check_number(L, "hex", mesh.hex_count())))
+    const std::size_t number = check_number(L, "hex", mesh.hex_count());
+    for (const Index corner : mesh.hex(mesh::CellKinds(mesh).cell(number)))
         lua_pushinteger(L, to_lua(corner));
     return 8;
+}
+
+/// n1, ..., n6 = mesh:wedge(i)
+int wedge(lua_State* L)
+{
+    lua_settop(L, 2);
+    const mesh::HexMesh& mesh = check<MeshState>(L, 1).swept.mesh;
+    const std::size_t number = check_number(L, "wedge", mesh.wedge_count());
+    const std::size_t cell = mesh::CellKinds(mesh).cell(mesh.hex_count() + number);
+    for (const Index corner : mesh::wedge_of(mesh.hex(cell))) lua_pushinteger(L, to_lua(corner));
+    return 6;
 }
 
 struct Groups {
@@ -144,7 +162,7 @@ int groups(lua_State* L)
         lua_rawseti(L, -2, next++);
     }
     for (const std::string& name : mesh.volume_groups) {
-        push_group(L, name, 3, mesh.hex_count());
+        push_group(L, name, 3, mesh.cell_count());
         lua_rawseti(L, -2, next++);
     }
     return 1;
@@ -158,10 +176,11 @@ int mesh_to_string(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kMethods[] = {{"node", node}, {"hex", hex}, {"groups", groups}, {nullptr, nullptr}};
+const luaL_Reg kMethods[] = {
+    {"node", node}, {"hex", hex}, {"wedge", wedge}, {"groups", groups}, {nullptr, nullptr}};
 const luaL_Reg kMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
 const Field kFields[] = {
-    {"nodes", mesh_nodes},   {"hexes", mesh_hexes},       {"layers", mesh_layers},
+    {"nodes", mesh_nodes},   {"hexes", mesh_hexes},       {"wedges", mesh_wedges}, {"layers", mesh_layers},
     {"report", mesh_report}, {"fidelity", mesh_fidelity}, {nullptr, nullptr},
 };
 

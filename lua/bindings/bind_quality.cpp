@@ -202,6 +202,7 @@ void push_quality(lua_State* L, int source)
     set_count(L, "uncertified", q.uncertified);
     set_boolean(L, "certified", q.uncertified == 0 && q.inverted == 0);
     set_count(L, "hexes", q.hexes);
+    set_count(L, "wedges", q.wedges);
     set_number(L, "volume", q.volume);
     push_worst(L, q.worst);
     lua_setfield(L, -2, "worst");

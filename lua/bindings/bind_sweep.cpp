@@ -141,6 +141,11 @@ void read_quads(lua_State* L, int index, const Where& where, SweepArguments& arg
     arguments.options.quads = read_word(L, index, where, kQuads);
 }
 
+void read_wedges(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.wedges = read_boolean(L, index, where);
+}
+
 void read_order(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
     arguments.order = read_whole(L, index, where, 1);
@@ -203,6 +208,7 @@ const Option<SweepArguments> kSweepOptions[] = {
     {"gap", read_gap},
     {"max_deviation", read_max_deviation},
     {"quads", read_quads},
+    {"wedges", read_wedges},
     {"rows", read_rows},
     {"row_height", read_row_height},
     {"order", read_order},

@@ -35,7 +35,8 @@ local lacuna = require "lacuna"
 local quality = lacuna.check((...))
 print(quality)
 if not quality.certified then
-  error(("%s: %d of %d cells are invalid"):format(..., quality.uncertified, quality.hexes), 0)
+  local cells = quality.hexes + quality.wedges
+  error(("%s: %d of %d cells are invalid"):format(..., quality.uncertified, cells), 0)
 end
 )lua";
 

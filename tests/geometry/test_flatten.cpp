@@ -228,6 +228,50 @@ TEST_CASE("a tube is laid down as a ring, a ramp of two turns without covering i
     check_flat(ramp, flat);
 }
 
+TEST_CASE("tubes of any shape, height and division are rings, whichever of their rims is the longer")
+{
+    struct Shape {
+        const char* name;
+        double height, taper, waves, lean;
+    };
+    const std::vector<Shape> shapes{{"cylinder", 1, 0, 0, 0},    {"low", 0.1, 0, 0, 0},
+                                    {"high", 5, 0, 0, 0},        {"narrowing", 2, -0.6, 0, 0},
+                                    {"widening", 2, 0.8, 0, 0},  {"wavy", 1, 0, 0.2, 0},
+                                    {"leaning", 2, -0.2, 0.1, 1}};
+    std::mt19937 random(3);
+    for (const Shape& shape : shapes) {
+        for (const auto& [around, up] : {std::pair(7, 2), std::pair(24, 9), std::pair(90, 30)}) {
+            CAPTURE(shape.name);
+            CAPTURE(around);
+            Patch tube;
+            for (int j = 0; j <= up; ++j) {
+                for (int i = 0; i < around; ++i) {
+                    const double t = double(j) / up, a = 2 * kPi * (i + 0.3 * std::sin(5.0 * i + j)) / around;
+                    const double r = (1 + shape.taper * t) * (1 + shape.waves * std::sin(3 * a + t));
+                    tube.points.emplace_back(r * std::cos(a) + shape.lean * t * t, r * std::sin(a),
+                                             shape.height * t);
+                }
+            }
+            for (Index j = 0; j < up; ++j) {
+                for (Index i = 0; i < around; ++i) {
+                    const Index a = j * around + i, b = j * around + (i + 1) % around;
+                    if ((i + j) % 2 == 0) {
+                        tube.triangles.push_back({a, b, b + around});
+                        tube.triangles.push_back({a, b + around, a + around});
+                    } else {
+                        tube.triangles.push_back({a, b, a + around});
+                        tube.triangles.push_back({b, b + around, a + around});
+                    }
+                }
+            }
+            std::shuffle(tube.triangles.begin(), tube.triangles.end(), random);
+            const Flattened flat = flatten(tube.points, tube.triangles);
+            check_flat(tube, flat);
+            if (around > 7) CHECK(flat.map == FlatMap::ring);
+        }
+    }
+}
+
 TEST_CASE("a sheet folded over in its own plane is unfolded")
 {
     const Patch folded = patch(10, 6,

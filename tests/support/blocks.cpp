@@ -81,4 +81,23 @@ mesh::HexMesh ring(int around, int layers)
     return stacked(points, quads, layers);
 }
 
+mesh::HexMesh with_wedges(mesh::HexMesh mesh, std::size_t every)
+{
+    std::vector<Quad> quads, triangles;
+    for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+        const Quad& quad = mesh.quads[q];
+        if (q % every != 0) {
+            quads.push_back(quad);
+            continue;
+        }
+        triangles.push_back({quad[0], quad[1], quad[2], quad[2]});
+        triangles.push_back({quad[2], quad[3], quad[0], quad[0]});
+    }
+    quads.insert(quads.end(), triangles.begin(), triangles.end());
+    mesh.quads = std::move(quads);
+    mesh.source_patch.assign(mesh.quads.size(), 0);
+    mesh.target_patch.assign(mesh.quads.size(), 1);
+    return mesh;
+}
+
 } // namespace lacuna::test

@@ -22,4 +22,7 @@ mesh::HexMesh block(const BlockOptions& options = {});
 /// A tube: a source with a hole, `around` quads about it and two across.
 mesh::HexMesh ring(int around, int layers);
 
+/// The same with two wedges for every hexahedron over each `every`-th quad of the source.
+mesh::HexMesh with_wedges(mesh::HexMesh mesh, std::size_t every = 3);
+
 } // namespace lacuna::test

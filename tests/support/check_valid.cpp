@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 namespace lacuna::test {
 namespace {
@@ -20,18 +21,31 @@ void expect(Faults& faults, bool good, const std::string& fault)
     if (!good && faults.size() < 20) faults.push_back(fault);
 }
 
-Quad begin_lowest(Quad quad)
+/// Corners of a quad or triangle, each once, from the lowest on.
+using Side = std::vector<Index>;
+
+Side begin_lowest(const Quad& quad)
 {
-    std::rotate(quad.begin(), std::min_element(quad.begin(), quad.end()), quad.end());
-    return quad;
+    Side side;
+    for (const Index node : quad)
+        if (side.empty() || side.back() != node) side.push_back(node);
+    std::rotate(side.begin(), std::min_element(side.begin(), side.end()), side.end());
+    return side;
 }
 
-Quad reversed(const Quad& quad) { return begin_lowest({quad[3], quad[2], quad[1], quad[0]}); }
+Side reversed(Side side)
+{
+    std::reverse(side.begin() + 1, side.end());
+    return side;
+}
+
+/// Whether two columns of a cell's nodes are one.
+bool is_wedge(const Hex& hex) { return hex[2] == hex[3] && hex[6] == hex[7]; }
 
 bool good_sizes(const mesh::HexMesh& mesh, Faults& faults)
 {
     const auto layers = static_cast<std::size_t>(mesh.layers);
-    expect(faults, mesh.hex_count() > 0, "no cells");
+    expect(faults, mesh.cell_count() > 0, "no cells");
     expect(faults, mesh.nodes.size() == (layers + 1) * static_cast<std::size_t>(mesh.nodes_per_layer),
            "node count");
     expect(faults, mesh.source_patch.size() == mesh.quads.size(), "source patch count");
@@ -44,38 +58,41 @@ bool good_sizes(const mesh::HexMesh& mesh, Faults& faults)
 }
 
 /// Sides of all cells, each told by its nodes in any order, with the ways it is run, outward.
-std::map<std::set<Index>, std::vector<Quad>> all_sides(const mesh::HexMesh& mesh)
+std::map<std::set<Index>, std::vector<Side>> all_sides(const mesh::HexMesh& mesh)
 {
-    std::map<std::set<Index>, std::vector<Quad>> sides;
-    for (std::size_t cell = 0; cell < mesh.hex_count(); ++cell) {
+    std::map<std::set<Index>, std::vector<Side>> sides;
+    for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
         const Hex hex = mesh.hex(cell);
         const Quad outward[6] = {{hex[0], hex[3], hex[2], hex[1]}, {hex[4], hex[5], hex[6], hex[7]},
                                  {hex[0], hex[1], hex[5], hex[4]}, {hex[1], hex[2], hex[6], hex[5]},
                                  {hex[2], hex[3], hex[7], hex[6]}, {hex[3], hex[0], hex[4], hex[7]}};
-        for (const Quad& quad : outward)
+        for (const Quad& quad : outward) {
+            if (is_wedge(hex) && quad[0] == quad[1]) continue; // between the columns that are one
             sides[std::set<Index>(quad.begin(), quad.end())].push_back(begin_lowest(quad));
+        }
     }
     return sides;
 }
 
 void find_conformity_faults(const mesh::HexMesh& mesh, Faults& faults)
 {
-    std::multiset<Quad> lone;
+    std::multiset<Side> lone;
     for (const auto& [nodes, uses] : all_sides(mesh)) {
-        expect(faults, nodes.size() == 4, "a side uses a node twice");
+        expect(faults, nodes.size() == uses[0].size(), "a side uses a node twice");
         expect(faults, uses.size() <= 2, "a side is used by more than two cells");
         if (uses.size() == 2)
             expect(faults, uses[0] == reversed(uses[1]), "a side is run the same way by its two cells");
         if (uses.size() == 1) lone.insert(uses[0]);
     }
-    std::multiset<Quad> skin;
+    std::multiset<Side> skin;
     std::map<Segment, int> edges;
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         const mesh::SkinQuad quad = mesh::skin_quad(mesh, i);
         expect(faults, quad.patch >= 0 && static_cast<std::size_t>(quad.patch) < mesh.patches.size(),
                "a skin quad without patch");
         skin.insert(begin_lowest(quad.nodes));
-        for (std::size_t k = 0; k < 4; ++k) ++edges[{quad.nodes[k], quad.nodes[(k + 1) % 4]}];
+        const Side side = begin_lowest(quad.nodes);
+        for (std::size_t k = 0; k < side.size(); ++k) ++edges[{side[k], side[(k + 1) % side.size()]}];
     }
     expect(faults, skin == lone, "the skin's quads are not the sides of one cell alone, outward");
     for (const auto& [edge, uses] : edges) {
@@ -88,7 +105,7 @@ void find_conformity_faults(const mesh::HexMesh& mesh, Faults& faults)
 void find_node_faults(const mesh::HexMesh& mesh, Faults& faults)
 {
     std::vector<bool> used(mesh.nodes.size(), false);
-    for (std::size_t cell = 0; cell < mesh.hex_count(); ++cell)
+    for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell)
         for (const Index node : mesh.hex(cell)) used[static_cast<std::size_t>(node)] = true;
     expect(faults, std::find(used.begin(), used.end(), false) == used.end(), "a node belongs to no cell");
 
@@ -148,6 +165,24 @@ double naive_scaled_jacobian(const std::array<Vec3, 8>& corners)
     return least;
 }
 
+/// Of a wedge: as a hexahedron's over the sine of the even triangle's corners.
+double naive_wedge_jacobian(const std::array<Vec3, 8>& corners)
+{
+    const std::array<Vec3, 3> low{corners[0], corners[1], corners[2]},
+        high{corners[4], corners[5], corners[6]};
+    double least = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (const auto& [own, other, sign] : {std::tuple(low, high, 1), std::tuple(high, low, -1)}) {
+            Eigen::Matrix3d edges;
+            edges.col(0) = (own[(i + 1) % 3] - own[i]).normalized();
+            edges.col(1) = (own[(i + 2) % 3] - own[i]).normalized();
+            edges.col(2) = (other[i] - own[i]).normalized() * sign;
+            least = std::min(least, edges.determinant() / std::sin(std::acos(-1.0) / 3));
+        }
+    }
+    return least;
+}
+
 const double kGauss[2] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
 
 double cell_volume(const std::array<Vec3, 8>& corners)
@@ -187,15 +222,16 @@ void find_shape_faults(const mesh::HexMesh& mesh, Faults& faults)
     double least = 1;
     double sum = 0;
     double volume = 0;
-    for (std::size_t cell = 0; cell < mesh.hex_count(); ++cell) {
+    for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
+        const bool wedge = is_wedge(mesh.hex(cell));
         std::array<Vec3, 8> corners;
         for (std::size_t c = 0; c < 8; ++c)
             corners[c] = mesh.nodes[static_cast<std::size_t>(mesh.hex(cell)[c])];
         for (int i = 0; i < 4; ++i)
-            for (int j = 0; j < 4; ++j)
+            for (int j = 0; j < (wedge ? 3 : 4); ++j) // nothing is left of the last row of a wedge
                 for (int k = 0; k < 4; ++k)
                     expect(faults, jacobian(corners, Vec3(i, j, k) / 3) > 0, "a Jacobian is not positive");
-        const double scaled = naive_scaled_jacobian(corners);
+        const double scaled = wedge ? naive_wedge_jacobian(corners) : naive_scaled_jacobian(corners);
         least = std::min(least, scaled);
         sum += scaled;
         volume += cell_volume(corners);
@@ -205,8 +241,9 @@ void find_shape_faults(const mesh::HexMesh& mesh, Faults& faults)
            "the skin does not hold the volume of the cells");
 
     const quality::Quality quality = quality::measure(mesh);
-    const double mean = sum / static_cast<double>(mesh.hex_count());
+    const double mean = sum / static_cast<double>(mesh.cell_count());
     expect(faults, quality.hexes == mesh.hex_count(), "measured count");
+    expect(faults, quality.wedges == mesh.wedge_count(), "measured wedges");
     expect(faults, std::abs(quality.min_scaled_jacobian - least) < 1e-9, "measured least scaled Jacobian");
     expect(faults, std::abs(quality.mean_scaled_jacobian - mean) < 1e-9, "measured mean scaled Jacobian");
     expect(faults, std::abs(quality.volume - volume) <= 1e-9 * std::abs(volume), "measured volume");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "layers_of.h"
 #include "support/check_valid.h"
 #include "surface/sealed.h"
 
@@ -23,17 +24,10 @@ using sweep::Misfit;
 using sweep::SweepOptions;
 using sweep::Swept;
 using test::End;
+using test::layers_of;
 using test::PrismOptions;
 
 namespace {
-
-SweepOptions layers_of(int count, double size)
-{
-    SweepOptions options;
-    options.layers.count = count;
-    options.size = [size](const Vec3&) { return size; };
-    return options;
-}
 
 /// Faces of the model by the mesh's patches, as their groups name them.
 std::vector<FaceId> faces_of(const OpenVolume& volume, const mesh::HexMesh& mesh)

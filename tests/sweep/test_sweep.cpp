@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "layers_of.h"
 #include "support/check_valid.h"
 #include "support/quad_meshers.h"
 #include "surface/sealed.h"
@@ -22,25 +23,18 @@ using namespace lacuna::topology;
 using sweep::SweepOptions;
 using sweep::Swept;
 using test::End;
+using test::layers_of;
 using test::Part;
 using test::PrismOptions;
 using test::without;
 
 namespace {
 
-SweepOptions layers_of(int count, double size)
-{
-    SweepOptions options;
-    options.layers.count = count;
-    options.size = [size](const Vec3&) { return size; };
-    return options;
-}
-
 /// Layers, and a size near the one wanted that gives every edge of the source an even number of sides, as the
 /// test's mesher needs.
 SweepOptions layers_of(int count, double size, const OpenVolume& volume)
 {
-    SweepOptions options = layers_of(count, size);
+    SweepOptions options = test::layers_of(count, size);
     std::vector<std::pair<std::vector<Vec3>, double>> edges;
     for (const FaceId face : volume.faces(Role::source)) {
         for (const Loop& loop : volume.model[face].loops) {

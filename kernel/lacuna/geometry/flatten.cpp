@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <string>
 
@@ -223,6 +224,25 @@ void align(Positions& positions, const Positions& model)
     for (Vec2& p : positions) p = model_mean + turn * (p - mean);
 }
 
+/// Whether facets close round between two loops: walked within them, the outer loop turns by less than half
+/// of what the outline of a flat ring does. Of a cylinder it does not turn at all, of a cone by half where
+/// its side is 60° steep. A sheet that is rolled up and has a hole is no tube.
+bool is_tube(const Facets& facets)
+{
+    if (facets.loops.size() != 2) return false;
+    std::vector<double> angle(facets.points.size(), 0);
+    for (const Triangle& t : facets.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 &p = facets.points[index(t[k])], a = facets.points[index(t[(k + 1) % 3])] - p,
+                       b = facets.points[index(t[(k + 2) % 3])] - p;
+            angle[index(t[k])] += std::atan2(a.cross(b).norm(), a.dot(b));
+        }
+    }
+    double turning = 0;
+    for (const Index p : facets.loops[0]) turning += std::numbers::pi - angle[index(p)];
+    return turning < std::numbers::pi;
+}
+
 /// Try the maps in order of stretch until one is one to one; else keep the one with the fewest flips.
 void choose_map(const Facets& facets, const std::vector<Segment>& boundary, const FlattenOptions& options,
                 Flattened& flat)
@@ -241,6 +261,10 @@ void choose_map(const Facets& facets, const std::vector<Segment>& boundary, cons
         return !flat.folded;
     };
     const int limit = options.max_iterations;
+    if (is_tube(facets)) {
+        const Positions ring = flat::ring(facets);
+        if (!ring.empty() && good(FlatMap::ring, ring)) return;
+    }
     const Positions conformal = flat::conformal(facets);
     if (good(FlatMap::rigid, flat::as_rigid_as_possible(facets, conformal, limit, options.settled))) return;
     if (good(FlatMap::injective, flat::injective(facets, conformal, limit, options.settled))) return;

@@ -12,6 +12,7 @@ namespace lacuna::geometry {
 /// How the facets were laid flat; the further down, the more they are stretched.
 enum class FlatMap {
     plane,     ///< they lie in a plane: an isometry
+    ring,      ///< a tube as a ring, nearly conformal
     rigid,     ///< as rigid as possible
     injective, ///< least symmetric Dirichlet energy, no facet turned over
     conformal, ///< least squares conformal
@@ -40,7 +41,9 @@ struct Flattened {
 
 /// Lay connected facets, which may have holes, in the plane; triangles stay counter-clockwise.
 ///
-/// Facets in a plane are taken as they lie there. Others start from the least squares conformal map
+/// Facets in a plane are taken as they lie there. A tube, which closes round between two loops, becomes a
+/// ring: no map of it is near rigid, and looking for the least stretched one would take a hundred times as
+/// long. Others start from the least squares conformal map
 /// (Lévy et al. 2002) and are relaxed to as rigid as possible by local and global steps (Liu et al. 2008).
 /// Should that turn a triangle over or a boundary cross, maps that cannot turn triangles over come in: least
 /// symmetric Dirichlet energy by reweighted steps (Rabinovich et al. 2017), at worst the harmonic map onto a
@@ -52,7 +55,8 @@ struct Flattened {
 /// @param triangles  oriented alike.
 /// @throw InvalidInput "geometry.not_flattenable"  no triangles; or curved facets that are not a connected,
 ///        consistently oriented manifold, have no boundary, or have a handle.
-/// @note  Deterministic. About as dear as a sparse factorisation and some dozens of solves.
+/// @note  Deterministic. About as dear as a sparse factorisation and some dozens of solves, of a tube two
+///        factorisations.
 Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triangles,
                   const FlattenOptions& options = {});
 

@@ -41,10 +41,10 @@ void check_fields(const mesh::HexMesh& mesh, const std::vector<CellField>& field
 {
     std::set<std::string> names;
     for (const CellField& field : fields) {
-        if (field.values.size() != mesh.hex_count())
+        if (field.values.size() != mesh.cell_count())
             throw InvalidInput("io.field_size", "the cell field '" + field.name + "' has " +
                                                     std::to_string(field.values.size()) + " values for " +
-                                                    std::to_string(mesh.hex_count()) + " hexahedra");
+                                                    std::to_string(mesh.cell_count()) + " cells");
         const bool plain = std::all_of(field.name.begin(), field.name.end(), [](unsigned char c) {
             return c > 32 && c != 127 && c != '"' && c != '<' && c != '&';
         });

@@ -5,6 +5,7 @@
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_formats.h>
 #include <lacuna/io/detail/input_file.h>
+#include <lacuna/io/detail/vtk_cells.h>
 
 #include <algorithm>
 #include <cctype>
@@ -222,7 +223,9 @@ Deck read_deck(const std::string& name, std::string_view bytes)
     Cursor cursor(name, bytes);
     DeckBuilder builder(format.format);
     format.read(cursor, builder);
-    return builder.take(name);
+    Deck deck = builder.take(name);
+    if (deck.format == DeckFormat::vtk || deck.format == DeckFormat::vtu) turn_vtk_wedges(deck);
+    return deck;
 }
 
 Deck read_deck(const std::string& path)

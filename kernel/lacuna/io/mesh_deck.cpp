@@ -37,7 +37,8 @@ DeckTag free_from(DeckTag asked, std::size_t count, const std::set<DeckTag>& tex
     return first;
 }
 
-/// Abaqus's side of its cell that a quad of the skin is: S1 below, S2 above, S3 to S6 round it.
+/// Abaqus's side of its cell that a quad of the skin is: S1 below, S2 above, S3 to S6 round it, to S5 round a
+/// wedge.
 std::vector<int> sides_of_skin(const mesh::HexMesh& mesh, const std::vector<std::uint32_t>& cells)
 {
     std::vector<int> sides(mesh.skin_count(), 1);
@@ -46,8 +47,9 @@ std::vector<int> sides_of_skin(const mesh::HexMesh& mesh, const std::vector<std:
     for (std::size_t i = 2 * quads; i < sides.size(); ++i) {
         const Segment& side = mesh.rim[(i - 2 * quads) % mesh.rim.size()];
         const Quad& quad = mesh.quads[cells[i] % quads];
-        for (std::size_t k = 0; k < 4; ++k)
-            if (quad[k] == side[0] && quad[(k + 1) % 4] == side[1]) sides[i] = 3 + static_cast<int>(k);
+        const std::size_t corners = mesh::corner_count(quad);
+        for (std::size_t k = 0; k < corners; ++k)
+            if (quad[k] == side[0] && quad[(k + 1) % corners] == side[1]) sides[i] = 3 + static_cast<int>(k);
     }
     return sides;
 }
@@ -98,7 +100,7 @@ private:
         for (const DeckBlock& block : deck_.blocks)
             taken.insert(taken.end(), block.tags.begin(), block.tags.end());
         const std::size_t skin = added_.skin_cells ? mesh_.skin_count() : 0;
-        first_cell_ = free_from(options_.first_cell, mesh_.hex_count() + skin, texts_.cells, taken,
+        first_cell_ = free_from(options_.first_cell, mesh_.cell_count() + skin, texts_.cells, taken,
                                 "first_cell", "element");
         int highest = static_cast<int>(
             std::min<DeckTag>(texts_.property, std::numeric_limits<int>::max() - 2));
@@ -110,15 +112,34 @@ private:
             log_line(context_, "the cells of " + volume_ + " are the set " + deck_.regions.back().name);
         const bool abaqus = options_.format == DeckFormat::abaqus;
         const bool nastran = options_.format == DeckFormat::nastran;
-        DeckBlock& block = block_of(DeckShape::hex8, abaqus    ? options_.element
-                                                     : nastran ? "CHEXA"
-                                                     : unv()   ? "115"
-                                                               : "");
-        for (std::size_t c = 0; c < mesh_.hex_count(); ++c) {
-            for (const Index node : mesh_.hex(c)) block.nodes.push_back(point_[index(node)]);
-            block.tags.push_back(first_cell_ + static_cast<DeckTag>(c));
-            block.regions.push_back(region);
-        }
+        const mesh::CellKinds kinds(mesh_);
+        const auto add = [&](DeckShape shape, const std::string& type, std::size_t begin, std::size_t end) {
+            if (begin == end) return;
+            DeckBlock& block = block_of(shape, type);
+            for (std::size_t i = begin; i < end; ++i) {
+                const std::size_t c = kinds.cell(i);
+                const Hex hex = mesh_.hex(c);
+                const auto put = [&](Index node) { block.nodes.push_back(point_[index(node)]); };
+                if (shape == DeckShape::wedge6)
+                    std::ranges::for_each(mesh::wedge_of(hex), put);
+                else
+                    std::ranges::for_each(hex, put);
+                block.tags.push_back(first_cell_ + static_cast<DeckTag>(c));
+                block.regions.push_back(region);
+            }
+        };
+        add(DeckShape::hex8,
+            abaqus    ? options_.element
+            : nastran ? "CHEXA"
+            : unv()   ? "115"
+                      : "",
+            0, kinds.hexes());
+        add(DeckShape::wedge6,
+            abaqus    ? "C3D6"
+            : nastran ? "CPENTA"
+            : unv()   ? "112"
+                      : "",
+            kinds.hexes(), mesh_.cell_count());
         if (!nastran)
             for (const std::string& group : mesh_.volume_groups) add_volume_set(group);
         if (added_.skin_cells) add_skin_cells();
@@ -130,7 +151,7 @@ private:
     {
         DeckSet& set = set_of(DeckSet::Kind::elements, group);
         if (group == volume_) set.name = deck_.regions.back().name;
-        for (std::size_t c = 0; c < mesh_.hex_count(); ++c)
+        for (std::size_t c = 0; c < mesh_.cell_count(); ++c)
             set.members.push_back(first_cell_ + static_cast<DeckTag>(c));
     }
 
@@ -146,24 +167,36 @@ private:
 
     void add_skin_cells()
     {
-        DeckBlock& block = block_of(DeckShape::quad4, unv() ? "94" : "");
         // A UNV needs a property of each; elsewhere the skin is in its groups alone.
         const auto region = unv() ? static_cast<Index>(deck_.regions.size() - 1) : -1;
-        for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
-            if (is_inner(i)) continue;
-            Quad nodes{};
-            for (std::size_t k = 0; k < 4; ++k) nodes[k] = point_[index(skin_quad(mesh_, i).nodes[k])];
-            if (added_.skin_tags != nullptr) {
-                Quad rising = nodes;
-                std::sort(rising.begin(), rising.end());
-                const auto [found, fresh] = added_.skin_tags->try_emplace(rising, skin_tag(i));
-                if (!fresh) skin_of_.emplace(i, found->second);
-                if (!fresh) continue;
+        const mesh::CellKinds kinds(mesh_);
+        const auto add = [&](DeckShape shape, const char* type, std::size_t begin, std::size_t end) {
+            if (begin == end) return;
+            DeckBlock& block = block_of(shape, unv() ? type : "");
+            for (std::size_t k = begin; k < end; ++k) {
+                const std::size_t i = kinds.skin(k);
+                if (is_inner(i) || is_there(i)) continue;
+                const Quad nodes = skin_quad(mesh_, i).nodes;
+                for (std::size_t c = 0; c < mesh::corner_count(nodes); ++c)
+                    block.nodes.push_back(point_[index(nodes[c])]);
+                block.tags.push_back(skin_tag(i));
+                block.regions.push_back(region);
             }
-            block.nodes.insert(block.nodes.end(), nodes.begin(), nodes.end());
-            block.tags.push_back(skin_tag(i));
-            block.regions.push_back(region);
-        }
+        };
+        add(DeckShape::quad4, "94", 0, kinds.skin_quads());
+        add(DeckShape::tri3, "91", kinds.skin_quads(), mesh_.skin_count());
+    }
+
+    /// Whether a mesh added before has this quad of the skin too; if not, it is noted.
+    bool is_there(std::size_t i)
+    {
+        if (added_.skin_tags == nullptr) return false;
+        Quad rising = skin_quad(mesh_, i).nodes;
+        for (Index& node : rising) node = point_[index(node)];
+        std::sort(rising.begin(), rising.end());
+        const auto [found, fresh] = added_.skin_tags->try_emplace(rising, skin_tag(i));
+        if (!fresh) skin_of_.emplace(i, found->second);
+        return !fresh;
     }
 
     [[nodiscard]] bool is_inner(std::size_t i) const { return !added_.inner.empty() && added_.inner[i] != 0; }
@@ -172,7 +205,7 @@ private:
     {
         const auto known = skin_of_.find(i);
         return known != skin_of_.end() ? known->second
-                                       : first_cell_ + static_cast<DeckTag>(mesh_.hex_count() + i);
+                                       : first_cell_ + static_cast<DeckTag>(mesh_.cell_count() + i);
     }
 
     DeckBlock& block_of(DeckShape shape, const std::string& type)

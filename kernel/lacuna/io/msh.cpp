@@ -5,17 +5,71 @@
 #include <lacuna/io/detail/msh_content.h>
 #include <lacuna/io/detail/sections.h>
 
+#include <array>
 #include <cstring>
 
 // The format: https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format. All nodes form one block of the volume
-// and are numbered from 1 as in the mesh. Elements are numbered from 1, the skin's quads patch after patch,
-// then the hexahedra.
+// and are numbered from 1 as in the mesh. Elements are numbered from 1, the skin's quads and triangles patch
+// after patch, then the hexahedra and the wedges.
 
 namespace lacuna::io {
 namespace {
 
+constexpr int kTriangleType = 2;
 constexpr int kQuadType = 3;
 constexpr int kHexType = 5;
+constexpr int kWedgeType = 6;
+
+constexpr std::size_t nodes_of(int type)
+{
+    constexpr std::array<std::size_t, 7> kNodes{0, 2, 3, 4, 4, 8, 6};
+    return kNodes[static_cast<std::size_t>(type)];
+}
+
+/// Elements of one type in a row.
+struct Block {
+    const MshSurface* surface; ///< null: the volume
+    int type;
+    std::size_t first, count; ///< elements of the file before it, and in it
+};
+
+/// What a file says of elements: the skin's, patch after patch, then the cells.
+struct Elements {
+    const mesh::HexMesh& mesh;
+    const MshContent& content;
+    mesh::CellKinds kinds{mesh};
+
+    [[nodiscard]] std::size_t count() const { return content.skin.size() + mesh.cell_count(); }
+
+    [[nodiscard]] std::vector<Block> blocks() const
+    {
+        std::vector<Block> all;
+        const auto add = [&](const Block& block) {
+            if (block.count > 0) all.push_back(block);
+        };
+        for (const MshSurface& surface : content.surfaces) {
+            const std::size_t quads = surface.end - surface.begin - surface.triangles;
+            add({&surface, kQuadType, surface.begin, quads});
+            add({&surface, kTriangleType, surface.begin + quads, surface.triangles});
+        }
+        const std::size_t skin = content.skin.size();
+        add({nullptr, kHexType, skin, kinds.hexes()});
+        add({nullptr, kWedgeType, skin + kinds.hexes(), mesh.cell_count() - kinds.hexes()});
+        return all;
+    }
+
+    /// Call `put(nodes)` for the element that comes `i`-th.
+    template <class Put>
+    char* put_nodes_of(std::size_t i, const Put& put) const
+    {
+        if (i < content.skin.size()) {
+            const Quad quad = skin_quad(mesh, content.skin[i]).nodes;
+            return mesh::is_triangle(quad) ? put(Triangle{quad[0], quad[1], quad[2]}) : put(quad);
+        }
+        const Hex hex = mesh.hex(kinds.cell(i - content.skin.size()));
+        return mesh::is_wedge(hex) ? put(mesh::wedge_of(hex)) : put(hex);
+    }
+};
 
 std::uint64_t node_tag(Index node) { return static_cast<std::uint64_t>(node) + 1; }
 
@@ -96,28 +150,22 @@ Section coordinates(const mesh::HexMesh& mesh)
             }};
 }
 
-void add_binary_elements(std::vector<Section>& sections, const mesh::HexMesh& mesh, const MshContent& content)
+void add_binary_elements(std::vector<Section>& sections, const Elements& elements)
 {
-    std::string head = "$Elements\n" +
-                       counts_of(content.surfaces.size() + 1, mesh.skin_count() + mesh.hex_count());
-    for (const MshSurface& surface : content.surfaces) {
-        const std::size_t count = surface.end - surface.begin;
-        sections.push_back({head + block_head(2, surface.tag, kQuadType, count), count,
-                            5 * sizeof(std::uint64_t),
-                            [&mesh, &content, &surface](std::size_t begin, std::size_t end, char* out) {
-                                for (std::size_t i = surface.begin + begin; i < surface.begin + end; ++i)
-                                    out = put_element(out, i + 1, skin_quad(mesh, content.skin[i]).nodes);
+    const std::vector<Block> blocks = elements.blocks();
+    std::string head = "$Elements\n" + counts_of(blocks.size(), elements.count());
+    for (const Block& block : blocks) {
+        const bool volume = block.surface == nullptr;
+        head += block_head(volume ? 3 : 2, volume ? kVolumeTag : block.surface->tag, block.type, block.count);
+        sections.push_back({head, block.count, (nodes_of(block.type) + 1) * sizeof(std::uint64_t),
+                            [elements, block](std::size_t begin, std::size_t end, char* out) {
+                                for (std::size_t i = block.first + begin; i < block.first + end; ++i)
+                                    out = elements.put_nodes_of(
+                                        i, [&](const auto& nodes) { return put_element(out, i + 1, nodes); });
                                 return out;
                             }});
         head.clear();
     }
-    sections.push_back({head + block_head(3, kVolumeTag, kHexType, mesh.hex_count()), mesh.hex_count(),
-                        9 * sizeof(std::uint64_t), [&mesh](std::size_t begin, std::size_t end, char* out) {
-                            const std::size_t first = mesh.skin_count() + 1;
-                            for (std::size_t i = begin; i < end; ++i)
-                                out = put_element(out, first + i, mesh.hex(i));
-                            return out;
-                        }});
     sections.push_back({"\n$EndElements\n", 0, 0, {}});
 }
 
@@ -134,7 +182,7 @@ std::vector<Section> binary_41(const mesh::HexMesh& mesh, const MshContent& cont
                         }});
     sections.push_back(coordinates(mesh));
     sections.push_back({"\n$EndNodes\n", 0, 0, {}});
-    add_binary_elements(sections, mesh, content);
+    add_binary_elements(sections, {mesh, content});
     return sections;
 }
 
@@ -197,39 +245,26 @@ char* put_point(char* out, const Vec3& point)
 
 std::string words(std::initializer_list<std::size_t> numbers) { return spaced(numbers).substr(1) + "\n"; }
 
-/// Elements as lines: number, `middle(surface)` or `middle(nullptr)` for hexahedra, nodes.
+/// Elements as lines: number, `middle(block)`, nodes.
 template <class Head, class Middle>
-void add_text_elements(std::vector<Section>& sections, const mesh::HexMesh& mesh, const MshContent& content,
-                       const std::string& start, const Head& head, const Middle& middle)
+void add_text_elements(std::vector<Section>& sections, const Elements& elements, const std::string& start,
+                       const Head& head, const Middle& middle)
 {
     std::string text = start;
-    for (const MshSurface& surface : content.surfaces) {
-        const std::size_t count = surface.end - surface.begin;
-        const std::string between = middle(&surface);
+    for (const Block& block : elements.blocks()) {
+        const std::string between = middle(block);
         sections.push_back(
-            {text + head(&surface, count), count, 5 * kNumberBytes + between.size() + 2,
-             [&mesh, &content, &surface, between](std::size_t begin, std::size_t end, char* out) {
-                 for (std::size_t i = surface.begin + begin; i < surface.begin + end; ++i) {
+            {text + head(block), block.count, (nodes_of(block.type) + 1) * kNumberBytes + between.size() + 2,
+             [elements, block, between](std::size_t begin, std::size_t end, char* out) {
+                 for (std::size_t i = block.first + begin; i < block.first + end; ++i) {
                      out = put_text(out, static_cast<long long>(i) + 1);
                      out = between.copy(out, between.size()) + out;
-                     out = put_nodes(out, skin_quad(mesh, content.skin[i]).nodes);
+                     out = elements.put_nodes_of(i, [&](const auto& nodes) { return put_nodes(out, nodes); });
                  }
                  return out;
              }});
         text.clear();
     }
-    const std::string between = middle(nullptr);
-    sections.push_back({text + head(nullptr, mesh.hex_count()), mesh.hex_count(),
-                        9 * kNumberBytes + between.size() + 2,
-                        [&mesh, between](std::size_t begin, std::size_t end, char* out) {
-                            const std::size_t first = mesh.skin_count() + 1;
-                            for (std::size_t i = begin; i < end; ++i) {
-                                out = put_text(out, static_cast<long long>(first + i));
-                                out = between.copy(out, between.size()) + out;
-                                out = put_nodes(out, mesh.hex(i));
-                            }
-                            return out;
-                        }});
     sections.push_back({"$EndElements\n", 0, 0, {}});
 }
 
@@ -250,14 +285,17 @@ std::vector<Section> text_41(const mesh::HexMesh& mesh, const MshContent& conten
                             for (std::size_t i = begin; i < end; ++i) out = put_point(out, mesh.nodes[i]);
                             return out;
                         }});
-    const std::size_t elements = mesh.skin_count() + mesh.hex_count();
-    const auto head = [](const MshSurface* surface, std::size_t count) {
-        return surface != nullptr ? words({2, static_cast<std::size_t>(surface->tag), kQuadType, count})
-                                  : words({3, kVolumeTag, kHexType, count});
+    const Elements elements{mesh, content};
+    const auto head = [](const Block& block) {
+        const bool volume = block.surface == nullptr;
+        const int tag = volume ? kVolumeTag : block.surface->tag;
+        return words({volume ? 3U : 2U, static_cast<std::size_t>(tag), static_cast<std::size_t>(block.type),
+                      block.count});
     };
-    add_text_elements(sections, mesh, content,
-                      "$EndNodes\n$Elements\n" + words({content.surfaces.size() + 1, elements, 1, elements}),
-                      head, [](const MshSurface*) { return std::string(); });
+    add_text_elements(sections, elements,
+                      "$EndNodes\n$Elements\n" +
+                          words({elements.blocks().size(), elements.count(), 1, elements.count()}),
+                      head, [](const Block&) { return std::string(); });
     return sections;
 }
 
@@ -276,16 +314,17 @@ std::vector<Section> text_22(const mesh::HexMesh& mesh, const MshContent& conten
                             }
                             return out;
                         }});
-    const auto middle = [&](const MshSurface* surface) {
-        const int type = surface != nullptr ? kQuadType : kHexType;
+    const auto middle = [&](const Block& block) {
+        const MshSurface* surface = block.surface;
         const int physical = surface != nullptr ? surface->physical.front() : content.volume_physical.front();
         const int entity = surface != nullptr ? surface->tag : kVolumeTag;
         const auto unsign = [](int value) { return static_cast<std::size_t>(value); };
-        return spaced({unsign(type), 2, unsign(physical), unsign(entity)});
+        return spaced({unsign(block.type), 2, unsign(physical), unsign(entity)});
     };
+    const Elements elements{mesh, content};
     add_text_elements(
-        sections, mesh, content, "$EndNodes\n$Elements\n" + words({mesh.skin_count() + mesh.hex_count()}),
-        [](const MshSurface*, std::size_t) { return std::string(); }, middle);
+        sections, elements, "$EndNodes\n$Elements\n" + words({elements.count()}),
+        [](const Block&) { return std::string(); }, middle);
     return sections;
 }
 
@@ -319,35 +358,32 @@ std::vector<Section> binary_22(const mesh::HexMesh& mesh, const MshContent& cont
                             }
                             return out;
                         }});
-    std::string head = "\n$EndNodes\n$Elements\n" + words({mesh.skin_count() + mesh.hex_count()});
-    for (const MshSurface& surface : content.surfaces) {
-        const std::size_t count = surface.end - surface.begin;
-        sections.push_back({head + head_22(kQuadType, count), count, 7 * sizeof(int),
-                            [&mesh, &content, &surface](std::size_t begin, std::size_t end, char* out) {
-                                for (std::size_t i = surface.begin + begin; i < surface.begin + end; ++i)
-                                    out = put_element_22(out, i + 1, surface.physical.front(), surface.tag,
-                                                         skin_quad(mesh, content.skin[i]).nodes);
-                                return out;
-                            }});
+    const Elements elements{mesh, content};
+    std::string head = "\n$EndNodes\n$Elements\n" + words({elements.count()});
+    for (const Block& block : elements.blocks()) {
+        const bool volume = block.surface == nullptr;
+        const int physical = volume ? content.volume_physical.front() : block.surface->physical.front();
+        const int entity = volume ? kVolumeTag : block.surface->tag;
+        sections.push_back(
+            {head + head_22(block.type, block.count), block.count, (nodes_of(block.type) + 3) * sizeof(int),
+             [elements, block, physical, entity](std::size_t begin, std::size_t end, char* out) {
+                 for (std::size_t i = block.first + begin; i < block.first + end; ++i)
+                     out = elements.put_nodes_of(i, [&](const auto& nodes) {
+                         return put_element_22(out, i + 1, physical, entity, nodes);
+                     });
+                 return out;
+             }});
         head.clear();
     }
-    sections.push_back({head + head_22(kHexType, mesh.hex_count()), mesh.hex_count(), 11 * sizeof(int),
-                        [&mesh, &content](std::size_t begin, std::size_t end, char* out) {
-                            const std::size_t first = mesh.skin_count() + 1;
-                            for (std::size_t i = begin; i < end; ++i)
-                                out = put_element_22(out, first + i, content.volume_physical.front(),
-                                                     kVolumeTag, mesh.hex(i));
-                            return out;
-                        }});
     sections.push_back({"\n$EndElements\n", 0, 0, {}});
     return sections;
 }
 
 // ---- Fields of cells, alike in both versions
 
-/// Section of one field: the skin's quads with the value of their cell, then the hexahedra. Gmsh and meshio
+/// Section of one field: the skin with the values of its cells, then the cells. Gmsh and meshio
 /// both read values by number of element; meshio takes a field only where every element has one.
-void add_field(std::vector<Section>& sections, const MshContent& content,
+void add_field(std::vector<Section>& sections, const MshContent& content, const mesh::CellKinds& kinds,
                const std::vector<std::uint32_t>& skin_cells, const CellField& field, bool binary)
 {
     const auto head = [&](std::size_t elements) {
@@ -373,9 +409,9 @@ void add_field(std::vector<Section>& sections, const MshContent& content,
     sections.push_back({{},
                         field.values.size(),
                         bytes,
-                        [&field, skin, put_value](std::size_t begin, std::size_t end, char* out) {
+                        [&field, kinds, skin, put_value](std::size_t begin, std::size_t end, char* out) {
                             for (std::size_t i = begin; i < end; ++i)
-                                out = put_value(out, skin + 1 + i, field.values[i]);
+                                out = put_value(out, skin + 1 + i, field.values[kinds.cell(i)]);
                             return out;
                         }});
     sections.push_back({binary ? "\n$EndElementData\n" : "$EndElementData\n", 0, 0, {}});
@@ -409,7 +445,7 @@ void write_msh(const mesh::HexMesh& mesh, const OutputPath& path, const MshOptio
     std::vector<std::uint32_t> skin_cells;
     if (!options.fields.empty()) skin_cells = cells_of_skin(mesh);
     for (const CellField& field : options.fields)
-        add_field(sections, content, skin_cells, field, options.binary);
+        add_field(sections, content, mesh::CellKinds(mesh), skin_cells, field, options.binary);
     WholeFile file(path);
     write_sections(file, sections, options.binary ? Sizes::exact : Sizes::varying, context);
     file.commit();

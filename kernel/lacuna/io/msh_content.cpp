@@ -108,11 +108,13 @@ MshContent msh_content(const mesh::HexMesh& mesh)
     for (std::size_t p = 1; p < start.size(); ++p) start[p] += start[p - 1];
     content.skin.resize(count);
     std::vector<Eigen::AlignedBox3d> boxes(mesh.patches.size());
+    std::vector<std::size_t> triangles(mesh.patches.size(), 0);
     std::vector<std::size_t> next(start.begin(), start.end() - 1);
     for (std::size_t i = 0; i < count; ++i) {
         const mesh::SkinQuad quad = skin_quad(mesh, i);
         const auto patch = static_cast<std::size_t>(quad.patch);
         content.skin[next[patch]++] = static_cast<std::uint32_t>(i);
+        if (mesh::is_triangle(quad.nodes)) ++triangles[patch];
         for (const Index node : quad.nodes) boxes[patch].extend(mesh.nodes[static_cast<std::size_t>(node)]);
     }
 
@@ -126,6 +128,12 @@ MshContent msh_content(const mesh::HexMesh& mesh)
         surface.box = boxes[p];
         surface.begin = start[p];
         surface.end = start[p + 1];
+        surface.triangles = triangles[p];
+        // A patch lies on the source, on the target or on walls: its triangles came last by themselves, but
+        // where faces of both ends are one patch.
+        std::stable_partition(content.skin.begin() + static_cast<std::ptrdiff_t>(start[p]),
+                              content.skin.begin() + static_cast<std::ptrdiff_t>(start[p + 1]),
+                              [&](std::uint32_t i) { return !mesh::is_triangle(skin_quad(mesh, i).nodes); });
         content.box.extend(surface.box); // the inside of a valid mesh reaches no further than its skin
         content.surfaces.push_back(std::move(surface));
     }

@@ -10,31 +10,80 @@
 namespace lacuna::io {
 namespace {
 
+constexpr int kVtkTriangle = 5;
 constexpr int kVtkQuad = 9;
 constexpr int kVtkHex = 12;
+constexpr int kVtkWedge = 13;
 
-/// Fields of hexahedra and skin, what of the skin is looked up by the cell a quad belongs to.
+/// Cells of the file: hexahedra, wedges, quads of the skin, triangles of the skin.
+struct Cells {
+    const mesh::HexMesh& mesh;
+    mesh::CellKinds kinds{mesh};
+    std::size_t hexes = kinds.hexes();
+    std::size_t wedges = mesh.cell_count() - hexes;
+    std::size_t quads = kinds.skin_quads();
+    std::size_t triangles = mesh.skin_count() - quads;
+
+    [[nodiscard]] std::size_t count() const { return hexes + wedges + quads + triangles; }
+    [[nodiscard]] std::size_t corners() const { return 8 * hexes + 6 * wedges + 4 * quads + 3 * triangles; }
+    [[nodiscard]] int type(std::size_t i) const
+    {
+        if (i < hexes) return kVtkHex;
+        if (i < hexes + wedges) return kVtkWedge;
+        return i < hexes + wedges + quads ? kVtkQuad : kVtkTriangle;
+    }
+    /// Corners of all cells up to and with cell `i`.
+    [[nodiscard]] std::size_t corners_to(std::size_t i) const
+    {
+        std::size_t left = i + 1, sum = 0;
+        for (const auto& [of_kind, corners] :
+             {std::pair(hexes, 8), std::pair(wedges, 6), std::pair(quads, 4), std::pair(triangles, 3)}) {
+            const std::size_t here = std::min(left, of_kind);
+            sum += here * static_cast<std::size_t>(corners);
+            left -= here;
+        }
+        return sum;
+    }
+    [[nodiscard]] Hex hex(std::size_t i) const { return mesh.hex(kinds.cell(i)); }
+    /// In VTK's order, in which the triangle 0-1-2 looks away from 3-4-5.
+    [[nodiscard]] mesh::Wedge wedge(std::size_t i) const
+    {
+        const mesh::Wedge w = mesh::wedge_of(mesh.hex(kinds.cell(hexes + i)));
+        return {w[0], w[2], w[1], w[3], w[5], w[4]};
+    }
+    [[nodiscard]] Quad quad(std::size_t i) const { return skin_quad(mesh, kinds.skin(i)).nodes; }
+    [[nodiscard]] Triangle triangle(std::size_t i) const
+    {
+        const Quad nodes = skin_quad(mesh, kinds.skin(quads + i)).nodes;
+        return {nodes[0], nodes[1], nodes[2]};
+    }
+    /// Tag of the patch cell `i` lies on; 0 inside.
+    [[nodiscard]] int entity(std::size_t i) const
+    {
+        if (i < hexes + wedges) return 0;
+        const Index patch = skin_quad(mesh, kinds.skin(i - hexes - wedges)).patch;
+        return mesh.patches[static_cast<std::size_t>(patch)].tag;
+    }
+};
+
+/// Fields of cells and skin, what of the skin is looked up by the cell a quad belongs to.
 struct Fields {
     const std::vector<CellField>& fields;
     std::vector<std::uint32_t> skin_cells;
+    mesh::CellKinds kinds;
 
-    Fields(const mesh::HexMesh& mesh, const std::vector<CellField>& given) : fields(given)
+    Fields(const mesh::HexMesh& mesh, const std::vector<CellField>& given) : fields(given), kinds(mesh)
     {
         check_fields(mesh, given);
         if (!given.empty()) skin_cells = cells_of_skin(mesh);
     }
-    /// Of cell `i` of the file: hexahedra first, then the skin.
+    /// Of cell `i` of the file.
     [[nodiscard]] double value(const CellField& field, std::size_t i) const
     {
-        const std::size_t hexes = field.values.size();
-        return field.values[i < hexes ? i : skin_cells[i - hexes]];
+        const std::size_t cells = field.values.size();
+        return field.values[i < cells ? kinds.cell(i) : skin_cells[kinds.skin(i - cells)]];
     }
 };
-
-int entity(const mesh::HexMesh& mesh, std::size_t skin)
-{
-    return mesh.patches[static_cast<std::size_t>(skin_quad(mesh, skin).patch)].tag;
-}
 
 /// The entities of each group.
 VtkTable groups_of(const mesh::HexMesh& mesh)
@@ -55,53 +104,55 @@ VtkTable groups_of(const mesh::HexMesh& mesh)
 
 std::vector<VtuArray> vtu_arrays(const mesh::HexMesh& mesh, const Fields& fields)
 {
-    const std::size_t hexes = mesh.hex_count();
-    const std::size_t skin = mesh.skin_count();
-    const auto section = [](std::size_t count, std::size_t bytes, Fill fill) {
-        return Section{{}, count, bytes, std::move(fill)};
+    const Cells cells{mesh};
+    const std::size_t count = cells.count();
+    const auto section = [](std::size_t records, std::size_t bytes, Fill fill) {
+        return Section{{}, records, bytes, std::move(fill)};
     };
-    const auto put_hex = [&mesh](std::size_t i, char* out) { return put(out, mesh.hex(i)); };
-    const auto put_quad = [&mesh](std::size_t i, char* out) { return put(out, skin_quad(mesh, i).nodes); };
-    const auto put_offset = [hexes](std::size_t i, char* out) {
-        return put(out, static_cast<std::int64_t>(i < hexes ? 8 * (i + 1) : 8 * hexes + 4 * (i + 1 - hexes)));
+    const auto put_hex = [cells](std::size_t i, char* out) { return put(out, cells.hex(i)); };
+    const auto put_wedge = [cells](std::size_t i, char* out) { return put(out, cells.wedge(i)); };
+    const auto put_quad = [cells](std::size_t i, char* out) { return put(out, cells.quad(i)); };
+    const auto put_triangle = [cells](std::size_t i, char* out) { return put(out, cells.triangle(i)); };
+    const auto put_offset = [cells](std::size_t i, char* out) {
+        return put(out, static_cast<std::int64_t>(cells.corners_to(i)));
     };
-    const auto put_type = [hexes](std::size_t i, char* out) {
-        return put(out, static_cast<std::uint8_t>(i < hexes ? kVtkHex : kVtkQuad));
+    const auto put_type = [cells](std::size_t i, char* out) {
+        return put(out, static_cast<std::uint8_t>(cells.type(i)));
     };
-    const auto put_entity = [&mesh, hexes](std::size_t i, char* out) {
-        return put(out, static_cast<std::int32_t>(i < hexes ? 0 : entity(mesh, i - hexes)));
+    const auto put_entity = [cells](std::size_t i, char* out) {
+        return put(out, static_cast<std::int32_t>(cells.entity(i)));
     };
     const auto put_point = [&mesh](std::size_t i, char* out) {
         std::memcpy(out, mesh.nodes[i].data(), sizeof(Vec3));
         return out + sizeof(Vec3);
     };
-    using enum VtuArray::Place;
+    using Place = VtuArray::Place;
     std::vector<VtuArray> arrays{
-        {points,
+        {Place::points,
          "type=\"Float64\" NumberOfComponents=\"3\"",
          mesh.nodes.size() * sizeof(Vec3),
          {section(mesh.nodes.size(), sizeof(Vec3), each(put_point))}},
-        {cells,
+        {Place::cells,
          "type=\"Int32\" Name=\"connectivity\"",
-         hexes * sizeof(Hex) + skin * sizeof(Quad),
-         {section(hexes, sizeof(Hex), each(put_hex)), section(skin, sizeof(Quad), each(put_quad))}},
-        {cells,
-         "type=\"Int64\" Name=\"offsets\"",
-         (hexes + skin) * 8,
-         {section(hexes + skin, 8, each(put_offset))}},
-        {cells, "type=\"UInt8\" Name=\"types\"", hexes + skin, {section(hexes + skin, 1, each(put_type))}},
-        {cell_data,
+         cells.corners() * sizeof(Index),
+         {section(cells.hexes, sizeof(Hex), each(put_hex)),
+          section(cells.wedges, sizeof(mesh::Wedge), each(put_wedge)),
+          section(cells.quads, sizeof(Quad), each(put_quad)),
+          section(cells.triangles, sizeof(Triangle), each(put_triangle))}},
+        {Place::cells, "type=\"Int64\" Name=\"offsets\"", count * 8, {section(count, 8, each(put_offset))}},
+        {Place::cells, "type=\"UInt8\" Name=\"types\"", count, {section(count, 1, each(put_type))}},
+        {Place::cell_data,
          "type=\"Int32\" Name=\"entity\"",
-         (hexes + skin) * 4,
-         {section(hexes + skin, 4, each(put_entity))}}};
+         count * 4,
+         {section(count, 4, each(put_entity))}}};
     for (const CellField& field : fields.fields) {
         const auto put_value = [&fields, &field](std::size_t i, char* out) {
             return put(out, fields.value(field, i));
         };
-        arrays.push_back({cell_data,
+        arrays.push_back({Place::cell_data,
                           "type=\"Float64\" Name=\"" + field.name + "\"",
-                          (hexes + skin) * sizeof(double),
-                          {section(hexes + skin, sizeof(double), each(put_value))}});
+                          count * sizeof(double),
+                          {section(count, sizeof(double), each(put_value))}});
     }
     return arrays;
 }
@@ -118,9 +169,9 @@ char* put_cell(char* out, const std::array<Index, N>& nodes, bool binary)
 
 std::vector<Section> vtk_sections(const mesh::HexMesh& mesh, const Fields& fields, bool binary)
 {
-    const std::size_t hexes = mesh.hex_count();
-    const std::size_t skin = mesh.skin_count();
-    const std::string cells = std::to_string(hexes + skin);
+    const Cells cells{mesh};
+    const std::size_t count = cells.count();
+    const std::string number = std::to_string(count);
     const auto bytes = [binary](std::size_t numbers, std::size_t each_bytes) {
         return binary ? numbers * each_bytes : numbers * kNumberBytes + 1;
     };
@@ -128,32 +179,36 @@ std::vector<Section> vtk_sections(const mesh::HexMesh& mesh, const Fields& field
         for (const double value : mesh.nodes[i]) out = put_number(out, value, binary);
         return end_line(out, binary);
     };
-    const auto put_type = [hexes, binary](std::size_t i, char* out) {
-        return end_line(put_number(out, static_cast<std::int32_t>(i < hexes ? kVtkHex : kVtkQuad), binary),
-                        binary);
+    const auto put_type = [cells, binary](std::size_t i, char* out) {
+        return end_line(put_number(out, static_cast<std::int32_t>(cells.type(i)), binary), binary);
     };
-    const auto put_entity = [&mesh, hexes, binary](std::size_t i, char* out) {
-        const int tag = i < hexes ? 0 : entity(mesh, i - hexes);
-        return end_line(put_number(out, static_cast<std::int32_t>(tag), binary), binary);
+    const auto put_entity = [cells, binary](std::size_t i, char* out) {
+        return end_line(put_number(out, static_cast<std::int32_t>(cells.entity(i)), binary), binary);
+    };
+    const auto kind = [&](std::size_t own, std::size_t corners, const auto& nodes) {
+        return Section{{}, own, bytes(corners + 1, 4), each([nodes, binary](std::size_t i, char* out) {
+                           return put_cell(out, nodes(i), binary);
+                       })};
     };
     std::string head = vtk_head(groups_of(mesh), binary);
     head.append("POINTS ").append(std::to_string(mesh.nodes.size())).append(" double\n");
-    const std::string sizes = std::string(1, ' ').append(std::to_string(9 * hexes + 5 * skin)).append("\n");
+    const std::string sizes =
+        std::string(1, ' ').append(std::to_string(cells.corners() + count)).append("\n");
     std::vector<Section> sections{
         {head, mesh.nodes.size(), bytes(3, 8), each(put_point)},
-        {"\nCELLS " + cells + sizes, hexes, bytes(9, 4),
-         each([&mesh, binary](std::size_t i, char* out) { return put_cell(out, mesh.hex(i), binary); })},
-        {{}, skin, bytes(5, 4), each([&mesh, binary](std::size_t i, char* out) {
-             return put_cell(out, skin_quad(mesh, i).nodes, binary);
-         })},
-        {"\nCELL_TYPES " + cells + "\n", hexes + skin, bytes(1, 4), each(put_type)},
-        {"\nCELL_DATA " + cells + "\nSCALARS entity int 1\nLOOKUP_TABLE default\n", hexes + skin, bytes(1, 4),
+        kind(cells.hexes, 8, [cells](std::size_t i) { return cells.hex(i); }),
+        kind(cells.wedges, 6, [cells](std::size_t i) { return cells.wedge(i); }),
+        kind(cells.quads, 4, [cells](std::size_t i) { return cells.quad(i); }),
+        kind(cells.triangles, 3, [cells](std::size_t i) { return cells.triangle(i); }),
+        {"\nCELL_TYPES " + number + "\n", count, bytes(1, 4), each(put_type)},
+        {"\nCELL_DATA " + number + "\nSCALARS entity int 1\nLOOKUP_TABLE default\n", count, bytes(1, 4),
          each(put_entity)}};
+    sections[1].text = "\nCELLS " + number + sizes;
     for (const CellField& field : fields.fields) {
         const auto put_value = [&fields, &field, binary](std::size_t i, char* out) {
             return end_line(put_number(out, fields.value(field, i), binary), binary);
         };
-        sections.push_back({"\nSCALARS " + field.name + " double 1\nLOOKUP_TABLE default\n", hexes + skin,
+        sections.push_back({"\nSCALARS " + field.name + " double 1\nLOOKUP_TABLE default\n", count,
                             bytes(1, 8), each(put_value)});
     }
     sections.push_back({"\n", 0, 0, {}});
@@ -167,7 +222,7 @@ void write_vtu(const mesh::HexMesh& mesh, const OutputPath& path, const VtuOptio
 {
     check_skin(mesh);
     const Fields fields(mesh, options.fields);
-    const std::vector<Section> sections = vtu_file(mesh.nodes.size(), mesh.hex_count() + mesh.skin_count(),
+    const std::vector<Section> sections = vtu_file(mesh.nodes.size(), mesh.cell_count() + mesh.skin_count(),
                                                    vtu_arrays(mesh, fields), groups_of(mesh));
     WholeFile file(path);
     write_sections(file, sections, Sizes::exact, context);

@@ -172,4 +172,25 @@ void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& curs
     }
 }
 
+void turn_vtk_wedges(Deck& deck)
+{
+    double volume = 0;
+    const auto each = [&](const auto& visit) {
+        for (DeckBlock& block : deck.blocks) {
+            if (block.shape != DeckShape::wedge6) continue;
+            for (std::size_t e = 0; e < block.count(); ++e) visit(block.nodes.data() + 6 * e);
+        }
+    };
+    each([&](const Index* n) {
+        const auto at = [&](std::size_t k) -> const Vec3& { return deck.points[index(n[k])]; };
+        const Vec3 up = at(3) + at(4) + at(5) - at(0) - at(1) - at(2);
+        volume += (at(1) - at(0)).cross(at(2) - at(0)).dot(up);
+    });
+    if (!(volume < 0)) return;
+    each([](Index* n) {
+        std::swap(n[1], n[2]);
+        std::swap(n[4], n[5]);
+    });
+}
+
 } // namespace lacuna::io

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/types.h>
+#include <lacuna/mesh/quad_mesh.h>
 
 #include <cstddef>
 #include <string>
@@ -30,6 +31,28 @@ inline constexpr std::array<Quad, 6> kHexSides{{
 inline constexpr std::array<std::array<std::size_t, 3>, 8> kHexNeighbours{
     {{1, 3, 4}, {0, 2, 5}, {3, 1, 6}, {2, 0, 7}, {5, 7, 0}, {4, 6, 1}, {7, 5, 2}, {6, 4, 3}}};
 
+///        5           Nodes of a wedge (Gmsh's order): 0..2 lie on the source side, 3..5 above them.
+///       /|\          Where hexahedra are asked for, it is one whose last two columns of nodes are one:
+///      3---4         {0, 1, 2, 2, 3, 4, 5, 5}.
+///      | 2 |
+///      |/ \|
+///      0---1
+///
+using Wedge = std::array<Index, 6>;
+
+constexpr bool is_wedge(const Hex& hex) { return hex[2] == hex[3] && hex[6] == hex[7]; }
+/// Neighbours of each corner of a wedge as a hexahedron: the two of its triangle and the one along its
+/// height, which are right-handed as in `kHexNeighbours`. Corners 3 and 7 are corners 2 and 6.
+inline constexpr std::array<std::array<std::size_t, 3>, 8> kWedgeNeighbours{
+    {{1, 2, 4}, {2, 0, 5}, {0, 1, 6}, {0, 1, 6}, {6, 5, 0}, {4, 6, 1}, {5, 4, 2}, {5, 4, 2}}};
+
+/// @pre is_wedge(hex)
+constexpr Wedge wedge_of(const Hex& hex) { return {hex[0], hex[1], hex[2], hex[4], hex[5], hex[6]}; }
+constexpr Hex hex_of(const Wedge& wedge)
+{
+    return {wedge[0], wedge[1], wedge[2], wedge[2], wedge[3], wedge[4], wedge[5], wedge[5]};
+}
+
 /// A part of the skin with names: what Gmsh calls a surface entity.
 struct SkinPatch {
     int tag = 0; ///< entity tag written to files, unique in the mesh, > 0
@@ -38,7 +61,8 @@ struct SkinPatch {
     int face = 0; ///< tag of the given face it lies on; 0: it is a void one, or no face is known
 };
 
-/// Swept hexahedra, kept as source quads times layers: cells and skin are computed, never stored.
+/// Swept hexahedra, kept as source quads times layers: cells and skin are computed, never stored. Over the
+/// triangles of the source stand wedges.
 ///
 /// Node (layer l, source node n) has the number l · nodes_per_layer + n, counted from 0. Cell (layer l,
 /// quad q) has the number l · quads.size() + q.
@@ -46,7 +70,7 @@ struct HexMesh {
     Index nodes_per_layer = 0;
     int layers = 0;
     std::vector<Vec3> nodes;  ///< (layers + 1) × nodes_per_layer, layer-major from the source [model length]
-    std::vector<Quad> quads;  ///< source quads; their normals point into the volume
+    std::vector<Quad> quads;  ///< source quads, then its triangles; their normals point into the volume
     std::vector<Segment> rim; ///< directed boundary sides of `quads`, as they run in their quad
 
     std::vector<SkinPatch> patches;
@@ -55,12 +79,25 @@ struct HexMesh {
     std::vector<Index> wall_patch;   ///< patch of (rim side r, layer l) at l · rim.size() + r
     std::vector<std::string> volume_groups{"volume"};
 
-    [[nodiscard]] std::size_t hex_count() const { return quads.size() * static_cast<std::size_t>(layers); }
+    /// Hexahedra and wedges.
+    [[nodiscard]] std::size_t cell_count() const { return quads.size() * static_cast<std::size_t>(layers); }
+    /// O(triangles), as the next two.
+    [[nodiscard]] std::size_t triangle_count() const
+    {
+        std::size_t count = 0;
+        while (count < quads.size() && is_triangle(quads[quads.size() - 1 - count])) ++count;
+        return count;
+    }
+    [[nodiscard]] std::size_t hex_count() const { return cell_count() - wedge_count(); }
+    [[nodiscard]] std::size_t wedge_count() const
+    {
+        return triangle_count() * static_cast<std::size_t>(layers);
+    }
     [[nodiscard]] std::size_t skin_count() const
     {
         return 2 * quads.size() + rim.size() * static_cast<std::size_t>(layers);
     }
-    /// Node numbers of cell `cell`. @pre cell < hex_count()
+    /// Node numbers of cell `cell`; of a wedge as `is_wedge()` has it. @pre cell < cell_count()
     [[nodiscard]] Hex hex(std::size_t cell) const
     {
         const auto layer = static_cast<Index>(cell / quads.size());
@@ -72,10 +109,45 @@ struct HexMesh {
     }
 };
 
-/// A quad of the skin, outward, with the patch it belongs to.
+/// A quad or triangle of the skin, outward, with the patch it belongs to.
 struct SkinQuad {
     Quad nodes;
     Index patch;
+};
+
+/// Cells and skin by kind, as files hold them: hexahedra before wedges, quads before triangles. No array is
+/// kept: the source's triangles are the last of its quads.
+class CellKinds {
+public:
+    explicit CellKinds(const HexMesh& mesh)
+        : columns_(mesh.quads.size()),
+          triangles_(mesh.triangle_count()),
+          hexes_(mesh.hex_count()),
+          walls_(mesh.skin_count() - 2 * columns_)
+    {
+    }
+    [[nodiscard]] std::size_t hexes() const { return hexes_; }
+    [[nodiscard]] std::size_t skin_quads() const { return 2 * (columns_ - triangles_) + walls_; }
+    /// The cell that comes `i`-th.
+    [[nodiscard]] std::size_t cell(std::size_t i) const
+    {
+        if (triangles_ == 0) return i;
+        const std::size_t own = i < hexes_ ? columns_ - triangles_ : triangles_;
+        const std::size_t at = i < hexes_ ? i : i - hexes_;
+        return at / own * columns_ + (i < hexes_ ? 0 : columns_ - triangles_) + at % own;
+    }
+    /// The quad or triangle of the skin that comes `i`-th.
+    [[nodiscard]] std::size_t skin(std::size_t i) const
+    {
+        const std::size_t quads = columns_ - triangles_;
+        if (i < quads) return i;
+        if (i < skin_quads()) return i < 2 * quads ? i + triangles_ : i + 2 * triangles_;
+        const std::size_t at = i - skin_quads();
+        return at < triangles_ ? quads + at : columns_ + quads + (at - triangles_);
+    }
+
+private:
+    std::size_t columns_, triangles_, hexes_, walls_;
 };
 
 /// Skin quad `i`: the source quads first, then the target's, then the walls layer by layer.

@@ -29,24 +29,26 @@ std::vector<Index> opposite_sides(const std::vector<Quad>& quads, Index node_cou
         Index high, number;
         bool rising;
     };
-    const auto low_of = [&](std::size_t q, int i) { return std::min(quads[q][i], quads[q][(i + 1) % 4]); };
     std::vector<Index> start(static_cast<std::size_t>(node_count) + 1, 0);
-    for (std::size_t q = 0; q < quads.size(); ++q)
-        for (int i = 0; i < 4; ++i) ++start[static_cast<std::size_t>(low_of(q, i)) + 1];
+    const auto each_side = [&](const auto& visit) {
+        for (std::size_t q = 0; q < quads.size(); ++q)
+            for (std::size_t i = 0; i < 4; ++i)
+                if (is_side(quads[q], i))
+                    visit(quads[q][i], quads[q][(i + 1) % 4], static_cast<Index>(4 * q + i));
+    };
+    each_side([&](Index a, Index b, Index) { ++start[static_cast<std::size_t>(std::min(a, b)) + 1]; });
     for (std::size_t n = 1; n < start.size(); ++n) start[n] += start[n - 1];
 
-    std::vector<SideUse> sides(4 * quads.size());
+    std::vector<SideUse> sides(static_cast<std::size_t>(start.back()));
     std::vector<Index> next(start.begin(), start.end() - 1);
-    for (std::size_t q = 0; q < quads.size(); ++q) {
-        for (int i = 0; i < 4; ++i) {
-            const Index a = quads[q][i];
-            const Index b = quads[q][(i + 1) % 4];
-            const auto at = static_cast<std::size_t>(next[static_cast<std::size_t>(std::min(a, b))]++);
-            sides[at] = {std::max(a, b), static_cast<Index>(4 * q) + i, a < b};
-        }
-    }
+    each_side([&](Index a, Index b, Index number) {
+        const auto at = static_cast<std::size_t>(next[static_cast<std::size_t>(std::min(a, b))]++);
+        sides[at] = {std::max(a, b), number, a < b};
+    });
 
     std::vector<Index> opposite(4 * quads.size(), kRimSide);
+    for (std::size_t q = 0; q < quads.size(); ++q)
+        if (is_triangle(quads[q])) opposite[4 * q + 2] = kNoSide;
     const auto at = [&](const SideUse& side) -> Index& {
         return opposite[static_cast<std::size_t>(side.number)];
     };
@@ -76,7 +78,8 @@ Incidence quads_at_nodes(std::span<const Quad> quads, std::size_t node_count)
 {
     return incidence(node_count, [&](const auto& visit) {
         for (std::size_t q = 0; q < quads.size(); ++q)
-            for (const Index node : quads[q]) visit(index(node), static_cast<Index>(q));
+            for (std::size_t k = 0; k < corner_count(quads[q]); ++k)
+                visit(index(quads[q][k]), static_cast<Index>(q));
     });
 }
 
@@ -85,7 +88,7 @@ SkinQuad skin_quad(const HexMesh& mesh, std::size_t i)
     const std::size_t quads = mesh.quads.size();
     if (i < quads) {
         const Quad& q = mesh.quads[i];
-        return {{q[0], q[3], q[2], q[1]}, mesh.source_patch[i]};
+        return {turned_over(q), mesh.source_patch[i]};
     }
     i -= quads;
     if (i < quads) {

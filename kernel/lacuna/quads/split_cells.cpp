@@ -25,9 +25,6 @@ public:
           steps_(mesh.cells.size(), 0),
           whole_(opposite_.size(), 0)
     {
-        for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-            if (MixedMesh::is_triangle(mesh.cells[c])) opposite_[4 * c + 2] = kNoSide;
-        }
         grow();
         join();
     }
@@ -41,8 +38,6 @@ public:
     [[nodiscard]] Index opposite(Index side) const { return opposite_[index(side)]; }
 
 private:
-    static constexpr Index kNoSide = -3; ///< from a triangle's last corner to itself
-
     struct Meeting {
         int steps;
         Index one, two; ///< neighbours of different groups
@@ -54,7 +49,7 @@ private:
     {
         for (Index side = 4 * c; side < 4 * c + 4; ++side) {
             const Index other = opposite_[index(side)];
-            if (other != kNoSide) visit(side, other < 0 ? -1 : other / 4);
+            if (other != mesh::kNoSide) visit(side, other < 0 ? -1 : other / 4);
         }
     }
 
@@ -186,7 +181,7 @@ private:
     void split(Index c)
     {
         const Quad& cell = mesh_.cells[index(c)];
-        const std::size_t n = MixedMesh::is_triangle(cell) ? 3 : 4;
+        const std::size_t n = mesh::corner_count(cell);
         std::array<Index, 4> corner{}, half{-1, -1, -1, -1};
         std::size_t whole = 0;
         for (std::size_t k = 0; k < n; ++k) {

@@ -43,25 +43,42 @@ struct Partial {
     double volume = 0;
     std::size_t inverted = 0;
     std::size_t uncertified = 0;
+    std::size_t wedges = 0;
     std::array<std::uint32_t, 20> histogram{};
     WorstList worst;
 };
 
-void add_cell(Partial& partial, const CellValues<kLanes>& values, int lane, std::size_t cell)
+/// @param bezier  gives the coefficients, where the smallest of them leaves the question open.
+template <class Bezier>
+void add_cell(Partial& partial, double scaled, double smallest, double volume, std::size_t cell,
+              const Bezier& bezier)
 {
-    const double scaled = values.scaled[lane];
     partial.sum += scaled;
-    partial.volume += values.volume[lane];
+    partial.volume += volume;
     const int bin = std::clamp(static_cast<int>((scaled + 1) * 10), 0, 19);
     ++partial.histogram[static_cast<std::size_t>(bin)];
     partial.worst.offer({scaled, cell});
 
-    if (scaled > 0 && values.smallest[lane] > 0) return;
+    if (scaled > 0 && smallest > 0) return;
     if (!(scaled > 0)) ++partial.inverted;
-    Coefficients bezier;
-    for (std::size_t c = 0; c < 27; ++c) bezier[c] = values.bezier[c][lane];
     constexpr int kDepth = 6; ///< as `certified_positive()`
-    if (!(scaled > 0) || !positive_everywhere(bezier, kDepth)) ++partial.uncertified;
+    if (!(scaled > 0) || !positive_everywhere(bezier(), kDepth)) ++partial.uncertified;
+}
+
+void add_hex(Partial& partial, const CellValues<kLanes>& values, int lane, std::size_t cell)
+{
+    add_cell(partial, values.scaled[lane], values.smallest[lane], values.volume[lane], cell, [&] {
+        Coefficients bezier;
+        for (std::size_t c = 0; c < 27; ++c) bezier[c] = values.bezier[c][lane];
+        return bezier;
+    });
+}
+
+void add_wedge(Partial& partial, const WedgeCorners& corners, std::size_t cell)
+{
+    const WedgeValues values = evaluate_wedge(corners);
+    ++partial.wedges;
+    add_cell(partial, values.scaled, values.smallest, values.volume, cell, [&] { return over_cube(values); });
 }
 
 template <class Cells>
@@ -74,13 +91,19 @@ Quality measure_all(const Cells& cells, const RunContext& context)
     parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
         CellValues<kLanes> values;
         for (std::size_t c = begin; c < end; ++c)
-            for_each_batch<kLanes>(cells, c * width, std::min((c + 1) * width, cells.columns()),
-                                   [&](const CellBatch<kLanes>& batch, std::size_t first, int filled) {
-                                       evaluate(batch, values);
-                                       for (int lane = 0; lane < filled; ++lane)
-                                           add_cell(partials[c], values, lane,
-                                                    first + static_cast<std::size_t>(lane));
-                                   });
+            for_each_batch<kLanes>(
+                cells, c * width, std::min((c + 1) * width, cells.columns()),
+                [&](const CellBatch<kLanes>& batch, std::size_t first, int filled) {
+                    evaluate(batch, values);
+                    const std::size_t column = first % cells.columns();
+                    for (int lane = 0; lane < filled; ++lane) {
+                        const auto k = static_cast<std::size_t>(lane);
+                        if (!cells.is_wedge(column + k)) add_hex(partials[c], values, lane, first + k);
+                    }
+                    for_each_wedge(cells, first, filled, [&](int lane, const WedgeCorners& corners) {
+                        add_wedge(partials[c], corners, first + static_cast<std::size_t>(lane));
+                    });
+                });
     });
 
     Quality quality;
@@ -91,12 +114,14 @@ Quality measure_all(const Cells& cells, const RunContext& context)
     for (const Partial& partial : partials) {
         sum += partial.sum;
         quality.volume += partial.volume;
+        quality.wedges += partial.wedges;
         quality.inverted += partial.inverted;
         quality.uncertified += partial.uncertified;
         for (std::size_t b = 0; b < quality.histogram.size(); ++b)
             quality.histogram[b] += partial.histogram[b];
         for (std::size_t i = 0; i < partial.worst.count; ++i) worst.offer(partial.worst.cells[i]);
     }
+    quality.hexes -= quality.wedges;
     quality.mean_scaled_jacobian = sum / static_cast<double>(count);
     quality.min_scaled_jacobian = worst.cells[0].scaled_jacobian;
     for (std::size_t i = 0; i < worst.count; ++i) {

@@ -52,6 +52,7 @@ struct Tally {
 
     void add(double value, std::size_t cell, const MetricInfo& info)
     {
+        if (std::isnan(value)) return;
         ++count;
         const double distance = value - mean;
         mean += distance / static_cast<double>(count);
@@ -88,6 +89,16 @@ struct Tally {
     }
 };
 
+/// What stands for the value of a wedge where a metric is none of theirs.
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+
+/// The metrics of a wedge in one lane.
+void put_wedge(std::span<const Metric> metrics, const WedgeCorners& corners, double* values)
+{
+    for (std::size_t m = 0; m < metrics.size(); ++m)
+        values[m * kMetricLanes] = wedge_metric(metrics[m], corners).value_or(kNoValue);
+}
+
 /// Call `body(chunk, first cell, filled lanes, values)` for every batch of every chunk, chunks in parallel.
 template <class Cells, class Body>
 void for_each_value(const Cells& cells, std::span<const Metric> metrics, double average_volume,
@@ -102,6 +113,9 @@ void for_each_value(const Cells& cells, std::span<const Metric> metrics, double 
                 cells, c * width, std::min((c + 1) * width, cells.columns()),
                 [&](const CellBatch<kMetricLanes>& batch, std::size_t first, int filled) {
                     evaluate_metrics(batch, metrics, average_volume, values.data());
+                    for_each_wedge(cells, first, filled, [&](int lane, const WedgeCorners& corners) {
+                        put_wedge(metrics, corners, values.data() + lane);
+                    });
                     body(c, first, filled, values.data());
                 });
     });
@@ -178,6 +192,10 @@ std::vector<double> scaled_jacobians(const Cells& cells, const RunContext& conte
         for_each_batch<kLanes>(cells, begin * width, std::min(end * width, cells.columns()),
                                [&](const CellBatch<kLanes>& batch, std::size_t first, int filled) {
                                    evaluate_scaled(batch, scaled);
+                                   for_each_wedge(cells, first, filled,
+                                                  [&](int lane, const WedgeCorners& corners) {
+                                                      scaled[lane] = evaluate_wedge(corners).scaled;
+                                                  });
                                    std::copy_n(scaled, filled, result.data() + first);
                                });
     });
@@ -192,7 +210,8 @@ std::vector<double> values_of(const Cells& cells, Metric metric, const RunContex
     std::vector<double> result(cells.columns() * cells.layers());
     for_each_value(cells, {&metric, 1}, average, context,
                    [&](std::size_t, std::size_t first, int filled, const double* values) {
-                       std::copy_n(values, filled, result.data() + first);
+                       std::transform(values, values + filled, result.data() + first,
+                                      [](double value) { return std::isnan(value) ? 0 : value; });
                    });
     return result;
 }
@@ -214,7 +233,7 @@ std::vector<MetricSummary> measure_metrics(const mesh::HexMesh& mesh, std::span<
                                            const RunContext& context)
 {
     std::vector<MetricSummary> summaries = measure_all(SweptCells{mesh}, metrics, context);
-    if (mesh.hex_count() > 0)
+    if (mesh.cell_count() > 0)
         for (MetricSummary& summary : summaries)
             summary.layer = static_cast<int>(summary.worst / mesh.quads.size());
     return summaries;

@@ -71,7 +71,7 @@ std::optional<Metric> metric_named(std::string_view name);
 /// All of them, in the order of `Metric`.
 std::span<const MetricInfo, kMetricCount> metric_infos();
 
-/// Of one cell, corners in Gmsh's order, which is VTK's.
+/// Of one hexahedron, corners in Gmsh's order, which is VTK's.
 /// @param average_volume  what sizes are relative to: the mean `volume` of the mesh [model length³]; the size
 ///                        metrics are 0 where it is not positive.
 double metric(Metric metric, std::span<const Vec3, 8> corners, double average_volume = 1);
@@ -88,7 +88,8 @@ struct MetricSummary {
     double value = 0;                                 ///< of it
 };
 
-/// Measure every cell. Parallel; the same for any thread count. O(cells · metrics).
+/// Measure every cell. Wedges count where the metric is one of theirs: the scaled Jacobian, the Jacobian and
+/// the volume. Parallel; the same for any thread count. O(cells · metrics).
 /// @pre  every corner is the number of a node (`prove()` checks it).
 std::vector<MetricSummary> measure_metrics(const mesh::HexMesh& mesh, std::span<const Metric> metrics,
                                            const RunContext& context = {});
@@ -97,7 +98,7 @@ std::vector<MetricSummary> measure_metrics(const mesh::HexMesh& mesh, std::span<
 std::vector<MetricSummary> measure_metrics(std::span<const Vec3> nodes, std::span<const Hex> hexes,
                                            std::span<const Metric> metrics, const RunContext& context = {});
 
-/// A value a cell, by number of cell. Parallel.
+/// A value a cell, by number of cell; 0 of a wedge where the metric is none of theirs. Parallel.
 std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, const RunContext& context = {});
 std::vector<double> metric_values(std::span<const Vec3> nodes, std::span<const Hex> hexes, Metric metric,
                                   const RunContext& context = {});

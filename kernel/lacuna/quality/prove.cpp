@@ -22,7 +22,7 @@ std::string person(std::size_t number) { return std::to_string(number + 1); }
 
 Found check_sizes(const mesh::HexMesh& mesh)
 {
-    if (mesh.layers < 1 || mesh.quads.empty() || mesh.nodes_per_layer < 4)
+    if (mesh.layers < 1 || mesh.quads.empty() || mesh.nodes_per_layer < 3)
         return Finding{Fault::empty, "the mesh has no cells: " + std::to_string(mesh.quads.size()) +
                                          " source quads and " + std::to_string(mesh.layers) + " layers"};
     const auto layers = static_cast<std::size_t>(mesh.layers);
@@ -40,7 +40,12 @@ Found check_sizes(const mesh::HexMesh& mesh)
                                                   what + " where " + std::to_string(expected) +
                                                   " were expected"};
     }
+    const std::size_t first_triangle = mesh.quads.size() - mesh.triangle_count();
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+        if (q < first_triangle && mesh::is_triangle(mesh.quads[q]))
+            return Finding{Fault::wrong_size, "source quad " + person(q) +
+                                                  " is a triangle and stands before quads; triangles are "
+                                                  "expected to be the last"};
         for (const Index node : mesh.quads[q]) {
             if (node < 0 || node >= mesh.nodes_per_layer)
                 return Finding{Fault::unknown_node, "source quad " + person(q) + " names node " +
@@ -85,7 +90,7 @@ Found check_sides(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
         const Quad& quad = mesh.quads[side / 4];
         const Index from = quad[side % 4];
         const Index to = quad[(side + 1) % 4];
-        if (from != to && opposite[side] != mesh::kBadSide) continue;
+        if (opposite[side] == mesh::kNoSide || (from != to && opposite[side] != mesh::kBadSide)) continue;
         return Finding{Fault::not_conformal,
                        "the side of source quad " + person(side / 4) + " from " + source_node(mesh, from) +
                            " to " + source_node(mesh, to) +
@@ -113,6 +118,7 @@ Found check_fans(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
     std::vector<Index> valence(nodes, 0);
     std::vector<Index> first(nodes, -1); // a side that leaves the node; one on the rim where there is one
     for (std::size_t side = 0; side < opposite.size(); ++side) {
+        if (opposite[side] == mesh::kNoSide) continue;
         const std::size_t node = index(mesh.quads[side / 4][side % 4]);
         ++valence[node];
         if (opposite[side] == mesh::kRimSide || first[node] < 0) first[node] = static_cast<Index>(side);
@@ -124,7 +130,8 @@ Found check_fans(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
         // Turn from quad to quad: a quad's side that arrives at the node is the next quad's that leaves it.
         Index turned = 1;
         for (Index side = first[node];; ++turned) {
-            const Index arrives = side % 4 == 0 ? side + 3 : side - 1;
+            Index arrives = side % 4 == 0 ? side + 3 : side - 1;
+            if (opposite[index(arrives)] == mesh::kNoSide) --arrives;
             side = opposite[index(arrives)];
             if (side < 0 || side == first[node]) break;
         }
@@ -192,7 +199,7 @@ Found check_quality(const Quality& quality, double min_scaled_jacobian, int laye
             text += "\n  " + describe(quality.worst[i], layers);
         return text;
     };
-    const std::string cells = " of " + std::to_string(quality.hexes) + " cells ";
+    const std::string cells = " of " + std::to_string(quality.hexes + quality.wedges) + " cells ";
     if (quality.inverted > 0)
         return Finding{Fault::inverted, std::to_string(quality.inverted) + cells +
                                             "are inverted. The worst:" + worst(quality.inverted)};

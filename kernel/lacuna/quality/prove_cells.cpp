@@ -16,6 +16,7 @@ struct CellSide {
     std::array<Index, 4> key;
     Quad nodes;
     Index owner;
+    bool triangle = false;
 };
 
 bool operator<(const CellSide& a, const CellSide& b)
@@ -28,6 +29,15 @@ Quad turned(const Quad& quad)
 {
     const auto lowest = static_cast<std::size_t>(std::min_element(quad.begin(), quad.end()) - quad.begin());
     return {quad[lowest], quad[(lowest + 1) % 4], quad[(lowest + 2) % 4], quad[(lowest + 3) % 4]};
+}
+
+/// A triangle is told by its lowest node and the other two, of which the higher stands twice in the key.
+CellSide make_triangle(const Quad& quad, Index owner)
+{
+    std::array<Index, 3> nodes{quad[0], quad[1], quad[2]};
+    std::rotate(nodes.begin(), std::min_element(nodes.begin(), nodes.end()), nodes.end());
+    const auto [low, high] = std::minmax(nodes[1], nodes[2]);
+    return {{nodes[0], low, high, high}, {nodes[0], nodes[1], nodes[2], nodes[2]}, owner, true};
 }
 
 CellSide make_side(const Quad& quad, Index owner)
@@ -74,21 +84,32 @@ std::vector<CellSide> sorted_sides(std::span<const Vec3> nodes, std::span<const 
     std::vector<std::size_t> start(nodes.size() + 1, 0);
     const auto for_each_quad = [&](const auto& body) {
         for (std::size_t h = 0; h < hexes.size(); ++h) {
+            if (mesh::is_wedge(hexes[h])) {
+                const mesh::Wedge w = mesh::wedge_of(hexes[h]);
+                const auto owner = static_cast<Index>(h);
+                body(Quad{w[1], w[0], w[2], w[2]}, owner, true);
+                body(Quad{w[3], w[4], w[5], w[5]}, owner, true);
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::size_t next = (k + 1) % 3;
+                    body(Quad{w[k], w[next], w[3 + next], w[3 + k]}, owner, false);
+                }
+                continue;
+            }
             for (const Quad& s : mesh::kHexSides) {
                 const auto corner = [&](std::size_t i) { return hexes[h][static_cast<std::size_t>(s[i])]; };
-                body(Quad{corner(0), corner(1), corner(2), corner(3)}, static_cast<Index>(h));
+                body(Quad{corner(0), corner(1), corner(2), corner(3)}, static_cast<Index>(h), false);
             }
         }
-        for (const Quad& quad : skin) body(quad, kGivenSkin);
+        for (const Quad& quad : skin) body(quad, kGivenSkin, mesh::is_triangle(quad));
     };
-    for_each_quad([&](const Quad& quad, Index) {
+    for_each_quad([&](const Quad& quad, Index, bool) {
         ++start[static_cast<std::size_t>(*std::min_element(quad.begin(), quad.end())) + 1];
     });
     for (std::size_t n = 1; n < start.size(); ++n) start[n] += start[n - 1];
     std::vector<CellSide> sides(start.back());
     std::vector<std::size_t> next(start.begin(), start.end() - 1);
-    for_each_quad([&](const Quad& quad, Index owner) {
-        const CellSide side = make_side(quad, owner);
+    for_each_quad([&](const Quad& quad, Index owner, bool triangle) {
+        const CellSide side = triangle ? make_triangle(quad, owner) : make_side(quad, owner);
         sides[next[static_cast<std::size_t>(side.key[0])]++] = side;
     });
     for (std::size_t n = 0; n + 1 < start.size(); ++n)
@@ -105,7 +126,8 @@ Found check_side(std::span<const Vec3> nodes, std::span<const CellSide> users, b
     const std::span<const CellSide> cells = users.subspan(given);
     const CellSide& any = users.back();
     const auto& key = any.key;
-    if (std::adjacent_find(key.begin(), key.end()) != key.end())
+    const auto end = any.triangle ? key.end() - 1 : key.end();
+    if (std::adjacent_find(key.begin(), end) != end)
         return Finding{Fault::collapsed_side, side_name(nodes, any) + " uses a node twice"};
     if (cells.size() > 2)
         return Finding{Fault::not_conformal,
@@ -113,7 +135,9 @@ Found check_side(std::span<const Vec3> nodes, std::span<const CellSide> users, b
     if (cells.size() == 2) {
         const Quad& a = cells[0].nodes;
         const Quad& b = cells[1].nodes;
-        if (a[1] != b[3] || a[2] != b[2] || a[3] != b[1])
+        const bool alike = any.triangle ? a[1] == b[2] && a[2] == b[1]
+                                        : a[1] == b[3] && a[2] == b[2] && a[3] == b[1];
+        if (!alike)
             return Finding{Fault::not_conformal, side_name(nodes, any) +
                                                      " is not the same, run the other way, in cell " +
                                                      std::to_string(cells[0].owner + 1)};
@@ -138,6 +162,7 @@ Found check_skin_edges(std::span<const Vec3> nodes, const std::vector<Quad>& ski
     uses.reserve(4 * skin.size());
     for (const Quad& quad : skin) {
         for (std::size_t i = 0; i < 4; ++i) {
+            if (!mesh::is_side(quad, i)) continue;
             const Index a = quad[i];
             const Index b = quad[(i + 1) % 4];
             uses.push_back({std::min(a, b), std::max(a, b), a < b});

@@ -24,6 +24,14 @@ double scaled_jacobian(std::span<const Vec3, 8> corners);
 /// invalid.
 bool certified_positive(std::span<const Vec3, 8> corners, int max_depth = 6);
 
+/// The same of a wedge, nodes as `mesh::Wedge`: Verdict's, times 2/√3, so that it is 1 for an even triangle
+/// times a height.
+double wedge_scaled_jacobian(std::span<const Vec3, 6> corners);
+
+/// The same of a wedge, whose Jacobian is linear over the triangle and of degree two along the height: nine
+/// Bernstein coefficients hold it.
+bool wedge_certified_positive(std::span<const Vec3, 6> corners, int max_depth = 6);
+
 /// A cell with what is wrong with it.
 struct WorstCell {
     std::size_t cell = 0; ///< from 0
@@ -33,7 +41,8 @@ struct WorstCell {
 };
 
 struct Quality {
-    std::size_t hexes = 0;
+    std::size_t hexes = 0;  ///< hexahedra
+    std::size_t wedges = 0; ///< and wedges, in all that follows too
     double min_scaled_jacobian = 1;
     double mean_scaled_jacobian = 1;
     std::size_t inverted = 0;                ///< cells with a corner that is not positive
@@ -47,7 +56,7 @@ struct Quality {
 /// @pre  every corner is the number of a node (`prove()` checks it).
 Quality measure(const mesh::HexMesh& mesh, const RunContext& context = {});
 
-/// The same for hexahedra of any origin.
+/// The same for hexahedra, and wedges as `mesh::is_wedge()` has them, of any origin.
 Quality measure_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes,
                       const RunContext& context = {});
 
@@ -96,8 +105,9 @@ struct Proof {
 /// of exactly the patches, no node twice in one place or unused, every Jacobian certified positive. O(cells).
 Proof prove(const mesh::HexMesh& mesh, double min_scaled_jacobian = 0, const RunContext& context = {});
 
-/// The same for hexahedra of any origin.
-/// @param skin  where not empty, quads that must be exactly the skin, in any order and direction.
+/// The same for hexahedra and wedges of any origin.
+/// @param skin  where not empty, quads and triangles that must be exactly the skin, in any order and
+///              direction.
 Proof prove_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin = {},
                   double min_scaled_jacobian = 0, const RunContext& context = {});
 

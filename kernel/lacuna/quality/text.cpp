@@ -50,6 +50,7 @@ std::string to_table(const Quality& quality)
         return pad_left(std::to_string(value), width);
     };
     std::string text = "hexahedra              " + count(quality.hexes, 12) + "\n";
+    if (quality.wedges > 0) text += "wedges                 " + count(quality.wedges, 12) + "\n";
     text += "scaled Jacobian  least " + fixed(quality.min_scaled_jacobian, 4, 12) + "\n";
     text += "                  mean " + fixed(quality.mean_scaled_jacobian, 4, 12) + "\n";
     text += "inverted               " + count(quality.inverted, 12) + "\n";

@@ -326,11 +326,13 @@ struct Break {
 class BreakKeeper {
 public:
     BreakKeeper(const OpenVolume& volume, const std::set<EdgeId>& kept, const GivenColumns& columns,
-                LinkingSurface& link)
+                LinkingSurface& link, bool wedges)
         : model_(volume.model), kept_(kept), columns_(columns), link_(link)
     {
-        for (const Face& face : model_.faces) {
-            if (!face.keeps_nodes || !has_quads_all_over(face)) continue;
+        for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+            const Face& face = model_.faces[f];
+            const bool end = volume.role[f] != Role::wall;
+            if (!face.keeps_nodes || !has_cells_to_keep(face, wedges && end)) continue;
             for (const Loop& loop : face.loops) {
                 for (const EdgeUse& use : loop.uses) of_quads_.insert(use.edge);
             }
@@ -631,11 +633,12 @@ std::vector<double> given_heights(const Model& model, std::span<const GivenColum
 }
 
 void keep_given_nodes(const OpenVolume& volume, std::span<const GivenColumns> columns,
-                      std::vector<LinkingSurface>& links, std::vector<std::string>& notes)
+                      std::vector<LinkingSurface>& links, std::vector<std::string>& notes, bool wedges)
 {
     const std::set<EdgeId> kept = kept_edges(volume.model);
     if (kept.empty()) return;
-    for (std::size_t b = 0; b < links.size(); ++b) BreakKeeper(volume, kept, columns[b], links[b]).run(notes);
+    for (std::size_t b = 0; b < links.size(); ++b)
+        BreakKeeper(volume, kept, columns[b], links[b], wedges).run(notes);
 }
 
 } // namespace lacuna::surface

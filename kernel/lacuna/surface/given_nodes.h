@@ -46,8 +46,10 @@ std::vector<double> given_heights(const topology::Model& model, std::span<const 
 /// there are as many between side lines, or between corners; where there are not, those of the source stay
 /// and a note counts those of the target. Nodes that one end alone has lead the other.
 /// @param columns  of each linking surface.
+/// @param wedges   the triangles of both ends stay as their quads do.
 /// @param notes    out: a line for each rim whose nodes are not kept.
 void keep_given_nodes(const topology::OpenVolume& volume, std::span<const GivenColumns> columns,
-                      std::vector<LinkingSurface>& links, std::vector<std::string>& notes);
+                      std::vector<LinkingSurface>& links, std::vector<std::string>& notes,
+                      bool wedges = false);
 
 } // namespace lacuna::surface

@@ -23,6 +23,7 @@ public:
         beside_.reserve(2 * quads.size());
         for (std::size_t q = 0; q < quads.size(); ++q) {
             for (std::size_t k = 0; k < 4; ++k) {
+                if (!mesh::is_side(quads[q], k)) continue;
                 std::array<Index, 2>& both =
                     beside_.try_emplace(edge_key(quads[q][k], quads[q][(k + 1) % 4]), kNone).first->second;
                 both[both[0] < 0 ? 0 : 1] = static_cast<Index>(q);
@@ -38,14 +39,19 @@ public:
         return found->second[0] == other ? found->second[1] : found->second[0];
     }
 
-    /// The corners of a quad from `a` over `b` on.
+    /// The corners of a quad or triangle from `a` over `b` on.
     [[nodiscard]] Quad from(Index quad, Index a, Index b) const
     {
         const Quad& q = quads_[index(quad)];
+        if (mesh::is_triangle(q)) {
+            const Index last = *std::find_if(q.begin(), q.end(), [&](Index n) { return n != a && n != b; });
+            return {a, b, last, last};
+        }
         const auto at = static_cast<std::size_t>(std::find(q.begin(), q.end(), a) - q.begin());
         if (q[(at + 1) % 4] == b) return {a, b, q[(at + 2) % 4], q[(at + 3) % 4]};
         return {a, b, q[(at + 2) % 4], q[(at + 1) % 4]};
     }
+    [[nodiscard]] bool is_triangle(Index quad) const { return mesh::is_triangle(quads_[index(quad)]); }
 
 private:
     static constexpr std::array<Index, 2> kNone{-1, -1};
@@ -59,14 +65,17 @@ struct TargetQuads {
     std::vector<FaceId> face;
 };
 
-std::optional<TargetQuads> quads_of_target(const OpenVolume& volume, std::string& why)
+std::optional<TargetQuads> quads_of_target(const OpenVolume& volume, std::string& why, bool wedges)
 {
     TargetQuads target;
     std::string without;
     for (const FaceId id : volume.faces(Role::target)) {
         const Face& face = volume.model[id];
-        if (!face.keeps_nodes || !has_quads_all_over(face)) without = name_of(volume.model, id);
+        if (!face.keeps_nodes || !has_cells_to_keep(face, wedges)) without = name_of(volume.model, id);
         target.quads.insert(target.quads.end(), face.given_quads.begin(), face.given_quads.end());
+        if (wedges && face.keeps_nodes) {
+            for (const Triangle& t : loose_triangles(face)) target.quads.push_back({t[0], t[1], t[2], t[2]});
+        }
         target.face.resize(target.quads.size(), id);
     }
     if (target.quads.empty()) return std::nullopt;
@@ -100,11 +109,11 @@ private:
 } // namespace
 
 std::optional<GivenTarget> given_target(const OpenVolume& volume, std::span<const LinkingSurface> links,
-                                        const SourceMesh& source, std::string& why)
+                                        const SourceMesh& source, std::string& why, bool wedges)
 {
     const Model& model = volume.model;
     why.clear();
-    const std::optional<TargetQuads> target = quads_of_target(volume, why);
+    const std::optional<TargetQuads> target = quads_of_target(volume, why, wedges);
     if (!target) return std::nullopt;
     const std::vector<Quad>& quads = source.quads.quads;
     if (quads.size() != target->quads.size()) {
@@ -146,6 +155,7 @@ std::optional<GivenTarget> given_target(const OpenVolume& volume, std::span<cons
         if (q < 0 && t < 0) continue;
         bool same = q >= 0 && t >= 0 && (twin[index(q)] == t || (twin[index(q)] < 0 && taken[index(t)] == 0));
         if (same && twin[index(q)] == t) continue;
+        same = same && from.is_triangle(q) == to.is_triangle(t);
         Quad corners{}, images{};
         if (same) {
             corners = from.from(q, step.a, step.b);
@@ -163,7 +173,9 @@ std::optional<GivenTarget> given_target(const OpenVolume& volume, std::span<cons
         twin[index(q)] = t;
         taken[index(t)] = 1;
         ++paired;
-        for (std::size_t k = 1; k < 4; ++k) steps.push_back({corners[k], corners[(k + 1) % 4], q, t});
+        for (std::size_t k = 1; k < 4; ++k) {
+            if (mesh::is_side(corners, k)) steps.push_back({corners[k], corners[(k + 1) % 4], q, t});
+        }
     }
     if (paired != quads.size()) {
         why = "its quads are laid out otherwise than the source's";

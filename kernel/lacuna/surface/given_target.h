@@ -18,10 +18,11 @@ struct GivenTarget {
 
 /// The target's given quads, where they are the same graph as the source's: from the nodes of the rims, which
 /// go together by the linking surfaces, quads are paired over their sides.
+/// @param wedges  triangles of the target are paired with those of the source.
 /// @param why  out: what differs, where nothing is returned and the target came with quads; else empty.
 /// @note  O(quads).
 std::optional<GivenTarget> given_target(const topology::OpenVolume& volume,
                                         std::span<const LinkingSurface> links, const SourceMesh& source,
-                                        std::string& why);
+                                        std::string& why, bool wedges = false);
 
 } // namespace lacuna::surface

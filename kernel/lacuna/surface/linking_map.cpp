@@ -3,15 +3,16 @@
 
 #include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/cut.h>
 #include <lacuna/geometry/harmonic.h>
 #include <lacuna/geometry/polyline.h>
+#include <lacuna/surface/detail/chain_nodes.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
-#include <queue>
 #include <set>
 #include <unordered_map>
 
@@ -46,26 +47,6 @@ LinkingFacets facets_of(const Model& model, const std::vector<FaceId>& walls)
     return facets;
 }
 
-/// Points of a closed chain with their running lengths; the first is not repeated.
-struct RimPoint {
-    Index point;
-    double at;
-};
-
-std::vector<RimPoint> rim_points(const Model& model, const Chain& chain)
-{
-    std::vector<RimPoint> result;
-    double at = 0;
-    for (const EdgeUse& use : chain.uses()) {
-        const std::vector<Index> points = use_points(model, use);
-        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-            result.push_back({points[i], at});
-            at += (model.at(points[i + 1]) - model.at(points[i])).norm();
-        }
-    }
-    return result;
-}
-
 std::vector<Index> line_points(const Model& model, const matching::SideLine& line)
 {
     std::vector<Index> result;
@@ -81,89 +62,14 @@ std::vector<Index> line_points(const Model& model, const matching::SideLine& lin
 std::vector<Index> shortest_way_up(const Model& model, const LinkingFacets& facets,
                                    const LinkingSurface& link)
 {
-    std::unordered_map<Index, std::vector<Index>> neighbours;
-    for (const Triangle& t : facets.triangles) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            neighbours[t[i]].push_back(t[(i + 1) % 3]);
-            neighbours[t[i]].push_back(t[(i + 2) % 3]);
-        }
-    }
     std::set<Index> low, high;
-    for (const RimPoint& p : rim_points(model, link.source)) low.insert(p.point);
-    for (const RimPoint& p : rim_points(model, link.target)) high.insert(p.point);
+    for (const ChainNode& p : chain_nodes(model, link.source)) low.insert(p.point);
+    for (const ChainNode& p : chain_nodes(model, link.target)) high.insert(p.point);
     const Index start = model[use_from(model, link.source.uses().front())].point;
-
-    std::unordered_map<Index, double> cost{{start, 0}};
-    std::unordered_map<Index, Index> from;
-    using Item = std::pair<double, Index>;
-    std::priority_queue<Item, std::vector<Item>, std::greater<>> front;
-    front.emplace(0, start);
-    while (!front.empty()) {
-        const auto [c, p] = front.top();
-        front.pop();
-        if (c > cost[p]) continue;
-        if (high.contains(p)) {
-            std::vector<Index> path{p};
-            while (path.back() != start) path.push_back(from.at(path.back()));
-            std::reverse(path.begin(), path.end());
-            return path;
-        }
-        for (const Index q : neighbours[p]) {
-            if (low.contains(q)) continue;
-            const double next = c + (model.at(q) - model.at(p)).norm();
-            const auto known = cost.find(q);
-            if (known != cost.end() && known->second <= next) continue;
-            cost[q] = next;
-            from[q] = p;
-            front.emplace(next, q);
-        }
-    }
+    std::vector<Index> way = geometry::shortest_way(model.points, facets.triangles, start, low, high);
+    if (!way.empty()) return way;
     throw NotSweepable("surface.wall_broken", "the facets of " + name_of(model, link.walls.front()) +
                                                   " do not lead from the source's rim to the target's");
-}
-
-/// Turns of the corners along a cut, which leads upwards. Walking round as the linking surface does, s grows
-/// away from the cut's left (seen from outside): there corners on the cut keep their value, on its right they
-/// are seen one turn on.
-std::vector<std::array<int, 3>> turns_along(const LinkingFacets& facets, const std::vector<Index>& cut)
-{
-    std::vector<std::array<int, 3>> turns(facets.triangles.size(), {0, 0, 0});
-    std::set<std::pair<Index, Index>> sides;
-    for (std::size_t i = 0; i + 1 < cut.size(); ++i) {
-        sides.emplace(cut[i], cut[i + 1]);
-        sides.emplace(cut[i + 1], cut[i]);
-    }
-    const auto corner_of = [&](std::size_t t, Index p) {
-        const Triangle& triangle = facets.triangles[t];
-        return static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), p) - triangle.begin());
-    };
-    // Round each point of the cut, flood the facets on its right, which hold the cut's sides against its
-    // direction.
-    for (std::size_t i = 0; i < cut.size(); ++i) {
-        std::vector<std::size_t> front;
-        const auto start_at = [&](Index a, Index b) {
-            const auto found = facets.half.find(directed_key(b, a));
-            if (found != facets.half.end()) front.push_back(found->second);
-        };
-        if (i + 1 < cut.size()) start_at(cut[i], cut[i + 1]);
-        if (i > 0) start_at(cut[i - 1], cut[i]);
-        while (!front.empty()) {
-            const std::size_t t = front.back();
-            front.pop_back();
-            const std::size_t c = corner_of(t, cut[i]);
-            if (turns[t][c] != 0) continue;
-            turns[t][c] = 1;
-            const Triangle& triangle = facets.triangles[t];
-            for (const Index q : {triangle[(c + 1) % 3], triangle[(c + 2) % 3]}) {
-                if (sides.contains({cut[i], q})) continue;
-                for (const std::uint64_t side : {directed_key(cut[i], q), directed_key(q, cut[i])}) {
-                    const auto found = facets.half.find(side);
-                    if (found != facets.half.end() && found->second != t) front.push_back(found->second);
-                }
-            }
-        }
-    }
-    return turns;
 }
 
 /// s of the linking surface with the target rim left free: how the walls themselves lead up. A row a model
@@ -174,13 +80,13 @@ Eigen::MatrixXd natural_coordinate(const Model& model, const LinkingFacets& face
     geometry::HarmonicProblem problem;
     problem.points = model.points;
     problem.triangles = facets.triangles;
-    const std::vector<RimPoint> rim = rim_points(model, link.source);
+    const std::vector<ChainNode> rim = chain_nodes(model, link.source);
     problem.fixed_values.resize(static_cast<Eigen::Index>(rim.size()), 1);
     for (std::size_t i = 0; i < rim.size(); ++i) {
         problem.fixed.push_back(rim[i].point);
         problem.fixed_values(static_cast<Eigen::Index>(i), 0) = rim[i].at / link.source.length();
     }
-    problem.corner_turns = turns_along(facets, cut);
+    problem.corner_turns = geometry::turns_along(facets.triangles, cut);
     problem.period = Eigen::RowVectorXd::Ones(1);
     return geometry::solve_harmonic(problem);
 }
@@ -196,7 +102,7 @@ double unguided_target_start(const OpenVolume& volume, const LinkingSurface& lin
     // length.
     const double length = link.target.length();
     Vec2 sum = Vec2::Zero();
-    for (const RimPoint& p : rim_points(model, link.target)) {
+    for (const ChainNode& p : chain_nodes(model, link.target)) {
         const double off = 2 * std::numbers::pi * (p.at / length - s(p.point, 0));
         sum += Vec2(std::cos(off), std::sin(off));
     }
@@ -226,22 +132,22 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link)
     std::map<Index, Vec2> fixed;
     double end_branch = 0;
     std::vector<Index> cut;
-    const std::vector<RimPoint> high = rim_points(model, link.target);
+    const std::vector<ChainNode> high = chain_nodes(model, link.target);
     if (link.lines.empty()) {
         cut = shortest_way_up(model, facets, link);
         const double natural = link.branch ? *link.branch
                                            : natural_coordinate(model, facets, link, cut)(cut.back(), 0);
         const auto end = std::find_if(high.begin(), high.end(),
-                                      [&](const RimPoint& p) { return p.point == cut.back(); });
+                                      [&](const ChainNode& p) { return p.point == cut.back(); });
         const double wanted = target_coordinate(link, end->at);
         end_branch = wanted + std::round(natural - wanted);
         branch_ = end_branch;
     } else {
         cut = line_points(model, link.lines.front().line);
     }
-    for (const RimPoint& p : rim_points(model, link.source))
+    for (const ChainNode& p : chain_nodes(model, link.source))
         fixed[p.point] = Vec2(p.at / link.source.length(), 0);
-    for (const RimPoint& p : high) {
+    for (const ChainNode& p : high) {
         const double s = target_coordinate(link, p.at);
         const double turned = s - std::floor(s - end_branch + 1e-12);
         fixed[p.point] = Vec2(p.point == cut.back() ? end_branch : turned, 1);
@@ -263,7 +169,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link)
         problem.fixed_values.row(static_cast<Eigen::Index>(problem.fixed.size())) = value.transpose();
         problem.fixed.push_back(point);
     }
-    problem.corner_turns = turns_along(facets, cut);
+    problem.corner_turns = geometry::turns_along(facets.triangles, cut);
     problem.period = Eigen::RowVector2d(1, 0);
     const Eigen::MatrixXd strip = geometry::solve_harmonic(problem);
 

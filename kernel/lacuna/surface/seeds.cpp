@@ -36,18 +36,21 @@ constexpr double kSameSize = 1e-3;
 class Seeder {
 public:
     Seeder(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
-           QuadStyle style, const ShapeSizing& sizing, const std::map<EdgeId, double>& lengths)
+           QuadStyle style, const ShapeSizing& sizing, const std::map<EdgeId, double>& lengths, bool wedges)
         : volume_(volume),
           model_(volume.model),
           size_(size),
           style_(style),
+          wedges_(wedges),
           per_turn_(sizing.curvature > 0 ? sizing.curvature : kFewestPerTurn),
           gap_(sizing.gap)
     {
         for (const LinkingSurface& link : links) add_rim(link);
         for (const FaceId face : volume.faces(Role::source)) {
-            if (keeps(face)) seeds_.kept.insert(face);
-            note_mixed(face);
+            if (keeps(face))
+                seeds_.kept.insert(face);
+            else
+                note_mixed(face);
             for (const Loop& loop : model_[face].loops) {
                 for (const EdgeUse& use : loop.uses) {
                     users_[use.edge].insert(face);
@@ -132,22 +135,29 @@ private:
         return turning;
     }
 
-    /// Say of a face of quads and triangles that it is meshed anew: no hexahedra stand on triangles.
+    /// A face of quads and triangles is a mesh, and no hexahedra stand on its triangles. Facets that are all
+    /// triangles are a shape. That it is meshed anew where that was asked for is said.
     void note_mixed(FaceId face)
     {
         const Face& f = model_[face];
         const std::size_t quads = f.given_quads.size(), triangles = f.triangles.size() - 2 * quads;
         if (!f.keeps_nodes || quads == 0 || triangles == 0) return;
-        seeds_.notes.push_back(name_of(model_, face) + " came with " + std::to_string(quads) + " quads and " +
-                               std::to_string(triangles) +
-                               " triangles, on which no hexahedra stand: it is meshed anew inside its rim");
+        const std::string found = name_of(model_, face) + " came with " + std::to_string(quads) +
+                                  " quads and " + std::to_string(triangles) +
+                                  " triangles, on which no hexahedra stand";
+        if (style_ == QuadStyle::automatic) {
+            throw NotSweepable("surface.given_triangles",
+                               found + "; use wedges = true to keep all of them, quads = \"paved\" to mesh "
+                                       "the face anew inside its rim, or load with keep_mesh = false");
+        }
+        seeds_.notes.push_back(found + ": it is meshed anew inside its rim");
     }
 
     /// Whether a face came with quads that are to be its mesh.
     [[nodiscard]] bool keeps(FaceId face) const
     {
         const Face& f = model_[face];
-        const bool whole = has_quads_all_over(f);
+        const bool whole = has_cells_to_keep(f, wedges_);
         if (style_ == QuadStyle::kept && !whole) {
             throw NotSweepable(
                 "surface.not_kept",
@@ -155,8 +165,8 @@ private:
                     " quads of its own and " +
                     std::to_string(f.triangles.size() -
                                    std::min(f.triangles.size(), 2 * f.given_quads.size())) +
-                    " triangles; quads = \"keep\" needs quads all over: use quads = \"auto\", or load with "
-                    "keep_mesh = true");
+                    " triangles; quads = \"keep\" needs quads all over: use wedges = true to keep triangles "
+                    "too, quads = \"auto\", or load with keep_mesh = true");
         }
         return whole && (style_ == QuadStyle::kept || style_ == QuadStyle::automatic);
     }
@@ -442,9 +452,16 @@ private:
                 }
             }
             if (longest == nullptr) continue;
+            if (wedges_) {
+                seeds_.notes.push_back("the rim of " + name_of(model_, face) +
+                                       " came with an odd number of sides: one of its cells is a triangle");
+                odd_.insert(face);
+                continue;
+            }
             seeds_.notes.push_back("the rim of " + name_of(model_, face) +
                                    " came with an odd number of sides, which no quads fill: a side on " +
-                                   name_of(model_, at) + ", with what stands on it, is divided in two");
+                                   name_of(model_, at) +
+                                   ", with what stands on it, is divided in two; wedges = true keeps it");
             longest->kept.push_back((longest->from + longest->to) / 2);
             longest->count = 2;
         }
@@ -453,7 +470,7 @@ private:
     void check_even() const
     {
         for (const FaceId face : volume_.faces(Role::source)) {
-            if (!is_free(face) || !odd(face)) continue;
+            if (!is_free(face) || !odd(face) || odd_.contains(face)) continue;
             throw NotSweepable(
                 "surface.odd_loop",
                 "the loops of " + name_of(model_, face) +
@@ -466,11 +483,13 @@ private:
     const Model& model_;
     const SizeField& size_;
     QuadStyle style_;
+    bool wedges_;
     int per_turn_; ///< sides for a full turn
     int gap_;      ///< quads across a narrow place
     Seeds seeds_;
     std::map<FaceId, std::vector<SidePair>> opposite_; ///< of mapped and submapped faces
     std::set<EdgeId> rim_;
+    std::set<FaceId> odd_; ///< faces that get a triangle
     std::map<EdgeId, std::set<FaceId>> users_;
 };
 
@@ -516,9 +535,10 @@ std::vector<double> SeedPiece::fractions() const
 }
 
 Seeds seed_source(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
-                  QuadStyle style, const ShapeSizing& sizing, const std::map<EdgeId, double>& lengths)
+                  QuadStyle style, const ShapeSizing& sizing, const std::map<EdgeId, double>& lengths,
+                  bool wedges)
 {
-    return Seeder(volume, links, size, style, sizing, lengths).run();
+    return Seeder(volume, links, size, style, sizing, lengths, wedges).run();
 }
 
 double rim_spacing(const OpenVolume& volume)

@@ -66,12 +66,15 @@ struct Seeds {
 ///                in the size already.
 /// @param lengths  of what an edge is swept to, where that is known [model length]: one that is longer there
 ///                 gets the sides it needs there.
+/// @param wedges   triangles are a mesh as quads are, and a rim of an odd number of given sides stays.
+/// @throw NotSweepable "surface.given_triangles"  a face that came with quads and triangles, without
+///                      `wedges`; counts both.
 /// @throw NotSweepable  a face to be kept that has not quads all over, or whose rim has no node where the
 ///                      other end has a corner; a face to be mapped that has neither four sides nor right
 ///                      angles alone; a face whose total cannot be made even; names them.
 Seeds seed_source(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                   const SizeField& size, QuadStyle style, const ShapeSizing& sizing = {},
-                  const std::map<EdgeId, double>& lengths = {});
+                  const std::map<EdgeId, double>& lengths = {}, bool wedges = false);
 
 /// Mean length of the facets' sides on the source's rim: the size where none is asked for [model length].
 double rim_spacing(const topology::OpenVolume& volume);

@@ -48,11 +48,16 @@ public:
             else
                 fill(face);
             result_.quads.face.resize(result_.quads.quads.size(), static_cast<Index>(face.index()));
+            const std::vector<Quad>& cells = result_.quads.quads;
+            const auto triangles = static_cast<std::size_t>(std::count_if(
+                cells.begin() + static_cast<std::ptrdiff_t>(before), cells.end(), mesh::is_triangle));
             result_.notes.push_back(name_of(model_, face) + ": " + how_ + ", " +
-                                    std::to_string(result_.quads.quads.size() - before) + " quads");
+                                    std::to_string(cells.size() - before - triangles) + " quads" +
+                                    (triangles > 0 ? ", " + std::to_string(triangles) + " triangles" : ""));
         }
+        put_triangles_last();
         // The faces look outward; the sweep wants the quads to look along it.
-        for (Quad& quad : result_.quads.quads) std::swap(quad[1], quad[3]);
+        for (Quad& quad : result_.quads.quads) quad = mesh::turned_over(quad);
         return std::move(result_);
     }
 
@@ -60,6 +65,26 @@ private:
     [[nodiscard]] bool is_filled(FaceId face) const
     {
         return !seeds_.kept.contains(face) && !seeds_.corners.contains(face);
+    }
+
+    void put_triangles_last()
+    {
+        mesh::QuadMesh& cells = result_.quads;
+        std::vector<Quad> triangles;
+        std::vector<Index> face;
+        std::size_t quads = 0;
+        for (std::size_t q = 0; q < cells.quads.size(); ++q) {
+            if (mesh::is_triangle(cells.quads[q])) {
+                triangles.push_back(cells.quads[q]);
+                face.push_back(cells.face[q]);
+                continue;
+            }
+            cells.quads[quads] = cells.quads[q];
+            cells.face[quads++] = cells.face[q];
+        }
+        std::copy(triangles.begin(), triangles.end(),
+                  cells.quads.begin() + static_cast<std::ptrdiff_t>(quads));
+        std::copy(face.begin(), face.end(), cells.face.begin() + static_cast<std::ptrdiff_t>(quads));
     }
 
     Index add_node(const Vec3& p)
@@ -140,7 +165,7 @@ private:
         return chain;
     }
 
-    /// Kept: the quads the face came with, node for node.
+    /// Kept: the quads and triangles the face came with, node for node.
     void keep(FaceId face)
     {
         std::unordered_map<Index, Index> node_of_point;
@@ -150,7 +175,9 @@ private:
                 for (std::size_t i = 0; i < points.size(); ++i) node_of_point[points[i]] = nodes[i];
             }
         }
-        for (const Quad& quad : model_[face].given_quads) {
+        std::vector<Quad> cells = model_[face].given_quads;
+        for (const Triangle& t : loose_triangles(model_[face])) cells.push_back({t[0], t[1], t[2], t[2]});
+        for (const Quad& quad : cells) {
             Quad kept{};
             for (std::size_t k = 0; k < 4; ++k) {
                 const auto [found, fresh] = node_of_point.try_emplace(quad[k], -1);

@@ -13,7 +13,7 @@
 
 namespace lacuna::surface {
 
-/// Quads on all source faces together.
+/// Quads on all source faces together, then triangles where such are kept or made.
 struct SourceMesh {
     /// Normals into the volume. The rim nodes come first, one linking surface after the other. `face` is the
     /// FaceId's index.

@@ -27,8 +27,10 @@ bool keeps_quads(const OpenVolume& volume, const SweepOptions& options)
     if (options.quads == Quads::keep) return true;
     const std::vector<FaceId> source = volume.faces(Role::source);
     return options.quads == Quads::automatic && options.rows == 0 &&
-           std::any_of(source.begin(), source.end(),
-                       [&](FaceId face) { return !volume.model[face].given_quads.empty(); });
+           std::any_of(source.begin(), source.end(), [&](FaceId face) {
+               const Face& f = volume.model[face];
+               return !f.given_quads.empty() || has_cells_to_keep(f, options.wedges);
+           });
 }
 
 /// What one way came to: a mesh, or the error it ended with.
@@ -93,6 +95,7 @@ ProvedSweep sweep_both_ways(const OpenVolume& volume, const SweepOptions& option
                                                  " did not");
             return std::move(*kept.result);
         }
+        if (kept.refusal && kept.refusal->code() == "surface.given_triangles") throw *kept.refusal;
         log_line(context, "swept from the " + end_of(back) + ", to keep its quads: " + kept.why());
     }
     const auto start = std::chrono::steady_clock::now();

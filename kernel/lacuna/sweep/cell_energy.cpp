@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace lacuna::sweep {
 
@@ -36,6 +37,23 @@ Edges edges_of(const std::array<Vec3, 8>& corners)
     return edges;
 }
 
+/// Corners of a wedge's two triangles, and the edges along its height.
+constexpr std::array<std::array<std::size_t, 3>, 2> kTriangles{{{0, 1, 2}, {4, 5, 6}}};
+
+/// Call `visit(corner, after, before, above)` for the six corners of a wedge; the three edges that lead from
+/// the first to the others are right-handed.
+template <class Visit>
+void each_wedge_corner(const Visit& visit)
+{
+    for (std::size_t level = 0; level < 2; ++level) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto& own = kTriangles[level];
+            const std::size_t after = own[(i + 1) % 3], before = own[(i + 2) % 3];
+            visit(own[i], level == 0 ? after : before, level == 0 ? before : after, kTriangles[1 - level][i]);
+        }
+    }
+}
+
 /// The foldover-free energy of a corner by its determinant over the box's and the squares of its edges over
 /// the box's.
 struct Shape {
@@ -57,10 +75,76 @@ Shape shape_energy(double epsilon, double determinant, double squares)
             (1 - kVolumeShare) * power};
 }
 
+/// A corner's energy; its slopes by the three edges are added. `best`: what makes the scaled Jacobian of the
+/// best corner 1.
+double corner_energy(const CellEnergy& energy, const std::array<const Vec3*, 3>& edge, double volume,
+                     const Vec3& by_square, double best, const std::array<Vec3*, 3>& by_edge)
+{
+    const Vec3 &u = *edge[0], &v = *edge[1], &w = *edge[2];
+    const Vec3 vw = v.cross(w), wu = w.cross(u), uv = u.cross(v);
+    const double det = u.dot(vw);
+    const Vec3 squares(u.squaredNorm(), v.squaredNorm(), w.squaredNorm());
+    const Shape shape = shape_energy(energy.epsilon, det / volume, squares.dot(by_square));
+    double sum = energy.shape * shape.value;
+    double by_det = energy.shape * shape.by_determinant / volume;
+    Vec3 by_edge_itself = 2 * energy.shape * shape.by_squares * by_square;
+    if (energy.sharpness > 0) {
+        const double lengths = std::sqrt(squares.prod());
+        if (lengths > 0) {
+            const double scaled = best * det / lengths;
+            const double term = std::exp(-energy.sharpness * scaled);
+            const double by_scaled = -energy.sharpness * term;
+            sum += term;
+            by_det += best * by_scaled / lengths;
+            by_edge_itself -= by_scaled * scaled * squares.cwiseInverse();
+        }
+    }
+    *by_edge[0] += by_det * vw + by_edge_itself[0] * u;
+    *by_edge[1] += by_det * wu + by_edge_itself[1] * v;
+    *by_edge[2] += by_det * uv + by_edge_itself[2] * w;
+    return sum;
+}
+
+Vec3 mean_wedge_edges(const std::array<Vec3, 8>& corners)
+{
+    Vec3 mean = Vec3::Zero();
+    each_wedge_corner([&](std::size_t at, std::size_t after, std::size_t, std::size_t above) {
+        mean[0] += (corners[after] - corners[at]).norm() / 6;
+        mean[2] += (corners[above] - corners[at]).norm() / 6;
+    });
+    mean[1] = mean[0];
+    return mean;
+}
+
+double wedge_energy(const CellEnergy& energy, const std::array<Vec3, 8>& corners, const Vec3& box,
+                    std::array<Vec3, 8>& slope)
+{
+    slope.fill(Vec3::Zero());
+    const double volume = box.prod();
+    const Vec3 by_square = box.cwiseAbs2().cwiseInverse();
+    double sum = 0;
+    each_wedge_corner([&](std::size_t at, std::size_t one, std::size_t other, std::size_t above) {
+        const std::array<std::size_t, 3> ends{one, other, above};
+        std::array<Vec3, 3> edge, by_edge;
+        for (std::size_t d = 0; d < 3; ++d) {
+            edge[d] = corners[ends[d]] - corners[at];
+            by_edge[d].setZero();
+        }
+        sum += corner_energy(energy, {&edge[0], &edge[1], &edge[2]}, volume, by_square,
+                             2 * std::numbers::inv_sqrt3, {&by_edge[0], &by_edge[1], &by_edge[2]});
+        for (std::size_t d = 0; d < 3; ++d) {
+            slope[ends[d]] += by_edge[d];
+            slope[at] -= by_edge[d];
+        }
+    });
+    return sum;
+}
+
 } // namespace
 
-Vec3 mean_edges(const std::array<Vec3, 8>& corners)
+Vec3 mean_edges(const std::array<Vec3, 8>& corners, CellKind kind)
 {
+    if (kind == CellKind::wedge) return mean_wedge_edges(corners);
     const Edges edges = edges_of(corners);
     Vec3 mean = Vec3::Zero();
     for (int d = 0; d < 3; ++d) {
@@ -69,10 +153,17 @@ Vec3 mean_edges(const std::array<Vec3, 8>& corners)
     return mean;
 }
 
-double least_determinant(const std::array<Vec3, 8>& corners, const Vec3& box)
+double least_determinant(const std::array<Vec3, 8>& corners, const Vec3& box, CellKind kind)
 {
-    const Edges edges = edges_of(corners);
     double least = std::numeric_limits<double>::infinity();
+    if (kind == CellKind::wedge) {
+        each_wedge_corner([&](std::size_t at, std::size_t one, std::size_t other, std::size_t above) {
+            const Vec3 &p = corners[at], w = corners[above] - p;
+            least = std::min(least, (corners[one] - p).dot((corners[other] - p).cross(w)));
+        });
+        return least / box.prod();
+    }
+    const Edges edges = edges_of(corners);
     for (const auto& at : kAt) {
         least = std::min(least, edges[0][at[0]].dot(edges[1][at[1]].cross(edges[2][at[2]])));
     }
@@ -80,8 +171,9 @@ double least_determinant(const std::array<Vec3, 8>& corners, const Vec3& box)
 }
 
 double cell_energy(const CellEnergy& energy, const std::array<Vec3, 8>& corners, const Vec3& box,
-                   std::array<Vec3, 8>& slope)
+                   std::array<Vec3, 8>& slope, CellKind kind)
 {
+    if (kind == CellKind::wedge) return wedge_energy(energy, corners, box, slope);
     const Edges edges = edges_of(corners);
     Edges by_edge;
     for (auto& along : by_edge) along.fill(Vec3::Zero());
@@ -89,28 +181,8 @@ double cell_energy(const CellEnergy& energy, const std::array<Vec3, 8>& corners,
     const Vec3 by_square = box.cwiseAbs2().cwiseInverse();
     double sum = 0;
     for (const auto& at : kAt) {
-        const Vec3 &u = edges[0][at[0]], &v = edges[1][at[1]], &w = edges[2][at[2]];
-        const Vec3 vw = v.cross(w), wu = w.cross(u), uv = u.cross(v);
-        const double det = u.dot(vw);
-        const Vec3 squares(u.squaredNorm(), v.squaredNorm(), w.squaredNorm());
-        const Shape shape = shape_energy(energy.epsilon, det / volume, squares.dot(by_square));
-        sum += energy.shape * shape.value;
-        double by_det = energy.shape * shape.by_determinant / volume;
-        Vec3 by_edge_itself = 2 * energy.shape * shape.by_squares * by_square;
-        if (energy.sharpness > 0) {
-            const double lengths = std::sqrt(squares.prod());
-            if (lengths > 0) {
-                const double scaled = det / lengths;
-                const double term = std::exp(-energy.sharpness * scaled);
-                const double by_scaled = -energy.sharpness * term;
-                sum += term;
-                by_det += by_scaled / lengths;
-                by_edge_itself -= by_scaled * scaled * squares.cwiseInverse();
-            }
-        }
-        by_edge[0][at[0]] += by_det * vw + by_edge_itself[0] * u;
-        by_edge[1][at[1]] += by_det * wu + by_edge_itself[1] * v;
-        by_edge[2][at[2]] += by_det * uv + by_edge_itself[2] * w;
+        sum += corner_energy(energy, {&edges[0][at[0]], &edges[1][at[1]], &edges[2][at[2]]}, volume,
+                             by_square, 1, {&by_edge[0][at[0]], &by_edge[1][at[1]], &by_edge[2][at[2]]});
     }
     slope.fill(Vec3::Zero());
     for (std::size_t d = 0; d < 3; ++d) {

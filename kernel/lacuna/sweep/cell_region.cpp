@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numbers>
 
 namespace lacuna::sweep {
 
@@ -34,29 +35,50 @@ std::vector<char> locked_nodes(const mesh::HexMesh& mesh, const Sliding& sliding
     return locked;
 }
 
-/// The best a cell can become: the least sine of an angle between two edges that stay.
+CellKind kind_of(const Hex& hex) { return mesh::is_wedge(hex) ? CellKind::wedge : CellKind::hex; }
+
+std::array<Vec3, 6> wedge_corners(const std::array<Vec3, 8>& corners)
+{
+    return {corners[0], corners[1], corners[2], corners[4], corners[5], corners[6]};
+}
+
+double scaled_jacobian(const Hex& hex, const std::array<Vec3, 8>& corners)
+{
+    return mesh::is_wedge(hex) ? quality::wedge_scaled_jacobian(wedge_corners(corners))
+                               : quality::scaled_jacobian(corners);
+}
+
+bool certified_positive(const Hex& hex, const std::array<Vec3, 8>& corners)
+{
+    return mesh::is_wedge(hex) ? quality::wedge_certified_positive(wedge_corners(corners))
+                               : quality::certified_positive(corners);
+}
+
+/// The best a cell can become: the least sine of an angle between two edges that stay; in the triangles of
+/// wedges, over that of an even one.
 double bound_of(const std::array<Vec3, 8>& corners, const Hex& hex, const std::vector<char>& locked)
 {
     double bound = 1;
+    const bool wedge = mesh::is_wedge(hex);
+    const auto& neighbours = wedge ? mesh::kWedgeNeighbours : mesh::kHexNeighbours;
+    const double best = wedge ? 2 * std::numbers::inv_sqrt3 : 1;
     const auto stays = [&](std::size_t corner) { return locked[static_cast<std::size_t>(hex[corner])] != 0; };
     for (std::size_t c = 0; c < 8; ++c) {
         if (!stays(c)) continue;
-        if (stays(mesh::kHexNeighbours[c][0]) && stays(mesh::kHexNeighbours[c][1]) &&
-            stays(mesh::kHexNeighbours[c][2])) {
-            const Vec3 u = corners[mesh::kHexNeighbours[c][0]] - corners[c],
-                       v = corners[mesh::kHexNeighbours[c][1]] - corners[c],
-                       w = corners[mesh::kHexNeighbours[c][2]] - corners[c];
+        if (stays(neighbours[c][0]) && stays(neighbours[c][1]) && stays(neighbours[c][2])) {
+            const Vec3 u = corners[neighbours[c][0]] - corners[c], v = corners[neighbours[c][1]] - corners[c],
+                       w = corners[neighbours[c][2]] - corners[c];
             const double lengths = u.norm() * v.norm() * w.norm();
-            bound = std::min(bound, lengths > 0 ? std::abs(u.dot(v.cross(w))) / lengths : 0.0);
+            bound = std::min(bound, lengths > 0 ? best * std::abs(u.dot(v.cross(w))) / lengths : 0.0);
         }
         for (std::size_t i = 0; i < 3; ++i) {
-            const std::size_t a = mesh::kHexNeighbours[c][i], b = mesh::kHexNeighbours[c][(i + 1) % 3];
+            const std::size_t a = neighbours[c][i], b = neighbours[c][(i + 1) % 3];
             if (locked[static_cast<std::size_t>(hex[a])] == 0 ||
                 locked[static_cast<std::size_t>(hex[b])] == 0)
                 continue;
             const Vec3 u = corners[a] - corners[c], v = corners[b] - corners[c];
             const double lengths = u.norm() * v.norm();
-            bound = std::min(bound, lengths > 0 ? u.cross(v).norm() / lengths : 0.0);
+            bound = std::min(bound, lengths > 0 ? best * u.cross(v).norm() / lengths : 0.0);
         }
     }
     return bound;
@@ -70,14 +92,14 @@ constexpr double kLeastRoom = 0.01;
 std::vector<char> poor_cells(const mesh::HexMesh& mesh, const std::vector<char>& locked, double good_enough,
                              const RunContext& context)
 {
-    std::vector<char> poor(mesh.hex_count(), 0);
+    std::vector<char> poor(mesh.cell_count(), 0);
     parallel_for(context, poor.size(), kChunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
             const Hex hex = mesh.hex(c);
             const std::array<Vec3, 8> corners = corners_of(mesh.nodes, hex);
-            const double scaled = quality::scaled_jacobian(corners);
+            const double scaled = scaled_jacobian(hex, corners);
             if (scaled >= good_enough) {
-                poor[c] = quality::certified_positive(corners) ? 0 : 1;
+                poor[c] = certified_positive(hex, corners) ? 0 : 1;
             } else {
                 poor[c] = scaled <= 0 || scaled + kLeastRoom < bound_of(corners, hex, locked) ? 1 : 0;
             }
@@ -107,6 +129,8 @@ mesh::Incidence uses_of(const CellRegion& region)
     return mesh::incidence(region.free, [&](const auto& visit) {
         for (std::size_t c = 0; c < region.cells.size(); ++c) {
             for (std::size_t k = 0; k < 8; ++k) {
+                // Of corners that are one, the first stands for both.
+                if (k % 4 == 3 && mesh::is_wedge(region.cells[c])) continue;
                 if (index(region.cells[c][k]) < region.free)
                     visit(index(region.cells[c][k]), static_cast<Index>(8 * c + k));
             }
@@ -152,7 +176,7 @@ CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options,
         for (std::size_t k = 0; k < 8; ++k) local[k] = number[static_cast<std::size_t>(hex[k])];
         region.cells.push_back(local);
         const std::array<Vec3, 8> corners = corners_of(mesh.nodes, hex);
-        region.box.push_back(mean_edges(corners));
+        region.box.push_back(mean_edges(corners, kind_of(hex)));
         region.aim.push_back(std::min(options.good_enough, bound_of(corners, hex, held) - kLeastRoom));
     }
     region.uses = uses_of(region);
@@ -168,10 +192,11 @@ RegionQuality measure(const CellRegion& region, const std::vector<Vec3>& places,
         found.mean = 0;
         for (std::size_t c = begin; c < end; ++c) {
             const std::array<Vec3, 8> corners = corners_of(places, region.cells[c]);
-            double scaled = quality::scaled_jacobian(corners);
+            const Hex& hex = region.cells[c];
+            double scaled = scaled_jacobian(hex, corners);
             found.mean += scaled;
             // Valid at its corners is not yet valid.
-            if (scaled > 0 && !quality::certified_positive(corners)) scaled = 0;
+            if (scaled > 0 && !certified_positive(hex, corners)) scaled = 0;
             found.least = std::min(found.least, scaled);
             found.lacking += std::max(0.0, region.aim[c] - scaled);
         }
@@ -207,8 +232,9 @@ double RegionEnergy::operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradi
     parallel_for(context_, region_.cells.size(), kChunk, [&](std::size_t begin, std::size_t end) {
         std::array<Vec3, 8> slope;
         for (std::size_t c = begin; c < end; ++c) {
-            part[begin / kChunk] += cell_energy(energy, corners_of(places_, region_.cells[c]), region_.box[c],
-                                                slope);
+            const Hex& cell = region_.cells[c];
+            part[begin / kChunk] += cell_energy(energy, corners_of(places_, cell), region_.box[c], slope,
+                                                kind_of(cell));
             std::copy(slope.begin(), slope.end(), slopes_.begin() + static_cast<std::ptrdiff_t>(8 * c));
         }
     });
@@ -233,8 +259,9 @@ double RegionEnergy::least_determinant(const Eigen::VectorXd& x)
     parallel_for(context_, region_.cells.size(), kChunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
             double& least = part[begin / kChunk];
-            least = std::min(least,
-                             sweep::least_determinant(corners_of(places_, region_.cells[c]), region_.box[c]));
+            const Hex& cell = region_.cells[c];
+            least = std::min(
+                least, sweep::least_determinant(corners_of(places_, cell), region_.box[c], kind_of(cell)));
         }
     });
     return *std::min_element(part.begin(), part.end());

@@ -172,7 +172,9 @@ private:
                 nodes.push_back(quad[k]);
                 if (quad[k] < quad[(k + 1) % 4]) samples_.push_back({(a + b) / 2, area / 4, side, own});
             }
-            samples_.push_back({(c[0] + c[1] + c[2] + c[3]) / 4, area / 2, longest, own, across});
+            const Vec3 centre = mesh::is_triangle(quad) ? Vec3((c[0] + c[1] + c[2]) / 3)
+                                                        : Vec3((c[0] + c[1] + c[2] + c[3]) / 4);
+            samples_.push_back({centre, area / 2, longest, own, across});
         }
         // A node by its first quad.
         std::vector<std::size_t> order(nodes.size());
@@ -238,6 +240,7 @@ private:
             in_plane_.push_back(sample);
             for (std::size_t k = 0; k < 4; ++k) {
                 const Index next = quad[(k + 1) % 4];
+                if (!mesh::is_side(quad, k)) continue;
                 if (!border.has(quad[k])) continue;
                 samples_.push_back({c[k], 0, sample.side, own});
                 if (!border.has(next)) continue;
@@ -259,7 +262,9 @@ private:
             for (const Index n : patch_.quads[q]) points.push_back(node(n));
             const Vec3* c = &points[index(first)];
             const Vec3 one = (c[0] + c[2]) / 2, other = (c[1] + c[3]) / 2;
-            if ((one - other).norm() < kFlat * (c[2] - c[0]).norm()) {
+            if (mesh::is_triangle(patch_.quads[q])) {
+                triangles.push_back({first, first + 1, first + 2});
+            } else if ((one - other).norm() < kFlat * (c[2] - c[0]).norm()) {
                 triangles.push_back({first, first + 1, first + 2});
                 triangles.push_back({first, first + 2, first + 3});
             } else {

@@ -20,13 +20,14 @@ bool before(const Vec3& a, const Vec3& b)
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
-/// Points of a face that are to be nodes: of its quads, or of its rim where it has triangles.
-std::set<Index> nodes_to_keep(const Model& model, const Face& face)
+/// Points of a face that are to be nodes: of its cells where those stay, else of its rim.
+std::set<Index> nodes_to_keep(const Model& model, const Face& face, bool whole)
 {
     std::set<Index> nodes;
-    for (const Quad& quad : face.given_quads) nodes.insert(quad.begin(), quad.end());
-    if (has_quads_all_over(face)) return nodes;
-    nodes.clear();
+    if (whole) {
+        for (const Triangle& t : face.triangles) nodes.insert(t.begin(), t.end());
+        return nodes;
+    }
     for (const Loop& loop : face.loops) {
         for (const EdgeUse& use : loop.uses) {
             const std::vector<Index>& points = model[use.edge].points;
@@ -58,7 +59,7 @@ GivenMeshes given_meshes(const OpenVolume& volume, std::vector<surface::LinkingS
         const std::vector<double> heights = surface::given_heights(volume.model, given.columns);
         if (!heights.empty()) given.heights = heights;
     }
-    surface::keep_given_nodes(volume, given.columns, links, given.notes);
+    surface::keep_given_nodes(volume, given.columns, links, given.notes, options.wedges);
     return given;
 }
 
@@ -86,17 +87,19 @@ std::vector<double> default_heights(const std::vector<surface::LinkingSurface>& 
     return layer_heights(spec);
 }
 
-std::set<FaceId> given_faces(const OpenVolume& volume, std::set<FaceId> faces)
+std::set<FaceId> given_faces(const OpenVolume& volume, std::set<FaceId> faces, bool wedges)
 {
     for (const Role role : {Role::wall, Role::target}) {
         for (const FaceId face : volume.faces(role)) {
-            if (volume.model[face].keeps_nodes && !volume.model[face].given_quads.empty()) faces.insert(face);
+            const Face& f = volume.model[face];
+            const bool triangles = wedges && role == Role::target;
+            if (f.keeps_nodes && (triangles || !f.given_quads.empty())) faces.insert(face);
         }
     }
     return faces;
 }
 
-void report_given(const OpenVolume& volume, Swept& swept)
+void report_given(const OpenVolume& volume, Swept& swept, bool wedges)
 {
     const Model& model = volume.model;
     std::vector<Vec3> skin;
@@ -110,13 +113,13 @@ void report_given(const OpenVolume& volume, Swept& swept)
             }
             std::sort(skin.begin(), skin.end(), before);
         }
-        const std::set<Index> nodes = nodes_to_keep(model, face);
+        const bool whole = has_cells_to_keep(face, wedges && volume.role[f] != Role::wall);
+        const std::set<Index> nodes = nodes_to_keep(model, face, whole);
         const auto found = std::count_if(nodes.begin(), nodes.end(), [&](Index point) {
             return std::binary_search(skin.begin(), skin.end(), model.at(point), before);
         });
-        const bool quads = has_quads_all_over(face);
         swept.report.push_back("given: " + name_of(model, FaceId(f)) + ": " + std::to_string(found) + " of " +
-                               std::to_string(nodes.size()) + (quads ? "" : " rim") + " nodes coincide");
+                               std::to_string(nodes.size()) + (whole ? "" : " rim") + " nodes coincide");
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/parallel.h>
+#include <lacuna/mesh/quad_mesh.h>
 
 #include <Eigen/SparseCholesky>
 
@@ -38,12 +39,13 @@ std::vector<char> joined_to(const NodeGraph& graph, std::span<const Index> fixed
 
 NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes)
 {
-    // Every quad offers two neighbours to each corner; sides two quads share are offered twice, then weeded.
+    // Every side offers each of its ends to the other; sides two quads share are offered twice, then weeded.
     mesh::Incidence offered = mesh::incidence(nodes, [&](const auto& visit) {
         for (const Quad& quad : quads) {
             for (std::size_t i = 0; i < 4; ++i) {
+                if (!mesh::is_side(quad, i)) continue;
                 visit(index(quad[i]), quad[(i + 1) % 4]);
-                visit(index(quad[i]), quad[(i + 3) % 4]);
+                visit(index(quad[(i + 1) % 4]), quad[i]);
             }
         }
     });
@@ -71,8 +73,10 @@ std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> q
     };
     const auto at = [&](Index node) -> const Vec3& { return nodes[static_cast<std::size_t>(node)]; };
     for (const Quad& q : quads) {
-        const Vec3 middle = (at(q[0]) + at(q[1]) + at(q[2]) + at(q[3])) / 4;
+        const Vec3 middle = mesh::is_triangle(q) ? Vec3((at(q[0]) + at(q[1]) + at(q[2])) / 3)
+                                                 : Vec3((at(q[0]) + at(q[1]) + at(q[2]) + at(q[3])) / 4);
         for (std::size_t i = 0; i < 4; ++i) {
+            if (!mesh::is_side(q, i)) continue;
             const Index from = q[i];
             const Index to = q[(i + 1) % 4];
             const double across = (middle - (at(from) + at(to)) / 2).norm();

@@ -115,6 +115,7 @@ double shortest_side(std::span<const Quad> quads, std::span<const Vec3> nodes)
     double shortest = std::numeric_limits<double>::infinity();
     for (const Quad& quad : quads) {
         for (std::size_t i = 0; i < 4; ++i) {
+            if (!mesh::is_side(quad, i)) continue;
             const Vec3& from = nodes[static_cast<std::size_t>(quad[i])];
             const Vec3& to = nodes[static_cast<std::size_t>(quad[(i + 1) % 4])];
             shortest = std::min(shortest, (to - from).squaredNorm());

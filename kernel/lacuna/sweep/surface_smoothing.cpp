@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -70,7 +71,8 @@ std::vector<Vec3> node_normals(std::span<const Quad> quads, std::span<const Vec3
     std::vector<Vec3> normals(nodes.size(), Vec3::Zero());
     for (const Quad& q : quads) {
         const Vec3 area = (at(nodes, q[2]) - at(nodes, q[0])).cross(at(nodes, q[3]) - at(nodes, q[1]));
-        for (const Index node : q) normals[static_cast<std::size_t>(node)] += area;
+        for (std::size_t k = 0; k < mesh::corner_count(q); ++k)
+            normals[static_cast<std::size_t>(q[k])] += area;
     }
     return normals;
 }
@@ -85,11 +87,14 @@ double quad_quality(const Quad& quad, std::span<const Vec3> nodes, std::span<con
     normal /= normal.dot(around) < 0 ? -length : length;
 
     double worst = 1;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const Vec3 out = at(nodes, quad[(i + 1) % 4]) - at(nodes, quad[i]);
-        const Vec3 in = at(nodes, quad[(i + 3) % 4]) - at(nodes, quad[i]);
+    const std::size_t corners = mesh::corner_count(quad);
+    // An even triangle is as good as a square.
+    const double best = corners == 3 ? 2 * std::numbers::inv_sqrt3 : 1;
+    for (std::size_t i = 0; i < corners; ++i) {
+        const Vec3 out = at(nodes, quad[(i + 1) % corners]) - at(nodes, quad[i]);
+        const Vec3 in = at(nodes, quad[(i + corners - 1) % corners]) - at(nodes, quad[i]);
         const double sides = out.norm() * in.norm();
-        worst = std::min(worst, sides > 0 ? out.cross(in).dot(normal) / sides : -1.0);
+        worst = std::min(worst, sides > 0 ? best * out.cross(in).dot(normal) / sides : -1.0);
     }
     return worst;
 }

@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
+#include <lacuna/quads/odd_region.h>
 #include <lacuna/quads/pave.h>
 #include <lacuna/quads/submap.h>
 #include <lacuna/quality/quality.h>
@@ -67,6 +68,16 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options)
     const bool grids = options.quads != Quads::paved && options.gap == 0;
     return [rows = options.rows, grids](const quads::PlanarRegion& region, const RunContext& context) {
         return quads::pave(region, {.exact_rows = rows, .grids = grids}, context).mesh;
+    };
+}
+
+/// The same for regions that may have an odd number of sides.
+quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options)
+{
+    quads::PlanarQuadMesher mesher = mesher_of(options);
+    if (!options.wedges || !mesher) return mesher;
+    return [mesher = std::move(mesher)](const quads::PlanarRegion& region, const RunContext& context) {
+        return quads::fill_odd_region(region, mesher, context);
     };
 }
 
@@ -288,24 +299,25 @@ LayerNodes best_layers(const surface::SourceMesh& source, const Morphed& morphed
     return least(plain) > with ? plain : spread;
 }
 
-/// Whether all faces of an end came with quads all over.
-bool is_all_quads(const OpenVolume& volume, Role end)
+/// Whether all faces of an end came with a mesh that can stay.
+bool came_with_mesh(const OpenVolume& volume, Role end, bool wedges)
 {
     const std::vector<FaceId> faces = volume.faces(end);
     return std::all_of(faces.begin(), faces.end(), [&](FaceId id) {
         const Face& face = volume.model[id];
-        return face.keeps_nodes && has_quads_all_over(face);
+        return face.keeps_nodes && has_cells_to_keep(face, wedges);
     });
 }
 
-/// The inner edges of the target on the source; nothing where it has none, or where both ends came with quads
-/// that may be the same graph.
+/// The inner edges of the target on the source; nothing where it has none, or where both ends came with
+/// meshes that may be the same graph.
 std::optional<surface::Imprint> imprint_of(const OpenVolume& volume,
                                            const std::vector<surface::LinkingSurface>& links,
-                                           const surface::SizeField& size)
+                                           const surface::SizeField& size, bool wedges)
 {
     if (surface::inner_edges(volume, Role::target).empty()) return std::nullopt;
-    if (is_all_quads(volume, Role::source) && is_all_quads(volume, Role::target)) return std::nullopt;
+    if (came_with_mesh(volume, Role::source, wedges) && came_with_mesh(volume, Role::target, wedges))
+        return std::nullopt;
     return surface::imprint_target(volume, links, size);
 }
 
@@ -316,7 +328,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
                           const SweepOptions& options, const RunContext& context)
 {
     Swept result;
-    std::optional<surface::Imprint> imprint = imprint_of(volume, given_links, size);
+    std::optional<surface::Imprint> imprint = imprint_of(volume, given_links, size, options.wedges);
     const OpenVolume& split = imprint ? *imprint->volume : volume;
     std::vector<surface::LinkingSurface>& links = imprint ? imprint->links : given_links;
     GivenMeshes given = given_meshes(split, links, asked, options);
@@ -325,10 +337,10 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     for (std::string& note : given.notes) result.report.push_back("given: " + note);
     const surface::Seeds seeds = surface::seed_source(
         split, links, size, style_of(options), {options.curvature, options.gap},
-        imprint ? surface::image_lengths(*imprint) : std::map<EdgeId, double>{});
+        imprint ? surface::image_lengths(*imprint) : std::map<EdgeId, double>{}, options.wedges);
     for (const std::string& note : seeds.notes) result.report.push_back("given: " + note);
     surface::SourceMesh source = surface::mesh_source(split, links, seeds, size_fields(size, options),
-                                                      mesher_of(options), context);
+                                                      mesher_for_all(options), context);
     for (std::string& note : source.notes) result.report.push_back("source " + note);
     std::vector<surface::WallMesh> walls;
     const RimColumns columns = columns_of(split, links, given.columns, source, heights, walls, context);
@@ -339,7 +351,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
 
     std::string why;
     std::optional<surface::GivenTarget> given_target;
-    if (!imprint) given_target = surface::given_target(volume, links, source, why);
+    if (!imprint) given_target = surface::given_target(volume, links, source, why, options.wedges);
     if (!given_target && !imprint && !surface::inner_edges(volume, Role::target).empty())
         imprint = surface::imprint_target(volume, links, size); // refuses what keeps its quads, by name
     EndFaces ends = end_faces(volume, source, imprint);
@@ -375,14 +387,18 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
         result.report.push_back("walls: " + name_of(volume.model, wall) +
                                 " is smaller than the quads there and has none, nor a group");
     }
-    quality::Proof proof = prove_or_improve(result, volume.model, faces, given_faces(volume, seeds.kept),
-                                            options, context);
+    quality::Proof proof = prove_or_improve(
+        result, volume.model, faces, given_faces(volume, seeds.kept, options.wedges), options, context);
     const quality::Quality& quality = proof.quality;
     result.min_scaled_jacobian = quality.min_scaled_jacobian;
-    result.report.push_back("cells: " + std::to_string(quality.hexes) + ", all certified, scaled Jacobian " +
+    const std::string wedges = quality.wedges > 0
+                                   ? " hexahedra and " + std::to_string(quality.wedges) + " wedges"
+                                   : "";
+    result.report.push_back("cells: " + std::to_string(quality.hexes) + wedges +
+                            ", all certified, scaled Jacobian " +
                             std::to_string(quality.min_scaled_jacobian) + " at least, " +
                             std::to_string(quality.mean_scaled_jacobian) + " on average");
-    report_given(volume, result);
+    report_given(volume, result, options.wedges);
     return {std::move(result), std::move(proof), faces, seeds.kept};
 }
 

@@ -56,10 +56,14 @@ struct SweepOptions {
     /// Where straight sides on bends leave the mesh's volume further off the sealed one than this share,
     /// bends get more sides, as far as that helps [0, 1); 0: never.
     double volume_share = 0.02;
-    int gap = 0;             ///< quads at least across a narrow place of the source, >= 0; 0: none
+    int gap = 0; ///< quads at least across a narrow place of the source, >= 0; 0: none
     /// How far the skin may be from the sealed skin, >= 0 [model length]; 0: what `FidelityOptions` says.
     double max_deviation = 0;
     Quads quads = Quads::automatic;
+    /// Triangles that an end came with stay, and wedges stand on them. Where all sides of a rim are given and
+    /// their number is odd, one triangle makes up for it. Without: such an end is an error, or a side is
+    /// divided.
+    bool wedges = false;
     int rows = 0; ///< exact rows along every loop of the source, >= 0; needs quads automatic or paved
     surface::SizeField row_height;       ///< of those rows; null: the size
     quads::PlanarQuadMesher quad_mesher; ///< what `Quads::gmsh` calls for
@@ -85,10 +89,14 @@ struct Swept {
     std::vector<std::string> report; ///< a line a stage: seeds, quads, walls, target, layers, shape
 };
 
-/// Fill a sealed volume with hexahedra. What goes with what is read off the sealed walls.
+/// Fill a sealed volume with hexahedra, and with wedges where those are asked for. What goes with what is
+/// read off the sealed walls.
 ///
 /// Meshes that faces came with stay, node for node: the source's quads, rows of quads on walls, the target's
 /// quads where they are laid out as the source's, and the nodes of all their rims. The report counts them.
+/// What is a mesh and what a shape: a face that came with quads is a mesh, so that triangles among them are
+/// cells too. A face of triangles alone is a shape, whose inside is meshed anew; with `wedges` it is a mesh
+/// as well, if it keeps its nodes. Who names a way of meshing (`Quads::paved`) has all meshed anew.
 ///
 /// Edges between the faces of an end, and those that run round the walls, become chains of mesh edges. The
 /// sweep runs from source to target, or back where that is better; the report says which, and `mesh` counts

@@ -202,6 +202,31 @@ bool has_quads_all_over(const Face& face)
     return !face.given_quads.empty() && 2 * face.given_quads.size() == face.triangles.size();
 }
 
+std::vector<Triangle> loose_triangles(const Face& face)
+{
+    const auto key = [](Index a, Index b, Index c) {
+        Triangle sorted{a, b, c};
+        std::sort(sorted.begin(), sorted.end());
+        return sorted;
+    };
+    std::vector<Triangle> halves;
+    halves.reserve(4 * face.given_quads.size());
+    for (const Quad& q : face.given_quads) {
+        for (std::size_t k = 0; k < 4; ++k) halves.push_back(key(q[k], q[(k + 1) % 4], q[(k + 2) % 4]));
+    }
+    std::sort(halves.begin(), halves.end());
+    std::vector<Triangle> loose;
+    for (const Triangle& t : face.triangles) {
+        if (!std::binary_search(halves.begin(), halves.end(), key(t[0], t[1], t[2]))) loose.push_back(t);
+    }
+    return loose;
+}
+
+bool has_cells_to_keep(const Face& face, bool wedges)
+{
+    return has_quads_all_over(face) || (wedges && face.keeps_nodes);
+}
+
 Vec3 face_area_vector(const Model& model, FaceId face)
 {
     Vec3 sum = Vec3::Zero();

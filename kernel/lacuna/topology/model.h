@@ -111,6 +111,11 @@ double face_area(const Model& model, FaceId face);
 Vec3 face_area_vector(const Model& model, FaceId face);
 /// Whether the face came with quads that cover it.
 bool has_quads_all_over(const Face& face);
+/// Facets that are no halves of the quads the face came with. O(facets log).
+std::vector<Triangle> loose_triangles(const Face& face);
+/// Whether the cells the face came with can be its mesh: quads all over, or, with wedges on them, triangles
+/// too of a face that came as a mesh.
+bool has_cells_to_keep(const Face& face, bool wedges);
 /// Area-weighted centre of the facets.
 Vec3 face_centroid(const Model& model, FaceId face);
 

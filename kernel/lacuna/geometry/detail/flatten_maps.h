@@ -45,6 +45,12 @@ Positions injective(const Facets& facets, Positions positions, int max_iteration
 /// Harmonic map onto a disc of the facets' area, holes filled meanwhile.
 Positions convex(const Facets& facets);
 
+/// Facets with two loops onto a ring of the plane, the longer loop outside. The logarithm of the radii goes
+/// with a harmonic height, over such a range that small circles stay as round as one number can make them;
+/// the angles are harmonic, on both loops by their lengths. Empty where the ring would be too wide.
+/// @pre  two loops
+Positions ring(const Facets& facets);
+
 /// Scale about the mean so that the triangles' signed areas sum to the facets' area.
 void scale_to_area(const Facets& facets, Positions& positions);
 

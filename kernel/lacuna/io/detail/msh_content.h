@@ -38,12 +38,13 @@ private:
     std::vector<PhysicalName> names_;
 };
 
-/// A surface entity: a skin patch that has quads.
+/// A surface entity: a skin patch that has quads or triangles.
 struct MshSurface {
     int tag = 0;
     std::vector<int> physical; ///< tags of its groups, rising
     Eigen::AlignedBox3d box;
-    std::size_t begin = 0, end = 0; ///< its quads in `MshContent::skin`
+    std::size_t begin = 0, end = 0; ///< its quads and triangles in `MshContent::skin`
+    std::size_t triangles = 0;      ///< the last of them
 };
 
 struct MshContent {
@@ -51,7 +52,7 @@ struct MshContent {
     std::vector<MshSurface> surfaces;
     std::vector<int> volume_physical;
     Eigen::AlignedBox3d box;
-    std::vector<std::uint32_t> skin; ///< numbers of all skin quads, patch after patch
+    std::vector<std::uint32_t> skin; ///< numbers of all skin quads, patch after patch, triangles last in each
 };
 
 inline constexpr int kVolumeTag = 1;

@@ -33,4 +33,9 @@ struct VtkCells {
 /// @throw InvalidInput  a point or a type that is not there, ends that do not rise; `cursor` says where.
 void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& cursor);
 
+/// Bring wedges into the order of `mesh::Wedge`. VTK's own has the triangle 0-1-2 look away from 3-4-5, and
+/// VTK's volumes are negative otherwise; Gmsh and meshio write wedges the other way round all the same. Which
+/// of the two a file means is told by the sum of their volumes.
+void turn_vtk_wedges(Deck& deck);
+
 } // namespace lacuna::io

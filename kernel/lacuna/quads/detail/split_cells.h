@@ -8,14 +8,13 @@
 
 namespace lacuna::quads {
 
-/// Quads and triangles of the plane, counter-clockwise; a triangle has its last corner twice. The first
-/// `fixed` points are the boundary's and stay where they are.
+/// Quads and triangles of the plane, counter-clockwise; triangles as `mesh::is_triangle()` has them. The
+/// first `fixed` points are the boundary's and stay where they are.
 struct MixedMesh {
     std::vector<Vec2> points;
     std::vector<Quad> cells;
     std::size_t fixed = 0;
 
-    [[nodiscard]] static bool is_triangle(const Quad& cell) { return cell[2] == cell[3]; }
     [[nodiscard]] const Vec2& at(Index p) const { return points[index(p)]; }
 };
 

@@ -3,6 +3,7 @@
 
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/quality/detail/cell_batch.h>
+#include <lacuna/quality/detail/wedge.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -18,6 +19,9 @@ using LevelCorners = std::array<const Vec3*, 4>;
 /// Cells of a swept mesh: columns of cells on the source quads.
 struct SweptCells {
     const mesh::HexMesh& mesh;
+    std::size_t hex_columns = mesh.quads.size() - mesh.triangle_count();
+
+    [[nodiscard]] bool is_wedge(std::size_t column) const { return column >= hex_columns; }
 
     [[nodiscard]] std::size_t columns() const { return mesh.quads.size(); }
     [[nodiscard]] std::size_t layers() const { return static_cast<std::size_t>(mesh.layers); }
@@ -34,6 +38,8 @@ struct SweptCells {
 struct ListedCells {
     std::span<const Vec3> nodes;
     std::span<const Hex> hexes;
+
+    [[nodiscard]] bool is_wedge(std::size_t column) const { return mesh::is_wedge(hexes[column]); }
 
     [[nodiscard]] std::size_t columns() const { return hexes.size(); }
     [[nodiscard]] std::size_t layers() const { return 1; }
@@ -85,11 +91,35 @@ void for_each_batch(const Cells& cells, std::size_t begin, std::size_t end, cons
     }
 }
 
+/// The corners of wedge `cell`. @pre cells.is_wedge(cell % cells.columns())
+template <class Cells>
+WedgeCorners wedge_corners(const Cells& cells, std::size_t cell)
+{
+    const std::size_t column = cell % cells.columns(), layer = cell / cells.columns();
+    const LevelCorners low = cells.corners(column, layer), high = cells.corners(column, layer + 1);
+    return {*low[0], *low[1], *low[2], *high[0], *high[1], *high[2]};
+}
+
+/// Call `body(lane, corners)` for the wedges of a batch, whose values as hexahedra mean nothing.
+template <class Cells, class Body>
+void for_each_wedge(const Cells& cells, std::size_t first, int filled, const Body& body)
+{
+    const std::size_t column = first % cells.columns();
+    for (int lane = 0; lane < filled; ++lane) {
+        const auto k = static_cast<std::size_t>(lane);
+        if (cells.is_wedge(column + k)) body(lane, wedge_corners(cells, first + k));
+    }
+}
+
 /// Mean of the corners of cell `cell`.
 template <class Cells>
 Vec3 centre_of(const Cells& cells, std::size_t cell)
 {
     Vec3 centre(0, 0, 0);
+    if (cells.is_wedge(cell % cells.columns())) {
+        for (const Vec3& corner : wedge_corners(cells, cell)) centre += corner / 6;
+        return centre;
+    }
     const std::size_t layer = cell / cells.columns();
     for (const std::size_t level : {layer, layer + 1})
         for (const Vec3* corner : cells.corners(cell % cells.columns(), level)) centre += 0.125 * *corner;

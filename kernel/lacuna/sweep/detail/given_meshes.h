@@ -29,10 +29,11 @@ GivenMeshes given_meshes(const topology::OpenVolume& volume, std::vector<surface
 std::vector<double> default_heights(const std::vector<surface::LinkingSurface>& links,
                                     const surface::SizeField& size, LayerSpec spec);
 
-/// `faces`, and walls and targets with quads of their own: their nodes take no part in improving.
-std::set<FaceId> given_faces(const topology::OpenVolume& volume, std::set<FaceId> faces);
+/// `faces`, walls and targets with quads of their own: their nodes take no part in improving.
+std::set<FaceId> given_faces(const topology::OpenVolume& volume, std::set<FaceId> faces, bool wedges);
 
 /// A line of the report for each face that keeps its nodes: how many of them are nodes of the mesh.
-void report_given(const topology::OpenVolume& volume, Swept& swept);
+/// @param wedges  triangles of the ends stay as well.
+void report_given(const topology::OpenVolume& volume, Swept& swept, bool wedges);
 
 } // namespace lacuna::sweep

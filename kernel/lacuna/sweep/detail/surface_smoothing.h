@@ -15,7 +15,8 @@ namespace lacuna::sweep {
 std::vector<Vec3> node_normals(std::span<const Quad> quads, std::span<const Vec3> nodes);
 
 /// Smallest scaled Jacobian at the corners of a quad, seen along its own normal turned to the side its nodes'
-/// normals are on: 1 for a rectangle, 0 for a corner without an angle, negative where folded over.
+/// normals are on: 1 for a rectangle, or an even triangle, 0 for a corner without an angle, negative
+/// where folded over.
 double quad_quality(const Quad& quad, std::span<const Vec3> nodes, std::span<const Vec3> normals);
 
 /// The worst of all quads; 1 for none.

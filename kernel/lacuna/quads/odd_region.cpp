@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/odd_region.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/mesh/incidence.h>
+#include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/quads/measure_plane.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <set>
+
+namespace lacuna::quads {
+namespace {
+
+/// Sides that are divided at most, and the worst cell that ends the search: as `ImproveOptions` of a sweep
+/// calls cells good enough.
+constexpr std::size_t kMostSides = 4;
+constexpr double kGoodEnough = 0.5;
+/// Quads of a row that may become the triangle. A choice, not a measurement.
+constexpr std::size_t kMostSteps = 8;
+/// Rings of neighbours round what was closed whose nodes move, and rounds of moving them: choices, not
+/// measurements.
+constexpr int kRings = 3;
+constexpr int kRounds = 30;
+
+/// A side of the region's loops, in the order they are worth dividing.
+struct Side {
+    std::size_t loop, place;
+    double length; ///< over the size there
+};
+
+std::vector<Side> sides_by_length(const PlanarRegion& region)
+{
+    std::vector<Side> sides;
+    for (std::size_t l = 0; l < region.loops.size(); ++l) {
+        const std::vector<Index>& loop = region.loops[l];
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec2& a = region.points[index(loop[i])];
+            const Vec2& b = region.points[index(loop[(i + 1) % loop.size()])];
+            const double size = region.size ? region.size((a + b) / 2) : 1;
+            sides.push_back({l, i, (b - a).norm() / size});
+        }
+    }
+    std::stable_sort(sides.begin(), sides.end(),
+                     [](const Side& a, const Side& b) { return a.length > b.length; });
+    return sides;
+}
+
+/// Of a quad, or of a triangle over that of an even one.
+double quality_of(std::span<const Vec2> points, const Quad& cell)
+{
+    if (!mesh::is_triangle(cell)) return scaled_jacobian(points, cell);
+    double least = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec2& p = points[index(cell[k])];
+        const Vec2 a = points[index(cell[(k + 1) % 3])] - p, b = points[index(cell[(k + 2) % 3])] - p;
+        const double lengths = a.norm() * b.norm();
+        const double sine = lengths > 0 ? (a.x() * b.y() - a.y() * b.x()) / lengths : -1;
+        least = std::min(least, 2 * std::numbers::inv_sqrt3 * sine);
+    }
+    return least;
+}
+
+/// A mesh of the divided region with a row closed, and how good its cells are round there.
+struct Closed {
+    PlanarQuads mesh;
+    std::vector<Index> near; ///< nodes where rows were closed
+    double worst = -1, mean = -1;
+
+    [[nodiscard]] bool better_than(const Closed& other) const
+    {
+        return std::pair(std::min(worst, kGoodEnough), mean) >
+               std::pair(std::min(other.worst, kGoodEnough), other.mean);
+    }
+};
+
+/// Moves nodes so that the worst of the cells round each grows.
+class Smoother {
+public:
+    Smoother(Closed& closed, std::size_t fixed)
+        : closed_(closed),
+          points_(closed.mesh.points),
+          quads_(closed.mesh.quads),
+          at_(mesh::quads_at_nodes(quads_, points_.size()))
+    {
+        std::set<Index> reached(closed.near.begin(), closed.near.end());
+        for (int ring = 0; ring < kRings; ++ring) {
+            std::set<Index> next = reached;
+            for (const Index n : reached) {
+                for (const Index q : at_.of(index(n)))
+                    next.insert(quads_[index(q)].begin(), quads_[index(q)].end());
+            }
+            reached = std::move(next);
+        }
+        std::set<Index> cells;
+        for (const Index n : reached) {
+            cells.insert(at_.of(index(n)).begin(), at_.of(index(n)).end());
+            if (index(n) >= fixed) free_.push_back(n);
+        }
+        cells_.assign(cells.begin(), cells.end());
+    }
+
+    void run()
+    {
+        for (int round = 0; round < kRounds; ++round) {
+            bool moved = false;
+            for (const Index n : free_) moved = move(n) || moved;
+            if (!moved) break;
+        }
+        closed_.worst = 1;
+        closed_.mean = 0;
+        for (const Index q : cells_) {
+            const double quality = quality_of(points_, quads_[index(q)]);
+            closed_.worst = std::min(closed_.worst, quality);
+            closed_.mean += quality / static_cast<double>(cells_.size());
+        }
+    }
+
+private:
+    [[nodiscard]] double worst_at(Index n) const
+    {
+        double worst = 1;
+        for (const Index q : at_.of(index(n))) worst = std::min(worst, quality_of(points_, quads_[index(q)]));
+        return worst;
+    }
+
+    /// To the mean of the neighbours, or a step to one of eight sides, whichever is best.
+    bool move(Index n)
+    {
+        constexpr int kDirections = 8;
+        constexpr std::array kSteps{0.2, 0.05, 0.0125}; // of the mean side; choices, not measurements
+        constexpr double kGain = 1e-3;                  // less is not worth a move
+        Vec2 mean = Vec2::Zero();
+        double side = 0, count = 0;
+        for (const Index q : at_.of(index(n))) {
+            const Quad& cell = quads_[index(q)];
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Index a = cell[k], b = cell[(k + 1) % 4];
+                if (!mesh::is_side(cell, k) || (a != n && b != n)) continue;
+                const Vec2& other = points_[index(a == n ? b : a)];
+                mean += other;
+                side += (other - points_[index(n)]).norm();
+                ++count;
+            }
+        }
+        mean /= count;
+        side /= count;
+        Vec2 best = points_[index(n)];
+        const Vec2 old = best;
+        double worst = worst_at(n);
+        bool moved = false;
+        const auto offer = [&](const Vec2& place) {
+            points_[index(n)] = place;
+            const double found = worst_at(n);
+            if (found <= worst + kGain) return;
+            worst = found;
+            best = place;
+            moved = true;
+        };
+        offer(mean);
+        for (const double step : kSteps) {
+            for (int d = 0; d < kDirections; ++d) {
+                const double angle = 2 * std::numbers::pi * d / kDirections;
+                offer(old + step * side * Vec2(std::cos(angle), std::sin(angle)));
+            }
+        }
+        points_[index(n)] = best;
+        return moved;
+    }
+
+    Closed& closed_;
+    std::vector<Vec2>& points_;
+    const std::vector<Quad>& quads_;
+    mesh::Incidence at_;
+    std::vector<Index> free_, cells_;
+};
+
+/// Closes rows of a mesh of the divided region.
+class RowCloser {
+public:
+    /// @param middle  the node that was added; those before it are the region's.
+    RowCloser(const PlanarQuads& mesh, Index middle)
+        : mesh_(mesh),
+          middle_(middle),
+          opposite_(mesh::opposite_sides(mesh.quads, static_cast<Index>(mesh.points.size()))),
+          on_rim_(mesh.points.size(), 0)
+    {
+        for (std::size_t side = 0; side < opposite_.size(); ++side) {
+            if (opposite_[side] == mesh::kRimSide) on_rim_[index(mesh.quads[side / 4][side % 4])] = 1;
+        }
+    }
+
+    /// Every way of closing: from either side of the rim that ends at the middle node, up to each of the
+    /// first quads of the row.
+    [[nodiscard]] std::vector<Closed> run() const
+    {
+        std::vector<Closed> found;
+        for (std::size_t side = 0; side < opposite_.size(); ++side) {
+            if (opposite_[side] != mesh::kRimSide) continue;
+            if (from(side) == middle_ || to(side) == middle_) add_row(static_cast<Index>(side), found);
+        }
+        return found;
+    }
+
+private:
+    [[nodiscard]] Index from(std::size_t side) const { return mesh_.quads[side / 4][side % 4]; }
+    [[nodiscard]] Index to(std::size_t side) const { return mesh_.quads[side / 4][(side + 1) % 4]; }
+
+    /// Of a row across sides, each closed to one node until a quad is left that becomes the triangle.
+    void add_row(Index side, std::vector<Closed>& found) const
+    {
+        std::vector<Segment> closed;
+        std::vector<Index> gone;
+        std::set<Index> touched;
+        for (std::size_t step = 0; step < kMostSteps && side >= 0; ++step) {
+            const Index a = from(index(side)), b = to(index(side));
+            // Two nodes of the boundary stay two, but for the one that was added.
+            const bool both = on_rim_[index(a)] != 0 && on_rim_[index(b)] != 0;
+            if ((step > 0 && both) || !touched.insert(a).second || !touched.insert(b).second) return;
+            closed.push_back({a, b});
+            if (std::optional<Closed> mesh = close(closed, gone, side / 4)) found.push_back(std::move(*mesh));
+            gone.push_back(side / 4);
+            side = opposite_[index(side / 4 * 4 + (side + 2) % 4)];
+        }
+    }
+
+    /// @param gone  quads that vanish; `last` becomes the triangle.
+    [[nodiscard]] std::optional<Closed> close(const std::vector<Segment>& closed,
+                                              const std::vector<Index>& gone, Index last) const
+    {
+        std::vector<Vec2> points = mesh_.points;
+        std::vector<Index> to(points.size());
+        std::iota(to.begin(), to.end(), 0);
+        Closed result;
+        for (const Segment& side : closed) {
+            Index stays = side[0], goes = side[1];
+            const bool swap = stays == middle_ || (goes != middle_ && on_rim_[index(goes)] != 0);
+            if (swap) std::swap(stays, goes);
+            if (on_rim_[index(stays)] == 0)
+                points[index(stays)] = (points[index(stays)] + points[index(goes)]) / 2;
+            to[index(goes)] = stays;
+            result.near.push_back(stays);
+        }
+        std::vector<Index> number(points.size(), -1);
+        for (std::size_t n = 0; n < points.size(); ++n) {
+            if (to[n] != static_cast<Index>(n)) continue;
+            number[n] = static_cast<Index>(result.mesh.points.size());
+            result.mesh.points.push_back(points[n]);
+        }
+        for (Index& n : result.near) n = number[index(n)];
+        std::optional<Quad> triangle;
+        for (std::size_t q = 0; q < mesh_.quads.size(); ++q) {
+            if (std::find(gone.begin(), gone.end(), static_cast<Index>(q)) != gone.end()) continue;
+            std::vector<Index> corners;
+            for (const Index n : mesh_.quads[q]) {
+                const Index own = number[index(to[index(n)])];
+                if (std::find(corners.begin(), corners.end(), own) == corners.end()) corners.push_back(own);
+            }
+            const bool is_last = static_cast<Index>(q) == last;
+            if (corners.size() != (is_last ? 3 : 4)) return std::nullopt;
+            if (is_last)
+                triangle = Quad{corners[0], corners[1], corners[2], corners[2]};
+            else
+                result.mesh.quads.push_back({corners[0], corners[1], corners[2], corners[3]});
+        }
+        result.mesh.quads.push_back(*triangle);
+        result.mesh.how = mesh_.how;
+        Smoother(result, index(middle_)).run();
+        return result;
+    }
+
+    const PlanarQuads& mesh_;
+    Index middle_;
+    std::vector<Index> opposite_;
+    std::vector<char> on_rim_;
+};
+
+} // namespace
+
+PlanarQuads fill_odd_region(const PlanarRegion& region, const PlanarQuadMesher& mesher,
+                            const RunContext& context)
+{
+    std::size_t count = 0;
+    for (const std::vector<Index>& loop : region.loops) count += loop.size();
+    if (count % 2 == 0) return mesher(region, context);
+    std::optional<Closed> best;
+    const std::vector<Side> sides = sides_by_length(region);
+    const auto middle = static_cast<Index>(region.points.size());
+    for (std::size_t s = 0; s < std::min(sides.size(), kMostSides); ++s) {
+        PlanarRegion divided = region;
+        std::vector<Index>& loop = divided.loops[sides[s].loop];
+        const Index a = loop[sides[s].place], b = loop[(sides[s].place + 1) % loop.size()];
+        divided.points.push_back((region.points[index(a)] + region.points[index(b)]) / 2);
+        loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(sides[s].place) + 1, middle);
+        const PlanarQuads filled = mesher(divided, context);
+        for (Closed& closed : RowCloser(filled, middle).run()) {
+            check_cancelled(context);
+            if (!best || closed.better_than(*best)) best = std::move(closed);
+        }
+        if (best && best->worst >= kGoodEnough) break;
+    }
+    if (!best) {
+        throw NotSweepable("surface.odd_region",
+                           "a region with " + std::to_string(count) +
+                               " boundary sides was to be filled with quads and one triangle, and no row of "
+                               "quads leads inward from its longest sides");
+    }
+    best->mesh.how += (best->mesh.how.empty() ? "" : ", ") + std::string("one triangle");
+    return std::move(best->mesh);
+}
+
+} // namespace lacuna::quads

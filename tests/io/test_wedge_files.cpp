@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "folder.h"
+#include "support/blocks.h"
+
+#include <lacuna/io/deck.h>
+#include <lacuna/io/deck_file.h>
+#include <lacuna/io/msh.h>
+#include <lacuna/io/vtk.h>
+#include <lacuna/quality/quality.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+using namespace lacuna;
+
+namespace {
+
+Vec3 bent(const Vec3& p)
+{
+    return {p.x() + 0.1 * std::sin(3 * p.y()), p.y() * (1 + 0.2 * p.x()), p.z() * (1 + 0.3 * p.x() * p.y())};
+}
+
+/// Cells of a deck as a mesh lists them, by places of their nodes in the file.
+std::vector<Hex> cells_of(const io::Deck& deck, io::DeckShape shape)
+{
+    std::vector<Hex> cells;
+    for (const io::DeckBlock& block : deck.blocks) {
+        if (block.shape != shape) continue;
+        for (std::size_t e = 0; e < block.count(); ++e) {
+            const auto n = block.element(e);
+            cells.push_back(shape == io::DeckShape::wedge6
+                                ? mesh::hex_of({n[0], n[1], n[2], n[3], n[4], n[5]})
+                                : Hex{n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7]});
+        }
+    }
+    return cells;
+}
+
+std::size_t count_of(const io::Deck& deck, io::DeckShape shape)
+{
+    std::size_t count = 0;
+    for (const io::DeckBlock& block : deck.blocks) count += block.shape == shape ? block.count() : 0;
+    return count;
+}
+
+void check_deck(const io::Deck& deck, const mesh::HexMesh& mesh, bool skin)
+{
+    REQUIRE(deck.points.size() == mesh.nodes.size());
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) CHECK((deck.points[n] - mesh.nodes[n]).norm() < 1e-9);
+    std::vector<Hex> cells = cells_of(deck, io::DeckShape::hex8);
+    CHECK(cells.size() == mesh.hex_count());
+    const std::vector<Hex> wedges = cells_of(deck, io::DeckShape::wedge6);
+    CHECK(wedges.size() == mesh.wedge_count());
+    cells.insert(cells.end(), wedges.begin(), wedges.end());
+    std::multiset<Hex> expected;
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) expected.insert(mesh.hex(c));
+    CHECK(std::multiset<Hex>(cells.begin(), cells.end()) == expected);
+    CHECK_FALSE(quality::prove_cells(deck.points, cells).finding);
+    if (!skin) return;
+    CHECK(count_of(deck, io::DeckShape::tri3) == 2 * mesh.triangle_count());
+    CHECK(count_of(deck, io::DeckShape::quad4) == mesh.skin_count() - 2 * mesh.triangle_count());
+}
+
+} // namespace
+
+TEST_CASE("hexahedra and wedges come back from every format, the skin's triangles and values too")
+{
+    for (const std::size_t every : {1, 2, 5}) {
+        const mesh::HexMesh mesh = test::with_wedges(
+            test::block({.columns = 4, .rows = 3, .layers = 3, .map = bent}), every);
+        const test::Folder folder;
+        io::CellField field{"number", {}};
+        for (std::size_t c = 0; c < mesh.cell_count(); ++c) field.values.push_back(double(c));
+        CAPTURE(every);
+        for (const bool binary : {true, false}) {
+            CAPTURE(binary);
+            for (const double version : {4.1, 2.2}) {
+                CAPTURE(version);
+                io::write_msh(mesh, folder.file("a.msh"), {binary, version, {field}});
+                check_deck(io::read_deck(folder.file("a.msh")), mesh, true);
+            }
+            io::write_vtk(mesh, folder.file("a.vtk"), {.binary = binary, .fields = {field}});
+            check_deck(io::read_deck(folder.file("a.vtk")), mesh, true);
+        }
+        io::write_vtu(mesh, folder.file("a.vtu"), {.fields = {field}});
+        check_deck(io::read_deck(folder.file("a.vtu")), mesh, true);
+        for (const std::string name : {"a.inp", "a.bdf", "a.unv"}) {
+            CAPTURE(name);
+            io::DeckFormat format{};
+            REQUIRE(io::find_deck_format(io::ending_of(name), format));
+            io::write_deck(io::deck_of(mesh, {.format = format}), format, folder.file(name));
+            check_deck(io::read_deck(folder.file(name)), mesh, format == io::DeckFormat::unv);
+        }
+    }
+}
