@@ -220,7 +220,11 @@ local keys = {
     cells = function() return list_of(function() return list_of(small, 5) end, 4) end },
   open_volume = { source = face_refs, target = face_refs, faces = face_refs,
     walls = function() return chance(0.6) and "auto" or face_refs() end,
-    class = function() return pick { "I", "II", "III", "IV", "V", "closed" } end },
+    class = function() return pick { "I", "II", "III", "IV", "V", "closed" } end,
+    name = function() return pick(words) end,
+    material = function() return pick { 1, "steel", "a,b", 0 } end },
+  face_from = { near = vector, angle = function() return pick { 5, 20, 90, 180, 200 } end, free = flag,
+    region = function() return pick(words) end },
   match = { vertices = function() return list_of(pair) end, loops = function() return list_of(pair) end,
     flip = function() return list_of(small) end,
         method = function() return pick { "aligned", "nearest" } end },
@@ -244,7 +248,8 @@ local keys = {
     interior = function() return pick { "auto", "affine", "residual", "normals" } end,
     threads = function() return pick { 1, 2, 4, 100000 } end },
   write = { version = function() return pick { 4.1, 2.2 } end, binary = flag,
-    quality = function() return pick { true, false, metric(), list_of(metric) } end },
+    quality = function() return pick { true, false, metric(), list_of(metric) } end, renumber = flag,
+    first_node = small, first_cell = small },
   write_facets = { binary = flag },
   write_cad = { tolerance = length, deviation = length },
   prism = { sides = function() return random(3, 6) end, radius = length, height = length,
@@ -268,6 +273,7 @@ function options(name)
   for key in pairs(known) do order[#order + 1] = key end
   table.sort(order)
   local needed = { points = true, cells = true, layers = true, facets = true, drop = true }
+  needed.near = name == "face_from"
   for _, key in ipairs(order) do
     if chance(needed[key] and 0.9 or kGiven) then
       local made_value

@@ -621,6 +621,6 @@ TEST_CASE("named continuations of Nastran are found wherever they lie, and kept 
     // One that goes on nowhere is refused; a mark behind a card alone is none.
     const std::string flat = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n";
     const std::string astray = flat + "CTRIA3,7,1,1,2,3,,,,+W\n+X,1,2\n";
-    CHECK(has(failure("a.bdf", astray), "line 5: a continuation '+X,1,2' of no card"));
+    CHECK(has(failure("a.bdf", astray), "line 4: CTRIA3: its continuation '+W' is not there, and '+X,1,2'"));
     CHECK(io::read_deck("a.bdf", flat + "CTRIA3,7,1,1,2,3,,,,+Y\nCTRIA3,8,1,1,2,3\n").element_count() == 2);
 }

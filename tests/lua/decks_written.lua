@@ -198,6 +198,12 @@ for _, void in ipairs(voids) do
   local before_step, steps = text:match("(%*MATERIAL.-)(%*STEP.*)$")
   local section = "*SOLID SECTION, ELSET=foam, MATERIAL=steel\n"
   check.that(written:find(before_step .. section .. steps, 1, true), "cards are not verbatim")
+  for _, group in ipairs(mesh:groups()) do -- source, target, every wall and void face
+    local name = group.name:gsub("[^%w_-]", "_")
+    check.that(written:find("SET=" .. name .. "%f[^%w_-]"), name)
+    local surface = "*SURFACE, TYPE=ELEMENT, NAME=" .. name
+    check.that(group.dim == 3 or written:find(surface, 1, true), surface)
+  end
   for _, set in ipairs { "first", "all", "source", "target" } do
     check.that(written:find("SET, [EN]+SET=" .. set .. "\n") or written:find("SET=" .. set), set)
   end

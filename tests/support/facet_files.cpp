@@ -259,12 +259,26 @@ std::string inp(const FacetBox& box, bool parts)
     return text + "*ELSET, ELSET=one\n1\n*NSET, NSET=some\n1, 2,\n3\n*SURFACE, NAME=below, TYPE=NODE\nsome\n";
 }
 
-enum class Fields { free, small, large };
+enum class Fields { free, small, large, apart };
 
 std::string bdf(const FacetBox& box, Fields kind)
 {
-    std::string text = "SOL 101\nCEND\nTITLE = a box\nBEGIN BULK\n$ nodes\n";
-    const auto card = [&](const std::string& name, const std::vector<std::string>& fields) {
+    std::string text = "SOL 101\nCEND\nTITLE = a box\nBEGIN BULK\n$ nodes\n", later;
+    const auto card = [&](const std::string& name, std::vector<std::string> fields) {
+        // In free fields, but for the second line, which is named and comes behind all cards.
+        if (kind == Fields::apart) {
+            const std::string mark = "+" + name.substr(0, 2) + fields[0];
+            text += name;
+            for (std::size_t k = 0; k < std::min<std::size_t>(fields.size(), 8); ++k) text += "," + fields[k];
+            if (fields.size() > 8) {
+                text += "," + mark;
+                later.insert(0, "\n");
+                for (std::size_t k = fields.size(); k > 8; --k) later.insert(0, "," + fields[k - 1]);
+                later.insert(0, mark);
+            }
+            text += "\n";
+            return;
+        }
         text += kind == Fields::free ? name : field(kind == Fields::large ? name + "*" : name, 8, false);
         for (std::size_t k = 0; k < fields.size(); ++k) {
             if (kind == Fields::free && k > 0 && k % 8 == 0) text += ",\n";
@@ -292,7 +306,7 @@ std::string bdf(const FacetBox& box, Fields kind)
             for (const Index p : box.quads[q]) fields.push_back(std::to_string(p + 10));
         card(q % 2 == 1 ? "CQUAD8" : "CQUAD4", fields);
     }
-    return text + "PSHELL,1,1,0.1\nENDDATA\nwhat follows does not count\n";
+    return text + later + "PSHELL,1,1,0.1\nENDDATA\nwhat follows does not count\n";
 }
 
 std::string vtk(const FacetBox& box, const std::string& version, bool binary, bool poly)
@@ -459,6 +473,7 @@ std::vector<FacetSample> facet_samples()
     all.push_back({"free.bdf", bdf(box, Fields::free), true, true, 6, "pid:"});
     all.push_back({"small.nas", bdf(box, Fields::small), true, true, 6, "pid:"});
     all.push_back({"large.dat", bdf(box, Fields::large), true, true, 6, "pid:"});
+    all.push_back({"apart.bdf", bdf(box, Fields::apart), true, true, 6, "pid:"});
     all.push_back({"open.inp", inp(box, false), true, true, 6, "side "});
     all.push_back({"parts.INP", inp(box, true), true, true, 6, "side "});
     for (const char* version : {"2.0", "5.1"})

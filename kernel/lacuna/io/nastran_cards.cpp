@@ -217,8 +217,8 @@ void BulkData::read_line(const Cursor& cursor, std::uint64_t file, std::string_v
         const DeckPlace place{&cursor, cursor.last(), file};
         const bool both_named = first.size() > 1 && marker_.size() > 1;
         const bool another = both_named && !same_word(first.substr(1), marker_.substr(1));
-        // Behind a card that names none, a name that no line has is a mark of somebody's.
-        const bool unsaid = first.size() > 1 && marker_.size() <= 1 && open_ && is_awaited(first.substr(1));
+        // Behind a card that names none, a name is a mark of somebody's, where no line names any.
+        const bool unsaid = first.size() > 1 && marker_.size() <= 1 && open_ && names_continuations();
         if (first.size() > 1 && (!open_ || another || unsaid)) return take_elsewhere(place, raw);
         if (!open_) cursor.fail("a continuation " + shown(first) + " of no card");
         check_half(card_, is_large(first), place);
@@ -258,14 +258,14 @@ void BulkData::end_card()
     while (expanded_.size() > 1) expanded_.pop_front(); // the last may be the line that ends the card
 }
 
-/// Whether a line of the deck names this continuation. The deck is looked through the first time it is asked.
-bool BulkData::is_awaited(std::string_view name)
+/// Whether a line of the deck names its continuation. The deck is looked through the first time it is asked.
+bool BulkData::names_continuations()
 {
-    if (!awaited_) {
-        awaited_.emplace();
+    if (!names_continuations_) {
+        names_continuations_ = false;
         const std::vector<std::string_view> line = line_;
         const std::size_t before = expanded_.size();
-        for (Cursor scout = start_; !scout.at_end();) {
+        for (Cursor scout = start_; !scout.at_end() && !*names_continuations_;) {
             const std::string_view raw = scout.raw_line();
             const std::string_view words = raw.substr(0, raw.find('$'));
             line_.clear();
@@ -276,12 +276,12 @@ bool BulkData::is_awaited(std::string_view name)
                 free_fields(scout, words);
             else
                 continue;
-            if (is_named(line_.back())) awaited_->insert(upper(line_.back().substr(1)));
+            names_continuations_ = is_named(line_.back());
             while (expanded_.size() > before) expanded_.pop_back();
         }
         line_ = line;
     }
-    return awaited_->contains(upper(name));
+    return *names_continuations_;
 }
 
 /// Fields that stay when the line they are of has gone.
@@ -336,10 +336,13 @@ void BulkData::go_on(Waiting waiting)
 void BulkData::finish()
 {
     if (!continuations_.empty()) {
-        const auto first = std::ranges::min_element(
-            continuations_, {}, [](const auto& line) { return line.second.card.place.number(); });
-        first->second.card.place.fail("a continuation " + shown(first->second.raw.substr(0, kField)) +
-                                      " of no card");
+        const auto place = [](const auto& waiting) { return waiting.second.card.place.number(); };
+        const Waiting& line = std::ranges::min_element(continuations_, {}, place)->second;
+        const std::string text = shown(line.raw.substr(0, kField));
+        if (cards_.empty()) line.card.place.fail("a continuation " + text + " of no card");
+        const Waiting& card = std::ranges::min_element(cards_, {}, place)->second;
+        card.card.fail("its continuation " + shown(card.marker) + " is not there, and " + text +
+                       " is a continuation of no card");
     }
     // What they name never came: a mark of somebody's.
     std::map<std::uint64_t, const Card*> in_order;

@@ -8,7 +8,6 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <set>
 #include <vector>
 
 /// Nastran bulk data below its nodes and elements: cards and coordinate frames. Internal to this folder.
@@ -72,7 +71,7 @@ private:
         bool large = false;
         std::string raw; ///< of a continuation alone
     };
-    bool is_awaited(std::string_view name);
+    bool names_continuations();
     void own_fields(Card& card);
     void take_elsewhere(const DeckPlace& place, std::string_view raw);
     void go_on(Waiting card);
@@ -92,7 +91,7 @@ private:
     bool open_ = false, bulk_ = false, ended_ = false;
     std::multimap<std::string, Waiting> cards_, continuations_; ///< by the names of continuations
     std::deque<std::string> owned_;                             ///< fields of these
-    std::optional<std::set<std::string>> awaited_;              ///< continuations that lines of the deck name
+    std::optional<bool> names_continuations_;
 };
 
 /// Coordinate frames, each given by three points in another frame or by three nodes.
