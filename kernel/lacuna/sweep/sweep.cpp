@@ -9,6 +9,7 @@
 #include <lacuna/surface/given_target.h>
 #include <lacuna/surface/imprint.h>
 #include <lacuna/surface/source_mesh.h>
+#include <lacuna/surface/wall_breaks.h>
 #include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/given_meshes.h>
 #include <lacuna/sweep/detail/morph_ends.h>
@@ -319,9 +320,11 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     std::optional<surface::Imprint> imprint = imprint_of(volume, given_links, size);
     const OpenVolume& split = imprint ? *imprint->volume : volume;
     std::vector<surface::LinkingSurface>& links = imprint ? imprint->links : given_links;
+    const int least_layers = surface::set_wall_breaks(split, size, links);
     GivenMeshes given = given_meshes(split, links, asked, options);
-    const std::vector<double> heights = given.heights.empty() ? default_heights(links, size, options.layers)
-                                                              : given.heights;
+    const std::vector<double> heights = given.heights.empty()
+                                            ? default_heights(links, size, options.layers, least_layers)
+                                            : given.heights;
     for (std::string& note : given.notes) result.report.push_back("given: " + note);
     const surface::Seeds seeds = surface::seed_source(
         split, links, size, style_of(options), {options.curvature, options.gap},
