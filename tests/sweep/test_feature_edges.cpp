@@ -187,6 +187,42 @@ OpenVolume between(const Outline& low, const Outline& high)
     return faces.volume();
 }
 
+/// Two outlines of as many points with one wall round, point to point; without walls where they are void.
+OpenVolume walled(const Outline& low, const Outline& high)
+{
+    Faces faces;
+    add_end(faces, low, {}, 0, false);
+    add_end(faces, high, {}, 2, true);
+    const int wall = faces.face(Role::wall);
+    constexpr int kRows = 16;
+    for (std::size_t i = 0; i < low.size(); ++i) {
+        const auto at = [&](std::size_t j, int k) {
+            const double h = static_cast<double>(k) / kRows;
+            const Vec2 p = (1 - h) * low[j % low.size()] + h * high[j % low.size()];
+            return Vec3(p.x(), p.y(), 2 * h);
+        };
+        for (int k = 0; k < kRows; ++k)
+            faces.quad(at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1), wall);
+    }
+    return faces.volume();
+}
+
+/// A circle cut straight off beyond `cuts` (directions with distances), by 64 directions from its middle.
+Outline cut_circle(const std::vector<std::pair<double, double>>& cuts)
+{
+    Outline outline;
+    for (int i = 0; i < 64; ++i) {
+        const double angle = 2 * std::numbers::pi * i / 64;
+        double reach = 1;
+        for (const auto& [direction, distance] : cuts) {
+            const double along = std::cos(angle - direction);
+            if (along > 0) reach = std::min(reach, distance / along);
+        }
+        outline.emplace_back(reach * std::cos(angle), reach * std::sin(angle));
+    }
+    return outline;
+}
+
 /// A box whose wall at y = 0 is made of cells between places in x and z; cells with one number are one face,
 /// a row of `cells` from the source up.
 OpenVolume celled_wall(const std::vector<double>& xs, const std::vector<double>& zs,
@@ -621,4 +657,54 @@ TEST_CASE("ends of different shape are swept the way that bears it")
     }
     MESSAGE(meshed << " meshed, " << refused << " refused");
     CHECK(refused == 0);
+}
+
+TEST_CASE("sharp corners of both ends that stand against smooth rims have cells that share the angle")
+{
+    const double right = std::numbers::pi / 2;
+    const std::vector<std::pair<double, double>> left{{2 * right, 0.5}}, east{{0, 0.5}}, top{{right, 0.4}};
+    const std::vector<std::pair<double, double>> wedge{{0.8 * right, 0.4}, {-0.8 * right, 0.4}};
+    const std::vector<std::pair<double, double>> back{{1.2 * right, 0.4}, {-1.2 * right, 0.4}};
+    const std::vector<std::pair<double, double>> square{
+        {0, 0.7}, {right, 0.7}, {2 * right, 0.7}, {3 * right, 0.7}};
+    const std::vector<std::pair<double, double>> diamond{
+        {0.5 * right, 0.7}, {1.5 * right, 0.7}, {2.5 * right, 0.7}, {3.5 * right, 0.7}};
+    const std::map<std::string, std::pair<Outline, Outline>> shapes{
+        {"D to circle", {cut_circle(left), cut_circle({})}},
+        {"D to D", {cut_circle(left), cut_circle(east)}},
+        {"D to D a quarter on", {cut_circle(left), cut_circle(top)}},
+        {"wedge to wedge", {cut_circle(wedge), cut_circle(back)}},
+        {"square to diamond", {cut_circle(square), cut_circle(diamond)}},
+        {"square to D", {cut_circle(square), cut_circle(east)}},
+    };
+    Counts counts;
+    double worst = 1;
+    for (const auto& [name, ends] : shapes) {
+        for (const bool turned : {false, true}) {
+            for (const double size : {0.4, 0.2, 0.1}) {
+                CAPTURE(name);
+                CAPTURE(turned);
+                CAPTURE(size);
+                sweep::SweepOptions options;
+                options.layers.count = 8;
+                options.size = [size](const Vec3&) { return size; };
+                const OpenVolume volume = turned ? walled(ends.second, ends.first)
+                                                 : walled(ends.first, ends.second);
+                try {
+                    const sweep::Swept swept = sweep::sweep(volume, options);
+                    ++counts.meshed;
+                    test::check_valid(swept.mesh);
+                    CHECK(swept.min_scaled_jacobian >= 0.2);
+                    worst = std::min(worst, swept.min_scaled_jacobian);
+                } catch (const NotSweepable& error) {
+                    ++counts.refused; // a crease of the wall that runs out is cut by coarse quads
+                    CHECK(error.code() == "sweep.deviation");
+                    MESSAGE(name << " at " << size << ": " << std::string(error.what()));
+                }
+            }
+        }
+    }
+    MESSAGE(counts.meshed << " meshed, " << counts.refused << " refused, scaled Jacobian " << worst
+                          << " at least");
+    CHECK(counts.meshed > 5 * counts.refused);
 }

@@ -12,6 +12,7 @@
 #include <lacuna/surface/wall_breaks.h>
 #include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/given_meshes.h>
+#include <lacuna/sweep/detail/mean_outline.h>
 #include <lacuna/sweep/detail/morph_ends.h>
 #include <lacuna/sweep/detail/normals.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
@@ -314,7 +315,7 @@ std::optional<surface::Imprint> imprint_of(const OpenVolume& volume,
 /// what.
 ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::LinkingSurface> given_links,
                           const std::vector<double>& asked, const surface::SizeField& size,
-                          const SweepOptions& options, const RunContext& context)
+                          const SweepOptions& options, Outline outline, const RunContext& context)
 {
     Swept result;
     std::optional<surface::Imprint> imprint = imprint_of(volume, given_links, size);
@@ -332,9 +333,11 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     for (const std::string& note : seeds.notes) result.report.push_back("given: " + note);
     surface::SourceMesh source = surface::mesh_source(split, links, seeds, size_fields(size, options),
                                                       mesher_of(options), context);
-    for (std::string& note : source.notes) result.report.push_back("source " + note);
     std::vector<surface::WallMesh> walls;
     const RimColumns columns = columns_of(split, links, given.columns, source, heights, walls, context);
+    if (outline == Outline::mean)
+        source = laid_between(split, std::move(source), columns, size, mesher_of(options), context);
+    for (std::string& note : source.notes) result.report.push_back("source " + note);
     for (const surface::WallMesh& wall : walls) {
         for (const std::string& note : wall.notes) result.report.push_back("walls: " + note);
     }
@@ -401,10 +404,10 @@ bool can_turn_together(const std::vector<surface::LinkingSurface>& links)
 /// better ones.
 ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
                            const std::vector<double>& heights, const surface::SizeField& size,
-                           const SweepOptions& options, const RunContext& context)
+                           const SweepOptions& options, Outline outline, const RunContext& context)
 {
     const auto start = std::chrono::steady_clock::now();
-    ProvedSweep alone = sweep_between(volume, links, heights, size, options, context);
+    ProvedSweep alone = sweep_between(volume, links, heights, size, options, outline, context);
     const bool poor = alone.proof.finding ? quality::can_be_improved(alone.proof.finding->fault)
                                           : alone.swept.min_scaled_jacobian < options.improving.good_enough;
     if (!poor) return alone;
@@ -416,7 +419,7 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
     if (same) return alone;
     try { // What went wrong first says more than what goes wrong second.
         ProvedSweep together = sweep_between(volume, as_one, heights, size, remaining(options, start),
-                                             context);
+                                             outline, context);
         if (together.proof.finding) {
             log_line(context, "loops turned as one body: " + together.proof.finding->message);
         } else if (alone.proof.finding ||
@@ -436,7 +439,7 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
 
 /// From source to target, by the linking surfaces that the walls are.
 ProvedSweep sweep_one_way(const OpenVolume& volume, const surface::SizeField& size,
-                          const SweepOptions& options, const RunContext& context)
+                          const SweepOptions& options, Outline outline, const RunContext& context)
 {
     const bool counted = options.layers.count > 0 || !options.layers.heights.empty();
     std::vector<double> heights = counted ? layer_heights(options.layers) : std::vector<double>{};
@@ -445,8 +448,8 @@ ProvedSweep sweep_one_way(const OpenVolume& volume, const surface::SizeField& si
         for (double& h : heights) h = 1 - h;
     }
     const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(volume);
-    return can_turn_together(links) ? better_turning(volume, links, heights, size, options, context)
-                                    : sweep_between(volume, links, heights, size, options, context);
+    return can_turn_together(links) ? better_turning(volume, links, heights, size, options, outline, context)
+                                    : sweep_between(volume, links, heights, size, options, outline, context);
 }
 
 /// A turn needs no more sides than this for its volume: an inscribed polygon of so many is off by 0.07 %.
@@ -457,8 +460,8 @@ constexpr double kLessLost = 0.75;
 /// A mesh that was proved, and compared with the sealed skin.
 Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
 {
-    const OneWay one_way = [&](const OpenVolume& way, const SweepOptions& rest) {
-        return sweep_one_way(way, source_size(way, rest), rest, context);
+    const OneWay one_way = [&](const OpenVolume& way, const SweepOptions& rest, Outline outline) {
+        return sweep_one_way(way, source_size(way, rest), rest, outline, context);
     };
     ProvedSweep result = sweep_both_ways(volume, options, one_way, context);
     quality::require(result.proof);
