@@ -89,9 +89,10 @@ struct Swept {
 /// Meshes that faces came with stay, node for node: the source's quads, rows of quads on walls, the target's
 /// quads where they are laid out as the source's, and the nodes of all their rims. The report counts them.
 ///
-/// Edges between the faces of an end, and those that run round the walls, become chains of mesh edges. The
-/// sweep runs from source to target, or back where that is better; the report says which, and `mesh` counts
-/// its layers from the end it started at.
+/// Edges between the faces of an end, and those that run round the walls or up them, become chains of mesh
+/// edges. The sweep runs from source to target, or back where that is better, or with the quads laid out
+/// between both outlines where both are poor; the report says which, and `mesh` counts its layers from the
+/// end it started at.
 /// @throw InvalidInput   what `check()` refuses; a size that is no positive length, or too many cells to
 ///                       number.
 /// @throw NotSweepable   names the face, wall or cells, what was expected and found, and what to try.
