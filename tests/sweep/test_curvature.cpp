@@ -224,3 +224,37 @@ TEST_CASE("options of curvature, gap and deviation that mean nothing are refused
     CHECK(refused([](SweepOptions& o) { o.max_deviation = -0.1; }) == "sweep.max_deviation");
     CHECK(refused([](SweepOptions& o) { o.max_deviation = std::nan(""); }) == "sweep.max_deviation");
 }
+
+TEST_CASE("elbows and cones with holes are swept with eight sides for a full turn")
+{
+    int shapes = 0;
+    double worst = 1;
+    for (const int holes : {0, 1, 2}) {
+        for (const int hole_sides : {0, 4}) {
+            for (const double bend : {0.0, 90.0}) {
+                for (const double taper : {1.0, 0.6}) {
+                    if (holes == 0 && hole_sides == 4) continue;
+                    const auto volume = test::sealed({.sides = 0,
+                                                      .height = 4,
+                                                      .holes = holes,
+                                                      .hole_sides = hole_sides,
+                                                      .cuts = 4,
+                                                      .levels = 12,
+                                                      .taper = taper,
+                                                      .bend = bend});
+                    CAPTURE(holes);
+                    CAPTURE(hole_sides);
+                    CAPTURE(bend);
+                    CAPTURE(taper);
+                    SweepOptions options = coarse(5.0, 8);
+                    options.layers.count = 10;
+                    const Swept swept = swept_valid(volume, options);
+                    worst = std::min(worst, swept.min_scaled_jacobian);
+                    CHECK(swept.min_scaled_jacobian >= 0.2);
+                    ++shapes;
+                }
+            }
+        }
+    }
+    MESSAGE(shapes << " shapes, scaled Jacobian " << worst << " at least");
+}

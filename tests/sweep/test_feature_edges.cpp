@@ -187,8 +187,76 @@ OpenVolume between(const Outline& low, const Outline& high)
     return faces.volume();
 }
 
+/// Two outlines of as many points with one wall round, point to point; without walls where they are void.
+OpenVolume walled(const Outline& low, const Outline& high)
+{
+    Faces faces;
+    add_end(faces, low, {}, 0, false);
+    add_end(faces, high, {}, 2, true);
+    const int wall = faces.face(Role::wall);
+    constexpr int kRows = 16;
+    for (std::size_t i = 0; i < low.size(); ++i) {
+        const auto at = [&](std::size_t j, int k) {
+            const double h = static_cast<double>(k) / kRows;
+            const Vec2 p = (1 - h) * low[j % low.size()] + h * high[j % low.size()];
+            return Vec3(p.x(), p.y(), 2 * h);
+        };
+        for (int k = 0; k < kRows; ++k)
+            faces.quad(at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1), wall);
+    }
+    return faces.volume();
+}
+
+/// A circle cut straight off beyond `cuts` (directions with distances), by 64 directions from its middle.
+Outline cut_circle(const std::vector<std::pair<double, double>>& cuts)
+{
+    Outline outline;
+    for (int i = 0; i < 64; ++i) {
+        const double angle = 2 * std::numbers::pi * i / 64;
+        double reach = 1;
+        for (const auto& [direction, distance] : cuts) {
+            const double along = std::cos(angle - direction);
+            if (along > 0) reach = std::min(reach, distance / along);
+        }
+        outline.emplace_back(reach * std::cos(angle), reach * std::sin(angle));
+    }
+    return outline;
+}
+
+/// A box whose wall at y = 0 is made of cells between places in x and z; cells with one number are one face,
+/// a row of `cells` from the source up.
+OpenVolume celled_wall(const std::vector<double>& xs, const std::vector<double>& zs,
+                       const std::vector<std::string>& cells)
+{
+    Faces faces;
+    const Outline rim = rectangle(0, 0, 2, 2);
+    add_end(faces, rim, {}, 0, false);
+    add_end(faces, rim, {}, 2, true);
+    for (std::size_t i = 1; i < rim.size(); ++i) {
+        const Vec2 &a = rim[i], &b = rim[(i + 1) % rim.size()];
+        faces.quad({a.x(), a.y(), 0}, {b.x(), b.y(), 0}, {b.x(), b.y(), 2}, {a.x(), a.y(), 2},
+                   faces.face(Role::wall));
+    }
+    std::map<char, int> label;
+    for (std::size_t k = 0; k + 1 < zs.size(); ++k) {
+        for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
+            const auto [found, fresh] = label.try_emplace(cells[k][i], 0);
+            if (fresh) found->second = faces.face(Role::wall);
+            faces.quad({xs[i], 0, zs[k]}, {xs[i + 1], 0, zs[k]}, {xs[i + 1], 0, zs[k + 1]},
+                       {xs[i], 0, zs[k + 1]}, found->second);
+        }
+    }
+    return faces.volume();
+}
+
 /// A box whose wall at y = 0 has a patch from one x and z to another imprinted on it.
 OpenVolume patched_wall(double x0, double z0, double x1, double z1)
+{
+    return celled_wall({0, x0, x1, 2}, {0, z0, z1, 2}, {"aaa", "aba", "aaa"});
+}
+
+/// A box whose wall at y = 0 has a patch of any outline.
+OpenVolume patched_wall(const Outline& patch)
 {
     Faces faces;
     const Outline rim = rectangle(0, 0, 2, 2);
@@ -200,8 +268,38 @@ OpenVolume patched_wall(double x0, double z0, double x1, double z1)
                    faces.face(Role::wall));
     }
     const auto at = [](const Vec2& p) { return Vec3(p.x(), 0, p.y()); };
-    faces.plane({rectangle(0, 0, 2, 2), rectangle(x0, z0, x1, z1)}, at, faces.face(Role::wall));
-    faces.plane({rectangle(x0, z0, x1, z1)}, at, faces.face(Role::wall));
+    faces.plane({rectangle(0, 0, 2, 2), patch}, at, faces.face(Role::wall));
+    faces.plane({patch}, at, faces.face(Role::wall));
+    return faces.volume();
+}
+
+/// A cylinder of facets with one wall face round, and patches of cells on it: `cells` has a row a height and
+/// a letter a column, cells with one letter are one face.
+OpenVolume patched_tube(const std::vector<std::string>& cells, double lean = 0)
+{
+    Faces faces;
+    const auto sides = static_cast<int>(cells.front().size());
+    const double step = 2.0 / static_cast<double>(cells.size());
+    const auto at = [&](std::size_t i, std::size_t k) {
+        const double angle = 2 * std::numbers::pi * static_cast<double>(i) / sides;
+        const double z = static_cast<double>(k) * step;
+        return Vec3(std::cos(angle) + lean * z, std::sin(angle), z);
+    };
+    Outline low, high;
+    for (std::size_t i = 0; i < cells.front().size(); ++i) {
+        low.emplace_back(at(i, 0).head<2>());
+        high.emplace_back(at(i, cells.size()).head<2>());
+    }
+    add_end(faces, low, {}, 0, false);
+    add_end(faces, high, {}, 2, true);
+    std::map<char, int> label;
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        for (std::size_t i = 0; i < cells[k].size(); ++i) {
+            const auto [found, fresh] = label.try_emplace(cells[k][i], 0);
+            if (fresh) found->second = faces.face(Role::wall);
+            faces.quad(at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1), found->second);
+        }
+    }
     return faces.volume();
 }
 
@@ -272,8 +370,10 @@ std::vector<std::string> edges_cut(const OpenVolume& volume, const mesh::HexMesh
             if (at >= 0) on.emplace_back(at, node);
         }
         std::sort(on.begin(), on.end());
-        bool kept = on.size() >= 2 && on.front().first <= slack;
-        if (model.edges[e].from == model.edges[e].to && kept) on.emplace_back(length, on.front().second);
+        // A smooth closed edge has a vertex somewhere, and its nodes may start anywhere on it.
+        const bool closed = model.edges[e].from == model.edges[e].to;
+        bool kept = on.size() >= 2 && (closed || on.front().first <= slack);
+        if (closed && kept) on.emplace_back(length, on.front().second);
         kept = kept && on.back().first >= length - slack;
         for (std::size_t i = 0; kept && i + 1 < on.size(); ++i)
             kept = sides.contains(std::minmax(on[i].second, on[i + 1].second));
@@ -309,8 +409,9 @@ struct Counts {
 /// Mesh at three sizes: every edge kept, every quad on its face, the volume right and the cells fair; or
 /// refused with words.
 /// @param closeness  of the volume: a face with folds of its own is followed by quads across them.
+/// @param least      scaled Jacobian.
 void check_features(const std::string& name, const OpenVolume& volume, Counts& counts,
-                    double closeness = 1e-9)
+                    double closeness = 1e-9, double least = 0.2)
 {
     for (const double size : {0.4, 0.25, 0.13}) {
         CAPTURE(name);
@@ -326,7 +427,7 @@ void check_features(const std::string& name, const OpenVolume& volume, Counts& c
             CHECK(quads_off_their_face(volume, swept.mesh) == 0);
             CHECK(quality::measure(swept.mesh).volume ==
                   doctest::Approx(closure::enclosed_volume(volume)).epsilon(closeness));
-            CHECK(swept.min_scaled_jacobian >= 0.2);
+            CHECK(swept.min_scaled_jacobian >= least);
         } catch (const NotSweepable& error) {
             ++counts.refused;
             MESSAGE(name << " at " << size << ": " << std::string(error.what()));
@@ -402,6 +503,32 @@ TEST_CASE("ends that are both split, alike and differently, are both kept")
     CHECK(counts.meshed > 3 * counts.refused);
 }
 
+TEST_CASE("round pockets, bosses and imprints on both ends are kept, alike, near each other and crossing")
+{
+    Counts counts;
+    const std::map<std::string, std::pair<Vec2, double>> uppers{
+        {"the same", {{1, 1}, 0.5}},           {"a little off", {{1.03, 1.02}, 0.5}},
+        {"a little larger", {{1, 1}, 0.55}},   {"larger", {{1, 1}, 0.75}},
+        {"smaller and off", {{1.1, 1}, 0.25}}, {"crossing", {{1.3, 1.1}, 0.5}},
+        {"crossing far", {{1.4, 1.35}, 0.4}},  {"beside", {{1.5, 1.5}, 0.3}},
+    };
+    for (const auto& [name, upper] : uppers) {
+        for (const auto& [below, above] : {std::pair(0.0, 0.0), {0.0, -0.2}, {0.2, 0.0}, {-0.2, 0.2}}) {
+            // Walls that stand over each other at an angle are more than layers can bear.
+            if (name.starts_with("crossing") && below != 0 && above != 0) continue;
+            const bool beside = name == "beside";
+            const Feature low{polygon(24, beside ? Vec2(0.6, 0.6) : Vec2(1, 1), beside ? 0.3 : 0.5), below,
+                              false};
+            const Feature high{polygon(24, upper.first, upper.second), above, false};
+            check_features(name + ", rise " + std::to_string(below) + " below and " + std::to_string(above) +
+                               " above",
+                           block({low}, {high}), counts, 0.02, 0.1);
+        }
+    }
+    MESSAGE(counts.meshed << " meshed, " << counts.refused << " refused");
+    CHECK(counts.meshed > 10 * counts.refused);
+}
+
 TEST_CASE("edges between stacked walls lie on layers, level and slanted")
 {
     Counts counts;
@@ -412,21 +539,72 @@ TEST_CASE("edges between stacked walls lie on layers, level and slanted")
     CHECK(counts.refused == 0);
 }
 
+TEST_CASE("patches of level and upright edges on a wall keep every edge, wherever they lie")
+{
+    Counts counts;
+    for (const double low : {0.5, 0.9}) {
+        for (const double wide : {0.3, 0.8}) {
+            check_features("patch from " + std::to_string(low) + ", " + std::to_string(wide) + " wide",
+                           patched_wall(0.6, low, 0.6 + wide, 1.4), counts);
+        }
+    }
+    const std::vector<double> even{0, 0.6, 1.3, 2};
+    check_features("on the source's rim", celled_wall(even, even, {"aba", "aaa", "aaa"}), counts);
+    check_features("on the target's rim", celled_wall(even, even, {"aaa", "aaa", "aba"}), counts);
+    check_features("in a corner", celled_wall(even, even, {"baa", "aaa", "aaa"}), counts);
+    check_features("on a side", celled_wall(even, even, {"aaa", "baa", "aaa"}), counts);
+    check_features("of an L", celled_wall(even, even, {"aaa", "aba", "abb"}), counts);
+    check_features("of a T and a box",
+                   celled_wall({0, 0.4, 0.8, 1.2, 2}, {0, 0.5, 1.1, 2}, {"aaac", "abac", "bbbd"}), counts);
+    check_features("two above each other",
+                   celled_wall({0, 0.6, 0.7, 1.2, 1.4, 2}, {0, 0.4, 0.9, 1.2, 1.7, 2},
+                               {"aaaaa", "abbba", "aaaaa", "aaccca", "aaaaa"}),
+                   counts);
+    check_features("beside each other",
+                   celled_wall({0, 0.4, 0.8, 1.2, 1.6, 2}, {0, 0.5, 0.6, 1.2, 1.5, 2},
+                               {"aaaaa", "abaaa", "abaca", "aaaca", "aaaaa"}),
+                   counts);
+    check_features("a board", celled_wall(even, even, {"abc", "def", "ghi"}), counts);
+    check_features("bricks", celled_wall({0, 0.5, 1, 1.5, 2}, even, {"aabb", "cdde", "ffgg"}), counts);
+    MESSAGE(counts.meshed << " meshed, " << counts.refused << " refused");
+    CHECK(counts.refused == 0);
+}
+
+TEST_CASE("patches on a wall that runs all round keep every edge")
+{
+    Counts counts;
+    const std::string plain(24, 'a');
+    const std::string one = "aaabbbbaaaaaaaaaaaaaaaaa", over_start = "bbaaaaaaaaaaaaaaaaaaaabb";
+    const std::string two = "aaabbbbaaaaaaccccccaaaaa";
+    for (const double lean : {0.0, 0.3}) {
+        check_features("one", patched_tube({plain, one, one, plain, plain, plain}, lean), counts, 0.03);
+        check_features("over the start", patched_tube({plain, over_start, over_start, plain}, lean), counts,
+                       0.03);
+        check_features("two", patched_tube({plain, one, two, plain, plain}, lean), counts, 0.03);
+        check_features("on the rim", patched_tube({one, one, plain, plain}, lean), counts, 0.03);
+        check_features("a belt with a patch below",
+                       patched_tube({one, plain, std::string(24, 'c'), std::string(24, 'd')}, lean), counts,
+                       0.03);
+    }
+    MESSAGE(counts.meshed << " meshed, " << counts.refused << " refused");
+    CHECK(counts.refused == 0);
+}
+
 TEST_CASE("edges of the walls that no layer and no column can follow are refused by name")
 {
     sweep::SweepOptions options;
     options.layers.count = 8;
     options.size = [](const Vec3&) { return 0.25; };
-    for (const double low : {0.5, 0.9}) {
-        for (const double wide : {0.3, 0.8}) {
-            const OpenVolume volume = patched_wall(0.6, low, 0.6 + wide, 1.4);
-            try {
-                sweep::sweep(volume, options);
-                FAIL_CHECK("a patch in a wall was meshed over");
-            } catch (const NotSweepable& error) {
-                CHECK(error.code() == "surface.wall_edge");
-                CHECK(std::string(error.what()).find("edge ") == 0);
-            }
+    for (const int sides : {3, 5, 8, 24}) {
+        try {
+            sweep::sweep(patched_wall(polygon(sides, {1, 1.1}, 0.5)), options);
+            FAIL_CHECK("a round patch in a wall was meshed over");
+        } catch (const NotSweepable& error) {
+            CAPTURE(sides);
+            CAPTURE(std::string(error.what()));
+            CHECK(error.code() == "surface.wall_edge");
+            CHECK(std::string(error.what()).find("edge ") == 0);
+            CHECK(std::string(error.what()).find("round or slanted") != std::string::npos);
         }
     }
     options.layers.count = 2;
@@ -479,4 +657,54 @@ TEST_CASE("ends of different shape are swept the way that bears it")
     }
     MESSAGE(meshed << " meshed, " << refused << " refused");
     CHECK(refused == 0);
+}
+
+TEST_CASE("sharp corners of both ends that stand against smooth rims have cells that share the angle")
+{
+    const double right = std::numbers::pi / 2;
+    const std::vector<std::pair<double, double>> left{{2 * right, 0.5}}, east{{0, 0.5}}, top{{right, 0.4}};
+    const std::vector<std::pair<double, double>> wedge{{0.8 * right, 0.4}, {-0.8 * right, 0.4}};
+    const std::vector<std::pair<double, double>> back{{1.2 * right, 0.4}, {-1.2 * right, 0.4}};
+    const std::vector<std::pair<double, double>> square{
+        {0, 0.7}, {right, 0.7}, {2 * right, 0.7}, {3 * right, 0.7}};
+    const std::vector<std::pair<double, double>> diamond{
+        {0.5 * right, 0.7}, {1.5 * right, 0.7}, {2.5 * right, 0.7}, {3.5 * right, 0.7}};
+    const std::map<std::string, std::pair<Outline, Outline>> shapes{
+        {"D to circle", {cut_circle(left), cut_circle({})}},
+        {"D to D", {cut_circle(left), cut_circle(east)}},
+        {"D to D a quarter on", {cut_circle(left), cut_circle(top)}},
+        {"wedge to wedge", {cut_circle(wedge), cut_circle(back)}},
+        {"square to diamond", {cut_circle(square), cut_circle(diamond)}},
+        {"square to D", {cut_circle(square), cut_circle(east)}},
+    };
+    Counts counts;
+    double worst = 1;
+    for (const auto& [name, ends] : shapes) {
+        for (const bool turned : {false, true}) {
+            for (const double size : {0.4, 0.2, 0.1}) {
+                CAPTURE(name);
+                CAPTURE(turned);
+                CAPTURE(size);
+                sweep::SweepOptions options;
+                options.layers.count = 8;
+                options.size = [size](const Vec3&) { return size; };
+                const OpenVolume volume = turned ? walled(ends.second, ends.first)
+                                                 : walled(ends.first, ends.second);
+                try {
+                    const sweep::Swept swept = sweep::sweep(volume, options);
+                    ++counts.meshed;
+                    test::check_valid(swept.mesh);
+                    CHECK(swept.min_scaled_jacobian >= 0.2);
+                    worst = std::min(worst, swept.min_scaled_jacobian);
+                } catch (const NotSweepable& error) {
+                    ++counts.refused; // a crease of the wall that runs out is cut by coarse quads
+                    CHECK(error.code() == "sweep.deviation");
+                    MESSAGE(name << " at " << size << ": " << std::string(error.what()));
+                }
+            }
+        }
+    }
+    MESSAGE(counts.meshed << " meshed, " << counts.refused << " refused, scaled Jacobian " << worst
+                          << " at least");
+    CHECK(counts.meshed > 5 * counts.refused);
 }

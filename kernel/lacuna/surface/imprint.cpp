@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -156,6 +157,7 @@ public:
                    "source and target cannot be laid on each other one to one; split the volume, or name "
                    "other faces as its ends");
         }
+        pair_closed();
         collect();
         snap();
         cross();
@@ -330,6 +332,124 @@ private:
         return flat;
     }
 
+    // --- closed edges ----------------------------------------------------------------------------------
+
+    /// A closed edge in the plane.
+    struct Circle {
+        EdgeId edge;
+        Vec2 centre = Vec2::Zero();
+        double area = 0;           ///< signed
+        std::vector<Vec2> line;    ///< the first point repeated
+        std::vector<double> share; ///< of the edge's length at each point
+        [[nodiscard]] double radius() const { return std::sqrt(std::abs(area) / std::numbers::pi); }
+    };
+
+    /// Smooth closed edges that meet no other edge.
+    std::vector<Circle> circles(Role role, const std::vector<EdgeId>& edges)
+    {
+        std::map<VertexId, int> ends;
+        for (const Edge& edge : base_.model.edges) {
+            ++ends[edge.from];
+            ++ends[edge.to];
+        }
+        std::vector<Circle> found;
+        for (const EdgeId id : edges) {
+            const Edge& edge = base_.model[id];
+            if (edge.from != edge.to || ends[edge.from] != 2) continue;
+            constexpr double kSmooth = 0.7; ///< cosine of 45°; a choice, not a measurement
+            const Vec3 out = base_.model.at(edge.points[1]) - base_.model.at(edge.points[0]);
+            const Vec3 in = base_.model.at(edge.points.back()) -
+                            base_.model.at(edge.points[edge.points.size() - 2]);
+            if (out.dot(in) < kSmooth * out.norm() * in.norm()) continue;
+            const FlatEdge flat = flat_edge(id, role == Role::target);
+            Circle circle{id, Vec2::Zero(), 0, flat.line, flat.at};
+            for (std::size_t i = 0; i + 1 < flat.line.size(); ++i) {
+                const Vec2 &a = flat.line[i], &b = flat.line[i + 1];
+                const double turn = (a.x() * b.y() - a.y() * b.x()) / 2;
+                circle.area += turn;
+                circle.centre += turn * (a + b) / 3;
+            }
+            if (!(std::abs(circle.area) > 0)) continue;
+            circle.centre /= circle.area;
+            found.push_back(std::move(circle));
+        }
+        return found;
+    }
+
+    /// How unlike what two closed edges enclose is: their distance and the difference of their radii, over
+    /// the larger radius.
+    static double unlike(const Circle& a, const Circle& b)
+    {
+        return ((a.centre - b.centre).norm() + std::abs(a.radius() - b.radius())) /
+               std::max(a.radius(), b.radius());
+    }
+
+    /// Directions from its centre at even steps along a closed edge [radian].
+    static std::vector<double> directions(const Circle& circle, std::size_t steps)
+    {
+        std::vector<double> result;
+        for (std::size_t k = 0; k < steps; ++k) {
+            const geometry::PolylinePlace at = geometry::place_at(
+                circle.share, static_cast<double>(k) / static_cast<double>(steps));
+            const Vec2 p = (1 - at.fraction) * circle.line[at.segment] +
+                           at.fraction * circle.line[at.segment + 1] - circle.centre;
+            result.push_back(std::atan2(p.y(), p.x()));
+        }
+        return result;
+    }
+
+    /// The share of the target's edge over the source edge's start, by which they are turned least.
+    static ClosedPair turned(const Circle& low, const Circle& high)
+    {
+        constexpr std::size_t kSteps = 360; ///< a degree is near enough for where an edge starts
+        const std::vector<double> a = directions(low, kSteps), b = directions(high, kSteps);
+        const bool back = (low.area > 0) != (high.area > 0);
+        std::size_t best = 0;
+        double most = -2;
+        for (std::size_t shift = 0; shift < kSteps; ++shift) {
+            double sum = 0;
+            for (std::size_t k = 0; k < kSteps; ++k)
+                sum += std::cos(a[k] - b[(back ? shift + kSteps - k : shift + k) % kSteps]);
+            if (sum <= most) continue;
+            most = sum;
+            best = shift;
+        }
+        const double from = static_cast<double>(best) / kSteps;
+        return {low.edge, high.edge, from, back ? from - 1 : from + 1};
+    }
+
+    /// Closed edges that enclose about the same are one, and the plane is laid anew with them on each other.
+    void pair_closed()
+    {
+        // Circles half of whose larger radius apart still overlap by more than half. A choice, not a
+        // measurement.
+        constexpr double kAlike = 0.5;
+        const std::vector<Circle> low = circles(Role::source, inner_edges(base_, Role::source));
+        const std::vector<Circle> high = circles(Role::target, inner_);
+        std::set<std::size_t> used_low, used_high;
+        for (;;) {
+            double least = kAlike;
+            std::optional<std::pair<std::size_t, std::size_t>> best;
+            for (std::size_t i = 0; i < low.size(); ++i) {
+                for (std::size_t j = 0; j < high.size(); ++j) {
+                    if (used_low.contains(i) || used_high.contains(j) || unlike(low[i], high[j]) >= least)
+                        continue;
+                    least = unlike(low[i], high[j]);
+                    best = {i, j};
+                }
+            }
+            if (!best) break;
+            used_low.insert(best->first);
+            used_high.insert(best->second);
+            closed_.push_back(turned(low[best->first], high[best->second]));
+            EndsMap laid(base_, result_.links, closed_);
+            if (laid.one_to_one())
+                map_.emplace(std::move(laid));
+            else
+                closed_.pop_back();
+        }
+    }
+
     /// The inner edges of both ends with nodes at their vertices.
     void collect()
     {
@@ -379,6 +499,8 @@ private:
             return found->second;
         };
         for (const EdgeId edge : inner_) {
+            const auto is_it = [&](const ClosedPair& pair) { return pair.target == edge; };
+            if (std::any_of(closed_.begin(), closed_.end(), is_it)) continue;
             FlatEdge flat = flat_edge(edge, true);
             flat.cuts = {{0, node_at(base[edge].from)}, {1, node_at(base[edge].to)}};
             target_.push_back(std::move(flat));
@@ -426,31 +548,11 @@ private:
         return closed && ends == 2;
     }
 
-    /// Closed edges of both ends that run near each other all the way are one.
-    void unite_closed(std::set<std::size_t>& taken)
-    {
-        for (const FlatEdge& high : target_) {
-            const std::size_t node = high.cuts.front().node;
-            for (const FlatEdge& low : source_) {
-                const std::size_t other = low.cuts.front().node;
-                if (!closes_edge(target_, node) || !closes_edge(source_, other) || taken.contains(other))
-                    continue;
-                const bool near = std::all_of(high.line.begin(), high.line.end(), [&](const Vec2& p) {
-                    return closest_on(low.line, low.at, p).distance <= reach(p);
-                });
-                if (!near) continue;
-                taken.insert(other);
-                unite(node, other);
-            }
-        }
-    }
-
     /// Vertices of the target go to vertices or edges of the source that are near, and those of the source
     /// to edges of the target.
     void snap()
     {
         std::set<std::size_t> taken;
-        unite_closed(taken);
         for (const std::size_t node : loose_target_) {
             if (closes_edge(target_, node)) continue;
             std::optional<std::size_t> near;
@@ -576,7 +678,14 @@ private:
                 refuse(model(), inner_.front(), error.what());
             }
         }
-        for (std::size_t k = 0; k < low.size(); ++k) borders_.push_back({part[k], {}});
+        for (std::size_t k = 0; k < low.size(); ++k) {
+            borders_.push_back({part[k], {}});
+            for (const ClosedPair& pair : closed_) {
+                if (pair.source != source_[low[k].edge].edge) continue;
+                const auto over = [&](double at) { return pair.from + at * (pair.to - pair.from); };
+                borders_.back().image = EdgeImage{pair.target, over(low[k].from_at), over(low[k].to_at)};
+            }
+        }
         std::vector<Piece> high = pieces_of(target_);
         for (Piece& piece : high) {
             std::optional<std::size_t> same;
@@ -904,6 +1013,7 @@ private:
     Imprint result_;
     OpenVolume base_; ///< with the rims split, the faces whole
     std::optional<EndsMap> map_;
+    std::vector<ClosedPair> closed_;
     std::vector<EdgeId> rim_edges_;
     std::vector<FlatEdge> source_, target_;
     std::vector<Vec2> node_place_;

@@ -13,8 +13,9 @@ namespace lacuna::surface {
 
 /// The part of a target edge that a source edge is swept to.
 struct EdgeImage {
-    EdgeId target;           ///< of the volume
-    double from = 0, to = 1; ///< fractions of its length at the source edge's ends, as that runs
+    EdgeId target; ///< of the volume
+    /// Fractions of its length at the source edge's ends, as that runs; of a closed edge past whole turns.
+    double from = 0, to = 1;
 };
 
 /// A sealed volume whose source is split as its target is.
@@ -37,9 +38,11 @@ std::vector<EdgeId> inner_edges(const topology::OpenVolume& volume, topology::Ro
 /// Imprint the inner edges of the target on the source.
 ///
 /// Source and target are laid in one plane: the source by `geometry::flatten()`, the target by the harmonic
-/// map with its rim where the linking surfaces put it. There the target's edges are cut against the source's.
-/// Edges and vertices of both that lie within a part of a quad's size of each other become one; the source
-/// faces are split along the others and their facets made anew.
+/// map with its rim where the linking surfaces put it. Smooth closed edges of both ends that enclose about
+/// the same become one, their starts turned to each other, and the target is laid anew with its edge on the
+/// source's. Then the target's edges are cut against the source's. Edges and vertices of both that lie within
+/// a part of a quad's size of each other become one; the source faces are split along the others and their
+/// facets made anew.
 /// @throw NotSweepable "surface.not_imprinted"  names the target's edge: the ends cannot be laid on each
 ///        other one to one, an edge comes too close to another to be told from it, a source face keeps its
 ///        own quads.

@@ -6,6 +6,7 @@
 #include <lacuna/surface/detail/linking_map.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace lacuna::surface {
 
@@ -42,10 +43,12 @@ Rim rim_of(const Model& model, const Chain& chain)
 
 } // namespace
 
-EndsMap::EndsMap(const OpenVolume& volume, std::span<const LinkingSurface> links) : volume_(volume)
+EndsMap::EndsMap(const OpenVolume& volume, std::span<const LinkingSurface> links,
+                 std::span<const ClosedPair> closed)
+    : volume_(volume)
 {
     lay_source();
-    if (one_to_one_) lay_target(links);
+    if (one_to_one_) lay_target(links, closed);
 }
 
 void EndsMap::lay_source()
@@ -69,7 +72,7 @@ void EndsMap::lay_source()
         face_locator_[face] = geometry::PlanarLocator(source_, model[face].triangles);
 }
 
-void EndsMap::lay_target(std::span<const LinkingSurface> links)
+void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const ClosedPair> closed)
 {
     const Model& model = volume_.model;
     geometry::HarmonicProblem problem;
@@ -85,6 +88,18 @@ void EndsMap::lay_target(std::span<const LinkingSurface> links)
             const Vec2& a = source(low.points[at.segment]);
             const Vec2& b = source(low.points[(at.segment + 1) % low.points.size()]);
             fixed[high.points[i]] = (1 - at.fraction) * a + at.fraction * b;
+        }
+    }
+    for (const ClosedPair& pair : closed) {
+        const std::vector<Index>&low = model[pair.source].points, &high = model[pair.target].points;
+        const std::vector<double> low_at = geometry::arc_lengths(edge_line(model, pair.source));
+        const std::vector<double> high_at = geometry::arc_lengths(edge_line(model, pair.target));
+        for (std::size_t i = 0; i < high.size(); ++i) {
+            double share = (high_at[i] / high_at.back() - pair.from) / (pair.to - pair.from);
+            share -= std::floor(share);
+            const geometry::PolylinePlace at = geometry::place_at(low_at, share * low_at.back());
+            fixed[high[i]] = (1 - at.fraction) * source(low[at.segment]) +
+                             at.fraction * source(low[at.segment + 1]);
         }
     }
     problem.points = model.points;

@@ -289,7 +289,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
                     up += b.y() - a.y();
                 }
                 if (piece.pieces.empty() || std::abs(up) * height_ > along) {
-                    loose_.push_back(use.edge);
+                    uprights_.push_back({use.edge, std::move(piece.pieces)});
                     continue;
                 }
                 piece.height /= static_cast<double>(piece.pieces.size());

@@ -122,11 +122,13 @@ std::vector<double> corners_between(const Model& model, const Chain& chain, doub
 
 void add_segments(const Model& model, LinkingSurface& link, double s0, double s1, double t0, double t1)
 {
+    // Without side lines the walls lead corners to where they belong, beside each other or not.
+    const Pairing pairing = link.lines.empty() ? Pairing::near : Pairing::in_order;
     std::vector<double> a = corners_between(model, link.source, s0, s1, true);
     std::vector<double> b = corners_between(model, link.target, t0, t1, false);
     for (double& x : a) x = (x - s0) / (s1 - s0);
     for (double& x : b) x = (x - t0) / (t1 - t0);
-    std::vector<std::pair<double, double>> breaks = paired_breaks(a, b);
+    std::vector<std::pair<double, double>> breaks = paired_breaks(a, b, pairing);
     complete(breaks);
     breaks.emplace_back(1, 1);
     double a0 = 0, b0 = 0;

@@ -8,30 +8,31 @@
 namespace lacuna::surface {
 
 std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a,
-                                                     const std::vector<double>& b)
+                                                     const std::vector<double>& b, Pairing pairing)
 {
-    // A break alone costs as much as a pair this far apart, as a share of the length; a choice.
-    constexpr double kAlone = 0.1;
+    // Two breaks alone cost as much as a pair this far apart, as a share of the length; choices.
+    const double alone = pairing == Pairing::in_order ? 0.1 : 0.02;
     const std::size_t n = a.size(), m = b.size();
+    const bool in_order = n == m && pairing == Pairing::in_order;
     std::vector<std::vector<double>> cost(n + 1, std::vector<double>(m + 1, 0));
     for (std::size_t i = 0; i <= n; ++i) {
         for (std::size_t j = 0; j <= m; ++j) {
             if (i == 0 && j == 0) continue;
             double best = std::numeric_limits<double>::infinity();
-            if (i > 0) best = std::min(best, cost[i - 1][j] + kAlone);
-            if (j > 0) best = std::min(best, cost[i][j - 1] + kAlone);
+            if (i > 0) best = std::min(best, cost[i - 1][j] + alone);
+            if (j > 0) best = std::min(best, cost[i][j - 1] + alone);
             // As many breaks on both sides go together whatever their place.
-            const double apart = i > 0 && j > 0 ? (n == m ? 0.0 : 1.0) * std::abs(a[i - 1] - b[j - 1]) : 0;
+            const double apart = i > 0 && j > 0 ? (in_order ? 0.0 : 1.0) * std::abs(a[i - 1] - b[j - 1]) : 0;
             if (i > 0 && j > 0) best = std::min(best, cost[i - 1][j - 1] + apart);
             cost[i][j] = best;
         }
     }
     std::vector<std::pair<double, double>> result;
     for (std::size_t i = n, j = m; i > 0 || j > 0;) {
-        const double apart = i > 0 && j > 0 ? (n == m ? 0.0 : 1.0) * std::abs(a[i - 1] - b[j - 1]) : 0;
+        const double apart = i > 0 && j > 0 ? (in_order ? 0.0 : 1.0) * std::abs(a[i - 1] - b[j - 1]) : 0;
         if (i > 0 && j > 0 && cost[i][j] == cost[i - 1][j - 1] + apart) {
             result.emplace_back(a[--i], b[--j]);
-        } else if (i > 0 && cost[i][j] == cost[i - 1][j] + kAlone) {
+        } else if (i > 0 && cost[i][j] == cost[i - 1][j] + alone) {
             result.emplace_back(a[--i], -1);
         } else {
             result.emplace_back(-1, b[--j]);

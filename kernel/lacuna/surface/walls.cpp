@@ -3,17 +3,20 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/affine.h>
+#include <lacuna/geometry/harmonic.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/swept_patch.h>
 #include <lacuna/geometry/transfinite.h>
 #include <lacuna/surface/detail/chain_nodes.h>
-#include <lacuna/surface/detail/linking_map.h>
+#include <lacuna/surface/detail/wall_net.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -79,10 +82,12 @@ public:
           count_(nodes.source_at.size()),
           layers_(heights.size() - 1),
           given_node_(count_, 0),
-          given_side_(count_, 0)
+          given_side_(count_, 0),
+          line_of_(count_, -1)
     {
         mesh_.points.resize(count_ * (layers_ + 1));
         mesh_.face.resize(count_ * layers_);
+        for (std::size_t i = 0; i < nodes.line.size(); ++i) line_of_[nodes.line[i]] = static_cast<int>(i);
         set_columns(columns);
     }
 
@@ -98,9 +103,10 @@ public:
                                         [&](const auto& faces) { return is_simple(faces); });
         if (!simple) {
             map_ = std::make_unique<LinkingMap>(volume_, link_);
-            check_loose_edges();
-            plan_rings();
+            net_ = wall_net(model_, link_, *map_);
+            plan_levels();
         }
+        lay_grid();
         mesh_lines();
         if (panels.empty()) mesh_by_map(0, count_);
         for (std::size_t i = 0; i < panels.size(); ++i) {
@@ -113,10 +119,13 @@ public:
                 continue;
             }
             if (is_simple(panels[i]) && mesh_transfinite(panels[i].front(), first, last)) continue;
-            if (map_ == nullptr) map_ = std::make_unique<LinkingMap>(volume_, link_);
+            if (map_ == nullptr) {
+                map_ = std::make_unique<LinkingMap>(volume_, link_);
+                lay_grid();
+            }
             mesh_by_map(first, last);
         }
-        if (map_ != nullptr) check_rings();
+        check_stops();
         return std::move(mesh_);
     }
 
@@ -200,108 +209,59 @@ private:
         return faces.size() == 1 && model_[faces.front()].loops.size() == 1;
     }
 
-    /// Give each ring the layer nearest to it that leaves one for all others; rings less than half a layer
-    /// apart, one step of the walls, share theirs.
-    void plan_rings()
+    /// Give each level the layer nearest to it that leaves one for all others above and below it.
+    void plan_levels()
     {
         const auto layers = static_cast<int>(layers_);
-        const std::vector<LinkingMap::Ring>& rings = map_->rings();
-        std::vector<int> level; // of each ring, counted from the source
-        for (std::size_t r = 0; r < rings.size(); ++r) {
-            const bool shared = r > 0 && rings[r].height - rings[r - 1].height < 0.5 / layers;
-            level.push_back(r == 0 ? 0 : level.back() + (shared ? 0 : 1));
+        const std::size_t count = net_.levels.size();
+        std::vector<std::vector<std::size_t>> below(count);
+        std::vector<int> above(count, 0), depth(count, 0);
+        for (std::size_t a = 0; a < count; ++a) {
+            for (std::size_t b = a + 1; b < count; ++b) {
+                if (net_.over_each_other(*map_, a, b)) below[b].push_back(a);
+            }
         }
-        const int levels = level.empty() ? 0 : level.back() + 1;
-        if (levels >= layers) {
+        int most = 0;
+        for (std::size_t b = 0; b < count; ++b) {
+            for (const std::size_t a : below[b]) depth[b] = std::max(depth[b], depth[a] + 1);
+            most = std::max(most, depth[b] + 1);
+        }
+        for (std::size_t b = count; b-- > 0;) {
+            for (const std::size_t a : below[b]) above[a] = std::max(above[a], above[b] + 1);
+        }
+        if (most >= layers) {
             throw NotSweepable("surface.too_few_layers",
-                               name_of(model_, rings.front().pieces.front().edge) +
+                               name_of(model_, net_.levels.front().edge) +
                                    " runs round the walls between source and target, as do edges at " +
-                                   std::to_string(levels) +
-                                   " heights in all; each needs a layer to lie on, " +
-                                   "which takes layers = " + std::to_string(levels + 1) + " or more, and " +
+                                   std::to_string(most) + " heights in all; each needs a layer to lie on, " +
+                                   "which takes layers = " + std::to_string(most + 1) + " or more, and " +
                                    std::to_string(layers) + " are asked for");
         }
-        int last = 0, last_level = -1;
-        for (std::size_t r = 0; r < rings.size(); ++r) {
-            if (level[r] != last_level) {
-                int nearest = 1;
-                for (int k = 1; k < layers; ++k) {
-                    if (std::abs(heights_[static_cast<std::size_t>(k)] - rings[r].height) <
-                        std::abs(heights_[static_cast<std::size_t>(nearest)] - rings[r].height))
-                        nearest = k;
-                }
-                last = std::min(std::max(nearest, last + 1), layers - levels + level[r]);
-                last_level = level[r];
+        for (std::size_t r = 0; r < count; ++r) {
+            int nearest = 1, lowest = 1;
+            for (int k = 1; k < layers; ++k) {
+                if (std::abs(heights_[static_cast<std::size_t>(k)] - net_.levels[r].height) <
+                    std::abs(heights_[static_cast<std::size_t>(nearest)] - net_.levels[r].height))
+                    nearest = k;
             }
-            ring_layer_.push_back(last);
+            for (const std::size_t a : below[r]) lowest = std::max(lowest, level_layer_[a] + 1);
+            level_layer_.push_back(std::min(std::max(nearest, lowest), layers - 1 - above[r]));
         }
     }
 
-    /// Edges that run up the walls without being side lines are refused.
-    void check_loose_edges() const
+    /// Columns of given nodes do not move: what turns or ends between them is refused.
+    void check_stops()
     {
-        if (!map_->loose_edges().empty()) {
-            const EdgeId edge = map_->loose_edges().front();
-            throw NotSweepable("surface.wall_edge",
-                               name_of(model_, edge) + beside(edge) +
-                                   " runs up the walls and is no side line from a corner of the source to "
-                                   "one of the target, so the layers would cut across it; carry it on to "
-                                   "both ends, or join the two faces to one");
+        if (net_.stops.empty()) return;
+        const std::vector<std::size_t> node = nodes_of_columns();
+        for (const WallNet::Stop& stop : net_.stops) {
+            const Vec3& at = model_.at(model_[stop.vertex].point);
+            if ((point(layer_of(stop), node[stop.column]) - at).norm() <= model_.tolerance) continue;
+            refuse_wall_edge(model_, net_.columns[stop.column].edge,
+                             "turns or ends at " + name_of(model_, stop.vertex) +
+                                 ", where the nodes that the walls or ends came with leave no column; load "
+                                 "with keep_mesh = false, or join the two faces to one");
         }
-    }
-
-    /// So are rings that turn or end where no column stands.
-    void check_rings() const
-    {
-        for (const LinkingMap::Ring& ring : map_->rings()) {
-            for (const VertexId vertex : ring.vertices) {
-                const EdgeId corner = corner_at(ring, vertex);
-                if (!corner.valid() || has_column(vertex)) continue;
-                throw NotSweepable("surface.wall_edge",
-                                   name_of(model_, corner) + beside(corner) + " turns or ends at " +
-                                       name_of(model_, vertex) +
-                                       ", where no column of nodes stands, so the mesh would cut across it; "
-                                       "put a vertex on the source's rim below it with an edge up to it, or "
-                                       "join the two faces to one");
-            }
-        }
-    }
-
-    [[nodiscard]] std::string beside(EdgeId edge) const
-    {
-        std::string text;
-        const auto uses = edge_uses(model_);
-        for (const FaceUse& use : uses[edge.index()])
-            text += (text.empty() ? " between " : " and ") + name_of(model_, use.face);
-        return text;
-    }
-
-    /// An edge of a ring that turns or ends at a vertex; none where the ring runs on smoothly.
-    [[nodiscard]] EdgeId corner_at(const LinkingMap::Ring& ring, VertexId vertex) const
-    {
-        constexpr double kSmooth = 0.94; ///< cosine of 20°, below which facets' edges count as bent: a choice
-        std::vector<Vec3> away;
-        std::set<EdgeId> edges;
-        for (const LinkingMap::Piece& piece : ring.pieces) edges.insert(piece.edge);
-        EdgeId any;
-        for (const EdgeId id : edges) {
-            const Edge& edge = model_[id];
-            const auto leave = [&](Index from, Index to) {
-                away.push_back((model_.at(to) - model_.at(from)).normalized());
-                any = id;
-            };
-            if (edge.from == vertex) leave(edge.points[0], edge.points[1]);
-            if (edge.to == vertex) leave(edge.points.back(), edge.points[edge.points.size() - 2]);
-        }
-        return away.size() == 2 && away[0].dot(away[1]) < -kSmooth ? EdgeId() : any;
-    }
-
-    /// Whether a node of the walls stands on a vertex.
-    [[nodiscard]] bool has_column(VertexId vertex) const
-    {
-        const Vec3& at = model_.at(model_[vertex].point);
-        return std::any_of(mesh_.points.begin(), mesh_.points.end(),
-                           [&](const Vec3& p) { return (p - at).norm() <= model_.tolerance; });
     }
 
     /// Heights of a column's nodes: the layers', drawn to the rings it crosses.
@@ -333,14 +293,15 @@ private:
         return at;
     }
 
-    /// Where the rings cross a column, by their layers.
+    /// Where plain rings cross a column, by their layers.
     [[nodiscard]] std::map<int, LinkingMap::Crossing> crossings_at(double s) const
     {
         std::map<int, LinkingMap::Crossing> at_layer;
-        for (std::size_t r = 0; r < ring_layer_.size(); ++r) {
-            const LinkingMap::Ring& ring = map_->rings()[r];
+        for (std::size_t r = 0; r < level_layer_.size(); ++r) {
+            if (!net_.levels[r].plain) continue;
+            const LinkingMap::Ring& ring = map_->rings()[*net_.levels[r].ring];
             for (const LinkingMap::Crossing& crossing : LinkingMap::crossings(ring, s)) {
-                const auto [found, fresh] = at_layer.try_emplace(ring_layer_[r], crossing);
+                const auto [found, fresh] = at_layer.try_emplace(level_layer_[r], crossing);
                 if (!fresh && std::abs(crossing.t - ring.height) < std::abs(found->second.t - ring.height))
                     found->second = crossing;
             }
@@ -348,32 +309,268 @@ private:
         return at_layer;
     }
 
-    [[nodiscard]] std::vector<double> heights_at(const std::map<int, LinkingMap::Crossing>& crossings) const
+    /// Heights of a side line's nodes, drawn to where plain rings meet it.
+    [[nodiscard]] std::vector<double> line_heights(const Chain& chain) const
     {
         std::map<int, double> at_layer;
-        for (const auto& [layer, crossing] : crossings) at_layer[layer] = crossing.t;
-        return map_heights(at_layer);
+        for (std::size_t u = 1; u < chain.uses().size(); ++u) {
+            const VertexId v = use_from(model_, chain.uses()[u]);
+            for (std::size_t r = 0; r < level_layer_.size(); ++r) {
+                if (!net_.levels[r].plain) continue;
+                const auto& vertices = map_->rings()[*net_.levels[r].ring].vertices;
+                if (std::find(vertices.begin(), vertices.end(), v) != vertices.end())
+                    at_layer[level_layer_[r]] = chain.start(u) / chain.length();
+            }
+        }
+        return column_heights(at_layer);
+    }
+
+    /// Where each node lies in the strip: columns upright and layers as the plain rings draw them, then moved
+    /// so that the net's nodes lie on it.
+    void lay_grid()
+    {
+        place_.assign(count_ * (layers_ + 1), Vec2::Zero());
+        for (std::size_t i = 0; i < count_; ++i) {
+            std::vector<double> at = heights_;
+            const double s = nodes_.source_at[i] / link_.source.length();
+            if (line_of_[i] >= 0) {
+                const LinkingLine& line = link_.lines[static_cast<std::size_t>(line_of_[i])];
+                at = line_heights(Chain(model_, line.line.uses));
+            } else if (map_ != nullptr) {
+                std::map<int, double> at_layer;
+                for (const auto& [layer, crossing] : crossings_at(s)) {
+                    at_layer[layer] = crossing.t;
+                    on_edge_[static_cast<std::size_t>(layer) * count_ + i] = {crossing.edge, crossing.at,
+                                                                              Vec2(s, crossing.t)};
+                }
+                at = map_heights(at_layer);
+            }
+            for (std::size_t k = 0; k <= layers_; ++k) place_[k * count_ + i] = Vec2(s, at[k]);
+        }
+        if (!net_.stops.empty()) follow_net();
+    }
+
+    // --- the net -------------------------------------------------------------------------------------
+
+    /// The node of each column of the net.
+    [[nodiscard]] std::vector<std::size_t> nodes_of_columns() const
+    {
+        std::vector<std::size_t> node;
+        for (const WallNet::Column& column : net_.columns) {
+            std::size_t nearest = 0;
+            double least = std::numeric_limits<double>::infinity();
+            for (std::size_t i = 0; i < count_; ++i) {
+                const double to = column.target_at
+                                      ? wrapped({nodes_.target_at[i]}, link_.target.length())[0] -
+                                            *column.target_at
+                                      : 0;
+                const double off = column.target_at && !column.source_at
+                                       ? std::abs(std::remainder(to / link_.target.length(), 1.0))
+                                       : std::abs(std::remainder(
+                                             nodes_.source_at[i] / link_.source.length() - column.at, 1.0));
+                if (off >= least) continue;
+                least = off;
+                nearest = i;
+            }
+            node.push_back(column.line ? nodes_.line[*column.line] : nearest);
+        }
+        for (std::size_t a = 0; a < node.size(); ++a) {
+            for (std::size_t b = 0; b < a; ++b) {
+                const WallNet::Column &p = net_.columns[a], &q = net_.columns[b];
+                if (node[a] != node[b] || p.high < q.low || q.high < p.low) continue;
+                refuse_wall_edge(model_, q.line ? p.edge : q.edge,
+                                 "and " + name_of(model_, q.line ? q.edge : p.edge) +
+                                     " want the same column of nodes; ask for a smaller size");
+            }
+        }
+        return node;
+    }
+
+    [[nodiscard]] std::size_t layer_of(const WallNet::Stop& stop) const
+    {
+        if (stop.level == WallNet::kSource) return 0;
+        if (stop.level == WallNet::kTarget) return layers_;
+        return static_cast<std::size_t>(level_layer_[static_cast<std::size_t>(stop.level)]);
+    }
+
+    /// Put a node on an edge.
+    void pin(std::size_t node, std::size_t layer, EdgeId edge, double share, const Vec2& place)
+    {
+        if (layer == 0 || layer == layers_) return;
+        on_edge_[layer * count_ + node % count_] = {edge, share, place};
+    }
+
+    void pin_long_edges(const std::vector<std::size_t>& column_node)
+    {
+        for (const WallNet::LongEdge& edge : net_.long_edges) {
+            const WallNet::Stop &low = net_.stops[edge.low], &high = net_.stops[edge.high];
+            const std::size_t from = layer_of(low), to = layer_of(high);
+            if (from >= to) {
+                refuse_wall_edge(model_, edge.upright->edge,
+                                 "runs up the walls past other edges in another order than the layers; ask "
+                                 "for more layers");
+            }
+            for (std::size_t k = from; k <= to; ++k) {
+                double f = (heights_[k] - heights_[from]) / (heights_[to] - heights_[from]);
+                if (edge.reversed) f = 1 - f;
+                pin(column_node[low.column], k, edge.upright->edge, f,
+                    place_on(edge.upright->pieces, edge.upright->edge, f));
+            }
+        }
+    }
+
+    /// The place in the strip of a share of an edge.
+    static Vec2 place_on(const std::vector<LinkingMap::Piece>& pieces, EdgeId edge, double share)
+    {
+        constexpr double kSlack = 1e-9; ///< of the edge: rounding
+        for (const LinkingMap::Piece& piece : pieces) {
+            const double low = std::min(piece.from, piece.to), high = std::max(piece.from, piece.to);
+            if (piece.edge != edge || share < low - kSlack || share > high + kSlack) continue;
+            const double f = high > low ? (share - piece.from) / (piece.to - piece.from) : 0;
+            return piece.a + f * (piece.b - piece.a);
+        }
+        return pieces.front().a;
+    }
+
+    /// Nodes between the stops of a level lie on its edges, at even steps of the columns.
+    void pin_level(std::size_t number, const std::vector<std::size_t>& column_node)
+    {
+        const WallNet::Level& level = net_.levels[number];
+        const auto layer = static_cast<std::size_t>(level_layer_[number]);
+        if (!level.ring || level.plain) return;
+        const LinkingMap::Ring& ring = map_->rings()[*level.ring];
+        struct Anchor {
+            std::size_t node;
+            double s;
+        };
+        std::vector<Anchor> anchors;
+        for (const std::size_t stop : level.stops) {
+            const double s = net_.stops[stop].place.x();
+            anchors.push_back({column_node[net_.stops[stop].column], s - std::floor(s + 1e-9)});
+        }
+        std::sort(anchors.begin(), anchors.end(),
+                  [](const Anchor& a, const Anchor& b) { return a.node < b.node; });
+        for (std::size_t a = 0; a < anchors.size(); ++a) {
+            const Anchor& from = anchors[a];
+            Anchor to = anchors[(a + 1) % anchors.size()];
+            if (a + 1 == anchors.size()) to.node += count_;
+            while (to.s <= from.s + 1e-9) to.s += 1;
+            const double start = at_node(from.node), whole = at_node(to.node) - start;
+            for (std::size_t i = from.node + 1; i < to.node; ++i) {
+                const double s = from.s + (at_node(i) - start) / whole * (to.s - from.s);
+                const std::vector<LinkingMap::Crossing> found = LinkingMap::crossings(ring, s);
+                if (!found.empty())
+                    pin(i, layer, found.front().edge, found.front().at, Vec2(s, found.front().t));
+            }
+        }
+    }
+
+    /// s of a node, growing past whole turns.
+    [[nodiscard]] double at_node(std::size_t node) const
+    {
+        return nodes_.source_at[node % count_] / link_.source.length() +
+               static_cast<double>(node / count_); // NOLINT(bugprone-integer-division): whole turns
+    }
+
+    /// Pin nodes to the net, and move the others as the grid's harmonic field says.
+    void follow_net()
+    {
+        const std::vector<std::size_t> column_node = nodes_of_columns();
+        pin_long_edges(column_node);
+        for (std::size_t r = 0; r < net_.levels.size(); ++r) pin_level(r, column_node);
+        for (const WallNet::Stop& stop : net_.stops) {
+            const std::size_t node = column_node[stop.column], layer = layer_of(stop);
+            for (const Edge& edge : model_.edges) {
+                if (edge.from != stop.vertex && edge.to != stop.vertex) continue;
+                const EdgeId id(static_cast<std::size_t>(&edge - model_.edges.data()));
+                pin(node, layer, id, edge.from == stop.vertex ? 0.0 : 1.0, stop.place);
+                break;
+            }
+        }
+        move_grid();
+        for (std::size_t i = 0; i < count_; ++i) {
+            for (std::size_t k = 0; k < layers_; ++k) {
+                if (place_[(k + 1) * count_ + i].y() > place_[k * count_ + i].y()) continue;
+                refuse_wall_edge(model_,
+                                 net_.levels.empty() ? net_.columns.front().edge : net_.levels.front().edge,
+                                 "draws the layers over each other; ask for more layers");
+            }
+        }
+    }
+
+    void move_grid()
+    {
+        // On a cylinder, where the grid closes on itself as the strip does.
+        constexpr double kTurn = 2 * std::numbers::pi;
+        std::vector<Vec3> points;
+        for (std::size_t k = 0; k <= layers_; ++k) {
+            for (std::size_t i = 0; i < count_; ++i) {
+                const double angle = kTurn * at_node(i), radius = map_->width() / kTurn;
+                points.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
+                                    heights_[k] * map_->height());
+            }
+        }
+        std::vector<Triangle> triangles;
+        const auto at = [&](std::size_t k, std::size_t i) {
+            return static_cast<Index>(k * count_ + i % count_);
+        };
+        for (std::size_t k = 0; k < layers_; ++k) {
+            for (std::size_t i = 0; i < count_; ++i) {
+                triangles.push_back({at(k, i), at(k, i + 1), at(k + 1, i + 1)});
+                triangles.push_back({at(k, i), at(k + 1, i + 1), at(k + 1, i)});
+            }
+        }
+        for (const Eigen::Index axis : {0, 1}) {
+            std::map<Index, double> fixed;
+            for (std::size_t i = 0; i < count_; ++i) {
+                for (std::size_t k = 0; k <= layers_; ++k) {
+                    const bool still = k == 0 || k == layers_ || given_node_[i] != 0 ||
+                                       (axis == 0 && line_of_[i] >= 0);
+                    if (still) fixed[at(k, i)] = 0;
+                }
+            }
+            for (const auto& [node, pinned] : on_edge_) {
+                double off = pinned.place[axis] - place_[node][axis];
+                if (axis == 0) off -= std::round(off);
+                fixed.try_emplace(static_cast<Index>(node), off);
+            }
+            geometry::HarmonicProblem problem;
+            problem.points = points;
+            problem.triangles = triangles;
+            problem.fixed_values.resize(static_cast<Eigen::Index>(fixed.size()), 1);
+            for (const auto& [node, off] : fixed) {
+                problem.fixed_values(static_cast<Eigen::Index>(problem.fixed.size()), 0) = off;
+                problem.fixed.push_back(node);
+            }
+            const Eigen::MatrixXd moves = geometry::solve_harmonic(problem, context_);
+            for (std::size_t n = 0; n < place_.size(); ++n)
+                place_[n][axis] += moves(static_cast<Eigen::Index>(n), 0);
+        }
+    }
+
+    // -------------------------------------------------------------------------------------------------
+
+    /// The point of a node that lies on an edge.
+    [[nodiscard]] std::optional<Vec3> pinned_point(std::size_t layer, std::size_t node) const
+    {
+        const auto found = on_edge_.find(layer * count_ + node);
+        if (found == on_edge_.end()) return std::nullopt;
+        const double at[] = {found->second.share};
+        return edge_points(model_, found->second.edge, at).front();
     }
 
     void mesh_lines()
     {
         for (std::size_t i = 0; i < link_.lines.size(); ++i) {
-            if (given_node_[nodes_.line[i]] != 0) continue;
+            const std::size_t node = nodes_.line[i];
+            if (given_node_[node] != 0) continue;
             const Chain chain(model_, link_.lines[i].line.uses);
-            std::map<int, double> at_layer;
-            for (std::size_t u = 1; u < chain.uses().size(); ++u) {
-                const VertexId v = use_from(model_, chain.uses()[u]);
-                for (std::size_t r = 0; r < ring_layer_.size(); ++r) {
-                    const auto& vertices = map_->rings()[r].vertices;
-                    if (std::find(vertices.begin(), vertices.end(), v) != vertices.end()) {
-                        at_layer[ring_layer_[r]] = chain.start(u) / chain.length();
-                    }
-                }
-            }
-            std::vector<double> at = column_heights(at_layer);
-            for (double& t : at) t *= chain.length();
+            std::vector<double> at;
+            for (std::size_t k = 0; k <= layers_; ++k)
+                at.push_back(place_[k * count_ + node].y() * chain.length());
             const std::vector<Vec3> points = chain.points(at);
-            for (std::size_t k = 1; k < layers_; ++k) point(k, nodes_.line[i]) = points[k];
+            for (std::size_t k = 1; k < layers_; ++k)
+                point(k, node) = pinned_point(k, node).value_or(points[k]);
         }
     }
 
@@ -438,31 +635,25 @@ private:
     void mesh_by_map(std::size_t first, std::size_t last)
     {
         std::map<FaceId, std::pair<std::vector<FacetPosition>, std::vector<std::size_t>>> on_face;
-        const auto s_of = [&](std::size_t i) {
-            return i < count_ ? nodes_.source_at[i] / link_.source.length() : 1.0;
-        };
-        const std::set<std::size_t> lines(nodes_.line.begin(), nodes_.line.end());
-        std::vector<double> before;
-        for (std::size_t i = first; i <= last; ++i) {
-            const std::map<int, LinkingMap::Crossing> crossings = crossings_at(s_of(i));
-            const std::vector<double> at = heights_at(crossings);
-            const bool settled = lines.contains(i) || (i < count_ && given_node_[i] != 0);
-            for (std::size_t k = 1; k < layers_ && i < last && !settled; ++k) {
-                const auto ring = crossings.find(static_cast<int>(k));
-                if (ring != crossings.end()) {
-                    const double at_edge[] = {ring->second.at};
-                    point(k, i) = edge_points(model_, ring->second.edge, at_edge).front();
+        for (std::size_t i = first; i < last; ++i) {
+            const bool settled = line_of_[i] >= 0 || given_node_[i] != 0;
+            for (std::size_t k = 1; k < layers_ && !settled; ++k) {
+                if (const std::optional<Vec3> pinned = pinned_point(k, i)) {
+                    point(k, i) = *pinned;
                     continue;
                 }
-                const WallPosition place = map_->locate(s_of(i), at[k]);
+                const Vec2& at = place_[k * count_ + i];
+                const WallPosition place = map_->locate(at.x(), at.y());
                 on_face[place.face].first.push_back(place.at);
                 on_face[place.face].second.push_back(k * count_ + i);
             }
-            for (std::size_t k = 0; k < layers_ && i > first && given_side_[i - 1] == 0; ++k) {
-                const double t = (at[k] + at[k + 1] + before[k] + before[k + 1]) / 4;
-                mesh_.face[k * count_ + i - 1] = map_->locate((s_of(i - 1) + s_of(i)) / 2, t).face;
+            for (std::size_t k = 0; k < layers_ && given_side_[i] == 0; ++k) {
+                Vec2 next = place_[k * count_ + (i + 1) % count_] +
+                            place_[(k + 1) * count_ + (i + 1) % count_];
+                if (i + 1 == count_) next.x() += 2;
+                const Vec2 at = (place_[k * count_ + i] + place_[(k + 1) * count_ + i] + next) / 4;
+                mesh_.face[k * count_ + i] = map_->locate(at.x(), at.y()).face;
             }
-            before = at;
         }
         for (const auto& [face, work] : on_face) {
             const std::vector<Vec3> points = points_at(model_, face, work.first);
@@ -480,9 +671,18 @@ private:
     WallMesh mesh_;
     std::unique_ptr<LinkingMap> map_;
     std::vector<FollowedPanel> followed_;
-    std::vector<int> ring_layer_;  ///< of each ring of the map; 0: none
-    std::vector<char> given_node_; ///< nodes that are a column's
-    std::vector<char> given_side_; ///< sides of the rim that given quads stand on
+    WallNet net_;
+    std::vector<int> level_layer_; ///< of each level of the net
+    struct Pinned {
+        EdgeId edge;
+        double share; ///< of the edge's length
+        Vec2 place;   ///< in the strip
+    };
+    std::map<std::size_t, Pinned> on_edge_; ///< nodes that lie on an edge, by layer · nodes + node
+    std::vector<Vec2> place_;               ///< of each node in the strip
+    std::vector<char> given_node_;          ///< nodes that are a column's
+    std::vector<char> given_side_;          ///< sides of the rim that given quads stand on
+    std::vector<int> line_of_;              ///< side line of each node of the rim; -1: none
 };
 
 /// The rows of the walls that are there, as a section each.

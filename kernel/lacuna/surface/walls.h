@@ -34,17 +34,20 @@ struct WallMesh {
 ///
 /// A part between two side lines that is one face is meshed transfinitely in arc length and projected onto
 /// the face (paper sect. 7; for void faces Algorithms 5 and 6). Other parts (several faces stacked or in a
-/// row, or no side line at all) are meshed by the harmonic map of the linking surface; there, an edge that
-/// runs round between stacked faces has a layer of its own that lies on it. Void faces that follow the
-/// given walls come last: two affine fits a row say where the rows of the other walls lead their nodes, so
-/// that rows stay level round the volume.
+/// row, or no side line at all) are meshed by the harmonic map of the linking surface. There edges between
+/// faces are followed: those that run round lie on a layer, those that run up on a column, and where they
+/// meet, turn or end a node stands; the other nodes are moved as a harmonic field over the grid says, so
+/// that layers and columns bend towards them. Void faces that follow the given walls come last: two affine
+/// fits a row say where the rows of the other walls lead their nodes, so that rows stay level round the
+/// volume.
 ///
 /// Columns of given nodes are taken as they are, and the quads between them with them.
 /// @param nodes    of each linking surface.
 /// @param columns  of each linking surface; empty: none.
 /// @param heights  layers + 1 numbers from 0 to 1.
 /// @throw NotSweepable "surface.too_few_layers"  more such edges than layers; names one, and the layers that
-///         would do. "surface.wall_edge": an edge between two walls that no layer and no column can follow.
+///         would do. "surface.wall_edge": an edge between two walls that no layer and no column
+///         can follow.
 /// @post  nodes on given faces and edges lie on the exact geometry; rows 0 and last are points of the rims.
 std::vector<WallMesh> mesh_walls(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                                  std::span<const LinkingNodes> nodes, std::span<const double> heights,

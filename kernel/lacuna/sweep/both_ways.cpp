@@ -46,15 +46,30 @@ struct Outcome {
     }
 };
 
-Outcome outcome_of(const OpenVolume& volume, const SweepOptions& options, const OneWay& sweep_one_way)
+Outcome outcome_of(const OpenVolume& volume, const SweepOptions& options, const OneWay& sweep_one_way,
+                   Outline outline = Outline::source)
 {
     Outcome outcome;
     try {
-        outcome.result = sweep_one_way(volume, options);
+        outcome.result = sweep_one_way(volume, options, outline);
     } catch (const NotSweepable& error) {
         outcome.refusal = error;
     }
     return outcome;
+}
+
+std::string how_it_was(const Outcome& outcome)
+{
+    return outcome.usable()
+               ? "the least scaled Jacobian is " + in_short(outcome.result->swept.min_scaled_jacobian)
+               : "it is refused: " + outcome.why();
+}
+
+/// Whether the quads of one end's face can be laid out between both outlines.
+bool can_lie_between(const OpenVolume& volume, const SweepOptions& options)
+{
+    return (options.quads == Quads::automatic || options.quads == Quads::paved) && options.rows == 0 &&
+           volume.faces(Role::source).size() == 1 && volume.faces(Role::target).size() == 1;
 }
 
 /// The end a volume is swept from, as the person named it.
@@ -84,7 +99,7 @@ OpenVolume turned_round(OpenVolume volume)
 ProvedSweep sweep_both_ways(const OpenVolume& volume, const SweepOptions& options,
                             const OneWay& sweep_one_way, const RunContext& context)
 {
-    if (keeps_quads(volume, options)) return sweep_one_way(volume, options);
+    if (keeps_quads(volume, options)) return sweep_one_way(volume, options, Outline::source);
     // A target that came with quads is swept from where the source did not.
     if (const OpenVolume back = turned_round(volume); keeps_quads(back, options)) {
         Outcome kept = outcome_of(back, options, sweep_one_way);
@@ -122,14 +137,32 @@ ProvedSweep sweep_both_ways(const OpenVolume& volume, const SweepOptions& option
     if (!turned_first) turned = turned_round(volume);
     const OpenVolume& second = turned_first ? volume : *turned;
     Outcome other = outcome_of(second, remaining(options, start), sweep_one_way);
-    if (other.usable() &&
-        (!one.usable() || other.result->swept.min_scaled_jacobian > one.result->swept.min_scaled_jacobian)) {
-        const std::string before = one.usable() ? "the least scaled Jacobian is " +
-                                                      in_short(one.result->swept.min_scaled_jacobian)
-                                                : "it is refused: " + one.why();
+    const bool swap = other.usable() && (!one.usable() || other.result->swept.min_scaled_jacobian >
+                                                              one.result->swept.min_scaled_jacobian);
+    const Outcome* better = swap ? &other : &one;
+    Outcome mean;
+    // Laid out between both outlines, from either end, where it was the cells that were poor.
+    const bool poor_cells = one.result || other.result;
+    for (const OpenVolume* way : {&first, &second}) {
+        if (better->good() || !poor_cells || !can_lie_between(*way, options)) break;
+        Outcome between = outcome_of(*way, remaining(options, start), sweep_one_way, Outline::mean);
+        if (!between.usable())
+            log_line(context, "laid out between the outlines of both ends: " + between.why());
+        if (!between.usable() || (better->usable() && between.result->swept.min_scaled_jacobian <=
+                                                          better->result->swept.min_scaled_jacobian))
+            continue;
+        between.result->swept.report.insert(between.result->swept.report.begin(),
+                                            "laid out between the outlines of both ends and swept from the " +
+                                                end_of(*way) + "; from one outline alone " +
+                                                how_it_was(swap ? other : one));
+        mean = std::move(between);
+        better = &mean;
+    }
+    if (better == &mean) return std::move(*mean.result);
+    if (swap) {
         other.result->swept.report.insert(other.result->swept.report.begin(),
                                           "swept from the " + end_of(second) + "; from the " + end_of(first) +
-                                              " " + before);
+                                              " " + how_it_was(one));
         return std::move(*other.result);
     }
     if (one.usable()) return std::move(*one.result);

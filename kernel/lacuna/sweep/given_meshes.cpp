@@ -64,7 +64,7 @@ GivenMeshes given_meshes(const OpenVolume& volume, std::vector<surface::LinkingS
 }
 
 std::vector<double> default_heights(const std::vector<surface::LinkingSurface>& links,
-                                    const surface::SizeField& size, LayerSpec spec)
+                                    const surface::SizeField& size, LayerSpec spec, int least)
 {
     double sides = 0, segments = 0;
     for (const surface::LinkingSurface& link : links) {
@@ -83,7 +83,7 @@ std::vector<double> default_heights(const std::vector<surface::LinkingSurface>& 
         throw InvalidInput("sweep.too_many",
                            "about " + in_short(count) + " layers would be needed at the size; give 'layers'");
     }
-    spec.count = std::max(1, static_cast<int>(std::lround(count)));
+    spec.count = std::max(least, static_cast<int>(std::lround(count)));
     return layer_heights(spec);
 }
 

@@ -8,6 +8,7 @@
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace lacuna::sweep {
@@ -24,7 +25,10 @@ std::vector<std::optional<Vec3>> known_places(const surface::SourceMesh& source,
     for (const auto& [edge, image] : imprint.images) {
         const std::vector<Index>& nodes = source.on_edge.at(edge);
         std::vector<double> at = seeds.fractions(edge);
-        for (double& f : at) f = image.from + f * (image.to - image.from);
+        for (double& f : at) {
+            f = image.from + f * (image.to - image.from);
+            if (f < 0 || f > 1) f -= std::floor(f); // past the start of a closed edge
+        }
         const std::vector<Vec3> points = surface::edge_points(imprint.volume->model, image.target, at);
         for (std::size_t i = 0; i < nodes.size(); ++i) places[index(nodes[i])] = points[i];
     }

@@ -10,8 +10,10 @@
 #include <lacuna/surface/given_target.h>
 #include <lacuna/surface/imprint.h>
 #include <lacuna/surface/source_mesh.h>
+#include <lacuna/surface/wall_breaks.h>
 #include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/given_meshes.h>
+#include <lacuna/sweep/detail/mean_outline.h>
 #include <lacuna/sweep/detail/morph_ends.h>
 #include <lacuna/sweep/detail/normals.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
@@ -325,15 +327,17 @@ std::optional<surface::Imprint> imprint_of(const OpenVolume& volume,
 /// what.
 ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::LinkingSurface> given_links,
                           const std::vector<double>& asked, const surface::SizeField& size,
-                          const SweepOptions& options, const RunContext& context)
+                          const SweepOptions& options, Outline outline, const RunContext& context)
 {
     Swept result;
     std::optional<surface::Imprint> imprint = imprint_of(volume, given_links, size, options.wedges);
     const OpenVolume& split = imprint ? *imprint->volume : volume;
     std::vector<surface::LinkingSurface>& links = imprint ? imprint->links : given_links;
+    const int least_layers = surface::set_wall_breaks(split, size, links);
     GivenMeshes given = given_meshes(split, links, asked, options);
-    const std::vector<double> heights = given.heights.empty() ? default_heights(links, size, options.layers)
-                                                              : given.heights;
+    const std::vector<double> heights = given.heights.empty()
+                                            ? default_heights(links, size, options.layers, least_layers)
+                                            : given.heights;
     for (std::string& note : given.notes) result.report.push_back("given: " + note);
     const surface::Seeds seeds = surface::seed_source(
         split, links, size, style_of(options), {options.curvature, options.gap},
@@ -341,9 +345,11 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     for (const std::string& note : seeds.notes) result.report.push_back("given: " + note);
     surface::SourceMesh source = surface::mesh_source(split, links, seeds, size_fields(size, options),
                                                       mesher_for_all(options), context);
-    for (std::string& note : source.notes) result.report.push_back("source " + note);
     std::vector<surface::WallMesh> walls;
     const RimColumns columns = columns_of(split, links, given.columns, source, heights, walls, context);
+    if (outline == Outline::mean && !options.wedges)
+        source = laid_between(split, std::move(source), columns, size, mesher_of(options), context);
+    for (std::string& note : source.notes) result.report.push_back("source " + note);
     for (const surface::WallMesh& wall : walls) {
         for (const std::string& note : wall.notes) result.report.push_back("walls: " + note);
     }
@@ -414,10 +420,10 @@ bool can_turn_together(const std::vector<surface::LinkingSurface>& links)
 /// better ones.
 ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
                            const std::vector<double>& heights, const surface::SizeField& size,
-                           const SweepOptions& options, const RunContext& context)
+                           const SweepOptions& options, Outline outline, const RunContext& context)
 {
     const auto start = std::chrono::steady_clock::now();
-    ProvedSweep alone = sweep_between(volume, links, heights, size, options, context);
+    ProvedSweep alone = sweep_between(volume, links, heights, size, options, outline, context);
     const bool poor = alone.proof.finding ? quality::can_be_improved(alone.proof.finding->fault)
                                           : alone.swept.min_scaled_jacobian < options.improving.good_enough;
     if (!poor) return alone;
@@ -429,7 +435,7 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
     if (same) return alone;
     try { // What went wrong first says more than what goes wrong second.
         ProvedSweep together = sweep_between(volume, as_one, heights, size, remaining(options, start),
-                                             context);
+                                             outline, context);
         if (together.proof.finding) {
             log_line(context, "loops turned as one body: " + together.proof.finding->message);
         } else if (alone.proof.finding ||
@@ -449,7 +455,7 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
 
 /// From source to target, by the linking surfaces that the walls are.
 ProvedSweep sweep_one_way(const OpenVolume& volume, const surface::SizeField& size,
-                          const SweepOptions& options, const RunContext& context)
+                          const SweepOptions& options, Outline outline, const RunContext& context)
 {
     const bool counted = options.layers.count > 0 || !options.layers.heights.empty();
     std::vector<double> heights = counted ? layer_heights(options.layers) : std::vector<double>{};
@@ -458,8 +464,8 @@ ProvedSweep sweep_one_way(const OpenVolume& volume, const surface::SizeField& si
         for (double& h : heights) h = 1 - h;
     }
     const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(volume);
-    return can_turn_together(links) ? better_turning(volume, links, heights, size, options, context)
-                                    : sweep_between(volume, links, heights, size, options, context);
+    return can_turn_together(links) ? better_turning(volume, links, heights, size, options, outline, context)
+                                    : sweep_between(volume, links, heights, size, options, outline, context);
 }
 
 /// A turn needs no more sides than this for its volume: an inscribed polygon of so many is off by 0.07 %.
@@ -470,8 +476,8 @@ constexpr double kLessLost = 0.75;
 /// A mesh that was proved, and compared with the sealed skin.
 Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
 {
-    const OneWay one_way = [&](const OpenVolume& way, const SweepOptions& rest) {
-        return sweep_one_way(way, source_size(way, rest), rest, context);
+    const OneWay one_way = [&](const OpenVolume& way, const SweepOptions& rest, Outline outline) {
+        return sweep_one_way(way, source_size(way, rest), rest, outline, context);
     };
     ProvedSweep result = sweep_both_ways(volume, options, one_way, context);
     quality::require(result.proof);

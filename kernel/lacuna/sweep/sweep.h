@@ -98,9 +98,10 @@ struct Swept {
 /// cells too. A face of triangles alone is a shape, whose inside is meshed anew; with `wedges` it is a mesh
 /// as well, if it keeps its nodes. Who names a way of meshing (`Quads::paved`) has all meshed anew.
 ///
-/// Edges between the faces of an end, and those that run round the walls, become chains of mesh edges. The
-/// sweep runs from source to target, or back where that is better; the report says which, and `mesh` counts
-/// its layers from the end it started at.
+/// Edges between the faces of an end, and those that run round the walls or up them, become chains of mesh
+/// edges. The sweep runs from source to target, or back where that is better, or with the quads laid out
+/// between both outlines where both are poor; the report says which, and `mesh` counts its layers from the
+/// end it started at.
 /// @throw InvalidInput   what `check()` refuses; a size that is no positive length, or too many cells to
 ///                       number.
 /// @throw NotSweepable   names the face, wall or cells, what was expected and found, and what to try.

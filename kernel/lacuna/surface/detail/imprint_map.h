@@ -17,11 +17,19 @@ struct SourcePlace {
     Vec3 point = Vec3::Zero(); ///< on the facets
 };
 
+/// Closed edges of both ends that are swept to each other.
+struct ClosedPair {
+    EdgeId source, target;
+    double from = 0, to = 1; ///< shares of the target's length over the source edge's ends, past whole turns
+};
+
 /// Both ends of a volume in one plane, the source counter-clockwise.
 class EndsMap {
 public:
     /// @param volume  referred to; must outlive the map.
-    EndsMap(const topology::OpenVolume& volume, std::span<const LinkingSurface> links);
+    /// @param closed  edges that are laid on each other.
+    EndsMap(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
+            std::span<const ClosedPair> closed = {});
 
     /// Whether both ends lie in the plane one to one.
     [[nodiscard]] bool one_to_one() const { return one_to_one_; }
@@ -34,7 +42,7 @@ public:
 
 private:
     void lay_source();
-    void lay_target(std::span<const LinkingSurface> links);
+    void lay_target(std::span<const LinkingSurface> links, std::span<const ClosedPair> closed);
 
     const topology::OpenVolume& volume_;
     std::vector<Vec2> source_, target_; ///< of each model point

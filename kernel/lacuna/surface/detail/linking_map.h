@@ -48,8 +48,15 @@ public:
         std::vector<VertexId> vertices;
     };
     [[nodiscard]] const std::vector<Ring>& rings() const { return rings_; }
-    /// Edges between two walls that are neither rings nor side lines.
-    [[nodiscard]] const std::vector<EdgeId>& loose_edges() const { return loose_; }
+    /// An edge between two walls that climbs more than it runs round, and is part of no side line.
+    struct Upright {
+        EdgeId edge;
+        std::vector<Piece> pieces;
+    };
+    [[nodiscard]] const std::vector<Upright>& uprights() const { return uprights_; }
+    /// The strip's own proportions: lengths in space of a whole s and a whole t, in the mean.
+    [[nodiscard]] double width() const { return width_; }
+    [[nodiscard]] double height() const { return height_; }
 
     /// Where a ring crosses a column.
     struct Crossing {
@@ -73,7 +80,7 @@ private:
     std::vector<double> even_; ///< share of the way up at equal steps of t; empty with side lines
     geometry::FacetTree tree_;
     std::vector<Ring> rings_;
-    std::vector<EdgeId> loose_;
+    std::vector<Upright> uprights_;
 };
 
 /// Where on the target chain of a linking surface without side lines the source chain's start belongs, so

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/quality/quality.h>
+#include <lacuna/sweep/detail/mean_outline.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <chrono>
@@ -19,8 +20,8 @@ struct ProvedSweep {
     std::set<FaceId> kept;     ///< source faces whose own quads are the mesh
 };
 
-/// Sweeps a sealed volume from its source to its target.
-using OneWay = std::function<ProvedSweep(const topology::OpenVolume&, const SweepOptions&)>;
+/// Sweeps a sealed volume from its source to its target, the source's quads laid out in an outline.
+using OneWay = std::function<ProvedSweep(const topology::OpenVolume&, const SweepOptions&, Outline)>;
 
 /// The options with the time that is left of one budget for improving.
 SweepOptions remaining(SweepOptions options, std::chrono::steady_clock::time_point start);
@@ -29,7 +30,8 @@ SweepOptions remaining(SweepOptions options, std::chrono::steady_clock::time_poi
 topology::OpenVolume turned_round(topology::OpenVolume volume);
 
 /// Sweep from the end that promises more, and from the other where that is refused or its least scaled
-/// Jacobian is poor; the better mesh is given, and its report says which way it was swept.
+/// Jacobian is poor; the better mesh is given, and its report says which way it was swept. Where both are,
+/// the quads are laid out between the outlines of both ends.
 ///
 /// An end of several faces goes first, onto an end of one: edges inside the end swept from become mesh edges
 /// by themselves. A source whose own quads are to be kept is always swept from; so is, at first, one with

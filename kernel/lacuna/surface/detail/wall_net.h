@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/surface/detail/linking_map.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// The edges inside a linking surface as a net that the walls' nodes follow: long edges make columns, cross
+/// edges levels, and where they meet, turn or end a node stands.
+///
+/// Side lines and rims are no part of it; what ends on them does so in their own nodes.
+struct WallNet {
+    /// A vertex that a node stands on.
+    struct Stop {
+        VertexId vertex;
+        Vec2 place = Vec2::Zero(); ///< in the strip
+        std::size_t column = 0;
+        int level = -1; ///< kSource, kTarget or a number of `levels`
+    };
+    static constexpr int kSource = -1, kTarget = -2;
+
+    /// Long edges that go on from each other, or a vertex where cross edges turn or end.
+    struct Column {
+        double at = 0;                                ///< s in [0, 1)
+        double low = 1, high = 0;                     ///< reach in t
+        std::optional<std::size_t> line;              ///< the side line it is
+        std::optional<double> source_at, target_at{}; ///< running lengths of its ends on the rims
+        EdgeId edge;                                  ///< one of them, for messages
+    };
+    /// Cross edges that meet, or a vertex between long edges.
+    struct Level {
+        double height = 0;               ///< mean t
+        std::optional<std::size_t> ring; ///< of the map
+        bool plain = false; ///< a ring that turns and ends on side lines alone, and no long edge meets
+        std::vector<std::size_t> stops;
+        std::vector<std::size_t> lines; ///< side lines that the ring meets
+        EdgeId edge;                    ///< one of them, for messages
+    };
+    struct LongEdge {
+        const LinkingMap::Upright* upright;
+        std::size_t low, high; ///< stops
+        bool reversed;         ///< the edge runs down
+    };
+
+    std::vector<Stop> stops;
+    std::vector<Column> columns; ///< by rising s
+    std::vector<Level> levels;   ///< by rising height
+    std::vector<LongEdge> long_edges;
+
+    /// Whether two levels stand over the same part of the rim, so that they need two layers.
+    [[nodiscard]] bool over_each_other(const LinkingMap& map, std::size_t a, std::size_t b) const;
+};
+
+/// @throw NotSweepable "surface.wall_edge"  names an edge that is neither long nor cross: round, slanted,
+///                     or one that ends on a rim or between two side lines where it cannot.
+/// @note  O(edges² + facets of rings) of the linking surface.
+WallNet wall_net(const topology::Model& model, const LinkingSurface& link, const LinkingMap& map);
+
+/// @throw NotSweepable "surface.wall_edge"  names the edge and the walls beside it.
+[[noreturn]] void refuse_wall_edge(const topology::Model& model, EdgeId edge, const std::string& why);
+
+} // namespace lacuna::surface

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/wall_breaks.h>
+
+#include <lacuna/surface/detail/wall_net.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// A break of the rim nearer than this share of the size is the column's: no quad fits between them. A
+/// choice, not a measurement.
+constexpr double kOneColumn = 0.4;
+constexpr double kRounding = 1e-9; ///< of the rim's length
+
+/// Whether an edge inside a linking surface ends off its side lines and rims.
+bool has_net(const Model& model, const LinkingSurface& link)
+{
+    std::set<VertexId> known;
+    std::set<EdgeId> taken;
+    const auto take = [&](const EdgeUse& use) {
+        known.insert({use_from(model, use), use_to(model, use)});
+        taken.insert(use.edge);
+    };
+    for (const EdgeUse& use : link.source.uses()) take(use);
+    for (const EdgeUse& use : link.target.uses()) take(use);
+    for (const LinkingLine& line : link.lines) {
+        for (const EdgeUse& use : line.line.uses) take(use);
+    }
+    for (const FaceId wall : link.walls) {
+        for (const Loop& loop : model[wall].loops) {
+            for (const EdgeUse& use : loop.uses) {
+                if (taken.contains(use.edge)) continue;
+                if (!known.contains(use_from(model, use)) || !known.contains(use_to(model, use))) return true;
+            }
+        }
+    }
+    return false;
+}
+
+class Breaker {
+public:
+    Breaker(const OpenVolume& volume, const SizeField& size, LinkingSurface& link)
+        : size_(size), link_(link), map_(volume, link), net_(wall_net(volume.model, link, map_))
+    {
+    }
+
+    int run()
+    {
+        for (std::size_t c = 0; c < net_.columns.size(); ++c) {
+            if (!net_.columns[c].line) break_at(c);
+        }
+        std::vector<int> depth(net_.levels.size(), 1);
+        int most = 0;
+        for (std::size_t b = 0; b < net_.levels.size(); ++b) {
+            for (std::size_t a = 0; a < b; ++a) {
+                if (net_.over_each_other(map_, a, b)) depth[b] = std::max(depth[b], depth[a] + 1);
+            }
+            most = std::max(most, depth[b]);
+        }
+        return most + 1;
+    }
+
+private:
+    /// Whether a column that reaches over the same heights has a place of the rim already.
+    [[nodiscard]] bool is_taken(double at, std::size_t column) const
+    {
+        const WallNet::Column& own = net_.columns[column];
+        for (const auto& [place, other] : taken_) {
+            const WallNet::Column& that = net_.columns[other];
+            if (std::abs(place - at) <= kRounding * link_.source.length() && own.low <= that.high &&
+                that.low <= own.high)
+                return true;
+        }
+        return std::any_of(link_.lines.begin(), link_.lines.end(), [&](const LinkingLine& line) {
+            return std::abs(line.source_at - at) <= kRounding * link_.source.length();
+        });
+    }
+
+    void break_at(std::size_t c)
+    {
+        const WallNet::Column& column = net_.columns[c];
+        double at = column.at * link_.source.length();
+        if (column.source_at) {
+            taken_.emplace_back(*column.source_at, c);
+            return;
+        }
+        const std::array<double, 1> here{std::min(at, link_.source.length())};
+        const double reach = column.target_at ? 0 : kOneColumn * size_(link_.source.points(here).front());
+        double least = std::max(reach, kRounding * link_.source.length());
+        std::optional<double> near;
+        for (const RimSegment& segment : link_.segments) {
+            const double off = std::abs(segment.source_from - at);
+            const double round = std::min(off, link_.source.length() - off);
+            if (round > least || is_taken(segment.source_from, c)) continue;
+            least = round;
+            near = segment.source_from;
+        }
+        taken_.emplace_back(near.value_or(at), c);
+        if (!near) divide(at);
+    }
+
+    void divide(double at)
+    {
+        const double slack = kRounding * link_.source.length();
+        for (std::size_t i = 0; i < link_.segments.size(); ++i) {
+            RimSegment& low = link_.segments[i];
+            if (at < low.source_from + slack || at > low.source_to - slack) continue;
+            RimSegment high = low;
+            const double f = (at - low.source_from) / (low.source_to - low.source_from);
+            high.source_from = low.source_to = at;
+            high.target_from = low.target_to = low.target_from + f * (low.target_to - low.target_from);
+            link_.segments.insert(link_.segments.begin() + static_cast<std::ptrdiff_t>(i) + 1, high);
+            return;
+        }
+    }
+
+    const SizeField& size_;
+    LinkingSurface& link_;
+    LinkingMap map_;
+    WallNet net_;
+    std::vector<std::pair<double, std::size_t>> taken_; ///< places on the source's rim with their columns
+};
+
+} // namespace
+
+int set_wall_breaks(const OpenVolume& volume, const SizeField& size, std::vector<LinkingSurface>& links)
+{
+    int layers = 1;
+    for (LinkingSurface& link : links) {
+        if (has_net(volume.model, link)) layers = std::max(layers, Breaker(volume, size, link).run());
+    }
+    return layers;
+}
+
+} // namespace lacuna::surface

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/mean_outline.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/affine.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/surface/projector.h>
+#include <lacuna/sweep/detail/rim.h>
+#include <lacuna/sweep/morph.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+/// A quad's corner may be as wide as this on either end. A choice, not a measurement.
+constexpr double kWidest = 150 * kDegree;
+/// Of the angle that quads fill as right angles, what may lack: near half a right angle one quad less fits. A
+/// node that lacks more is drawn in until it lacks less. Choices, not measurements.
+constexpr double kMayLack = 40 * kDegree, kLacks = 30 * kDegree;
+constexpr double kRight = 90 * kDegree;
+
+/// The angle inside at b, the region on the left of a, b, c [0, 2 π).
+double inner_angle(const Vec2& a, const Vec2& b, const Vec2& c)
+{
+    const Vec2 in = b - a, out = c - b;
+    return std::numbers::pi - std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
+}
+
+/// Both rims in the plane of the source's, and their mean.
+struct FlatRims {
+    Vec3 origin, x, y;
+    std::vector<Vec2> low, high, mean;
+
+    [[nodiscard]] Vec2 flat(const Vec3& p) const { return {(p - origin).dot(x), (p - origin).dot(y)}; }
+    [[nodiscard]] Vec3 lifted(const Vec2& p) const { return origin + p.x() * x + p.y() * y; }
+};
+
+FlatRims flat_rims(const mesh::QuadMesh& source, const RimColumns& columns)
+{
+    const std::span<const Vec3> low = columns.row(0), high = columns.row(columns.layers);
+    FlatRims rims;
+    const Vec3 normal = rim_area(low, rim_sides(source, columns)).stableNormalized();
+    rims.origin = geometry::mean_point(low);
+    rims.x = normal.unitOrthogonal();
+    rims.y = normal.cross(rims.x);
+    const geometry::RigidFit back = geometry::fit_rigid(high, low, true);
+    for (std::size_t k = 0; k < low.size(); ++k) {
+        rims.low.push_back(rims.flat(low[k]));
+        rims.high.push_back(rims.flat(back(high[k])));
+        rims.mean.emplace_back((rims.low.back() + rims.high.back()) / 2);
+    }
+    return rims;
+}
+
+/// Draw in the nodes of a loop whose quads would be too wide on one of the ends.
+void draw_in(const std::vector<Index>& loop, FlatRims& rims)
+{
+    const std::size_t n = loop.size();
+    const std::vector<Vec2> mean = rims.mean;
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t a = index(loop[(i + n - 1) % n]), b = index(loop[i]), c = index(loop[(i + 1) % n]);
+        const double larger = std::max(inner_angle(rims.low[a], rims.low[b], rims.low[c]),
+                                       inner_angle(rims.high[a], rims.high[b], rims.high[c]));
+        const double quads = std::ceil(larger / kWidest);
+        if (inner_angle(mean[a], mean[b], mean[c]) >= quads * kRight - kMayLack) continue;
+        const double wanted = quads * kRight - kLacks;
+        if (wanted >= std::numbers::pi) continue;
+        const Vec2 chord = mean[c] - mean[a];
+        const Vec2 outward(chord.y(), -chord.x());
+        rims.mean[b] = (mean[a] + mean[c]) / 2 + outward / (2 * std::tan(wanted / 2));
+    }
+}
+
+[[noreturn]] void refuse(const std::string& why)
+{
+    throw NotSweepable("sweep.mean_outline", "the source cannot be laid out between both outlines: " + why);
+}
+
+} // namespace
+
+surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh source,
+                                 const RimColumns& columns, const surface::SizeField& size,
+                                 const quads::PlanarQuadMesher& mesher, const RunContext& context)
+{
+    const std::vector<FaceId> faces = volume.faces(Role::source);
+    if (faces.size() != 1 || volume.faces(Role::target).size() != 1) refuse("an end has several faces");
+    // The rim's nodes alone, numbered as the columns are.
+    FlatRims rims = flat_rims(source.quads, columns);
+    quads::PlanarRegion region;
+    double largest = 0;
+    for (const std::vector<Index>& loop : source.quads.loops) {
+        draw_in(loop, rims);
+        double area = 0;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec2 &a = rims.low[index(loop[i])], &b = rims.low[index(loop[(i + 1) % loop.size()])];
+            area += (a.x() * b.y() - a.y() * b.x()) / 2;
+        }
+        region.loops.push_back(loop);
+        if (area <= largest) continue;
+        largest = area;
+        std::swap(region.loops.front(), region.loops.back());
+    }
+    region.points = rims.mean;
+    region.size = [&](const Vec2& p) { return size(rims.lifted(p)); };
+    try {
+        quads::check(region);
+    } catch (const InvalidInput& error) {
+        refuse(error.what());
+    }
+    const quads::PlanarQuads filling = mesher(region, context);
+
+    mesh::QuadMesh flat;
+    for (const Vec2& p : filling.points) flat.nodes.push_back(rims.lifted(p));
+    flat.quads = filling.quads;
+    flat.loops = source.quads.loops;
+    RimColumns back;
+    back.layers = 1;
+    back.rim = columns.rim;
+    for (const Index node : back.rim) back.points.push_back(flat.nodes[index(node)]);
+    const std::span<const Vec3> low = columns.row(0);
+    back.points.insert(back.points.end(), low.begin(), low.end());
+    const surface::Projector projector(volume.model, faces);
+    Morphed morphed = morph(
+        flat, back, [&](std::span<Vec3> points) { projector.project(points, context); }, context);
+    flat.nodes = std::move(morphed.nodes);
+    flat.face.assign(flat.quads.size(), static_cast<Index>(faces.front().index()));
+    source.quads = std::move(flat);
+    source.notes = {name_of(volume.model, faces.front()) + ": paved between the outlines of both ends, " +
+                    std::to_string(source.quads.quads.size()) + " quads"};
+    return source;
+}
+
+} // namespace lacuna::sweep
