@@ -20,8 +20,6 @@ struct SweepArguments {
     int threads = 0;
     int size_function = 0; ///< stack index of a Lua function, 0 for none
     int row_height_function = 0;
-    int order = 1;
-    bool serendipity = false;
 };
 
 // --- layers ---------------------------------------------------------------------------------------------
@@ -141,8 +139,13 @@ void read_quads(lua_State* L, int index, const Where& where, SweepArguments& arg
 
 void read_order(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
-    arguments.order = read_whole(L, index, where, 1);
-    if (arguments.order > 2) fail_value(L, where, "1 or 2", index);
+    arguments.options.order = read_whole(L, index, where, 1);
+    if (arguments.options.order > 2) fail_value(L, where, "1 or 2", index);
+}
+
+void read_serendipity(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.second_order.serendipity = read_boolean(L, index, where);
 }
 
 void read_min_scaled_jacobian(lua_State* L, int index, const Where& where, SweepArguments& arguments)
@@ -204,7 +207,7 @@ const Option<SweepArguments> kSweepOptions[] = {
     {"rows", read_rows},
     {"row_height", read_row_height},
     {"order", read_order},
-    {"serendipity", boolean<&SweepArguments::serendipity>},
+    {"serendipity", read_serendipity},
     {"min_scaled_jacobian", read_min_scaled_jacobian},
     {"improve", read_improve},
     {"interior", read_interior},
@@ -225,8 +228,6 @@ SweepArguments& push_arguments(lua_State* L, int index, const char* call)
 {
     auto& arguments = temporary<SweepArguments>(L);
     read_options(L, index, call, kSweepOptions, arguments);
-    if (arguments.order == 2 || arguments.serendipity)
-        fail(L, "%s: cells of order 2 are not available yet; leave 'order' and 'serendipity' out", call);
     push_field(L, index, "size", arguments.size_function, arguments.options.size);
     push_field(L, index, "row_height", arguments.row_height_function, arguments.options.row_height);
     guard(L, [&] { arguments.options.quad_mesher = cad::recombine; });

@@ -14,7 +14,8 @@ namespace lacuna::io {
 
 struct MeshDeckOptions {
     DeckFormat format = DeckFormat::abaqus; ///< nastran, abaqus or unv
-    std::string element = "C3D8";           ///< of Abaqus: the word for hexahedra of eight nodes, in capitals
+    /// Of Abaqus: the word for hexahedra of as many nodes, in capitals; empty: C3D8, of order 2 C3D20.
+    std::string element{};
     DeckTag first_node = 0; ///< number of the first new node; 0: above all that are taken, from 1
     DeckTag first_cell = 0; ///< of the first hexahedron; 0: likewise
 };
@@ -32,7 +33,8 @@ bool find_deck_format(std::string_view ending, DeckFormat& format);
 /// | unv | a set of quads, which are elements behind the hexahedra |
 ///
 /// Abaqus's names have letters, digits, - and _ : others become _ .
-/// @throw InvalidInput "io.element"       `element` is no hexahedron of eight nodes.
+/// @throw InvalidInput "io.element"       `element` is no hexahedron of as many nodes as the mesh's.
+///                     "io.no_such_element"  the mesh is of hex27, which none of the formats has.
 ///                     "io.number_taken"  a first number is below 1, or the last would be too high.
 /// @note  O(nodes + cells).
 Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options);

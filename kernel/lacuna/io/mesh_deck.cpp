@@ -5,6 +5,7 @@
 #include <lacuna/io/cell_field.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/deck_writer.h>
+#include <lacuna/io/detail/gmsh_nodes.h>
 #include <lacuna/io/detail/msh_content.h>
 
 #include <algorithm>
@@ -63,11 +64,11 @@ public:
     {
         check_skin(mesh_);
         const bool abaqus = options_.format == DeckFormat::abaqus;
-        if (abaqus && !is_abaqus_element(options_.element, DeckShape::hex8))
-            throw InvalidInput("io.element",
-                               "element = \"" + options_.element +
-                                   "\": expected Abaqus's word for a hexahedron of eight nodes, "
-                                   "such as C3D8, C3D8I or C3D8R; the mesh has no middle nodes");
+        if (cell_shape(mesh_) == DeckShape::hex27)
+            throw InvalidInput("io.no_such_element",
+                               "hexahedra of 27 nodes are no elements of Abaqus, CalculiX, Nastran or UNV; "
+                               "sweep with order = 2, serendipity = true for those of 20");
+        if (abaqus) check_element();
         texts_ = numbers_in_text(deck_);
         add_points();
         add_cells();
@@ -76,6 +77,19 @@ public:
     }
 
 private:
+    /// The word of an element of as many nodes as the mesh's.
+    void check_element()
+    {
+        const bool second = mesh_.order() == 2;
+        element_ = options_.element.empty() ? (second ? "C3D20" : "C3D8") : options_.element;
+        if (is_abaqus_element(element_, cell_shape(mesh_))) return;
+        throw InvalidInput("io.element",
+                           "element = \"" + element_ + "\": expected Abaqus's word for a hexahedron of " +
+                               (second ? "twenty nodes, such as C3D20 or C3D20R; the mesh is of order 2"
+                                       : "eight nodes, such as C3D8, C3D8I or C3D8R; the mesh has no "
+                                         "middle nodes"));
+    }
+
     void add_points()
     {
         const std::size_t fresh = static_cast<std::size_t>(std::ranges::count(added_.points, -1));
@@ -85,7 +99,7 @@ private:
         for (std::size_t n = 0; n < point_.size(); ++n) {
             if (point_[n] >= 0) continue;
             point_[n] = static_cast<Index>(deck_.points.size());
-            deck_.points.push_back(mesh_.nodes[n] / added_.scale);
+            deck_.points.push_back(mesh_.node(n) / added_.scale);
             deck_.point_tags.push_back(next++);
         }
     }
@@ -106,9 +120,12 @@ private:
         deck_.regions.push_back({highest + 1, set_name(DeckSet::Kind::elements, volume_), ""});
         const bool abaqus = options_.format == DeckFormat::abaqus;
         const bool nastran = options_.format == DeckFormat::nastran;
-        DeckBlock& block = block_of(DeckShape::hex8, abaqus ? options_.element : nastran ? "CHEXA" : "115");
+        DeckBlock& block = block_of(cell_shape(mesh_), abaqus               ? element_
+                                                       : nastran            ? "CHEXA"
+                                                       : mesh_.order() == 2 ? "116"
+                                                                            : "115");
         for (std::size_t c = 0; c < mesh_.hex_count(); ++c) {
-            for (const Index node : mesh_.hex(c)) block.nodes.push_back(point_[index(node)]);
+            for (const Index node : cell_nodes(mesh_, c).all()) block.nodes.push_back(point_[index(node)]);
             block.tags.push_back(first_cell_ + static_cast<DeckTag>(c));
             block.regions.push_back(region);
         }
@@ -128,10 +145,10 @@ private:
 
     void add_skin_cells()
     {
-        DeckBlock& block = block_of(DeckShape::quad4, "94");
+        DeckBlock& block = block_of(skin_shape(mesh_), mesh_.order() == 2 ? "95" : "94");
         const auto region = static_cast<Index>(deck_.regions.size() - 1);
         for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
-            for (const Index node : skin_quad(mesh_, i).nodes) block.nodes.push_back(point_[index(node)]);
+            for (const Index node : skin_nodes(mesh_, i).all()) block.nodes.push_back(point_[index(node)]);
             block.tags.push_back(skin_tag(i));
             block.regions.push_back(region);
         }
@@ -201,7 +218,7 @@ private:
         }
         DeckSet& nodes = add(DeckSet::Kind::nodes);
         for (const std::uint32_t i : quads)
-            for (const Index node : skin_quad(mesh_, i).nodes)
+            for (const Index node : skin_nodes(mesh_, i).all())
                 nodes.members.push_back(deck_.point_tags[index(point_[index(node)])]);
         tidy(nodes.members);
         if (options_.format != DeckFormat::abaqus) return;
@@ -234,7 +251,7 @@ private:
     const MeshDeckOptions& options_;
     TextNumbers texts_;
     std::vector<Index> point_; ///< of each node of the mesh
-    std::string volume_;
+    std::string volume_, element_;
     DeckTag first_cell_ = 1;
     std::vector<std::uint32_t> cells_; ///< behind each quad of the skin
     std::vector<int> sides_;           ///< of these cells
@@ -255,7 +272,7 @@ Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options)
         deck.texts.push_back({DeckText::Place::head, "", "BEGIN BULK\n"});
         deck.texts.push_back({DeckText::Place::tail, "", "ENDDATA\n"});
     }
-    const std::vector<Index> points(mesh.nodes.size(), -1);
+    const std::vector<Index> points(mesh.node_count(), -1);
     add_mesh(deck, mesh, {.points = points, .skin_cells = options.format == DeckFormat::unv}, options);
     return deck;
 }

@@ -2,6 +2,7 @@
 #include <lacuna/io/msh.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/io/detail/gmsh_nodes.h>
 #include <lacuna/io/detail/msh_content.h>
 #include <lacuna/io/detail/sections.h>
 
@@ -14,8 +15,20 @@
 namespace lacuna::io {
 namespace {
 
-constexpr int kQuadType = 3;
-constexpr int kHexType = 5;
+/// Gmsh's types: of order 1, of order 2 without and with middles of faces.
+int quad_type(const mesh::HexMesh& mesh) { return mesh.order() == 1 ? 3 : mesh.middles.full ? 10 : 16; }
+int hex_type(const mesh::HexMesh& mesh) { return mesh.order() == 1 ? 5 : mesh.middles.full ? 12 : 17; }
+
+/// Nodes of a cell in Gmsh's order.
+mesh::CellNodes hex_nodes(const mesh::HexMesh& mesh, std::size_t cell)
+{
+    mesh::CellNodes nodes = mesh::cell_nodes(mesh, cell);
+    if (mesh.order() == 1) return nodes;
+    const mesh::CellNodes ours = nodes;
+    const std::span<const std::uint8_t> places = gmsh_places(cell_shape(mesh));
+    for (std::size_t n = 0; n < nodes.count; ++n) nodes.node[places[n]] = ours.node[n];
+    return nodes;
+}
 
 std::uint64_t node_tag(Index node) { return static_cast<std::uint64_t>(node) + 1; }
 
@@ -73,14 +86,14 @@ std::string binary_entities(const MshContent& content)
 }
 
 /// Number of a cell and its nodes, each eight bytes.
-template <std::size_t N>
-char* put_element(char* out, std::uint64_t number, const std::array<Index, N>& nodes)
+char* put_element(char* out, std::uint64_t number, const mesh::CellNodes& nodes)
 {
-    std::array<std::uint64_t, N + 1> record;
+    std::array<std::uint64_t, 28> record;
     record[0] = number;
-    for (std::size_t i = 0; i < N; ++i) record[i + 1] = node_tag(nodes[i]);
-    std::memcpy(out, record.data(), sizeof record);
-    return out + sizeof record;
+    for (std::size_t i = 0; i < nodes.count; ++i) record[i + 1] = node_tag(nodes.node[i]);
+    const std::size_t bytes = (nodes.count + 1) * sizeof(std::uint64_t);
+    std::memcpy(out, record.data(), bytes);
+    return out + bytes;
 }
 
 std::string block_head(int dimension, int tag, int third, std::size_t count)
@@ -101,11 +114,11 @@ std::string counts_of(std::size_t blocks, std::size_t count)
     return text;
 }
 
-Section coordinates(const mesh::HexMesh& mesh)
+Section coordinates(const std::vector<Vec3>& nodes)
 {
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
-    return {{}, mesh.nodes.size(), sizeof(Vec3), [&mesh](std::size_t begin, std::size_t end, char* out) {
-                std::memcpy(out, mesh.nodes[begin].data(), (end - begin) * sizeof(Vec3));
+    return {{}, nodes.size(), sizeof(Vec3), [&nodes](std::size_t begin, std::size_t end, char* out) {
+                std::memcpy(out, nodes[begin].data(), (end - begin) * sizeof(Vec3));
                 return out + (end - begin) * sizeof(Vec3);
             }};
 }
@@ -116,20 +129,21 @@ void add_binary_elements(std::vector<Section>& sections, const mesh::HexMesh& me
                        counts_of(content.surfaces.size() + 1, mesh.skin_count() + mesh.hex_count());
     for (const MshSurface& surface : content.surfaces) {
         const std::size_t count = surface.end - surface.begin;
-        sections.push_back({head + block_head(2, surface.tag, kQuadType, count), count,
-                            5 * sizeof(std::uint64_t),
+        sections.push_back({head + block_head(2, surface.tag, quad_type(mesh), count), count,
+                            (skin_size(mesh) + 1) * sizeof(std::uint64_t),
                             [&mesh, &content, &surface](std::size_t begin, std::size_t end, char* out) {
                                 for (std::size_t i = surface.begin + begin; i < surface.begin + end; ++i)
-                                    out = put_element(out, i + 1, skin_quad(mesh, content.skin[i]).nodes);
+                                    out = put_element(out, i + 1, skin_nodes(mesh, content.skin[i]));
                                 return out;
                             }});
         head.clear();
     }
-    sections.push_back({head + block_head(3, kVolumeTag, kHexType, mesh.hex_count()), mesh.hex_count(),
-                        9 * sizeof(std::uint64_t), [&mesh](std::size_t begin, std::size_t end, char* out) {
+    sections.push_back({head + block_head(3, kVolumeTag, hex_type(mesh), mesh.hex_count()), mesh.hex_count(),
+                        (cell_size(mesh) + 1) * sizeof(std::uint64_t),
+                        [&mesh](std::size_t begin, std::size_t end, char* out) {
                             const std::size_t first = mesh.skin_count() + 1;
                             for (std::size_t i = begin; i < end; ++i)
-                                out = put_element(out, first + i, mesh.hex(i));
+                                out = put_element(out, first + i, hex_nodes(mesh, i));
                             return out;
                         }});
     sections.push_back({"\n$EndElements\n", 0, 0, {}});
@@ -137,7 +151,7 @@ void add_binary_elements(std::vector<Section>& sections, const mesh::HexMesh& me
 
 std::vector<Section> binary_41(const mesh::HexMesh& mesh, const MshContent& content)
 {
-    const std::size_t nodes = mesh.nodes.size();
+    const std::size_t nodes = mesh.node_count();
     std::vector<Section> sections;
     sections.push_back({opening(content, "4.1", true) + binary_entities(content) + "$Nodes\n" +
                             counts_of(1, nodes) + block_head(3, kVolumeTag, 0, nodes),
@@ -146,7 +160,8 @@ std::vector<Section> binary_41(const mesh::HexMesh& mesh, const MshContent& cont
                                 out = put(out, static_cast<std::uint64_t>(i + 1));
                             return out;
                         }});
-    sections.push_back(coordinates(mesh));
+    sections.push_back(coordinates(mesh.nodes));
+    sections.push_back(coordinates(mesh.middles.nodes));
     sections.push_back({"\n$EndNodes\n", 0, 0, {}});
     add_binary_elements(sections, mesh, content);
     return sections;
@@ -187,10 +202,9 @@ std::string text_entities(const MshContent& content)
     return text + "$EndEntities\n";
 }
 
-template <std::size_t N>
-char* put_nodes(char* out, const std::array<Index, N>& nodes)
+char* put_nodes(char* out, const mesh::CellNodes& nodes)
 {
-    for (const Index node : nodes) {
+    for (const Index node : nodes.all()) {
         *out++ = ' ';
         out = put_text(out, static_cast<long long>(node) + 1);
     }
@@ -221,12 +235,12 @@ void add_text_elements(std::vector<Section>& sections, const mesh::HexMesh& mesh
         const std::size_t count = surface.end - surface.begin;
         const std::string between = middle(&surface);
         sections.push_back(
-            {text + head(&surface, count), count, 5 * kNumberBytes + between.size() + 2,
+            {text + head(&surface, count), count, (skin_size(mesh) + 1) * kNumberBytes + between.size() + 2,
              [&mesh, &content, &surface, between](std::size_t begin, std::size_t end, char* out) {
                  for (std::size_t i = surface.begin + begin; i < surface.begin + end; ++i) {
                      out = put_text(out, static_cast<long long>(i) + 1);
                      out = between.copy(out, between.size()) + out;
-                     out = put_nodes(out, skin_quad(mesh, content.skin[i]).nodes);
+                     out = put_nodes(out, skin_nodes(mesh, content.skin[i]));
                  }
                  return out;
              }});
@@ -234,13 +248,13 @@ void add_text_elements(std::vector<Section>& sections, const mesh::HexMesh& mesh
     }
     const std::string between = middle(nullptr);
     sections.push_back({text + head(nullptr, mesh.hex_count()), mesh.hex_count(),
-                        9 * kNumberBytes + between.size() + 2,
+                        (cell_size(mesh) + 1) * kNumberBytes + between.size() + 2,
                         [&mesh, between](std::size_t begin, std::size_t end, char* out) {
                             const std::size_t first = mesh.skin_count() + 1;
                             for (std::size_t i = begin; i < end; ++i) {
                                 out = put_text(out, static_cast<long long>(first + i));
                                 out = between.copy(out, between.size()) + out;
-                                out = put_nodes(out, mesh.hex(i));
+                                out = put_nodes(out, hex_nodes(mesh, i));
                             }
                             return out;
                         }});
@@ -249,7 +263,7 @@ void add_text_elements(std::vector<Section>& sections, const mesh::HexMesh& mesh
 
 std::vector<Section> text_41(const mesh::HexMesh& mesh, const MshContent& content)
 {
-    const std::size_t nodes = mesh.nodes.size();
+    const std::size_t nodes = mesh.node_count();
     std::vector<Section> sections;
     sections.push_back({opening(content, "4.1", false) + text_entities(content) + "$Nodes\n" +
                             words({1, nodes, 1, nodes}) + words({3, kVolumeTag, 0, nodes}),
@@ -261,13 +275,15 @@ std::vector<Section> text_41(const mesh::HexMesh& mesh, const MshContent& conten
                             return out;
                         }});
     sections.push_back({{}, nodes, 3 * kNumberBytes, [&mesh](std::size_t begin, std::size_t end, char* out) {
-                            for (std::size_t i = begin; i < end; ++i) out = put_point(out, mesh.nodes[i]);
+                            for (std::size_t i = begin; i < end; ++i) out = put_point(out, mesh.node(i));
                             return out;
                         }});
     const std::size_t elements = mesh.skin_count() + mesh.hex_count();
-    const auto head = [](const MshSurface* surface, std::size_t count) {
-        return surface != nullptr ? words({2, static_cast<std::size_t>(surface->tag), kQuadType, count})
-                                  : words({3, kVolumeTag, kHexType, count});
+    const auto quad = static_cast<std::size_t>(quad_type(mesh)),
+               hex = static_cast<std::size_t>(hex_type(mesh));
+    const auto head = [quad, hex](const MshSurface* surface, std::size_t count) {
+        return surface != nullptr ? words({2, static_cast<std::size_t>(surface->tag), quad, count})
+                                  : words({3, kVolumeTag, hex, count});
     };
     add_text_elements(sections, mesh, content,
                       "$EndNodes\n$Elements\n" + words({content.surfaces.size() + 1, elements, 1, elements}),
@@ -280,18 +296,18 @@ std::vector<Section> text_41(const mesh::HexMesh& mesh, const MshContent& conten
 std::vector<Section> text_22(const mesh::HexMesh& mesh, const MshContent& content)
 {
     std::vector<Section> sections;
-    sections.push_back({opening(content, "2.2", false) + "$Nodes\n" + words({mesh.nodes.size()}),
-                        mesh.nodes.size(), 4 * kNumberBytes,
+    sections.push_back({opening(content, "2.2", false) + "$Nodes\n" + words({mesh.node_count()}),
+                        mesh.node_count(), 4 * kNumberBytes,
                         [&mesh](std::size_t begin, std::size_t end, char* out) {
                             for (std::size_t i = begin; i < end; ++i) {
                                 out = put_text(out, static_cast<long long>(i) + 1);
                                 *out++ = ' ';
-                                out = put_point(out, mesh.nodes[i]);
+                                out = put_point(out, mesh.node(i));
                             }
                             return out;
                         }});
     const auto middle = [&](const MshSurface* surface) {
-        const int type = surface != nullptr ? kQuadType : kHexType;
+        const int type = surface != nullptr ? quad_type(mesh) : hex_type(mesh);
         const int physical = surface != nullptr ? surface->physical.front() : content.volume_physical.front();
         const int entity = surface != nullptr ? surface->tag : kVolumeTag;
         const auto unsign = [](int value) { return static_cast<std::size_t>(value); };
@@ -303,14 +319,13 @@ std::vector<Section> text_22(const mesh::HexMesh& mesh, const MshContent& conten
     return sections;
 }
 
-template <std::size_t N>
-char* put_element_22(char* out, std::size_t number, int physical, int entity,
-                     const std::array<Index, N>& nodes)
+char* put_element_22(char* out, std::size_t number, int physical, int entity, const mesh::CellNodes& nodes)
 {
-    std::array<int, N + 3> record{static_cast<int>(number), physical, entity};
-    for (std::size_t i = 0; i < N; ++i) record[i + 3] = nodes[i] + 1;
-    std::memcpy(out, record.data(), sizeof record);
-    return out + sizeof record;
+    std::array<int, 30> record{static_cast<int>(number), physical, entity};
+    for (std::size_t i = 0; i < nodes.count; ++i) record[i + 3] = nodes.node[i] + 1;
+    const std::size_t bytes = (nodes.count + 3) * sizeof(int);
+    std::memcpy(out, record.data(), bytes);
+    return out + bytes;
 }
 
 /// Type, count and number of tags of the elements that follow.
@@ -324,33 +339,35 @@ std::string head_22(int type, std::size_t count)
 std::vector<Section> binary_22(const mesh::HexMesh& mesh, const MshContent& content)
 {
     std::vector<Section> sections;
-    sections.push_back({opening(content, "2.2", true) + "$Nodes\n" + words({mesh.nodes.size()}),
-                        mesh.nodes.size(), sizeof(int) + sizeof(Vec3),
+    sections.push_back({opening(content, "2.2", true) + "$Nodes\n" + words({mesh.node_count()}),
+                        mesh.node_count(), sizeof(int) + sizeof(Vec3),
                         [&mesh](std::size_t begin, std::size_t end, char* out) {
                             for (std::size_t i = begin; i < end; ++i) {
                                 out = put(out, static_cast<int>(i) + 1);
-                                for (const double value : mesh.nodes[i]) out = put(out, value);
+                                for (const double value : mesh.node(i)) out = put(out, value);
                             }
                             return out;
                         }});
     std::string head = "\n$EndNodes\n$Elements\n" + words({mesh.skin_count() + mesh.hex_count()});
     for (const MshSurface& surface : content.surfaces) {
         const std::size_t count = surface.end - surface.begin;
-        sections.push_back({head + head_22(kQuadType, count), count, 7 * sizeof(int),
+        sections.push_back({head + head_22(quad_type(mesh), count), count,
+                            (skin_size(mesh) + 3) * sizeof(int),
                             [&mesh, &content, &surface](std::size_t begin, std::size_t end, char* out) {
                                 for (std::size_t i = surface.begin + begin; i < surface.begin + end; ++i)
                                     out = put_element_22(out, i + 1, surface.physical.front(), surface.tag,
-                                                         skin_quad(mesh, content.skin[i]).nodes);
+                                                         skin_nodes(mesh, content.skin[i]));
                                 return out;
                             }});
         head.clear();
     }
-    sections.push_back({head + head_22(kHexType, mesh.hex_count()), mesh.hex_count(), 11 * sizeof(int),
+    sections.push_back({head + head_22(hex_type(mesh), mesh.hex_count()), mesh.hex_count(),
+                        (cell_size(mesh) + 3) * sizeof(int),
                         [&mesh, &content](std::size_t begin, std::size_t end, char* out) {
                             const std::size_t first = mesh.skin_count() + 1;
                             for (std::size_t i = begin; i < end; ++i)
                                 out = put_element_22(out, first + i, content.volume_physical.front(),
-                                                     kVolumeTag, mesh.hex(i));
+                                                     kVolumeTag, hex_nodes(mesh, i));
                             return out;
                         }});
     sections.push_back({"\n$EndElements\n", 0, 0, {}});

@@ -99,7 +99,7 @@ MshContent msh_content(const mesh::HexMesh& mesh)
         const mesh::SkinQuad quad = skin_quad(mesh, i);
         const auto patch = static_cast<std::size_t>(quad.patch);
         content.skin[next[patch]++] = static_cast<std::uint32_t>(i);
-        for (const Index node : quad.nodes) boxes[patch].extend(mesh.nodes[static_cast<std::size_t>(node)]);
+        for (const Index node : skin_nodes(mesh, i).all()) boxes[patch].extend(mesh.node(index(node)));
     }
 
     GroupTags groups;

@@ -13,6 +13,29 @@
 #include <span>
 
 namespace lacuna::io {
+
+std::span<const std::uint8_t> gmsh_places(DeckShape shape)
+{
+    static constexpr std::uint8_t kTet10[] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
+    static constexpr std::uint8_t kPyramid14[] = {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12, 13};
+    static constexpr std::uint8_t kWedge18[] = {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17, 16};
+    static constexpr std::uint8_t kHex27[] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 13, 9,  16, 18,
+                                              19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26};
+    const DeckShapeInfo& info = shape_info(shape);
+    if (info.dimension < 3 || info.nodes == info.corners) return {};
+    const auto count = static_cast<std::size_t>(info.nodes);
+    switch (info.corners) {
+    case 4:
+        return kTet10;
+    case 5:
+        return std::span(kPyramid14).first(count);
+    case 6:
+        return std::span(kWedge18).first(count);
+    default:
+        return std::span(kHex27).first(count);
+    }
+}
+
 namespace {
 
 /// What must be known of an element type to read or to skip it, and what it is read as: types of order 3 and
@@ -60,29 +83,6 @@ constexpr ElementType kTypes[] = {{15, 0, 1, 1},
                                   {7, 3, 5, 1, pyramid5},
                                   {14, 3, 14, 2, pyramid14},
                                   {19, 3, 13, 2, pyramid13}};
-
-/// Where Gmsh has the nodes of a shape, in the order of DeckShape; empty: in the same places.
-std::span<const std::uint8_t> gmsh_places(DeckShape shape)
-{
-    static constexpr std::uint8_t kTet10[] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
-    static constexpr std::uint8_t kPyramid14[] = {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12, 13};
-    static constexpr std::uint8_t kWedge18[] = {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17, 16};
-    static constexpr std::uint8_t kHex27[] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 13, 9,  16, 18,
-                                              19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26};
-    const DeckShapeInfo& info = shape_info(shape);
-    if (info.dimension < 3 || info.nodes == info.corners) return {};
-    const auto count = static_cast<std::size_t>(info.nodes);
-    switch (info.corners) {
-    case 4:
-        return kTet10;
-    case 5:
-        return std::span(kPyramid14).first(count);
-    case 6:
-        return std::span(kWedge18).first(count);
-    default:
-        return std::span(kHex27).first(count);
-    }
-}
 
 ElementType type_of(const Cursor& cursor, int type)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/vtk.h>
 
+#include <lacuna/io/detail/gmsh_nodes.h>
 #include <lacuna/io/detail/msh_content.h>
 #include <lacuna/io/detail/sections.h>
 
@@ -11,8 +12,9 @@
 namespace lacuna::io {
 namespace {
 
-constexpr int kVtkQuad = 9;
-constexpr int kVtkHex = 12;
+/// VTK's types: of order 1, of order 2 without and with middles of faces.
+int quad_type(const mesh::HexMesh& mesh) { return mesh.order() == 1 ? 9 : mesh.middles.full ? 28 : 23; }
+int hex_type(const mesh::HexMesh& mesh) { return mesh.order() == 1 ? 12 : mesh.middles.full ? 29 : 25; }
 
 using Fill = std::function<char*(std::size_t, std::size_t, char*)>;
 
@@ -65,28 +67,40 @@ std::vector<Array> vtu_arrays(const mesh::HexMesh& mesh, const Fields& fields)
     const auto section = [](std::size_t count, std::size_t bytes, Fill fill) {
         return Section{{}, count, bytes, std::move(fill)};
     };
-    const auto put_hex = [&mesh](std::size_t i, char* out) { return put(out, mesh.hex(i)); };
-    const auto put_quad = [&mesh](std::size_t i, char* out) { return put(out, skin_quad(mesh, i).nodes); };
-    const auto put_offset = [hexes](std::size_t i, char* out) {
-        return put(out, static_cast<std::int64_t>(i < hexes ? 8 * (i + 1) : 8 * hexes + 4 * (i + 1 - hexes)));
+    const std::size_t of_hex = cell_size(mesh), of_quad = skin_size(mesh);
+    const auto put_nodes = [](char* out, const mesh::CellNodes& nodes) {
+        std::memcpy(out, nodes.node.data(), nodes.count * sizeof(Index));
+        return out + nodes.count * sizeof(Index);
     };
-    const auto put_type = [hexes](std::size_t i, char* out) {
-        return put(out, static_cast<std::uint8_t>(i < hexes ? kVtkHex : kVtkQuad));
+    const auto put_hex = [&mesh, put_nodes](std::size_t i, char* out) {
+        return put_nodes(out, cell_nodes(mesh, i));
+    };
+    const auto put_quad = [&mesh, put_nodes](std::size_t i, char* out) {
+        return put_nodes(out, skin_nodes(mesh, i));
+    };
+    const auto put_offset = [=](std::size_t i, char* out) {
+        return put(out, static_cast<std::int64_t>(i < hexes ? of_hex * (i + 1)
+                                                            : of_hex * hexes + of_quad * (i + 1 - hexes)));
+    };
+    const int hex_type_number = hex_type(mesh), quad_type_number = quad_type(mesh);
+    const auto put_type = [=](std::size_t i, char* out) {
+        return put(out, static_cast<std::uint8_t>(i < hexes ? hex_type_number : quad_type_number));
     };
     const auto put_entity = [&mesh, hexes](std::size_t i, char* out) {
         return put(out, static_cast<std::int32_t>(i < hexes ? 0 : entity(mesh, i - hexes)));
     };
     const auto put_point = [&mesh](std::size_t i, char* out) {
-        std::memcpy(out, mesh.nodes[i].data(), sizeof(Vec3));
+        std::memcpy(out, mesh.node(i).data(), sizeof(Vec3));
         return out + sizeof(Vec3);
     };
     std::vector<Array> arrays{
         {"type=\"Float64\" NumberOfComponents=\"3\"",
-         mesh.nodes.size() * sizeof(Vec3),
-         {section(mesh.nodes.size(), sizeof(Vec3), each(put_point))}},
+         mesh.node_count() * sizeof(Vec3),
+         {section(mesh.node_count(), sizeof(Vec3), each(put_point))}},
         {"type=\"Int32\" Name=\"connectivity\"",
-         hexes * sizeof(Hex) + skin * sizeof(Quad),
-         {section(hexes, sizeof(Hex), each(put_hex)), section(skin, sizeof(Quad), each(put_quad))}},
+         (hexes * of_hex + skin * of_quad) * sizeof(Index),
+         {section(hexes, of_hex * sizeof(Index), each(put_hex)),
+          section(skin, of_quad * sizeof(Index), each(put_quad))}},
         {"type=\"Int64\" Name=\"offsets\"", (hexes + skin) * 8, {section(hexes + skin, 8, each(put_offset))}},
         {"type=\"UInt8\" Name=\"types\"", hexes + skin, {section(hexes + skin, 1, each(put_type))}},
         {"type=\"Int32\" Name=\"entity\"", (hexes + skin) * 4, {section(hexes + skin, 4, each(put_entity))}}};
@@ -107,7 +121,7 @@ std::string vtu_head(const mesh::HexMesh& mesh, const std::vector<Array>& arrays
     std::string text =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
     text.append(order).append("\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"");
-    text.append(std::to_string(mesh.nodes.size())).append("\" NumberOfCells=\"");
+    text.append(std::to_string(mesh.node_count())).append("\" NumberOfCells=\"");
     text.append(std::to_string(mesh.hex_count() + mesh.skin_count())).append("\">\n");
     std::size_t offset = 0;
     const auto array = [&](std::size_t i) {
@@ -157,11 +171,10 @@ char* end_line(char* out, bool binary)
     return out;
 }
 
-template <std::size_t N>
-char* put_cell(char* out, const std::array<Index, N>& nodes, bool binary)
+char* put_cell(char* out, const mesh::CellNodes& nodes, bool binary)
 {
-    out = put_number(out, static_cast<std::int32_t>(N), binary);
-    for (const Index node : nodes) out = put_number(out, node, binary);
+    out = put_number(out, static_cast<std::int32_t>(nodes.count), binary);
+    for (const Index node : nodes.all()) out = put_number(out, node, binary);
     return end_line(out, binary);
 }
 
@@ -174,12 +187,13 @@ std::vector<Section> vtk_sections(const mesh::HexMesh& mesh, const Fields& field
         return binary ? numbers * each_bytes : numbers * kNumberBytes + 1;
     };
     const auto put_point = [&mesh, binary](std::size_t i, char* out) {
-        for (const double value : mesh.nodes[i]) out = put_number(out, value, binary);
+        for (const double value : mesh.node(i)) out = put_number(out, value, binary);
         return end_line(out, binary);
     };
-    const auto put_type = [hexes, binary](std::size_t i, char* out) {
-        return end_line(put_number(out, static_cast<std::int32_t>(i < hexes ? kVtkHex : kVtkQuad), binary),
-                        binary);
+    const std::size_t of_hex = cell_size(mesh), of_quad = skin_size(mesh);
+    const std::int32_t hex_number = hex_type(mesh), quad_number = quad_type(mesh);
+    const auto put_type = [=](std::size_t i, char* out) {
+        return end_line(put_number(out, i < hexes ? hex_number : quad_number, binary), binary);
     };
     const auto put_entity = [&mesh, hexes, binary](std::size_t i, char* out) {
         const int tag = i < hexes ? 0 : entity(mesh, i - hexes);
@@ -187,14 +201,17 @@ std::vector<Section> vtk_sections(const mesh::HexMesh& mesh, const Fields& field
     };
     std::string head = "# vtk DataFile Version 3.0\nhexahedra\n";
     head.append(binary ? "BINARY" : "ASCII").append("\nDATASET UNSTRUCTURED_GRID\nPOINTS ");
-    head.append(std::to_string(mesh.nodes.size())).append(" double\n");
-    const std::string sizes = std::string(1, ' ').append(std::to_string(9 * hexes + 5 * skin)).append("\n");
+    head.append(std::to_string(mesh.node_count())).append(" double\n");
+    const std::string sizes =
+        std::string(1, ' ').append(std::to_string((of_hex + 1) * hexes + (of_quad + 1) * skin)).append("\n");
     std::vector<Section> sections{
-        {head, mesh.nodes.size(), bytes(3, 8), each(put_point)},
-        {"\nCELLS " + cells + sizes, hexes, bytes(9, 4),
-         each([&mesh, binary](std::size_t i, char* out) { return put_cell(out, mesh.hex(i), binary); })},
-        {{}, skin, bytes(5, 4), each([&mesh, binary](std::size_t i, char* out) {
-             return put_cell(out, skin_quad(mesh, i).nodes, binary);
+        {head, mesh.node_count(), bytes(3, 8), each(put_point)},
+        {"\nCELLS " + cells + sizes, hexes, bytes(of_hex + 1, 4),
+         each([&mesh, binary](std::size_t i, char* out) {
+             return put_cell(out, cell_nodes(mesh, i), binary);
+         })},
+        {{}, skin, bytes(of_quad + 1, 4), each([&mesh, binary](std::size_t i, char* out) {
+             return put_cell(out, skin_nodes(mesh, i), binary);
          })},
         {"\nCELL_TYPES " + cells + "\n", hexes + skin, bytes(1, 4), each(put_type)},
         {"\nCELL_DATA " + cells + "\nSCALARS entity int 1\nLOOKUP_TABLE default\n", hexes + skin, bytes(1, 4),

@@ -7,6 +7,7 @@
 #include <lacuna/surface/size_field.h>
 #include <lacuna/sweep/fidelity.h>
 #include <lacuna/sweep/improve.h>
+#include <lacuna/sweep/second_order.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <optional>
@@ -56,7 +57,7 @@ struct SweepOptions {
     /// Where straight sides on bends leave the mesh's volume further off the sealed one than this share,
     /// bends get more sides, as far as that helps [0, 1); 0: never.
     double volume_share = 0.02;
-    int gap = 0;             ///< quads at least across a narrow place of the source, >= 0; 0: none
+    int gap = 0; ///< quads at least across a narrow place of the source, >= 0; 0: none
     /// How far the skin may be from the sealed skin, >= 0 [model length]; 0: what `FidelityOptions` says.
     double max_deviation = 0;
     Quads quads = Quads::automatic;
@@ -64,9 +65,11 @@ struct SweepOptions {
     surface::SizeField row_height;       ///< of those rows; null: the size
     quads::PlanarQuadMesher quad_mesher; ///< what `Quads::gmsh` calls for
     Interior interior = Interior::automatic;
-    double min_scaled_jacobian = 0; ///< below it the mesh is refused [0, 1]
-    bool improve = true;            ///< move nodes where cells are folded or poor
-    ImproveOptions improving;       ///< how far
+    int order = 1;                   ///< of the cells: 1, or 2 for hex27
+    SecondOrderOptions second_order; ///< of order 2
+    double min_scaled_jacobian = 0;  ///< below it the mesh is refused [0, 1]
+    bool improve = true;             ///< move nodes where cells are folded or poor
+    ImproveOptions improving;        ///< how far
 };
 
 /// Whether options can be used, before any work is done. `sweep()` asks it itself; a host may ask first.
