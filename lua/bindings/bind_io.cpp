@@ -12,6 +12,7 @@
 #include <lacuna/io/load_facets.h>
 #include <lacuna/io/msh.h>
 #include <lacuna/io/vtk.h>
+#include <lacuna/quality/second_order.h>
 
 #include <algorithm>
 
@@ -315,14 +316,19 @@ int load(lua_State* L)
     return 1;
 }
 
-/// The corners of all hexahedra of a deck; other solids cannot be judged, and their number is an error.
-std::vector<Hex> hexes_of(const io::Deck& deck)
+/// All hexahedra of a deck, of any order; other solids cannot be judged, and their number is an error.
+std::vector<mesh::CellNodes> hexes_of(const io::Deck& deck)
 {
-    std::vector<Hex> hexes;
+    std::vector<mesh::CellNodes> hexes;
     for (const io::DeckBlock& block : deck.blocks) {
-        if (io::shape_info(block.shape).corners != 8) continue;
-        for (std::size_t e = 0; e < block.count(); ++e)
-            std::copy_n(block.element(e).begin(), 8, hexes.emplace_back().begin());
+        if (block.shape != io::DeckShape::hex8 && block.shape != io::DeckShape::hex20 &&
+            block.shape != io::DeckShape::hex27)
+            continue;
+        for (std::size_t e = 0; e < block.count(); ++e) {
+            mesh::CellNodes& nodes = hexes.emplace_back();
+            nodes.count = block.element(e).size();
+            std::copy(block.element(e).begin(), block.element(e).end(), nodes.node.begin());
+        }
     }
     if (hexes.empty())
         throw InvalidInput("lua.no_hexahedra",
@@ -345,9 +351,12 @@ int check_file(lua_State* L)
     guard(L, [&] {
         check_input_path(lent, path);
         io::Deck deck = io::read_deck(path);
-        source.hexes = hexes_of(deck);
+        const std::vector<mesh::CellNodes> cells = hexes_of(deck);
         source.nodes = std::move(deck.points);
-        source.quality = quality::measure_cells(source.nodes, source.hexes, context);
+        source.quality = quality::measure_cells(source.nodes, cells, context);
+        source.hexes.resize(cells.size());
+        for (std::size_t c = 0; c < cells.size(); ++c)
+            std::copy_n(cells[c].node.begin(), 8, source.hexes[c].begin());
     });
     push_quality(L, at);
     return 1;

@@ -4,8 +4,11 @@
 #include "bindings/options.h"
 
 #include <lacuna/cad/load.h>
+#include <lacuna/io/deck_middles.h>
 
 #include <cmath>
+#include <limits>
+#include <span>
 #include <thread>
 
 namespace lacuna::lua {
@@ -241,6 +244,22 @@ SweepArguments& push_arguments(lua_State* L, int index, const char* call)
     return arguments;
 }
 
+/// Middle nodes of the decks a volume's faces came from.
+std::vector<Vec3> given_middles(const VolumeState& state, std::span<const Vec3> from,
+                                std::span<const Vec3> to)
+{
+    constexpr double kTogether =
+        1e-9; // of the diagonal: kept nodes are the decks' to the bit, but for the scale
+    std::vector<Vec3> found(from.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    for (const auto& deck : state.decks) {
+        const std::vector<Vec3> middles = io::middles_between(
+            *deck, from, to, kTogether * state.volume.model.diagonal, state.scale);
+        for (std::size_t i = 0; i < found.size(); ++i)
+            if (!found[i].allFinite()) found[i] = middles[i];
+    }
+    return found;
+}
+
 /// mesh = volume:sweep(options)
 int sweep_volume(lua_State* L)
 {
@@ -255,6 +274,10 @@ int sweep_volume(lua_State* L)
         const Busy busy(state, "sweep");
         close_volume(state, {}, context);
         box = std::make_shared<MeshState>();
+        if (!state.decks.empty())
+            arguments.options.second_order.given = [&state](auto from, auto to) {
+                return given_middles(state, from, to);
+            };
         box->swept = sweep::sweep(state.volume, arguments.options, context);
     });
     return 1;

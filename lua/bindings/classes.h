@@ -52,6 +52,8 @@ struct VolumeState {
     topology::Classification classification; ///< as the volume was given
     std::optional<matching::Match> match;
     std::optional<closure::Closure> closure;
+    std::vector<std::shared_ptr<const io::Deck>> decks; ///< those of the model it was made of
+    double scale = 1;                                   ///< of its coordinates to theirs
 };
 
 /// Marks a volume as worked on, so that a function of the recipe that is called meanwhile cannot change it.

@@ -40,7 +40,7 @@ bool find_deck_format(std::string_view ending, DeckFormat& format);
 Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options);
 
 /// A deck and the mesh that fills a void of it as one conformal mesh. What the deck has keeps its numbers; a
-/// node of the skin that lies on a node of the deck is that node.
+/// node of the skin that lies on a node of the deck is that node, a middle node that of the side.
 ///
 /// Groups of the skin are sets as in `deck_of()`, of nodes in UNV. The new region has the property above all
 /// others; in Nastran its PSOLID names material 1. Where nodes of the deck coincide, the skin takes the one
@@ -52,6 +52,7 @@ Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options);
 ///                     "io.nodes_coincide" elements beside the void use both of two coincident nodes; names
 ///                                         both.
 ///                     "io.other_model"    a patch is of no face of the model.
+///                     "io.mixed_order"    elements beside the void are of another order than the mesh.
 ///                     as `deck_of()`.
 /// @note  O(n log n) in the nodes of the deck; a copy of the deck is made.
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,

@@ -4,6 +4,7 @@
 #include <lacuna/io/deck_file.h>
 
 #include <span>
+#include <vector>
 
 /// Putting a swept mesh into a deck. Internal to this folder.
 namespace lacuna::io {
@@ -15,5 +16,12 @@ struct AddedMesh {
 };
 /// Add nodes, hexahedra, their region and the sets of the skin to a deck. @throw as `deck_of()`.
 void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options);
+
+/// The deck's middle nodes that are the mesh's on the sides they share.
+/// @param matched  quads of the skin that are faces of the deck's elements.
+/// @param points   of each corner of the mesh the deck's point, -1: none; out: of the middle nodes too.
+/// @throw InvalidInput "io.mixed_order"  one of the two has middle nodes where the other has none, or another.
+void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector<bool>& matched,
+                  double tolerance, double scale, std::vector<Index>& points);
 
 } // namespace lacuna::io
