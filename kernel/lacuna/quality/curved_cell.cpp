@@ -2,6 +2,7 @@
 #include <lacuna/quality/second_order.h>
 
 #include <lacuna/core/parallel.h>
+#include <lacuna/quality/detail/lanes.h>
 
 #include <algorithm>
 #include <array>
@@ -82,8 +83,8 @@ constexpr std::array<std::array<double, kSide>, kSide> kToBezier = [] {
 
 /// One field over the grid of nodes, taken to a grid of N³ points, a table a direction.
 template <std::size_t N>
-void to_grid(const std::array<double, 27>& nodes, const Table<N>& u, const Table<N>& v, const Table<N>& w,
-             double* out)
+LACUNA_INLINE void to_grid(const std::array<double, 27>& nodes, const Table<N>& u, const Table<N>& v,
+                           const Table<N>& w, double* out)
 {
     std::array<double, 9 * N> first;
     std::array<double, 3 * N * N> second;
@@ -110,7 +111,7 @@ struct Slopes {
 };
 
 template <std::size_t N>
-void find_slopes(const std::array<double, 27> (&nodes)[3], Slopes<N>& slopes)
+LACUNA_INLINE void find_slopes(const std::array<double, 27> (&nodes)[3], Slopes<N>& slopes)
 {
     static constexpr Table<N> kValues = values_at<N>(), kSlopes = slopes_at<N>();
     for (std::size_t d = 0; d < 3; ++d) {
@@ -121,7 +122,7 @@ void find_slopes(const std::array<double, 27> (&nodes)[3], Slopes<N>& slopes)
 }
 
 template <std::size_t N>
-void determinants(const Slopes<N>& s, double* out)
+LACUNA_INLINE void determinants(const Slopes<N>& s, double* out)
 {
     const auto& [u, v, w] = s.at;
     for (std::size_t p = 0; p < N * N * N; ++p)
@@ -131,7 +132,7 @@ void determinants(const Slopes<N>& s, double* out)
 }
 
 /// From values on the grid of 6³ to coefficients, direction by direction.
-void to_bezier(Bezier& values)
+LACUNA_INLINE void to_bezier(Bezier& values)
 {
     Bezier next;
     for (std::size_t row = 0; row < kSide * kSide; ++row)
@@ -206,7 +207,7 @@ bool positive_parts(const Bezier& bezier, double floor, std::array<int, 3> cuts_
 }
 
 /// At the 27 nodes.
-double least_scaled(const std::array<double, 27> (&nodes)[3])
+LACUNA_INLINE double least_scaled(const std::array<double, 27> (&nodes)[3])
 {
     Slopes<3> slopes;
     find_slopes<3>(nodes, slopes);
@@ -223,6 +224,42 @@ double least_scaled(const std::array<double, 27> (&nodes)[3])
     return std::max(least, -1.0);
 }
 
+/// Coefficients, and the scaled Jacobian that is least at the nodes.
+LACUNA_INLINE double find_coefficients(const std::array<double, 27> (&nodes)[3], Bezier& bezier)
+{
+    Slopes<kSide> slopes;
+    find_slopes<kSide>(nodes, slopes);
+    determinants<kSide>(slopes, bezier.data());
+    to_bezier(bezier);
+    return least_scaled(nodes);
+}
+
+#if defined(__GNUC__) && defined(__x86_64__)
+[[gnu::target("avx512f,avx512dq")]] double coefficients_avx512(const std::array<double, 27> (&nodes)[3],
+                                                               Bezier& bezier)
+{
+    return find_coefficients(nodes, bezier);
+}
+
+[[gnu::target("avx2")]] double coefficients_avx2(const std::array<double, 27> (&nodes)[3], Bezier& bezier)
+{
+    return find_coefficients(nodes, bezier);
+}
+#endif
+
+/// With the widest vectors the machine has; the same bits on every machine.
+double coefficients(const std::array<double, 27> (&nodes)[3], Bezier& bezier)
+{
+#if defined(__GNUC__) && defined(__x86_64__)
+    static const bool avx512 = __builtin_cpu_supports("avx512f") != 0 &&
+                               __builtin_cpu_supports("avx512dq") != 0;
+    static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
+    if (avx512) return coefficients_avx512(nodes, bezier);
+    if (avx2) return coefficients_avx2(nodes, bezier);
+#endif
+    return find_coefficients(nodes, bezier);
+}
+
 } // namespace
 
 CurvedCell judge(std::span<const Vec3, 27> places, int max_depth)
@@ -230,11 +267,8 @@ CurvedCell judge(std::span<const Vec3, 27> places, int max_depth)
     std::array<double, 27> nodes[3];
     for (std::size_t n = 0; n < 27; ++n) // from the first corner, so that nothing is lost far from the origin
         for (int d = 0; d < 3; ++d) nodes[d][kGrid[n]] = places[n][d] - places[0][d];
-    Slopes<kSide> slopes;
-    find_slopes<kSide>(nodes, slopes);
     Bezier bezier;
-    determinants<kSide>(slopes, bezier.data());
-    to_bezier(bezier);
+    const double scaled = coefficients(nodes, bezier);
     CurvedCell cell;
     double sum = 0, largest = 0, least = std::numeric_limits<double>::infinity();
     for (const double value : bezier) {
@@ -245,7 +279,7 @@ CurvedCell judge(std::span<const Vec3, 27> places, int max_depth)
     if (!std::isfinite(sum) || !(largest > 0)) return cell;
     cell.volume = sum / static_cast<double>(kAll);
     cell.bound = cell.volume != 0 ? least / std::abs(cell.volume) : -1;
-    cell.scaled_jacobian = least_scaled(nodes);
+    cell.scaled_jacobian = scaled;
     const double floor = kRounding * largest;
     cell.positive = cell.scaled_jacobian > 0 &&
                     (least > floor || positive_parts(bezier, floor, {max_depth, max_depth, max_depth}));

@@ -181,9 +181,8 @@ void check_amount(const mesh::HexMesh& mesh)
 
 } // namespace
 
-std::vector<std::string> elevate(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
-                                 const std::vector<FaceId>& faces, const SecondOrderOptions& options,
-                                 const RunContext& context)
+Elevated elevate(const topology::OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
+                 const SecondOrderOptions& options, const RunContext& context)
 {
     mesh.middles = mesh::number_sides(mesh, !options.serendipity);
     check_amount(mesh);
@@ -202,15 +201,21 @@ std::vector<std::string> elevate(const topology::OpenVolume& volume, mesh::HexMe
         place_all_centres(mesh, states, context);
     }
     check_cancelled(context);
-    const std::size_t repaired = repair_middles(volume, mesh, faces, states, context);
-    std::string line = std::string("order 2: ") + (mesh.middles.full ? "hex27" : "hex20") + ", " +
-                       std::to_string(places.count()) + " middle nodes; of those on the skin " +
-                       std::to_string(counts.exact) + " on exact curves and surfaces, " +
-                       std::to_string(counts.facets) + " on facets, " + std::to_string(counts.given) +
-                       " given";
+    Elevated result;
+    result.quality = quality::measure(mesh, context);
+    std::size_t repaired = 0;
+    if (result.quality.uncertified > 0) {
+        repaired = repair_middles(volume, mesh, faces, states, context);
+        result.quality = quality::measure(mesh, context);
+    }
+    result.report = std::string("order 2: ") + (mesh.middles.full ? "hex27" : "hex20") + ", " +
+                    std::to_string(places.count()) + " middle nodes; of those on the skin " +
+                    std::to_string(counts.exact) + " on exact curves and surfaces, " +
+                    std::to_string(counts.facets) + " on facets, " + std::to_string(counts.given) + " given";
     if (repaired > 0)
-        line += "; the inner ones of " + std::to_string(repaired) + " cells moved to make them valid";
-    return {line};
+        result.report += "; the inner ones of " + std::to_string(repaired) +
+                         " cells moved to make them valid";
+    return result;
 }
 
 mesh::HexMesh finer_skin(const mesh::HexMesh& mesh)

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/quality/quality.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <functional>
@@ -19,6 +20,12 @@ using GivenMiddles = std::function<std::vector<Vec3>(std::span<const Vec3> from,
 struct SecondOrderOptions {
     bool serendipity = false; ///< hex20 instead of hex27
     GivenMiddles given;       ///< null: none
+};
+
+/// What became of a mesh that got middle nodes.
+struct Elevated {
+    quality::Quality quality; ///< of the cells of order 2
+    std::string report;       ///< a line
 };
 
 /// Give a proved mesh of order 1 its middle nodes: it becomes one of order 2.
@@ -39,12 +46,10 @@ struct SecondOrderOptions {
 /// @throw NotSweepable "sweep.second_order"  a cell is not valid however its inner nodes lie: names the face
 ///                     whose place of a middle node makes it so, and the size that would do.
 ///                     InvalidInput "sweep.too_many": more nodes than can be numbered. Cancelled.
-/// @return  lines for the report.
 /// @note  The same for any number of threads. O(cells), but for the harmonic spread, which is made where
 ///        columns of walls bend as no cubic does.
-std::vector<std::string> elevate(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
-                                 const std::vector<FaceId>& faces, const SecondOrderOptions& options = {},
-                                 const RunContext& context = {});
+Elevated elevate(const topology::OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
+                 const SecondOrderOptions& options = {}, const RunContext& context = {});
 
 /// The skin of a mesh of order 2 as one of order 1 with four quads for each: nodes of the
 /// skin alone have their places. For comparisons. @pre  order 2

@@ -457,9 +457,9 @@ void elevate_and_compare(const OpenVolume& volume, ProvedSweep& result, const Sw
                          const RunContext& context)
 {
     Swept& swept = result.swept;
-    for (std::string& line : elevate(volume, swept.mesh, result.faces, options.second_order, context))
-        swept.report.push_back(std::move(line));
-    const quality::Quality quality = quality::measure(swept.mesh, context);
+    Elevated elevated = elevate(volume, swept.mesh, result.faces, options.second_order, context);
+    swept.report.push_back(std::move(elevated.report));
+    const quality::Quality& quality = elevated.quality;
     swept.min_scaled_jacobian = quality.min_scaled_jacobian;
     swept.report.push_back("cells of order 2: all certified, scaled Jacobian " +
                            std::to_string(quality.min_scaled_jacobian) + " at least, " +
