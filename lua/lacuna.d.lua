@@ -76,8 +76,8 @@
 ---@field quads? "auto"|"paved"|"mapped"|"gmsh"|"keep" default "auto"; the report says which way each face was meshed
 ---@field rows? integer rows of quads from every loop of the source that stay as they are laid; default: what the paver finds good
 ---@field row_height? number|fun(x: number, y: number, z: number): number of those rows (one at least); default: the size
----@field order? 1|2 default 1
----@field serendipity? boolean
+---@field order? 1|2 of the cells: hex8, or hex27 with middle nodes on curves and surfaces; default 1
+---@field serendipity? boolean with order 2: hex20 instead of hex27; default false
 ---@field min_scaled_jacobian? number below it the mesh is refused; default 0
 ---@field improve? boolean|{ iterations?: integer, seconds?: number } default true; iterations of each descent, 60
 ---@field interior? "auto"|"affine"|"residual"|"normals" how layers are placed; all but "auto" for comparison
@@ -90,7 +90,7 @@
 ---@field with? lacuna.Model loaded from one finite element mesh, which .inp, .bdf and .unv join the mesh to
 ---@field first_node? integer of .inp, .bdf and .unv; default above all that are taken
 ---@field first_cell? integer likewise
----@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8"
+---@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"
 
 ---@class lacuna.Classification
 ---@field class lacuna.Class
@@ -249,6 +249,7 @@ function Volume:write_cad(path, options) end
 ---@field nodes integer
 ---@field hexes integer
 ---@field layers integer
+---@field order 1|2
 ---@field report string[] a line a stage of the sweep
 local Mesh = {}
 ---@return lacuna.Quality

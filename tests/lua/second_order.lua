@@ -190,7 +190,8 @@ for _, void in ipairs(voids) do
   local model = lacuna.load(path)
   local volume = model:open_volume(roles(void))
   check.equal(volume.class, void.class)
-  local mesh = volume:sweep { layers = void.high[3] - void.low[3], size = 1 / N, order = 2, serendipity = true }
+  local layers = void.high[3] - void.low[3]
+  local mesh = volume:sweep { layers = layers, size = 1 / N, order = 2, serendipity = true }
   check.equal(mesh.order, 2)
   check.that(mesh:quality().certified)
   local joined = params.scratch .. "/joined_" .. void.class .. ".inp"

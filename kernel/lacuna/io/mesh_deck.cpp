@@ -3,9 +3,9 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/io/cell_field.h>
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/deck_writer.h>
-#include <lacuna/io/detail/gmsh_nodes.h>
 #include <lacuna/io/detail/msh_content.h>
 
 #include <algorithm>

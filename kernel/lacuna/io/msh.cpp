@@ -2,7 +2,7 @@
 #include <lacuna/io/msh.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/io/detail/gmsh_nodes.h>
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/msh_content.h>
 #include <lacuna/io/detail/sections.h>
 

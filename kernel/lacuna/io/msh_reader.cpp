@@ -2,6 +2,7 @@
 #include <lacuna/io/msh_reader.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/input_file.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/vtk.h>
 
-#include <lacuna/io/detail/gmsh_nodes.h>
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/msh_content.h>
 #include <lacuna/io/detail/sections.h>
 

@@ -88,8 +88,8 @@ MiddleNodes number_sides(const HexMesh& mesh, bool full);
 
 /// All nodes of a cell; numbers from `mesh.nodes.size()` on are middle nodes. @pre cell < hex_count()
 CellNodes cell_nodes(const HexMesh& mesh, std::size_t cell);
-/// All nodes of skin quad `i`, outward: the corners of `skin_quad()`, the middle of the side from each corner,
-/// the centre. @pre i < skin_count()
+/// All nodes of skin quad `i`, outward: the corners of `skin_quad()`, the middle of the side from each, the
+/// centre. @pre i < skin_count()
 CellNodes skin_nodes(const HexMesh& mesh, std::size_t i);
 
 /// Places of the nodes of a cell as those of a hex27: what a hex20 leaves out follows from its nodes, as its

@@ -42,7 +42,8 @@ std::array<Vec3, 27> hex27_of(const mesh::HexMesh& mesh, std::size_t cell);
 std::vector<std::size_t> invalid_cells(const mesh::HexMesh& mesh, const RunContext& context = {});
 
 /// Measure hexahedra of order 1 and 2 of any origin; those that are straight are measured as of order 1, the
-/// others by `judge()`. @param cells  of 8, 20 or 27 nodes; a middle node of -1 is left out and lies straight.
+/// others by `judge()`.
+/// @param cells  of 8, 20 or 27 nodes; a middle node of -1 is left out and lies straight.
 Quality measure_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNodes> cells,
                       const RunContext& context = {});
 

@@ -77,7 +77,7 @@ SkinCounts place_skin(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
 void project_centres(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
                      const std::vector<FaceId>& faces, MiddleStates& states, const RunContext& context);
 
-/// Middles of the faces of a cell and of the cell, which follow from those of the sides, but for settled ones.
+/// Middles of the faces of a cell and of the cell: they follow from those of the sides, but for settled ones.
 void place_centres(mesh::HexMesh& mesh, const MiddleStates& states, std::size_t cell);
 
 /// Move middle nodes until every cell is valid. @return  how many cells were not. @throw as `elevate()`

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-/// Gmsh's order of nodes. Internal to this folder.
+/// What cells of a swept mesh are, and Gmsh's order of their nodes. Internal to this folder.
 namespace lacuna::io {
 
 /// Where Gmsh has the nodes of a shape, in the order of DeckShape; empty: in the same places.
