@@ -157,12 +157,24 @@ double valid_share(const std::array<Vec3, 27>& nodes)
         face = topology::name_of(volume.model, faces[index(mesh::skin_quad(mesh, i).patch)]);
         break;
     }
-    const double share = valid_share(quality::hex27_of(mesh, cell));
+    // A bend over its side goes with the side's length; what is named is a tenth below.
+    constexpr double kBelow = 0.9;
+    const double share = kBelow * valid_share(quality::hex27_of(mesh, cell));
+    constexpr std::size_t kFirstUpright = 16;
+    const Hex hex = mesh.hex(cell);
+    std::array<Vec3, 8> corners;
+    for (std::size_t c = 0; c < 8; ++c) corners[c] = mesh.nodes[index(hex[c])];
+    const double straight = quality::scaled_jacobian(corners);
+    std::string advice = "By its bend a size of " + in_short(share * side) + " would do";
+    if (*worst >= kFirstUpright) {
+        const int layers = share > 0 ? static_cast<int>(std::ceil(mesh.layers / share)) : 2 * mesh.layers;
+        advice = "By its bend " + std::to_string(layers) + " layers would do instead of " +
+                 std::to_string(mesh.layers);
+    }
     throw NotSweepable("sweep.second_order", cells + "The middle node of a side on " + face + " belongs at " +
                                                  at_place(mesh.node(index(nodes.node[*worst]))) + ", " +
                                                  in_short(most) + " off a side of " + in_short(side) +
-                                                 ". By its bend a size of " + in_short(0.9 * share * side) +
-                                                 " would do");
+                                                 ". By its bend " + advice);
 }
 
 } // namespace
