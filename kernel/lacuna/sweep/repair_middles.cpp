@@ -171,10 +171,14 @@ double valid_share(const std::array<Vec3, 27>& nodes)
         advice = "By its bend " + std::to_string(layers) + " layers would do instead of " +
                  std::to_string(mesh.layers);
     }
+    // What the bend asks for was found to help where the straight cell is a good one.
+    constexpr double kGood = 0.3;
+    if (straight < kGood)
+        advice = "The cell is poor with straight sides already: its scaled Jacobian is " + in_short(straight);
     throw NotSweepable("sweep.second_order", cells + "The middle node of a side on " + face + " belongs at " +
                                                  at_place(mesh.node(index(nodes.node[*worst]))) + ", " +
-                                                 in_short(most) + " off a side of " + in_short(side) +
-                                                 ". By its bend " + advice);
+                                                 in_short(most) + " off a side of " + in_short(side) + ". " +
+                                                 advice);
 }
 
 } // namespace
