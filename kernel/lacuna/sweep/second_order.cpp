@@ -226,22 +226,32 @@ mesh::HexMesh finer_skin(const mesh::HexMesh& mesh)
     fine.nodes_per_layer = mesh.nodes_per_layer + sides + static_cast<Index>(mesh.quads.size());
     fine.layers = 2 * mesh.layers;
     fine.patches = mesh.patches;
-    // Eigen leaves new vectors as they are: pages inside are never touched.
+    // The rim's nodes come first on a level, and Eigen leaves new vectors as they are: what is inside takes no
+    // memory, as its pages are never touched.
+    std::vector<Index> number(index(fine.nodes_per_layer), -1);
+    Index next_number = 0;
+    for (std::size_t r = 0; r < mesh.rim.size(); ++r) {
+        number[index(mesh.rim[r][0])] = next_number++;
+        number[index(mesh.nodes_per_layer + mesh.middles.rim_side[r])] = next_number++;
+    }
+    for (Index& n : number)
+        if (n < 0) n = next_number++;
     fine.nodes.resize(index(fine.nodes_per_layer) * (2 * static_cast<std::size_t>(mesh.layers) + 1));
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
         const Index centre = mesh.nodes_per_layer + sides + static_cast<Index>(q);
         for (std::size_t k = 0; k < 4; ++k) {
             const Index next = mesh.nodes_per_layer + mesh.middles.side_of[q][k];
             const Index before = mesh.nodes_per_layer + mesh.middles.side_of[q][(k + 3) % 4];
-            fine.quads.push_back({mesh.quads[q][k], next, centre, before});
+            fine.quads.push_back({number[index(mesh.quads[q][k])], number[index(next)], number[index(centre)],
+                                  number[index(before)]});
             fine.source_patch.push_back(mesh.source_patch[q]);
             fine.target_patch.push_back(mesh.target_patch[q]);
         }
     }
     for (std::size_t r = 0; r < mesh.rim.size(); ++r) {
         const Index middle = mesh.nodes_per_layer + mesh.middles.rim_side[r];
-        fine.rim.push_back({mesh.rim[r][0], middle});
-        fine.rim.push_back({middle, mesh.rim[r][1]});
+        fine.rim.push_back({number[index(mesh.rim[r][0])], number[index(middle)]});
+        fine.rim.push_back({number[index(middle)], number[index(mesh.rim[r][1])]});
     }
     for (int l = 0; l < fine.layers; ++l)
         for (std::size_t r = 0; r < mesh.rim.size(); ++r)
@@ -250,7 +260,7 @@ mesh::HexMesh finer_skin(const mesh::HexMesh& mesh)
     // Each quad of the skin sets its nine nodes.
     const std::size_t quads = mesh.quads.size();
     const auto at = [&](std::size_t level, Index node) -> Vec3& {
-        return fine.nodes[level * index(fine.nodes_per_layer) + index(node)];
+        return fine.nodes[level * index(fine.nodes_per_layer) + index(number[index(node)])];
     };
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         const mesh::CellNodes nodes = mesh::skin_nodes(mesh, i);
