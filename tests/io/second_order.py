@@ -148,7 +148,8 @@ def installed(name):
 def main():
     # Gmsh's own readers of VTK and BDF take middle nodes in another order, or none (see its issues).
     readers = [(read, endings) for name, read, endings in
-               [("gmsh", read_gmsh, {".msh", ".unv"}), ("meshio", read_meshio, {".msh", ".vtu", ".vtk", ".inp", ".bdf"}),
+               [("gmsh", read_gmsh, {".msh", ".unv"}),
+                ("meshio", read_meshio, {".msh", ".vtu", ".vtk", ".inp", ".bdf"}),
                 ("vtk", read_vtk, {".vtu", ".vtk"})] if installed(name)]
     if not readers:
         return 77
