@@ -226,8 +226,8 @@ mesh::HexMesh finer_skin(const mesh::HexMesh& mesh)
     fine.nodes_per_layer = mesh.nodes_per_layer + sides + static_cast<Index>(mesh.quads.size());
     fine.layers = 2 * mesh.layers;
     fine.patches = mesh.patches;
-    // The rim's nodes come first on a level, and Eigen leaves new vectors as they are: what is inside takes no
-    // memory, as its pages are never touched.
+    // The rim's nodes come first on a level, and Eigen leaves new vectors as they are: the pages of what is
+    // inside are never touched and take no memory.
     std::vector<Index> number(index(fine.nodes_per_layer), -1);
     Index next_number = 0;
     for (std::size_t r = 0; r < mesh.rim.size(); ++r) {
