@@ -85,8 +85,8 @@
 ---@field wedges? boolean triangles that an end came with stay, with wedges on them; default false: quads among triangles are an error
 ---@field rows? integer rows of quads from every loop of the source that stay as they are laid; default: what the paver finds good
 ---@field row_height? number|fun(x: number, y: number, z: number): number of those rows (one at least); default: the size
----@field order? 1|2 default 1
----@field serendipity? boolean
+---@field order? 1|2 of the cells: hex8, or hex27 with middle nodes on curves and surfaces; default 1
+---@field serendipity? boolean with order 2: hex20 instead of hex27; default false
 ---@field min_scaled_jacobian? number below it the mesh is refused; default 0
 ---@field improve? boolean|{ iterations?: integer, seconds?: number } default true; iterations of each descent, 60
 ---@field interior? "auto"|"affine"|"residual"|"normals" how layers are placed; all but "auto" for comparison
@@ -100,7 +100,7 @@
 ---@field renumber? boolean numbers and names that several decks have in common become others; default false
 ---@field first_node? integer of decks and with a model; default above all that are taken
 ---@field first_cell? integer likewise
----@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8"
+---@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"
 ---@field interfaces? boolean of an assembly: quads between its volumes are elements too; default false
 
 ---@class lacuna.Classification
@@ -269,6 +269,7 @@ function Volume:write_cad(path, options) end
 ---@field hexes integer
 ---@field wedges integer
 ---@field layers integer
+---@field order 1|2
 ---@field report string[] a line a stage of the sweep
 local Mesh = {}
 ---@return lacuna.Quality

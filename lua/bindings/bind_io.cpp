@@ -12,6 +12,7 @@
 #include <lacuna/io/load_facets.h>
 #include <lacuna/io/msh.h>
 #include <lacuna/io/vtk.h>
+#include <lacuna/quality/second_order.h>
 
 #include <algorithm>
 
@@ -395,18 +396,25 @@ int load(lua_State* L)
     return 1;
 }
 
-/// The corners of all hexahedra and wedges of a deck; other solids cannot be judged, and where there are no
-/// others their number is an error.
-std::vector<Hex> hexes_of(const io::Deck& deck)
+/// All hexahedra and wedges of a deck, of any order, wedges as `mesh::hex_of()` has them; other solids cannot be
+/// judged, and where there are no others their number is an error.
+std::vector<mesh::CellNodes> hexes_of(const io::Deck& deck)
 {
-    std::vector<Hex> hexes;
+    std::vector<mesh::CellNodes> hexes;
     for (const io::DeckBlock& block : deck.blocks) {
         const io::DeckShapeInfo& info = io::shape_info(block.shape);
-        if (info.dimension != 3 || (info.corners != 8 && info.corners != 6)) continue;
+        const bool wedge = info.dimension == 3 && info.corners == 6;
+        if (!wedge && (info.dimension != 3 || info.corners != 8)) continue;
         for (std::size_t e = 0; e < block.count(); ++e) {
-            Hex& hex = hexes.emplace_back();
-            std::copy_n(block.element(e).begin(), info.corners, hex.begin());
-            if (info.corners == 6) hex = mesh::hex_of({hex[0], hex[1], hex[2], hex[3], hex[4], hex[5]});
+            mesh::CellNodes& nodes = hexes.emplace_back();
+            const auto own = block.element(e);
+            nodes.count = wedge ? 8 : own.size();
+            if (wedge) {
+                const Hex hex = mesh::hex_of({own[0], own[1], own[2], own[3], own[4], own[5]});
+                std::copy(hex.begin(), hex.end(), nodes.node.begin());
+            } else {
+                std::copy(own.begin(), own.end(), nodes.node.begin());
+            }
         }
     }
     if (hexes.empty())
@@ -430,9 +438,12 @@ int check_file(lua_State* L)
     guard(L, [&] {
         check_input_path(lent, path);
         io::Deck deck = io::read_deck(path);
-        source.hexes = hexes_of(deck);
+        const std::vector<mesh::CellNodes> cells = hexes_of(deck);
         source.nodes = std::move(deck.points);
-        source.quality = quality::measure_cells(source.nodes, source.hexes, context);
+        source.quality = quality::measure_cells(source.nodes, cells, context);
+        source.hexes.resize(cells.size());
+        for (std::size_t c = 0; c < cells.size(); ++c)
+            std::copy_n(cells[c].node.begin(), 8, source.hexes[c].begin());
     });
     push_quality(L, at);
     return 1;

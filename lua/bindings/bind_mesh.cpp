@@ -11,7 +11,7 @@ namespace {
 
 int mesh_nodes(lua_State* L)
 {
-    lua_pushinteger(L, static_cast<lua_Integer>(check<MeshState>(L, 1).swept.mesh.nodes.size()));
+    lua_pushinteger(L, static_cast<lua_Integer>(check<MeshState>(L, 1).swept.mesh.node_count()));
     return 1;
 }
 
@@ -30,6 +30,12 @@ int mesh_wedges(lua_State* L)
 int mesh_layers(lua_State* L)
 {
     lua_pushinteger(L, check<MeshState>(L, 1).swept.mesh.layers);
+    return 1;
+}
+
+int mesh_order(lua_State* L)
+{
+    lua_pushinteger(L, check<MeshState>(L, 1).swept.mesh.order());
     return 1;
 }
 
@@ -94,12 +100,12 @@ int node(lua_State* L)
 {
     lua_settop(L, 2);
     const mesh::HexMesh& mesh = check<MeshState>(L, 1).swept.mesh;
-    const Vec3& place = mesh.nodes[check_number(L, "node", mesh.nodes.size())];
+    const Vec3& place = mesh.node(check_number(L, "node", mesh.node_count()));
     for (const double coordinate : place) lua_pushnumber(L, coordinate);
     return 3;
 }
 
-/// n1, ..., n8 = mesh:hex(i)
+/// n1, ..., n8 = mesh:hex(i): the corners, whatever the order
 int hex(lua_State* L)
 {
     lua_settop(L, 2);
@@ -172,7 +178,7 @@ int mesh_to_string(lua_State* L)
 {
     const mesh::HexMesh& mesh = check<MeshState>(L, 1).swept.mesh;
     lua_pushfstring(L, "Mesh of %I hexes, %I nodes, %d layers", static_cast<lua_Integer>(mesh.hex_count()),
-                    static_cast<lua_Integer>(mesh.nodes.size()), mesh.layers);
+                    static_cast<lua_Integer>(mesh.node_count()), mesh.layers);
     return 1;
 }
 
@@ -180,8 +186,8 @@ const luaL_Reg kMethods[] = {
     {"node", node}, {"hex", hex}, {"wedge", wedge}, {"groups", groups}, {nullptr, nullptr}};
 const luaL_Reg kMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
 const Field kFields[] = {
-    {"nodes", mesh_nodes},   {"hexes", mesh_hexes},       {"wedges", mesh_wedges}, {"layers", mesh_layers},
-    {"report", mesh_report}, {"fidelity", mesh_fidelity}, {nullptr, nullptr},
+    {"nodes", mesh_nodes}, {"hexes", mesh_hexes},   {"wedges", mesh_wedges},     {"layers", mesh_layers},
+    {"order", mesh_order}, {"report", mesh_report}, {"fidelity", mesh_fidelity}, {nullptr, nullptr},
 };
 
 } // namespace

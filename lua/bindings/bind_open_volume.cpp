@@ -145,7 +145,11 @@ int open_volume(lua_State* L)
                 "found; not both");
     RunContext& context = push_context(L);
     auto& box = new_box<VolumeState>(L);
-    guard(L, [&] { box = std::make_shared<VolumeState>(make_volume(model->model, arguments, context)); });
+    guard(L, [&] {
+        box = std::make_shared<VolumeState>(make_volume(model->model, arguments, context));
+        box->decks = model->decks;
+        box->scale = model->scale;
+    });
     return 1;
 }
 

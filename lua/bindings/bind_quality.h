@@ -16,7 +16,7 @@ struct QualitySource {
     quality::Quality quality;
     std::shared_ptr<MeshState> mesh; ///< or, where null, the cells of a file
     std::vector<Vec3> nodes;
-    std::vector<Hex> hexes;
+    std::vector<Hex> hexes; ///< corners
     std::optional<std::vector<quality::MetricSummary>> metrics;
 };
 

@@ -5,9 +5,12 @@
 
 #include <lacuna/cad/load.h>
 #include <lacuna/closure/steps.h>
+#include <lacuna/io/deck_middles.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <thread>
 
 namespace lacuna::lua {
@@ -22,8 +25,6 @@ struct SweepArguments {
     int threads = 0;
     int size_function = 0; ///< stack index of a Lua function, 0 for none
     int row_height_function = 0;
-    int order = 1;
-    bool serendipity = false;
 };
 
 // --- layers ---------------------------------------------------------------------------------------------
@@ -148,8 +149,13 @@ void read_wedges(lua_State* L, int index, const Where& where, SweepArguments& ar
 
 void read_order(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
-    arguments.order = read_whole(L, index, where, 1);
-    if (arguments.order > 2) fail_value(L, where, "1 or 2", index);
+    arguments.options.order = read_whole(L, index, where, 1);
+    if (arguments.options.order > 2) fail_value(L, where, "1 or 2", index);
+}
+
+void read_serendipity(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.second_order.serendipity = read_boolean(L, index, where);
 }
 
 void read_min_scaled_jacobian(lua_State* L, int index, const Where& where, SweepArguments& arguments)
@@ -212,7 +218,7 @@ const Option<SweepArguments> kSweepOptions[] = {
     {"rows", read_rows},
     {"row_height", read_row_height},
     {"order", read_order},
-    {"serendipity", boolean<&SweepArguments::serendipity>},
+    {"serendipity", read_serendipity},
     {"min_scaled_jacobian", read_min_scaled_jacobian},
     {"improve", read_improve},
     {"interior", read_interior},
@@ -233,8 +239,6 @@ SweepArguments& push_arguments(lua_State* L, int index, const char* call)
 {
     auto& arguments = temporary<SweepArguments>(L);
     read_options(L, index, call, kSweepOptions, arguments);
-    if (arguments.order == 2 || arguments.serendipity)
-        fail(L, "%s: cells of order 2 are not available yet; leave 'order' and 'serendipity' out", call);
     push_field(L, index, "size", arguments.size_function, arguments.options.size);
     push_field(L, index, "row_height", arguments.row_height_function, arguments.options.row_height);
     guard(L, [&] { arguments.options.quad_mesher = cad::recombine; });
@@ -246,6 +250,22 @@ SweepArguments& push_arguments(lua_State* L, int index, const char* call)
         sweep::check(arguments.options, context);
     });
     return arguments;
+}
+
+/// Middle nodes of the decks a volume's faces came from.
+std::vector<Vec3> given_middles(const VolumeState& state, std::span<const Vec3> from,
+                                std::span<const Vec3> to)
+{
+    constexpr double kTogether =
+        1e-9; // of the diagonal: kept nodes are the decks' to the bit, but for the scale
+    std::vector<Vec3> found(from.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    for (const auto& deck : state.decks) {
+        const std::vector<Vec3> middles = io::middles_between(
+            *deck, from, to, kTogether * state.volume.model.diagonal, state.scale);
+        for (std::size_t i = 0; i < found.size(); ++i)
+            if (!found[i].allFinite()) found[i] = middles[i];
+    }
+    return found;
 }
 
 /// Sweep the pieces of a volume with steps as an assembly; layers asked for are those of the pieces that go
@@ -293,6 +313,10 @@ int sweep_volume(lua_State* L)
         const Busy busy(state, "sweep");
         close_volume(state, {}, context);
         box = std::make_shared<MeshState>();
+        if (!state.decks.empty())
+            arguments.options.second_order.given = [&state](auto from, auto to) {
+                return given_middles(state, from, to);
+            };
         box->swept = sweep::sweep(state.volume, arguments.options, context);
         if (!state.name.empty()) box->swept.mesh.volume_groups = {state.name};
         box->material = state.material;

@@ -64,6 +64,8 @@ struct VolumeState {
     std::optional<closure::Closure> closure;
     std::string name;     ///< of the region its cells are; empty: the default
     std::string material; ///< name or number of its material; empty: none was said
+    std::vector<std::shared_ptr<const io::Deck>> decks; ///< those of the model it was made of
+    double scale = 1;                                   ///< of its coordinates to theirs
 };
 
 /// Marks a volume as worked on, so that a function of the recipe that is called meanwhile cannot change it.

@@ -250,12 +250,101 @@ void find_shape_faults(const mesh::HexMesh& mesh, Faults& faults)
     expect(faults, quality.uncertified == 0, "cells without certificate");
 }
 
+/// A quadratic that is 1 at `at` (0, ½ or 1), and its slope.
+double quadratic(double at, double t)
+{
+    if (at == 0) return (1 - t) * (1 - 2 * t);
+    return at == 1 ? t * (2 * t - 1) : 4 * t * (1 - t);
+}
+double quadratic_slope(double at, double t)
+{
+    if (at == 0) return 4 * t - 3;
+    return at == 1 ? 4 * t - 1 : 4 - 8 * t;
+}
+
+/// Jacobian of the triquadratic map, a sum over the 27 nodes.
+double curved_jacobian(const std::array<Vec3, 27>& nodes, const std::array<Vec3, 27>& cube, const Vec3& t)
+{
+    Eigen::Matrix3d columns = Eigen::Matrix3d::Zero();
+    for (std::size_t n = 0; n < 27; ++n) {
+        for (int d = 0; d < 3; ++d) {
+            double weight = 1;
+            for (int e = 0; e < 3; ++e)
+                weight *= e == d ? quadratic_slope(cube[n][e], t[e]) : quadratic(cube[n][e], t[e]);
+            columns.col(d) += weight * nodes[n];
+        }
+    }
+    return columns.determinant();
+}
+
+/// Middle nodes: each of one side, face or cell, none left over; Jacobians positive where they are sampled.
+void find_second_order_faults(const mesh::HexMesh& mesh, Faults& faults)
+{
+    std::array<Vec3, 8> corners;
+    for (std::size_t c = 0; c < 8; ++c) corners[c] = Vec3(kCorner[c][0], kCorner[c][1], kCorner[c][2]);
+    const std::array<Vec3, 27> cube = mesh::as_hex27(corners);
+    std::map<std::set<Index>, Index> middle; // of what has these corners
+    std::set<Index> used;
+    const auto is_middle_of = [&](const std::set<Index>& of, Index node) {
+        used.insert(node);
+        const auto [at, fresh] = middle.try_emplace(of, node);
+        expect(faults, fresh || at->second == node, "a side with two middle nodes");
+    };
+    double volume = 0;
+    for (std::size_t cell = 0; cell < mesh.hex_count(); ++cell) {
+        const mesh::CellNodes nodes = mesh::cell_nodes(mesh, cell);
+        const auto& n = nodes.node;
+        for (std::size_t e = 0; e < 12; ++e)
+            is_middle_of({n[index(mesh::kHexEdges[e][0])], n[index(mesh::kHexEdges[e][1])]}, n[8 + e]);
+        for (std::size_t f = 0; f < 6 && nodes.count == 27; ++f) {
+            std::set<Index> of;
+            for (const Index c : mesh::kHexFaces[f]) of.insert(n[index(c)]);
+            is_middle_of(of, n[20 + f]);
+        }
+        if (nodes.count == 27) is_middle_of({n.begin(), n.begin() + 8}, n[26]);
+        std::vector<Vec3> places;
+        for (const Index node : nodes.all()) places.push_back(mesh.node(index(node)));
+        const std::array<Vec3, 27> all = mesh::as_hex27(places);
+        for (int i = 0; i < 5; ++i)
+            for (int j = 0; j < 5; ++j)
+                for (int k = 0; k < 5; ++k)
+                    expect(faults, curved_jacobian(all, cube, Vec3(i, j, k) / 4) > 0,
+                           "a Jacobian of order 2 is not positive");
+        const double off = std::sqrt(0.15); // Gauss's points
+        for (int i = 0; i < 27; ++i) {
+            const Vec3 at(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+            const double weight = (at.x() == 0 ? 8 : 5) * (at.y() == 0 ? 8 : 5) * (at.z() == 0 ? 8 : 5) /
+                                  5832.;
+            volume += weight * curved_jacobian(all, cube, Vec3(0.5, 0.5, 0.5) + off * at);
+        }
+    }
+    expect(faults, used.size() == mesh.middles.nodes.size(), "a middle node belongs to no cell");
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        const mesh::CellNodes nodes = mesh::skin_nodes(mesh, i);
+        const auto& n = nodes.node;
+        for (std::size_t k = 0; k < 4; ++k) is_middle_of({n[k], n[(k + 1) % 4]}, n[4 + k]);
+        if (nodes.count == 9) is_middle_of({n.begin(), n.begin() + 4}, n[8]);
+    }
+    const quality::Quality quality = quality::measure(mesh);
+    expect(faults, std::abs(quality.volume - volume) <= 1e-9 * std::abs(volume),
+           "measured volume of order 2");
+    expect(faults, quality.uncertified == 0, "cells of order 2 without certificate");
+    expect(faults, quality.min_scaled_jacobian > 0, "measured least scaled Jacobian of order 2");
+}
+
 } // namespace
 
 std::vector<std::string> faults(const mesh::HexMesh& mesh)
 {
     Faults found;
     if (!good_sizes(mesh, found)) return found;
+    if (mesh.order() == 2) {
+        find_second_order_faults(mesh, found);
+        mesh::HexMesh corners = mesh;
+        corners.middles = {};
+        for (const std::string& fault : faults(corners)) expect(found, false, fault);
+        return found;
+    }
     find_conformity_faults(mesh, found);
     find_node_faults(mesh, found);
     find_shape_faults(mesh, found);

@@ -16,7 +16,8 @@ namespace lacuna::io {
 
 struct MeshDeckOptions {
     DeckFormat format = DeckFormat::abaqus; ///< nastran, abaqus, unv, msh, vtk, vtu or exodus
-    std::string element = "C3D8";           ///< of Abaqus: the word for hexahedra of eight nodes, in capitals
+    /// Of Abaqus: the word for hexahedra of as many nodes, in capitals; empty: C3D8, of order 2 C3D20.
+    std::string element{};
     DeckTag first_node = 0; ///< number of the first new node; 0: above all that are taken, from 1
     DeckTag first_cell = 0; ///< of the first hexahedron; 0: likewise
     /// Of the hexahedra: a name or number that the deck they join has, in any capitals; empty: that of the
@@ -39,7 +40,8 @@ bool find_deck_format(std::string_view ending, DeckFormat& format);
 /// | unv, msh, vtk, vtu | a set of quads, which are elements behind the hexahedra |
 ///
 /// Abaqus's names have letters, digits, - and _ : others become _ .
-/// @throw InvalidInput "io.element"       `element` is no hexahedron of eight nodes.
+/// @throw InvalidInput "io.element"       `element` is no hexahedron of as many nodes as the mesh's.
+///                     "io.no_such_element"  the mesh is of hex27, which none of the formats has.
 ///                     "io.number_taken"  a first number is below 1, or the last would be too high.
 /// @note  O(nodes + cells).
 Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options);
@@ -51,7 +53,7 @@ Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options);
 Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& options, bool interfaces = false);
 
 /// A deck and the mesh that fills a void of it as one conformal mesh. What the deck has keeps its numbers; a
-/// node of the skin that lies on a node of the deck is that node.
+/// node of the skin that lies on a node of the deck is that node, a middle node that of the side.
 ///
 /// Groups of the skin are sets as in `deck_of()`, of nodes in UNV too. The new region has the property above
 /// all others. Where nodes of the deck coincide, the skin takes the one of the elements whose face, else
@@ -69,6 +71,7 @@ Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& optio
 ///                                         both.
 ///                     "io.other_model"    a patch is of no face of the model.
 ///                     "io.no_material"    the deck has no material called `material`; lists those it has.
+///                     "io.mixed_order"    elements beside the void are of another order than the mesh.
 ///                     as `deck_of()`.
 /// @note  O(n log n) in the nodes of the deck; a copy of the deck is made.
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,

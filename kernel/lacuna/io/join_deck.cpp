@@ -50,6 +50,7 @@ public:
         check_patches();
         std::vector<Index> points(mesh_.nodes.size(), -1);
         for (std::size_t n = 0; n < points.size(); ++n) points[n] = point_of(n);
+        join_middles(deck_, mesh_, matched_, kTogether * model_.diagonal, scale_, points);
         return points;
     }
 

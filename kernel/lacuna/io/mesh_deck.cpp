@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/io/cell_field.h>
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/msh_content.h>
@@ -66,11 +67,11 @@ public:
     {
         check_skin(mesh_);
         const bool abaqus = options_.format == DeckFormat::abaqus;
-        if (abaqus && !is_abaqus_element(options_.element, DeckShape::hex8))
-            throw InvalidInput("io.element",
-                               "element = \"" + options_.element +
-                                   "\": expected Abaqus's word for a hexahedron of eight nodes, "
-                                   "such as C3D8, C3D8I or C3D8R; the mesh has no middle nodes");
+        if (cell_shape(mesh_) == DeckShape::hex27)
+            throw InvalidInput("io.no_such_element",
+                               "hexahedra of 27 nodes are no elements of Abaqus, CalculiX, Nastran or UNV; "
+                               "sweep with order = 2, serendipity = true for those of 20");
+        if (abaqus) check_element();
         texts_ = numbers_in_text(deck_);
         choose_material();
         add_points();
@@ -80,6 +81,19 @@ public:
     }
 
 private:
+    /// The word of an element of as many nodes as the mesh's.
+    void check_element()
+    {
+        const bool second = mesh_.order() == 2;
+        element_ = options_.element.empty() ? (second ? "C3D20" : "C3D8") : options_.element;
+        if (is_abaqus_element(element_, cell_shape(mesh_))) return;
+        throw InvalidInput("io.element",
+                           "element = \"" + element_ + "\": expected Abaqus's word for a hexahedron of " +
+                               (second ? "twenty nodes, such as C3D20 or C3D20R; the mesh is of order 2"
+                                       : "eight nodes, such as C3D8, C3D8I or C3D8R; the mesh has no "
+                                         "middle nodes"));
+    }
+
     void add_points()
     {
         const std::size_t fresh = static_cast<std::size_t>(std::ranges::count(added_.points, -1));
@@ -89,7 +103,7 @@ private:
         for (std::size_t n = 0; n < point_.size(); ++n) {
             if (point_[n] >= 0) continue;
             point_[n] = static_cast<Index>(deck_.points.size());
-            deck_.points.push_back(mesh_.nodes[n] / added_.scale);
+            deck_.points.push_back(mesh_.node(n) / added_.scale);
             deck_.point_tags.push_back(next++);
         }
     }
@@ -118,21 +132,18 @@ private:
             DeckBlock& block = block_of(shape, type);
             for (std::size_t i = begin; i < end; ++i) {
                 const std::size_t c = kinds.cell(i);
-                const Hex hex = mesh_.hex(c);
-                const auto put = [&](Index node) { block.nodes.push_back(point_[index(node)]); };
-                if (shape == DeckShape::wedge6)
-                    std::ranges::for_each(mesh::wedge_of(hex), put);
-                else
-                    std::ranges::for_each(hex, put);
+                for (const Index node : cell_nodes(mesh_, c).all())
+                    block.nodes.push_back(point_[index(node)]);
                 block.tags.push_back(first_cell_ + static_cast<DeckTag>(c));
                 block.regions.push_back(region);
             }
         };
-        add(DeckShape::hex8,
-            abaqus    ? options_.element
-            : nastran ? "CHEXA"
-            : unv()   ? "115"
-                      : "",
+        add(cell_shape(mesh_),
+            abaqus               ? element_
+            : nastran            ? "CHEXA"
+            : !unv()             ? ""
+            : mesh_.order() == 2 ? "116"
+                                 : "115",
             0, kinds.hexes());
         add(DeckShape::wedge6,
             abaqus    ? "C3D6"
@@ -176,14 +187,13 @@ private:
             for (std::size_t k = begin; k < end; ++k) {
                 const std::size_t i = kinds.skin(k);
                 if (is_inner(i) || is_there(i)) continue;
-                const Quad nodes = skin_quad(mesh_, i).nodes;
-                for (std::size_t c = 0; c < mesh::corner_count(nodes); ++c)
-                    block.nodes.push_back(point_[index(nodes[c])]);
+                for (const Index node : skin_nodes(mesh_, i).all())
+                    block.nodes.push_back(point_[index(node)]);
                 block.tags.push_back(skin_tag(i));
                 block.regions.push_back(region);
             }
         };
-        add(DeckShape::quad4, "94", 0, kinds.skin_quads());
+        add(skin_shape(mesh_), mesh_.order() == 2 ? "95" : "94", 0, kinds.skin_quads());
         add(DeckShape::tri3, "91", kinds.skin_quads(), mesh_.skin_count());
     }
 
@@ -272,7 +282,7 @@ private:
         }
         DeckSet& nodes = add(DeckSet::Kind::nodes);
         for (const std::uint32_t i : quads)
-            for (const Index node : skin_quad(mesh_, i).nodes)
+            for (const Index node : skin_nodes(mesh_, i).all())
                 nodes.members.push_back(deck_.point_tags[index(point_[index(node)])]);
         tidy(nodes.members);
         if (!has_sides()) return;
@@ -353,7 +363,7 @@ private:
     TextNumbers texts_;
     std::string material_;
     std::vector<Index> point_; ///< of each node of the mesh
-    std::string volume_;
+    std::string volume_, element_;
     DeckTag first_cell_ = 1;
     std::vector<std::uint32_t> cells_;       ///< behind each quad of the skin
     std::vector<int> sides_;                 ///< of these cells
@@ -393,7 +403,7 @@ bool has_skin_cells(DeckFormat format)
 Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options)
 {
     Deck deck = empty_deck(options.format);
-    const std::vector<Index> points(mesh.nodes.size(), -1);
+    const std::vector<Index> points(mesh.node_count(), -1);
     add_mesh(deck, mesh, {.points = points, .skin_cells = has_skin_cells(options.format)}, options);
     return deck;
 }

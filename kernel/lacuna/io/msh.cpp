@@ -2,7 +2,9 @@
 #include <lacuna/io/msh.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/msh_content.h>
+#include <lacuna/io/detail/msh_shapes.h>
 #include <lacuna/io/detail/sections.h>
 
 #include <array>
@@ -15,22 +17,14 @@
 namespace lacuna::io {
 namespace {
 
-constexpr int kTriangleType = 2;
-constexpr int kQuadType = 3;
-constexpr int kHexType = 5;
-constexpr int kWedgeType = 6;
-
-constexpr std::size_t nodes_of(int type)
-{
-    constexpr std::array<std::size_t, 7> kNodes{0, 2, 3, 4, 4, 8, 6};
-    return kNodes[static_cast<std::size_t>(type)];
-}
-
-/// Elements of one type in a row.
+/// Elements of one shape in a row.
 struct Block {
     const MshSurface* surface; ///< null: the volume
-    int type;
+    DeckShape shape;
     std::size_t first, count; ///< elements of the file before it, and in it
+
+    [[nodiscard]] int type() const { return gmsh_type(shape); }
+    [[nodiscard]] std::size_t nodes() const { return static_cast<std::size_t>(shape_info(shape).nodes); }
 };
 
 /// What a file says of elements: the skin's, patch after patch, then the cells.
@@ -49,25 +43,25 @@ struct Elements {
         };
         for (const MshSurface& surface : content.surfaces) {
             const std::size_t quads = surface.end - surface.begin - surface.triangles;
-            add({&surface, kQuadType, surface.begin, quads});
-            add({&surface, kTriangleType, surface.begin + quads, surface.triangles});
+            add({&surface, skin_shape(mesh), surface.begin, quads});
+            add({&surface, DeckShape::tri3, surface.begin + quads, surface.triangles});
         }
         const std::size_t skin = content.skin.size();
-        add({nullptr, kHexType, skin, kinds.hexes()});
-        add({nullptr, kWedgeType, skin + kinds.hexes(), mesh.cell_count() - kinds.hexes()});
+        add({nullptr, cell_shape(mesh), skin, kinds.hexes()});
+        add({nullptr, DeckShape::wedge6, skin + kinds.hexes(), mesh.cell_count() - kinds.hexes()});
         return all;
     }
 
-    /// Call `put(nodes)` for the element that comes `i`-th.
-    template <class Put>
-    char* put_nodes_of(std::size_t i, const Put& put) const
+    /// Of the element that comes `i`-th, in Gmsh's order.
+    [[nodiscard]] mesh::CellNodes nodes(std::size_t i) const
     {
-        if (i < content.skin.size()) {
-            const Quad quad = skin_quad(mesh, content.skin[i]).nodes;
-            return mesh::is_triangle(quad) ? put(Triangle{quad[0], quad[1], quad[2]}) : put(quad);
-        }
-        const Hex hex = mesh.hex(kinds.cell(i - content.skin.size()));
-        return mesh::is_wedge(hex) ? put(mesh::wedge_of(hex)) : put(hex);
+        if (i < content.skin.size()) return skin_nodes(mesh, content.skin[i]);
+        mesh::CellNodes nodes = mesh::cell_nodes(mesh, kinds.cell(i - content.skin.size()));
+        if (mesh.order() == 1) return nodes;
+        const mesh::CellNodes ours = nodes;
+        const std::span<const std::uint8_t> places = gmsh_places(cell_shape(mesh));
+        for (std::size_t n = 0; n < nodes.count; ++n) nodes.node[places[n]] = ours.node[n];
+        return nodes;
     }
 };
 
@@ -113,14 +107,14 @@ std::string binary_entities(const MshContent& content)
 }
 
 /// Number of a cell and its nodes, each eight bytes.
-template <std::size_t N>
-char* put_element(char* out, std::uint64_t number, const std::array<Index, N>& nodes)
+char* put_element(char* out, std::uint64_t number, const mesh::CellNodes& nodes)
 {
-    std::array<std::uint64_t, N + 1> record;
+    std::array<std::uint64_t, 28> record;
     record[0] = number;
-    for (std::size_t i = 0; i < N; ++i) record[i + 1] = node_tag(nodes[i]);
-    std::memcpy(out, record.data(), sizeof record);
-    return out + sizeof record;
+    for (std::size_t i = 0; i < nodes.count; ++i) record[i + 1] = node_tag(nodes.node[i]);
+    const std::size_t bytes = (nodes.count + 1) * sizeof(std::uint64_t);
+    std::memcpy(out, record.data(), bytes);
+    return out + bytes;
 }
 
 std::string block_head(int dimension, int tag, int third, std::size_t count)
@@ -141,11 +135,11 @@ std::string counts_of(std::size_t blocks, std::size_t count)
     return text;
 }
 
-Section coordinates(const mesh::HexMesh& mesh)
+Section coordinates(const std::vector<Vec3>& nodes)
 {
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
-    return {{}, mesh.nodes.size(), sizeof(Vec3), [&mesh](std::size_t begin, std::size_t end, char* out) {
-                std::memcpy(out, mesh.nodes[begin].data(), (end - begin) * sizeof(Vec3));
+    return {{}, nodes.size(), sizeof(Vec3), [&nodes](std::size_t begin, std::size_t end, char* out) {
+                std::memcpy(out, nodes[begin].data(), (end - begin) * sizeof(Vec3));
                 return out + (end - begin) * sizeof(Vec3);
             }};
 }
@@ -156,12 +150,12 @@ void add_binary_elements(std::vector<Section>& sections, const Elements& element
     std::string head = "$Elements\n" + counts_of(blocks.size(), elements.count());
     for (const Block& block : blocks) {
         const bool volume = block.surface == nullptr;
-        head += block_head(volume ? 3 : 2, volume ? kVolumeTag : block.surface->tag, block.type, block.count);
-        sections.push_back({head, block.count, (nodes_of(block.type) + 1) * sizeof(std::uint64_t),
+        head += block_head(volume ? 3 : 2, volume ? kVolumeTag : block.surface->tag, block.type(),
+                           block.count);
+        sections.push_back({head, block.count, (block.nodes() + 1) * sizeof(std::uint64_t),
                             [elements, block](std::size_t begin, std::size_t end, char* out) {
                                 for (std::size_t i = block.first + begin; i < block.first + end; ++i)
-                                    out = elements.put_nodes_of(
-                                        i, [&](const auto& nodes) { return put_element(out, i + 1, nodes); });
+                                    out = put_element(out, i + 1, elements.nodes(i));
                                 return out;
                             }});
         head.clear();
@@ -171,7 +165,7 @@ void add_binary_elements(std::vector<Section>& sections, const Elements& element
 
 std::vector<Section> binary_41(const mesh::HexMesh& mesh, const MshContent& content)
 {
-    const std::size_t nodes = mesh.nodes.size();
+    const std::size_t nodes = mesh.node_count();
     std::vector<Section> sections;
     sections.push_back({msh_opening(content.names, "4.1", true) + binary_entities(content) + "$Nodes\n" +
                             counts_of(1, nodes) + block_head(3, kVolumeTag, 0, nodes),
@@ -180,7 +174,8 @@ std::vector<Section> binary_41(const mesh::HexMesh& mesh, const MshContent& cont
                                 out = put(out, static_cast<std::uint64_t>(i + 1));
                             return out;
                         }});
-    sections.push_back(coordinates(mesh));
+    sections.push_back(coordinates(mesh.nodes));
+    sections.push_back(coordinates(mesh.middles.nodes));
     sections.push_back({"\n$EndNodes\n", 0, 0, {}});
     add_binary_elements(sections, {mesh, content});
     return sections;
@@ -221,10 +216,9 @@ std::string text_entities(const MshContent& content)
     return text + "$EndEntities\n";
 }
 
-template <std::size_t N>
-char* put_nodes(char* out, const std::array<Index, N>& nodes)
+char* put_nodes(char* out, const mesh::CellNodes& nodes)
 {
-    for (const Index node : nodes) {
+    for (const Index node : nodes.all()) {
         *out++ = ' ';
         out = put_text(out, static_cast<long long>(node) + 1);
     }
@@ -253,16 +247,16 @@ void add_text_elements(std::vector<Section>& sections, const Elements& elements,
     std::string text = start;
     for (const Block& block : elements.blocks()) {
         const std::string between = middle(block);
-        sections.push_back(
-            {text + head(block), block.count, (nodes_of(block.type) + 1) * kNumberBytes + between.size() + 2,
-             [elements, block, between](std::size_t begin, std::size_t end, char* out) {
-                 for (std::size_t i = block.first + begin; i < block.first + end; ++i) {
-                     out = put_text(out, static_cast<long long>(i) + 1);
-                     out = between.copy(out, between.size()) + out;
-                     out = elements.put_nodes_of(i, [&](const auto& nodes) { return put_nodes(out, nodes); });
-                 }
-                 return out;
-             }});
+        sections.push_back({text + head(block), block.count,
+                            (block.nodes() + 1) * kNumberBytes + between.size() + 2,
+                            [elements, block, between](std::size_t begin, std::size_t end, char* out) {
+                                for (std::size_t i = block.first + begin; i < block.first + end; ++i) {
+                                    out = put_text(out, static_cast<long long>(i) + 1);
+                                    out = between.copy(out, between.size()) + out;
+                                    out = put_nodes(out, elements.nodes(i));
+                                }
+                                return out;
+                            }});
         text.clear();
     }
     sections.push_back({"$EndElements\n", 0, 0, {}});
@@ -270,7 +264,7 @@ void add_text_elements(std::vector<Section>& sections, const Elements& elements,
 
 std::vector<Section> text_41(const mesh::HexMesh& mesh, const MshContent& content)
 {
-    const std::size_t nodes = mesh.nodes.size();
+    const std::size_t nodes = mesh.node_count();
     std::vector<Section> sections;
     sections.push_back({msh_opening(content.names, "4.1", false) + text_entities(content) + "$Nodes\n" +
                             words({1, nodes, 1, nodes}) + words({3, kVolumeTag, 0, nodes}),
@@ -282,14 +276,14 @@ std::vector<Section> text_41(const mesh::HexMesh& mesh, const MshContent& conten
                             return out;
                         }});
     sections.push_back({{}, nodes, 3 * kNumberBytes, [&mesh](std::size_t begin, std::size_t end, char* out) {
-                            for (std::size_t i = begin; i < end; ++i) out = put_point(out, mesh.nodes[i]);
+                            for (std::size_t i = begin; i < end; ++i) out = put_point(out, mesh.node(i));
                             return out;
                         }});
     const Elements elements{mesh, content};
     const auto head = [](const Block& block) {
         const bool volume = block.surface == nullptr;
         const int tag = volume ? kVolumeTag : block.surface->tag;
-        return words({volume ? 3U : 2U, static_cast<std::size_t>(tag), static_cast<std::size_t>(block.type),
+        return words({volume ? 3U : 2U, static_cast<std::size_t>(tag), static_cast<std::size_t>(block.type()),
                       block.count});
     };
     add_text_elements(sections, elements,
@@ -304,13 +298,13 @@ std::vector<Section> text_41(const mesh::HexMesh& mesh, const MshContent& conten
 std::vector<Section> text_22(const mesh::HexMesh& mesh, const MshContent& content)
 {
     std::vector<Section> sections;
-    sections.push_back({msh_opening(content.names, "2.2", false) + "$Nodes\n" + words({mesh.nodes.size()}),
-                        mesh.nodes.size(), 4 * kNumberBytes,
+    sections.push_back({msh_opening(content.names, "2.2", false) + "$Nodes\n" + words({mesh.node_count()}),
+                        mesh.node_count(), 4 * kNumberBytes,
                         [&mesh](std::size_t begin, std::size_t end, char* out) {
                             for (std::size_t i = begin; i < end; ++i) {
                                 out = put_text(out, static_cast<long long>(i) + 1);
                                 *out++ = ' ';
-                                out = put_point(out, mesh.nodes[i]);
+                                out = put_point(out, mesh.node(i));
                             }
                             return out;
                         }});
@@ -328,14 +322,13 @@ std::vector<Section> text_22(const mesh::HexMesh& mesh, const MshContent& conten
     return sections;
 }
 
-template <std::size_t N>
-char* put_element_22(char* out, std::size_t number, int physical, int entity,
-                     const std::array<Index, N>& nodes)
+char* put_element_22(char* out, std::size_t number, int physical, int entity, const mesh::CellNodes& nodes)
 {
-    std::array<int, N + 3> record{static_cast<int>(number), physical, entity};
-    for (std::size_t i = 0; i < N; ++i) record[i + 3] = nodes[i] + 1;
-    std::memcpy(out, record.data(), sizeof record);
-    return out + sizeof record;
+    std::array<int, 30> record{static_cast<int>(number), physical, entity};
+    for (std::size_t i = 0; i < nodes.count; ++i) record[i + 3] = nodes.node[i] + 1;
+    const std::size_t bytes = (nodes.count + 3) * sizeof(int);
+    std::memcpy(out, record.data(), bytes);
+    return out + bytes;
 }
 
 /// Type, count and number of tags of the elements that follow.
@@ -349,12 +342,12 @@ std::string head_22(int type, std::size_t count)
 std::vector<Section> binary_22(const mesh::HexMesh& mesh, const MshContent& content)
 {
     std::vector<Section> sections;
-    sections.push_back({msh_opening(content.names, "2.2", true) + "$Nodes\n" + words({mesh.nodes.size()}),
-                        mesh.nodes.size(), sizeof(int) + sizeof(Vec3),
+    sections.push_back({msh_opening(content.names, "2.2", true) + "$Nodes\n" + words({mesh.node_count()}),
+                        mesh.node_count(), sizeof(int) + sizeof(Vec3),
                         [&mesh](std::size_t begin, std::size_t end, char* out) {
                             for (std::size_t i = begin; i < end; ++i) {
                                 out = put(out, static_cast<int>(i) + 1);
-                                for (const double value : mesh.nodes[i]) out = put(out, value);
+                                for (const double value : mesh.node(i)) out = put(out, value);
                             }
                             return out;
                         }});
@@ -365,12 +358,10 @@ std::vector<Section> binary_22(const mesh::HexMesh& mesh, const MshContent& cont
         const int physical = volume ? content.volume_physical.front() : block.surface->physical.front();
         const int entity = volume ? kVolumeTag : block.surface->tag;
         sections.push_back(
-            {head + head_22(block.type, block.count), block.count, (nodes_of(block.type) + 3) * sizeof(int),
+            {head + head_22(block.type(), block.count), block.count, (block.nodes() + 3) * sizeof(int),
              [elements, block, physical, entity](std::size_t begin, std::size_t end, char* out) {
                  for (std::size_t i = block.first + begin; i < block.first + end; ++i)
-                     out = elements.put_nodes_of(i, [&](const auto& nodes) {
-                         return put_element_22(out, i + 1, physical, entity, nodes);
-                     });
+                     out = put_element_22(out, i + 1, physical, entity, elements.nodes(i));
                  return out;
              }});
         head.clear();

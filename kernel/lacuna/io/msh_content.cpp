@@ -115,7 +115,7 @@ MshContent msh_content(const mesh::HexMesh& mesh)
         const auto patch = static_cast<std::size_t>(quad.patch);
         content.skin[next[patch]++] = static_cast<std::uint32_t>(i);
         if (mesh::is_triangle(quad.nodes)) ++triangles[patch];
-        for (const Index node : quad.nodes) boxes[patch].extend(mesh.nodes[static_cast<std::size_t>(node)]);
+        for (const Index node : skin_nodes(mesh, i).all()) boxes[patch].extend(mesh.node(index(node)));
     }
 
     GroupTags groups;

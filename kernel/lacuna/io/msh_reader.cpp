@@ -2,6 +2,7 @@
 #include <lacuna/io/msh_reader.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/input_file.h>
 #include <lacuna/io/detail/msh_shapes.h>
@@ -14,6 +15,7 @@
 #include <span>
 
 namespace lacuna::io {
+
 namespace {
 
 /// What must be known of an element type to read or to skip it, and what it is read as: types of order 3 and

@@ -1,67 +1,71 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/vtk.h>
 
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/msh_content.h>
 #include <lacuna/io/detail/vtk_file.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 namespace lacuna::io {
 namespace {
 
-constexpr int kVtkTriangle = 5;
-constexpr int kVtkQuad = 9;
-constexpr int kVtkHex = 12;
-constexpr int kVtkWedge = 13;
-
-/// Cells of the file: hexahedra, wedges, quads of the skin, triangles of the skin.
+/// Cells of the file by kind: hexahedra, wedges, quads of the skin, triangles of the skin.
 struct Cells {
+    /// Cells of one type in a row.
+    struct Kind {
+        std::size_t first = 0, count = 0, nodes = 0; ///< cells of the file before them, them, nodes of each
+        int type = 0;                                ///< VTK's
+    };
     const mesh::HexMesh& mesh;
-    mesh::CellKinds kinds{mesh};
-    std::size_t hexes = kinds.hexes();
-    std::size_t wedges = mesh.cell_count() - hexes;
-    std::size_t quads = kinds.skin_quads();
-    std::size_t triangles = mesh.skin_count() - quads;
+    mesh::CellKinds kinds;
+    std::array<Kind, 4> kind;
 
-    [[nodiscard]] std::size_t count() const { return hexes + wedges + quads + triangles; }
-    [[nodiscard]] std::size_t corners() const { return 8 * hexes + 6 * wedges + 4 * quads + 3 * triangles; }
-    [[nodiscard]] int type(std::size_t i) const
+    explicit Cells(const mesh::HexMesh& cells) : mesh(cells), kinds(cells)
     {
-        if (i < hexes) return kVtkHex;
-        if (i < hexes + wedges) return kVtkWedge;
-        return i < hexes + wedges + quads ? kVtkQuad : kVtkTriangle;
+        const bool second = mesh.order() == 2, full = second && mesh.middles.full;
+        kind[0] = {0, kinds.hexes(), cell_size(mesh), full ? 29 : second ? 25 : 12};
+        kind[1] = {0, mesh.cell_count() - kinds.hexes(), 6, 13};
+        kind[2] = {0, kinds.skin_quads(), skin_size(mesh), full ? 28 : second ? 23 : 9};
+        kind[3] = {0, mesh.skin_count() - kinds.skin_quads(), 3, 5};
+        for (std::size_t k = 1; k < kind.size(); ++k) kind[k].first = kind[k - 1].first + kind[k - 1].count;
     }
-    /// Corners of all cells up to and with cell `i`.
-    [[nodiscard]] std::size_t corners_to(std::size_t i) const
+
+    [[nodiscard]] std::size_t solids() const { return kind[2].first; }
+    [[nodiscard]] std::size_t count() const { return kind[3].first + kind[3].count; }
+    [[nodiscard]] const Kind& kind_of(std::size_t i) const
     {
-        std::size_t left = i + 1, sum = 0;
-        for (const auto& [of_kind, corners] :
-             {std::pair(hexes, 8), std::pair(wedges, 6), std::pair(quads, 4), std::pair(triangles, 3)}) {
-            const std::size_t here = std::min(left, of_kind);
-            sum += here * static_cast<std::size_t>(corners);
-            left -= here;
-        }
+        std::size_t k = 0;
+        while (i >= kind[k].first + kind[k].count) ++k;
+        return kind[k];
+    }
+    /// Nodes of all cells together.
+    [[nodiscard]] std::size_t nodes() const { return nodes_to(count()); }
+    /// Nodes of all cells before cell `end`.
+    [[nodiscard]] std::size_t nodes_to(std::size_t end) const
+    {
+        std::size_t sum = 0;
+        for (const Kind& own : kind) sum += std::min(end - std::min(end, own.first), own.count) * own.nodes;
         return sum;
     }
-    [[nodiscard]] Hex hex(std::size_t i) const { return mesh.hex(kinds.cell(i)); }
-    /// In VTK's order, in which the triangle 0-1-2 looks away from 3-4-5.
-    [[nodiscard]] mesh::Wedge wedge(std::size_t i) const
+    /// Of cell `i`, in VTK's order, in which a wedge's triangle 0-1-2 looks away from 3-4-5.
+    [[nodiscard]] mesh::CellNodes nodes_of(std::size_t i) const
     {
-        const mesh::Wedge w = mesh::wedge_of(mesh.hex(kinds.cell(hexes + i)));
-        return {w[0], w[2], w[1], w[3], w[5], w[4]};
-    }
-    [[nodiscard]] Quad quad(std::size_t i) const { return skin_quad(mesh, kinds.skin(i)).nodes; }
-    [[nodiscard]] Triangle triangle(std::size_t i) const
-    {
-        const Quad nodes = skin_quad(mesh, kinds.skin(quads + i)).nodes;
-        return {nodes[0], nodes[1], nodes[2]};
+        if (i >= solids()) return skin_nodes(mesh, kinds.skin(i - solids()));
+        mesh::CellNodes nodes = cell_nodes(mesh, kinds.cell(i));
+        if (i >= kind[1].first) {
+            std::swap(nodes.node[1], nodes.node[2]);
+            std::swap(nodes.node[4], nodes.node[5]);
+        }
+        return nodes;
     }
     /// Tag of the patch cell `i` lies on; 0 inside.
     [[nodiscard]] int entity(std::size_t i) const
     {
-        if (i < hexes + wedges) return 0;
-        const Index patch = skin_quad(mesh, kinds.skin(i - hexes - wedges)).patch;
+        if (i < solids()) return 0;
+        const Index patch = skin_quad(mesh, kinds.skin(i - solids())).patch;
         return mesh.patches[static_cast<std::size_t>(patch)].tag;
     }
 };
@@ -102,43 +106,43 @@ VtkTable groups_of(const mesh::HexMesh& mesh)
 
 // ---- XML
 
-std::vector<VtuArray> vtu_arrays(const mesh::HexMesh& mesh, const Fields& fields)
+std::vector<VtuArray> vtu_arrays(const Cells& cells, const Fields& fields)
 {
-    const Cells cells{mesh};
+    const mesh::HexMesh& mesh = cells.mesh;
     const std::size_t count = cells.count();
     const auto section = [](std::size_t records, std::size_t bytes, Fill fill) {
         return Section{{}, records, bytes, std::move(fill)};
     };
-    const auto put_hex = [cells](std::size_t i, char* out) { return put(out, cells.hex(i)); };
-    const auto put_wedge = [cells](std::size_t i, char* out) { return put(out, cells.wedge(i)); };
-    const auto put_quad = [cells](std::size_t i, char* out) { return put(out, cells.quad(i)); };
-    const auto put_triangle = [cells](std::size_t i, char* out) { return put(out, cells.triangle(i)); };
-    const auto put_offset = [cells](std::size_t i, char* out) {
-        return put(out, static_cast<std::int64_t>(cells.corners_to(i)));
+    std::vector<Section> connectivity;
+    for (const Cells::Kind& kind : cells.kind) {
+        const auto put_nodes = [&cells, first = kind.first](std::size_t i, char* out) {
+            const mesh::CellNodes nodes = cells.nodes_of(first + i);
+            std::memcpy(out, nodes.node.data(), nodes.count * sizeof(Index));
+            return out + nodes.count * sizeof(Index);
+        };
+        connectivity.push_back(section(kind.count, kind.nodes * sizeof(Index), each(put_nodes)));
+    }
+    const auto put_offset = [&cells](std::size_t i, char* out) {
+        return put(out, static_cast<std::int64_t>(cells.nodes_to(i + 1)));
     };
-    const auto put_type = [cells](std::size_t i, char* out) {
-        return put(out, static_cast<std::uint8_t>(cells.type(i)));
+    const auto put_type = [&cells](std::size_t i, char* out) {
+        return put(out, static_cast<std::uint8_t>(cells.kind_of(i).type));
     };
-    const auto put_entity = [cells](std::size_t i, char* out) {
+    const auto put_entity = [&cells](std::size_t i, char* out) {
         return put(out, static_cast<std::int32_t>(cells.entity(i)));
     };
     const auto put_point = [&mesh](std::size_t i, char* out) {
-        std::memcpy(out, mesh.nodes[i].data(), sizeof(Vec3));
+        std::memcpy(out, mesh.node(i).data(), sizeof(Vec3));
         return out + sizeof(Vec3);
     };
     using Place = VtuArray::Place;
     std::vector<VtuArray> arrays{
         {Place::points,
          "type=\"Float64\" NumberOfComponents=\"3\"",
-         mesh.nodes.size() * sizeof(Vec3),
-         {section(mesh.nodes.size(), sizeof(Vec3), each(put_point))}},
-        {Place::cells,
-         "type=\"Int32\" Name=\"connectivity\"",
-         cells.corners() * sizeof(Index),
-         {section(cells.hexes, sizeof(Hex), each(put_hex)),
-          section(cells.wedges, sizeof(mesh::Wedge), each(put_wedge)),
-          section(cells.quads, sizeof(Quad), each(put_quad)),
-          section(cells.triangles, sizeof(Triangle), each(put_triangle))}},
+         mesh.node_count() * sizeof(Vec3),
+         {section(mesh.node_count(), sizeof(Vec3), each(put_point))}},
+        {Place::cells, "type=\"Int32\" Name=\"connectivity\"", cells.nodes() * sizeof(Index),
+         std::move(connectivity)},
         {Place::cells, "type=\"Int64\" Name=\"offsets\"", count * 8, {section(count, 8, each(put_offset))}},
         {Place::cells, "type=\"UInt8\" Name=\"types\"", count, {section(count, 1, each(put_type))}},
         {Place::cell_data,
@@ -159,51 +163,41 @@ std::vector<VtuArray> vtu_arrays(const mesh::HexMesh& mesh, const Fields& fields
 
 // ---- Legacy
 
-template <std::size_t N>
-char* put_cell(char* out, const std::array<Index, N>& nodes, bool binary)
+std::vector<Section> vtk_sections(const Cells& cells, const Fields& fields, bool binary)
 {
-    out = put_number(out, static_cast<std::int32_t>(N), binary);
-    for (const Index node : nodes) out = put_number(out, node, binary);
-    return end_line(out, binary);
-}
-
-std::vector<Section> vtk_sections(const mesh::HexMesh& mesh, const Fields& fields, bool binary)
-{
-    const Cells cells{mesh};
+    const mesh::HexMesh& mesh = cells.mesh;
     const std::size_t count = cells.count();
     const std::string number = std::to_string(count);
     const auto bytes = [binary](std::size_t numbers, std::size_t each_bytes) {
         return binary ? numbers * each_bytes : numbers * kNumberBytes + 1;
     };
     const auto put_point = [&mesh, binary](std::size_t i, char* out) {
-        for (const double value : mesh.nodes[i]) out = put_number(out, value, binary);
+        for (const double value : mesh.node(i)) out = put_number(out, value, binary);
         return end_line(out, binary);
     };
-    const auto put_type = [cells, binary](std::size_t i, char* out) {
-        return end_line(put_number(out, static_cast<std::int32_t>(cells.type(i)), binary), binary);
+    const auto put_type = [&cells, binary](std::size_t i, char* out) {
+        return end_line(put_number(out, static_cast<std::int32_t>(cells.kind_of(i).type), binary), binary);
     };
-    const auto put_entity = [cells, binary](std::size_t i, char* out) {
+    const auto put_entity = [&cells, binary](std::size_t i, char* out) {
         return end_line(put_number(out, static_cast<std::int32_t>(cells.entity(i)), binary), binary);
     };
-    const auto kind = [&](std::size_t own, std::size_t corners, const auto& nodes) {
-        return Section{{}, own, bytes(corners + 1, 4), each([nodes, binary](std::size_t i, char* out) {
-                           return put_cell(out, nodes(i), binary);
-                       })};
-    };
     std::string head = vtk_head(groups_of(mesh), binary);
-    head.append("POINTS ").append(std::to_string(mesh.nodes.size())).append(" double\n");
-    const std::string sizes =
-        std::string(1, ' ').append(std::to_string(cells.corners() + count)).append("\n");
-    std::vector<Section> sections{
-        {head, mesh.nodes.size(), bytes(3, 8), each(put_point)},
-        kind(cells.hexes, 8, [cells](std::size_t i) { return cells.hex(i); }),
-        kind(cells.wedges, 6, [cells](std::size_t i) { return cells.wedge(i); }),
-        kind(cells.quads, 4, [cells](std::size_t i) { return cells.quad(i); }),
-        kind(cells.triangles, 3, [cells](std::size_t i) { return cells.triangle(i); }),
-        {"\nCELL_TYPES " + number + "\n", count, bytes(1, 4), each(put_type)},
-        {"\nCELL_DATA " + number + "\nSCALARS entity int 1\nLOOKUP_TABLE default\n", count, bytes(1, 4),
-         each(put_entity)}};
-    sections[1].text = "\nCELLS " + number + sizes;
+    head.append("POINTS ").append(std::to_string(mesh.node_count())).append(" double\n");
+    std::vector<Section> sections{{head, mesh.node_count(), bytes(3, 8), each(put_point)}};
+    std::string text = "\nCELLS " + number + " " + std::to_string(cells.nodes() + count) + "\n";
+    for (const Cells::Kind& kind : cells.kind) {
+        const auto put_cell = [&cells, first = kind.first, binary](std::size_t i, char* out) {
+            const mesh::CellNodes nodes = cells.nodes_of(first + i);
+            out = put_number(out, static_cast<std::int32_t>(nodes.count), binary);
+            for (const Index node : nodes.all()) out = put_number(out, node, binary);
+            return end_line(out, binary);
+        };
+        sections.push_back({text, kind.count, bytes(kind.nodes + 1, 4), each(put_cell)});
+        text.clear();
+    }
+    sections.push_back({"\nCELL_TYPES " + number + "\n", count, bytes(1, 4), each(put_type)});
+    sections.push_back({"\nCELL_DATA " + number + "\nSCALARS entity int 1\nLOOKUP_TABLE default\n", count,
+                        bytes(1, 4), each(put_entity)});
     for (const CellField& field : fields.fields) {
         const auto put_value = [&fields, &field, binary](std::size_t i, char* out) {
             return end_line(put_number(out, fields.value(field, i), binary), binary);
@@ -222,8 +216,9 @@ void write_vtu(const mesh::HexMesh& mesh, const OutputPath& path, const VtuOptio
 {
     check_skin(mesh);
     const Fields fields(mesh, options.fields);
-    const std::vector<Section> sections = vtu_file(mesh.nodes.size(), mesh.cell_count() + mesh.skin_count(),
-                                                   vtu_arrays(mesh, fields), groups_of(mesh));
+    const Cells cells(mesh);
+    const std::vector<Section> sections = vtu_file(mesh.node_count(), cells.count(),
+                                                   vtu_arrays(cells, fields), groups_of(mesh));
     WholeFile file(path);
     write_sections(file, sections, Sizes::exact, context);
     file.commit();
@@ -234,8 +229,9 @@ void write_vtk(const mesh::HexMesh& mesh, const OutputPath& path, const VtkOptio
 {
     check_skin(mesh);
     const Fields fields(mesh, options.fields);
+    const Cells cells(mesh);
     WholeFile file(path);
-    write_sections(file, vtk_sections(mesh, fields, options.binary),
+    write_sections(file, vtk_sections(cells, fields, options.binary),
                    options.binary ? Sizes::exact : Sizes::varying, context);
     file.commit();
 }

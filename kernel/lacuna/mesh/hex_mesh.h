@@ -3,6 +3,7 @@
 
 #include <lacuna/core/types.h>
 #include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/mesh/second_order.h>
 
 #include <cstddef>
 #include <string>
@@ -78,7 +79,15 @@ struct HexMesh {
     std::vector<Index> target_patch; ///< patch of each quad on the target
     std::vector<Index> wall_patch;   ///< patch of (rim side r, layer l) at l · rim.size() + r
     std::vector<std::string> volume_groups{"volume"};
+    MiddleNodes middles; ///< of order 2; empty: the cells are of order 1
 
+    [[nodiscard]] int order() const { return middles.empty() ? 1 : 2; }
+    /// Corners and middle nodes together; the middle nodes have the numbers behind the corners.
+    [[nodiscard]] std::size_t node_count() const { return nodes.size() + middles.nodes.size(); }
+    [[nodiscard]] const Vec3& node(std::size_t n) const
+    {
+        return n < nodes.size() ? nodes[n] : middles.nodes[n - nodes.size()];
+    }
     /// Hexahedra and wedges.
     [[nodiscard]] std::size_t cell_count() const { return quads.size() * static_cast<std::size_t>(layers); }
     /// O(triangles), as the next two.

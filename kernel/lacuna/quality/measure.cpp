@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/detail/cell_columns.h>
 #include <lacuna/quality/quality.h>
+#include <lacuna/quality/second_order.h>
 
 #include <lacuna/core/parallel.h>
 
@@ -48,17 +49,21 @@ struct Partial {
     WorstList worst;
 };
 
-/// @param bezier  gives the coefficients, where the smallest of them leaves the question open.
-template <class Bezier>
-void add_cell(Partial& partial, double scaled, double smallest, double volume, std::size_t cell,
-              const Bezier& bezier)
+void add_values(Partial& partial, double scaled, double volume, std::size_t cell)
 {
     partial.sum += scaled;
     partial.volume += volume;
     const int bin = std::clamp(static_cast<int>((scaled + 1) * 10), 0, 19);
     ++partial.histogram[static_cast<std::size_t>(bin)];
     partial.worst.offer({scaled, cell});
+}
 
+/// @param bezier  gives the coefficients, where the smallest of them leaves the question open.
+template <class Bezier>
+void add_cell(Partial& partial, double scaled, double smallest, double volume, std::size_t cell,
+              const Bezier& bezier)
+{
+    add_values(partial, scaled, volume, cell);
     if (scaled > 0 && smallest > 0) return;
     if (!(scaled > 0)) ++partial.inverted;
     constexpr int kDepth = 6; ///< as `certified_positive()`
@@ -81,8 +86,19 @@ void add_wedge(Partial& partial, const WedgeCorners& corners, std::size_t cell)
     add_cell(partial, values.scaled, values.smallest, values.volume, cell, [&] { return over_cube(values); });
 }
 
-template <class Cells>
-Quality measure_all(const Cells& cells, const RunContext& context)
+void add_cell(Partial& partial, const CurvedCell& curved, std::size_t cell)
+{
+    add_values(partial, curved.scaled_jacobian, curved.volume, cell);
+    if (!(curved.scaled_jacobian > 0)) ++partial.inverted;
+    if (!curved.positive) ++partial.uncertified;
+}
+
+/// Of cells that are all of order 1.
+bool none_curved(std::size_t /*cell*/, std::array<Vec3, 27>& /*nodes*/) { return false; }
+
+/// @param curved  tells whether a cell is curved, and sets its nodes if it is.
+template <class Cells, class Curved>
+Quality measure_all(const Cells& cells, const Curved& curved, const RunContext& context)
 {
     const std::size_t count = cells.columns() * cells.layers();
     const std::size_t width = chunk_width(cells, kLanes);
@@ -96,9 +112,14 @@ Quality measure_all(const Cells& cells, const RunContext& context)
                 [&](const CellBatch<kLanes>& batch, std::size_t first, int filled) {
                     evaluate(batch, values);
                     const std::size_t column = first % cells.columns();
+                    std::array<Vec3, 27> nodes;
                     for (int lane = 0; lane < filled; ++lane) {
                         const auto k = static_cast<std::size_t>(lane);
-                        if (!cells.is_wedge(column + k)) add_hex(partials[c], values, lane, first + k);
+                        if (cells.is_wedge(column + k)) continue;
+                        if (curved(first + k, nodes))
+                            add_cell(partials[c], judge(nodes), first + k);
+                        else
+                            add_hex(partials[c], values, lane, first + k);
                     }
                     for_each_wedge(cells, first, filled, [&](int lane, const WedgeCorners& corners) {
                         add_wedge(partials[c], corners, first + static_cast<std::size_t>(lane));
@@ -138,14 +159,37 @@ Quality measure_all(const Cells& cells, const RunContext& context)
 
 Quality measure(const mesh::HexMesh& mesh, const RunContext& context)
 {
-    Quality quality = measure_all(SweptCells{mesh}, context);
+    const auto curved = [&mesh](std::size_t cell, std::array<Vec3, 27>& nodes) {
+        nodes = hex27_of(mesh, cell);
+        return !is_straight(nodes);
+    };
+    Quality quality = mesh.order() == 1 ? measure_all(SweptCells{mesh}, none_curved, context)
+                                        : measure_all(SweptCells{mesh}, curved, context);
     for (WorstCell& worst : quality.worst) worst.layer = static_cast<int>(worst.cell / mesh.quads.size());
     return quality;
 }
 
 Quality measure_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, const RunContext& context)
 {
-    return measure_all(ListedCells{nodes, hexes}, context);
+    return measure_all(ListedCells{nodes, hexes}, none_curved, context);
+}
+
+Quality measure_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNodes> cells,
+                      const RunContext& context)
+{
+    std::vector<Hex> corners(cells.size());
+    for (std::size_t c = 0; c < cells.size(); ++c) std::copy_n(cells[c].node.begin(), 8, corners[c].begin());
+    const auto curved = [&](std::size_t cell, std::array<Vec3, 27>& places) {
+        const std::span<const Index> all = cells[cell].all();
+        if (all.size() == 8) return false;
+        for (std::size_t n = 0; n < 8; ++n) places[n] = nodes[index(all[n])];
+        const std::array<Vec3, 27> straight = mesh::as_hex27(std::span(places).first<8>());
+        for (std::size_t n = 8; n < all.size(); ++n)
+            places[n] = all[n] < 0 ? straight[n] : nodes[index(all[n])];
+        if (all.size() < 27) places = mesh::as_hex27(std::span<const Vec3>(places).first(all.size()));
+        return !is_straight(places);
+    };
+    return measure_all(ListedCells{nodes, corners}, curved, context);
 }
 
 } // namespace lacuna::quality

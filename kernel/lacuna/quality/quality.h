@@ -52,7 +52,8 @@ struct Quality {
     double volume = 0;                       ///< sum over the cells [model length³]
 };
 
-/// Measure every cell. Parallel; the same for any thread count. O(cells).
+/// Measure every cell; one of order 2 that is curved by `judge()` (`quality/second_order.h`). Parallel; the
+/// same for any thread count. O(cells).
 /// @pre  every corner is the number of a node (`prove()` checks it).
 Quality measure(const mesh::HexMesh& mesh, const RunContext& context = {});
 

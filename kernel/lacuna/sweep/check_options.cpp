@@ -82,6 +82,10 @@ void check(const SweepOptions& options, const RunContext& context)
 {
     if (!(options.min_scaled_jacobian >= 0 && options.min_scaled_jacobian <= 1))
         refuse("min_scaled_jacobian", "a number in [0, 1]", in_full(options.min_scaled_jacobian));
+    if (options.order != 1 && options.order != 2) refuse("order", "1 or 2", std::to_string(options.order));
+    if (options.second_order.serendipity && options.order != 2)
+        throw InvalidInput("sweep.order",
+                           "sweep: option 'serendipity' is for cells of order 2; set order = 2");
     if (options.curvature < 0)
         refuse("curvature", "a whole number of at least 0", std::to_string(options.curvature));
     if (options.gap < 0) refuse("gap", "a whole number of at least 0", std::to_string(options.gap));

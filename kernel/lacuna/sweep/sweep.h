@@ -7,6 +7,7 @@
 #include <lacuna/surface/size_field.h>
 #include <lacuna/sweep/fidelity.h>
 #include <lacuna/sweep/improve.h>
+#include <lacuna/sweep/second_order.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <optional>
@@ -68,9 +69,11 @@ struct SweepOptions {
     surface::SizeField row_height;       ///< of those rows; null: the size
     quads::PlanarQuadMesher quad_mesher; ///< what `Quads::gmsh` calls for
     Interior interior = Interior::automatic;
-    double min_scaled_jacobian = 0; ///< below it the mesh is refused [0, 1]
-    bool improve = true;            ///< move nodes where cells are folded or poor
-    ImproveOptions improving;       ///< how far
+    int order = 1;                   ///< of the cells: 1, or 2 for hex27
+    SecondOrderOptions second_order; ///< of order 2
+    double min_scaled_jacobian = 0;  ///< below it the mesh is refused [0, 1]
+    bool improve = true;             ///< move nodes where cells are folded or poor
+    ImproveOptions improving;        ///< how far
 };
 
 /// Whether options can be used, before any work is done. `sweep()` asks it itself; a host may ask first.

@@ -29,4 +29,11 @@ struct AddedMesh {
 void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
               const RunContext& context = {});
 
+/// The deck's middle nodes that are the mesh's on the sides they share.
+/// @param matched  quads of the skin that are faces of the deck's elements.
+/// @param points   of each corner of the mesh the deck's point, -1: none; out: of the middle nodes too.
+/// @throw InvalidInput "io.mixed_order"  one of the two has middle nodes where the other has none or others.
+void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector<bool>& matched,
+                  double tolerance, double scale, std::vector<Index>& points);
+
 } // namespace lacuna::io

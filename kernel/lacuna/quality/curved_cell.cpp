@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quality/second_order.h>
+
+#include <lacuna/core/parallel.h>
+#include <lacuna/quality/detail/lanes.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace lacuna::quality {
+namespace {
+
+constexpr std::size_t kSide = 6;                    ///< coefficients along a direction, of degree five
+constexpr std::size_t kAll = kSide * kSide * kSide; ///< (a, b, c) at a + 6 b + 36 c
+using Bezier = std::array<double, kAll>;
+
+/// Coefficients this small beside the largest are none: the way from values to coefficients multiplies
+/// rounding by less than 1e4.
+constexpr double kRounding = 1e-12;
+/// A middle node this near to its place, over the length of the cell, is in it: what sums leave, and more.
+constexpr double kStraight = 1e-13;
+
+/// Place of each node of a hex27 on the grid of 3³, a + 3 b + 9 c.
+constexpr std::array<std::uint8_t, 27> kGrid{0,  2,  8, 6,  18, 20, 26, 24, 1,  5,  7, 3,  19, 23,
+                                             25, 21, 9, 11, 17, 15, 12, 14, 10, 16, 4, 22, 13};
+
+/// Values or derivatives of the quadratics that are 1 at 0, ½ or 1, at N even points of [0, 1].
+template <std::size_t N>
+using Table = std::array<std::array<double, 3>, N>;
+
+template <std::size_t N>
+constexpr Table<N> values_at()
+{
+    Table<N> table{};
+    for (std::size_t i = 0; i < N; ++i) {
+        const double t = static_cast<double>(i) / static_cast<double>(N - 1);
+        table[i] = {(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)};
+    }
+    return table;
+}
+
+template <std::size_t N>
+constexpr Table<N> slopes_at()
+{
+    Table<N> table{};
+    for (std::size_t i = 0; i < N; ++i) {
+        const double t = static_cast<double>(i) / static_cast<double>(N - 1);
+        table[i] = {4 * t - 3, 4 - 8 * t, 4 * t - 1};
+    }
+    return table;
+}
+
+/// From values at 0, 1/5 … 1 to Bézier coefficients of degree five: the inverse of Bernstein's matrix there.
+constexpr std::array<std::array<double, kSide>, kSide> kToBezier = [] {
+    std::array<std::array<double, 2 * kSide>, kSide> m{};
+    constexpr double kChoose[kSide] = {1, 5, 10, 10, 5, 1};
+    for (std::size_t i = 0; i < kSide; ++i) {
+        const double t = static_cast<double>(i) / 5;
+        for (std::size_t j = 0; j < kSide; ++j) {
+            double value = kChoose[j];
+            for (std::size_t k = 0; k < j; ++k) value *= t;
+            for (std::size_t k = j; k < 5; ++k) value *= 1 - t;
+            m[i][j] = value;
+        }
+        m[i][kSide + i] = 1;
+    }
+    for (std::size_t c = 0; c < kSide; ++c) { // Gauss and Jordan; the matrix is totally positive
+        const double pivot = m[c][c];
+        for (double& value : m[c]) value /= pivot;
+        for (std::size_t r = 0; r < kSide; ++r) {
+            if (r == c) continue;
+            const double factor = m[r][c];
+            for (std::size_t k = 0; k < 2 * kSide; ++k) m[r][k] -= factor * m[c][k];
+        }
+    }
+    std::array<std::array<double, kSide>, kSide> inverse{};
+    for (std::size_t i = 0; i < kSide; ++i)
+        for (std::size_t j = 0; j < kSide; ++j) inverse[i][j] = m[i][kSide + j];
+    return inverse;
+}();
+
+/// One field over the grid of nodes, taken to a grid of N³ points, a table a direction.
+template <std::size_t N>
+LACUNA_INLINE void to_grid(const std::array<double, 27>& nodes, const Table<N>& u, const Table<N>& v,
+                           const Table<N>& w, double* out)
+{
+    std::array<double, 9 * N> first;
+    std::array<double, 3 * N * N> second;
+    for (std::size_t r = 0; r < 9; ++r)
+        for (std::size_t i = 0; i < N; ++i)
+            first[N * r + i] = u[i][0] * nodes[3 * r] + u[i][1] * nodes[3 * r + 1] +
+                               u[i][2] * nodes[3 * r + 2];
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t j = 0; j < N; ++j)
+            for (std::size_t i = 0; i < N; ++i)
+                second[(c * N + j) * N + i] = v[j][0] * first[N * (3 * c) + i] +
+                                              v[j][1] * first[N * (3 * c + 1) + i] +
+                                              v[j][2] * first[N * (3 * c + 2) + i];
+    for (std::size_t k = 0; k < N; ++k)
+        for (std::size_t p = 0; p < N * N; ++p)
+            out[k * N * N + p] = w[k][0] * second[p] + w[k][1] * second[N * N + p] +
+                                 w[k][2] * second[2 * N * N + p];
+}
+
+/// Derivatives of the map on a grid of N³ points: [direction][coordinate].
+template <std::size_t N>
+struct Slopes {
+    std::array<double, N * N * N> at[3][3];
+};
+
+template <std::size_t N>
+LACUNA_INLINE void find_slopes(const std::array<double, 27> (&nodes)[3], Slopes<N>& slopes)
+{
+    static constexpr Table<N> kValues = values_at<N>(), kSlopes = slopes_at<N>();
+    for (std::size_t d = 0; d < 3; ++d) {
+        to_grid<N>(nodes[d], kSlopes, kValues, kValues, slopes.at[0][d].data());
+        to_grid<N>(nodes[d], kValues, kSlopes, kValues, slopes.at[1][d].data());
+        to_grid<N>(nodes[d], kValues, kValues, kSlopes, slopes.at[2][d].data());
+    }
+}
+
+template <std::size_t N>
+LACUNA_INLINE void determinants(const Slopes<N>& s, double* out)
+{
+    const auto& [u, v, w] = s.at;
+    for (std::size_t p = 0; p < N * N * N; ++p)
+        out[p] = u[0][p] * (v[1][p] * w[2][p] - v[2][p] * w[1][p]) +
+                 u[1][p] * (v[2][p] * w[0][p] - v[0][p] * w[2][p]) +
+                 u[2][p] * (v[0][p] * w[1][p] - v[1][p] * w[0][p]);
+}
+
+/// From values on the grid of 6³ to coefficients, direction by direction.
+LACUNA_INLINE void to_bezier(Bezier& values)
+{
+    Bezier next;
+    for (std::size_t row = 0; row < kSide * kSide; ++row)
+        for (std::size_t i = 0; i < kSide; ++i) {
+            double sum = 0;
+            for (std::size_t j = 0; j < kSide; ++j) sum += kToBezier[i][j] * values[kSide * row + j];
+            next[kSide * row + i] = sum;
+        }
+    for (std::size_t c = 0; c < kSide; ++c)
+        for (std::size_t i = 0; i < kSide; ++i) {
+            double* out = &values[(c * kSide + i) * kSide];
+            std::fill_n(out, kSide, 0.0);
+            for (std::size_t j = 0; j < kSide; ++j)
+                for (std::size_t a = 0; a < kSide; ++a)
+                    out[a] += kToBezier[i][j] * next[(c * kSide + j) * kSide + a];
+        }
+    for (std::size_t i = 0; i < kSide; ++i) {
+        double* out = &next[i * kSide * kSide];
+        std::fill_n(out, kSide * kSide, 0.0);
+        for (std::size_t j = 0; j < kSide; ++j)
+            for (std::size_t a = 0; a < kSide * kSide; ++a)
+                out[a] += kToBezier[i][j] * values[j * kSide * kSide + a];
+    }
+    values = next;
+}
+
+/// Cut along a direction in the middle (de Casteljau): `whole` becomes the lower half.
+void split(Bezier& whole, Bezier& high, std::size_t stride)
+{
+    for (std::size_t at = 0; at < kAll; ++at) {
+        if (at / stride % kSide != 0) continue;
+        std::array<double, kSide> c;
+        for (std::size_t i = 0; i < kSide; ++i) c[i] = whole[at + i * stride];
+        for (std::size_t i = 0; i < kSide; ++i) {
+            whole[at + i * stride] = c[0];
+            high[at + (kSide - 1 - i) * stride] = c[kSide - 1 - i];
+            for (std::size_t k = 0; k + 1 < kSide - i; ++k) c[k] = (c[k] + c[k + 1]) / 2;
+        }
+    }
+}
+
+constexpr std::array<std::size_t, 3> kStrides{1, kSide, kSide* kSide};
+
+/// Depth first, along the direction whose inner coefficients are least.
+/// @param floor  positive is above it
+bool positive_parts(const Bezier& bezier, double floor, std::array<int, 3> cuts_left)
+{
+    constexpr std::size_t kLast = kSide - 1;
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+        std::size_t at = 0;
+        for (std::size_t d = 0; d < 3; ++d) at += (corner >> d & 1) * kLast * kStrides[d];
+        if (!(bezier[at] > floor)) return false;
+    }
+    if (*std::min_element(bezier.begin(), bezier.end()) > floor) return true;
+    std::array<double, 3> inner;
+    inner.fill(std::numeric_limits<double>::infinity());
+    for (std::size_t at = 0; at < kAll; ++at)
+        for (std::size_t d = 0; d < 3; ++d) {
+            const std::size_t i = at / kStrides[d] % kSide;
+            if (i > 0 && i < kLast) inner[d] = std::min(inner[d], bezier[at]);
+        }
+    int best = -1;
+    for (int d = 0; d < 3; ++d)
+        if (cuts_left[static_cast<std::size_t>(d)] > 0 &&
+            (best < 0 || inner[static_cast<std::size_t>(d)] < inner[static_cast<std::size_t>(best)]))
+            best = d;
+    if (best < 0) return false;
+    --cuts_left[static_cast<std::size_t>(best)];
+    Bezier low = bezier, high;
+    split(low, high, kStrides[static_cast<std::size_t>(best)]);
+    return positive_parts(low, floor, cuts_left) && positive_parts(high, floor, cuts_left);
+}
+
+/// At the 27 nodes.
+LACUNA_INLINE double least_scaled(const std::array<double, 27> (&nodes)[3])
+{
+    Slopes<3> slopes;
+    find_slopes<3>(nodes, slopes);
+    std::array<double, 27> det;
+    determinants<3>(slopes, det.data());
+    double least = 1;
+    for (std::size_t p = 0; p < 27; ++p) {
+        double square = 1;
+        for (const auto& along : slopes.at)
+            square *= along[0][p] * along[0][p] + along[1][p] * along[1][p] + along[2][p] * along[2][p];
+        const double scaled = square > 0 ? det[p] / std::sqrt(square) : 0;
+        least = scaled < least ? scaled : least;
+    }
+    return std::max(least, -1.0);
+}
+
+/// Coefficients, and the scaled Jacobian that is least at the nodes.
+LACUNA_INLINE double find_coefficients(const std::array<double, 27> (&nodes)[3], Bezier& bezier)
+{
+    Slopes<kSide> slopes;
+    find_slopes<kSide>(nodes, slopes);
+    determinants<kSide>(slopes, bezier.data());
+    to_bezier(bezier);
+    return least_scaled(nodes);
+}
+
+#if defined(__GNUC__) && defined(__x86_64__)
+[[gnu::target("avx512f,avx512dq")]] double coefficients_avx512(const std::array<double, 27> (&nodes)[3],
+                                                               Bezier& bezier)
+{
+    return find_coefficients(nodes, bezier);
+}
+
+[[gnu::target("avx2")]] double coefficients_avx2(const std::array<double, 27> (&nodes)[3], Bezier& bezier)
+{
+    return find_coefficients(nodes, bezier);
+}
+#endif
+
+/// With the widest vectors the machine has; the same bits on every machine.
+double coefficients(const std::array<double, 27> (&nodes)[3], Bezier& bezier)
+{
+#if defined(__GNUC__) && defined(__x86_64__)
+    static const bool avx512 = __builtin_cpu_supports("avx512f") != 0 &&
+                               __builtin_cpu_supports("avx512dq") != 0;
+    static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
+    if (avx512) return coefficients_avx512(nodes, bezier);
+    if (avx2) return coefficients_avx2(nodes, bezier);
+#endif
+    return find_coefficients(nodes, bezier);
+}
+
+} // namespace
+
+CurvedCell judge(std::span<const Vec3, 27> places, int max_depth)
+{
+    std::array<double, 27> nodes[3];
+    for (std::size_t n = 0; n < 27; ++n) // from the first corner, so that nothing is lost far from the origin
+        for (int d = 0; d < 3; ++d) nodes[d][kGrid[n]] = places[n][d] - places[0][d];
+    Bezier bezier;
+    const double scaled = coefficients(nodes, bezier);
+    CurvedCell cell;
+    double sum = 0, largest = 0, least = std::numeric_limits<double>::infinity();
+    for (const double value : bezier) {
+        sum += value;
+        largest = std::max(largest, std::abs(value));
+        least = std::min(least, value);
+    }
+    if (!std::isfinite(sum) || !(largest > 0)) return cell;
+    cell.volume = sum / static_cast<double>(kAll);
+    cell.bound = cell.volume != 0 ? least / std::abs(cell.volume) : -1;
+    cell.scaled_jacobian = scaled;
+    const double floor = kRounding * largest;
+    cell.positive = cell.scaled_jacobian > 0 &&
+                    (least > floor || positive_parts(bezier, floor, {max_depth, max_depth, max_depth}));
+    return cell;
+}
+
+bool is_straight(std::span<const Vec3, 27> nodes)
+{
+    const std::array<Vec3, 27> straight = mesh::as_hex27(nodes.first<8>());
+    const double slack = kStraight *
+                         ((nodes[6] - nodes[0]).cwiseAbs().maxCoeff() + nodes[0].cwiseAbs().maxCoeff());
+    for (std::size_t n = 8; n < 27; ++n)
+        if (!((nodes[n] - straight[n]).cwiseAbs().maxCoeff() <= slack)) return false;
+    return true;
+}
+
+std::array<Vec3, 27> hex27_of(const mesh::HexMesh& mesh, std::size_t cell)
+{
+    const mesh::CellNodes nodes = mesh::cell_nodes(mesh, cell);
+    std::array<Vec3, 27> places;
+    for (std::size_t n = 0; n < nodes.count; ++n) places[n] = mesh.node(index(nodes.node[n]));
+    return nodes.count == 27 ? places : mesh::as_hex27(std::span(places).first(nodes.count));
+}
+
+std::vector<std::size_t> invalid_cells(const mesh::HexMesh& mesh, const RunContext& context)
+{
+    constexpr std::size_t kGrain = 256; // a cell takes a few microseconds: a choice, not a measurement
+    const std::size_t count = mesh.hex_count();
+    std::vector<std::uint8_t> invalid(count, 0);
+    parallel_for(context, count, kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            const std::array<Vec3, 27> nodes = hex27_of(mesh, c);
+            const bool fine = is_straight(nodes) ? certified_positive(std::span(nodes).first<8>())
+                                                 : judge(nodes).positive;
+            invalid[c] = fine ? 0 : 1;
+        }
+    });
+    std::vector<std::size_t> cells;
+    for (std::size_t c = 0; c < count; ++c)
+        if (invalid[c] != 0) cells.push_back(c);
+    return cells;
+}
+
+} // namespace lacuna::quality

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/sweep/detail/middle_skin.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lacuna::sweep {
+
+SideFrame::SideFrame(const Vec3& from, const Vec3& to, const Vec3& hint) : length((to - from).norm())
+{
+    along = (to - from).stableNormalized();
+    normal = along.cross(hint).stableNormalized();
+    across = normal.cross(along);
+}
+
+Vec3 SideFrame::local(const Vec3& bend) const
+{
+    if (!(length > 0)) return Vec3::Zero();
+    return Vec3(bend.dot(along), bend.dot(across), bend.dot(normal)) / length;
+}
+
+Vec3 SideFrame::world(const Vec3& local) const
+{
+    return length * (local[0] * along + local[1] * across + local[2] * normal);
+}
+
+LevelBlend::LevelBlend(const mesh::HexMesh& mesh)
+{
+    const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads, mesh.nodes_per_layer);
+    std::vector<std::uint8_t> seen(mesh.middles.sides.size(), 0);
+    // Sides as their quads run them: what is a quad's side is the neighbour's the other way, so that from
+    // quad to quad they stay parallel.
+    const auto walk = [&](std::size_t start) {
+        const std::size_t begin = steps_.size();
+        bool closed = false;
+        for (std::size_t at = start;;) {
+            const std::size_t q = at / 4, k = at % 4;
+            const Quad& quad = mesh.quads[q];
+            seen[index(mesh.middles.side_of[q][k])] = 1;
+            steps_.push_back({quad[k], quad[(k + 1) % 4], mesh.middles.side_of[q][k]});
+            const std::size_t across = (k + 2) % 4;
+            const Index next = opposite[4 * q + across];
+            if (next < 0) {
+                seen[index(mesh.middles.side_of[q][across])] = 1;
+                steps_.push_back({quad[(across + 1) % 4], quad[across], mesh.middles.side_of[q][across]});
+                break;
+            }
+            if (static_cast<std::size_t>(next) == start) {
+                closed = true;
+                break;
+            }
+            at = index(next);
+        }
+        chords_.push_back({begin, steps_.size(), closed});
+    };
+    for (const bool rim : {true, false})
+        for (std::size_t side = 0; side < opposite.size(); ++side)
+            if ((opposite[side] < 0) == rim && seen[index(mesh.middles.side_of[side / 4][side % 4])] == 0)
+                walk(side);
+}
+
+/// Hands each side of a chord that has known ones, and what is blended there, local, to `take`.
+template <class Take>
+void LevelBlend::each_chord(const Vec3* nodes, const std::vector<std::uint8_t>& known,
+                            const std::vector<Vec3>& bend, const Take& take) const
+{
+    std::vector<Vec3> middle, local;
+    std::vector<double> way;
+    std::vector<std::size_t> knots;
+    for (const Chord& chord : chords_) {
+        const std::size_t count = chord.end - chord.begin;
+        const auto step = [&](std::size_t i) -> const Step& { return steps_[chord.begin + i % count]; };
+        middle.resize(count);
+        knots.clear();
+        for (std::size_t i = 0; i < count; ++i) {
+            middle[i] = (nodes[step(i).from] + nodes[step(i).to]) / 2;
+            if (known[index(step(i).side)] != 0) knots.push_back(i);
+        }
+        const auto frame = [&](std::size_t i) {
+            const std::size_t last = count - 1;
+            const std::size_t before = i > 0 ? i - 1 : chord.closed ? last : 0;
+            const std::size_t after = i < last ? i + 1 : chord.closed ? 0 : last;
+            return SideFrame(nodes[step(i).from], nodes[step(i).to], middle[after] - middle[before]);
+        };
+        if (knots.empty()) {
+            for (std::size_t i = 0; i < count; ++i) take(step(i).side, frame(i), Vec3(Vec3::Zero()));
+            continue;
+        }
+        local.resize(knots.size());
+        for (std::size_t k = 0; k < knots.size(); ++k)
+            local[k] = frame(knots[k]).local(bend[index(step(knots[k]).side)]);
+        // From knot to knot; of a closed chord from the last on to the first.
+        const std::size_t spans = knots.size() - (chord.closed ? 0 : 1);
+        for (std::size_t k = 0; k < knots.size(); ++k) take(step(knots[k]).side, frame(knots[k]), local[k]);
+        for (std::size_t k = 0; k < spans; ++k) {
+            const std::size_t first = knots[k], next = (k + 1) % knots.size();
+            const std::size_t last = k + 1 < knots.size() ? knots[k + 1] : knots[0] + count;
+            way.assign(1, 0);
+            for (std::size_t i = first; i < last; ++i)
+                way.push_back(way.back() + (middle[(i + 1) % count] - middle[i % count]).norm());
+            for (std::size_t i = first + 1; i < last; ++i) {
+                const double share = way.back() > 0 ? way[i - first] / way.back() : 0;
+                take(step(i).side, frame(i % count), Vec3((1 - share) * local[k] + share * local[next]));
+            }
+        }
+        if (chord.closed) continue;
+        for (std::size_t i = 0; i < knots.front(); ++i) take(step(i).side, frame(i), local.front());
+        for (std::size_t i = knots.back() + 1; i < count; ++i) take(step(i).side, frame(i), local.back());
+    }
+}
+
+void LevelBlend::blend(const Vec3* nodes, const std::vector<std::uint8_t>& known, std::vector<Vec3>& bend,
+                       const std::vector<Vec3>& extra) const
+{
+    each_chord(nodes, known, bend, [&](Index side, const SideFrame& frame, const Vec3& local) {
+        if (known[index(side)] != 0) return;
+        const Vec3 all = extra.empty() ? local : Vec3(local + extra[index(side)]);
+        bend[index(side)] = frame.world(all);
+    });
+}
+
+std::vector<Vec3> LevelBlend::beyond(const Vec3* nodes, const std::vector<std::uint8_t>& known,
+                                     const std::vector<Vec3>& bend) const
+{
+    constexpr double kRounding = 1e-9; // of the side
+    std::vector<Vec3> rest(bend.size(), Vec3::Zero());
+    each_chord(nodes, known, bend, [&](Index side, const SideFrame& frame, const Vec3& local) {
+        if (known[index(side)] != 0) return;
+        const Vec3 beyond = frame.local(bend[index(side)]) - local;
+        if (beyond.norm() > kRounding) rest[index(side)] = beyond;
+    });
+    return rest;
+}
+
+Vec3 column_bend(const mesh::HexMesh& mesh, Index node, int layer)
+{
+    constexpr double kMost = 0.2; // of the side: past a quarter cells turn over
+    constexpr int kPoints = 4;
+    const int count = std::min(kPoints, mesh.layers + 1);
+    const int first = std::clamp(layer - 1, 0, mesh.layers + 1 - count);
+    const auto at = [&](int level) -> const Vec3& {
+        return mesh.nodes[static_cast<std::size_t>(level) * index(mesh.nodes_per_layer) + index(node)];
+    };
+    std::array<double, kPoints> t{};
+    for (int i = 1; i < count; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        t[k] = t[k - 1] + (at(first + i) - at(first + i - 1)).norm();
+    }
+    const auto low = static_cast<std::size_t>(layer - first);
+    const Vec3 middle = (at(layer) + at(layer + 1)) / 2;
+    const double length = t[low + 1] - t[low];
+    if (count < 3 || !(length > 0)) return Vec3::Zero();
+    const double s = (t[low] + t[low + 1]) / 2;
+    Vec3 bend = Vec3::Zero();
+    for (int i = 0; i < count; ++i) {
+        double weight = 1;
+        for (int j = 0; j < count; ++j) {
+            const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+            if (i == j) continue;
+            if (!(t[a] != t[b])) return Vec3::Zero();
+            weight *= (s - t[b]) / (t[a] - t[b]);
+        }
+        bend += weight * (at(first + i) - middle); // weights add up to 1
+    }
+    const double size = bend.norm();
+    return size > kMost * length ? Vec3(bend * (kMost * length / size)) : bend;
+}
+
+} // namespace lacuna::sweep

@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/middle_skin.h>
+
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/surface/projector.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+/// A node lies on facets or on an edge that is no further from it than this, over the side. What projections
+/// leave is far less, a void face's facets are far more from the nodes of walls that bend.
+constexpr double kOn = 1e-6;
+
+/// A side of the skin, and the patches of the two quads beside it.
+struct SkinSide {
+    std::size_t place = 0; ///< of its middle
+    Index from = 0, to = 0;
+    Index patch = -1, other = -1;
+};
+
+std::vector<SkinSide> skin_sides(const mesh::HexMesh& mesh)
+{
+    std::vector<SkinSide> all;
+    all.reserve(4 * mesh.skin_count());
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        const mesh::CellNodes nodes = mesh::skin_nodes(mesh, i);
+        const Index patch = mesh::skin_quad(mesh, i).patch;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Index a = nodes.node[k], b = nodes.node[(k + 1) % 4];
+            all.push_back(
+                {index(nodes.node[4 + k]) - mesh.nodes.size(), std::min(a, b), std::max(a, b), patch, -1});
+        }
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const SkinSide& a, const SkinSide& b) { return a.place < b.place; });
+    std::vector<SkinSide> sides;
+    sides.reserve(all.size() / 2);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!sides.empty() && sides.back().place == all[i].place)
+            sides.back().other = all[i].patch;
+        else
+            sides.push_back(all[i]);
+    }
+    for (SkinSide& side : sides)
+        if (side.other < 0) side.other = side.patch;
+    return sides;
+}
+
+/// Edges of a model as curves to find places on.
+class EdgeFinder {
+public:
+    explicit EdgeFinder(const Model& model) : model_(model)
+    {
+        const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
+        for (std::size_t e = 0; e < uses.size(); ++e) {
+            if (uses[e].size() != 2) continue;
+            const FaceId a = uses[e][0].face, b = uses[e][1].face;
+            if (a != b) between_[std::minmax(a, b)].push_back(EdgeId(static_cast<Index>(e)));
+        }
+    }
+
+    struct Place {
+        EdgeId edge;
+        double fraction = 0; ///< of its length
+    };
+    /// The place on the edges between two faces that is half way between two places; nothing where there is
+    /// no such edge, or it is not the side's.
+    std::optional<Place> half_way(FaceId one, FaceId other, const Vec3& from, const Vec3& to)
+    {
+        const auto found = between_.find(std::minmax(one, other));
+        if (found == between_.end()) return std::nullopt;
+        const double length = (to - from).norm();
+        // All edges of the pair as one tree says which edge it is.
+        Curve& all = curves_of(found->first, found->second);
+        const geometry::FacetTree::Hit hit = all.tree.closest((from + to) / 2);
+        if (hit.triangle < 0) return std::nullopt;
+        const EdgeId edge = all.edge[index(hit.triangle)];
+        Curve& curve = curve_of(edge);
+        const double whole = curve.arc.back();
+        const auto [a, off_a] = position(curve, from);
+        auto [b, off_b] = position(curve, to);
+        if (!(off_a < kNear * length && off_b < kNear * length && whole > 0)) return std::nullopt;
+        const Edge& e = model_[edge];
+        const bool closed = e.points.front() == e.points.back();
+        if (closed && std::abs(b - a) > whole / 2) b += b < a ? whole : -whole;
+        double middle = (a + b) / 2;
+        if (middle < 0) middle += whole;
+        if (middle > whole) middle -= whole;
+        return Place{edge, middle / whole};
+    }
+
+private:
+    /// Nodes of an edge are on it, and on its chords but for what they sag.
+    static constexpr double kNear = 0.1;
+
+    struct Curve {
+        geometry::FacetTree tree;
+        std::vector<EdgeId> edge; ///< of each side
+        std::vector<double> arc;  ///< of one edge
+    };
+
+    void add_sides(EdgeId edge, std::vector<Triangle>& thin, Curve& curve) const
+    {
+        const std::vector<Index>& points = model_[edge].points;
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            thin.push_back({points[i], points[i + 1], points[i + 1]});
+            curve.edge.push_back(edge);
+        }
+    }
+    Curve& curves_of(const std::pair<FaceId, FaceId>& pair, const std::vector<EdgeId>& edges)
+    {
+        const auto [at, fresh] = pairs_.try_emplace(pair);
+        if (fresh) {
+            std::vector<Triangle> thin;
+            for (const EdgeId edge : edges) add_sides(edge, thin, at->second);
+            at->second.tree = geometry::FacetTree(model_.points, thin);
+        }
+        return at->second;
+    }
+    Curve& curve_of(EdgeId edge)
+    {
+        const auto [at, fresh] = single_.try_emplace(edge);
+        if (fresh) {
+            std::vector<Triangle> thin;
+            add_sides(edge, thin, at->second);
+            at->second.tree = geometry::FacetTree(model_.points, thin);
+            at->second.arc = geometry::arc_lengths(surface::edge_line(model_, edge));
+        }
+        return at->second;
+    }
+    /// Running length of the closest place, and how far it is.
+    static std::pair<double, double> position(const Curve& curve, const Vec3& point)
+    {
+        const geometry::FacetTree::Hit hit = curve.tree.closest(point);
+        const std::size_t i = index(hit.triangle);
+        const double share = 1 - hit.barycentric[0];
+        return {(1 - share) * curve.arc[i] + share * curve.arc[i + 1], std::sqrt(hit.distance2)};
+    }
+
+    const Model& model_;
+    std::map<std::pair<FaceId, FaceId>, std::vector<EdgeId>> between_;
+    std::map<std::pair<FaceId, FaceId>, Curve> pairs_;
+    std::map<EdgeId, Curve> single_;
+};
+
+/// Whether the quads of a face's own mesh are those of the skin.
+bool keeps_quads(const Face& face) { return face.keeps_nodes && !face.given_quads.empty(); }
+
+class SkinPlacer {
+public:
+    SkinPlacer(const OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
+               const LevelBlend& blend, const SecondOrderOptions& options, MiddleStates& states,
+               const RunContext& context)
+        : model_(volume.model),
+          mesh_(mesh),
+          places_(mesh),
+          faces_(faces),
+          blend_(blend),
+          options_(options),
+          states_(states),
+          context_(context),
+          sides_(skin_sides(mesh))
+    {
+    }
+
+    SkinCounts place()
+    {
+        for (const SkinSide& side : sides_) states_[side.place] = Middle::open;
+        take_given();
+        place_on_edges();
+        keep_straight();
+        for (const int level : {0, mesh_.layers}) blend_end(level);
+        project(true);
+        blend_rows();
+        bend_columns();
+        project(false);
+        for (const SkinSide& side : sides_)
+            if (states_[side.place] == Middle::open) states_[side.place] = Middle::loose;
+        return counts_;
+    }
+
+private:
+    [[nodiscard]] FaceId face(Index patch) const { return faces_[index(patch)]; }
+    [[nodiscard]] Vec3& middle(const SkinSide& side) { return mesh_.middles.nodes[side.place]; }
+    /// Where rounding alone is between a place and the straight side's, the side is straight to the bit.
+    void settle(const SkinSide& side, const Vec3& at)
+    {
+        constexpr double kRounding = 1e-12; // of the side
+        const Vec3 &a = mesh_.nodes[index(side.from)], &b = mesh_.nodes[index(side.to)];
+        const Vec3 straight = (a + b) / 2;
+        middle(side) = (at - straight).norm() < kRounding * (b - a).norm() ? straight : at;
+        states_[side.place] = Middle::settled;
+    }
+
+    void take_given()
+    {
+        if (!options_.given) return;
+        std::vector<const SkinSide*> asked;
+        std::vector<Vec3> from, to;
+        for (const SkinSide& side : sides_) {
+            if (!model_[face(side.patch)].keeps_nodes && !model_[face(side.other)].keeps_nodes) continue;
+            asked.push_back(&side);
+            from.push_back(mesh_.nodes[index(side.from)]);
+            to.push_back(mesh_.nodes[index(side.to)]);
+        }
+        const std::vector<Vec3> given = options_.given(from, to);
+        for (std::size_t i = 0; i < asked.size(); ++i) {
+            if (!given[i].allFinite()) continue;
+            middle(*asked[i]) = given[i];
+            states_[asked[i]->place] = Middle::settled;
+            ++counts_.given;
+        }
+    }
+
+    void place_on_edges()
+    {
+        EdgeFinder finder(model_);
+        std::map<EdgeId, std::vector<std::pair<double, const SkinSide*>>> on_edge;
+        for (const SkinSide& side : sides_) {
+            if (states_[side.place] != Middle::open || face(side.patch) == face(side.other)) continue;
+            const auto found = finder.half_way(face(side.patch), face(side.other),
+                                               mesh_.nodes[index(side.from)], mesh_.nodes[index(side.to)]);
+            if (found) on_edge[found->edge].emplace_back(found->fraction, &side);
+        }
+        for (const auto& [edge, members] : on_edge) { // one call an edge: exact curves work in bulk
+            check_cancelled(context_);
+            std::vector<double> fractions;
+            for (const auto& [fraction, side] : members) fractions.push_back(fraction);
+            const std::vector<Vec3> points = surface::edge_points(model_, edge, fractions);
+            for (std::size_t i = 0; i < members.size(); ++i) settle(*members[i].second, points[i]);
+            (model_[edge].curve != nullptr ? counts_.exact : counts_.facets) += members.size();
+        }
+    }
+
+    /// Sides of a given mesh of order 1 are straight, and stay.
+    void keep_straight()
+    {
+        for (const SkinSide& side : sides_)
+            if (states_[side.place] == Middle::open &&
+                (keeps_quads(model_[face(side.patch)]) || keeps_quads(model_[face(side.other)])))
+                states_[side.place] = Middle::settled;
+    }
+
+    [[nodiscard]] const Vec3* level(int l) const
+    {
+        return mesh_.nodes.data() + static_cast<std::size_t>(l) * index(mesh_.nodes_per_layer);
+    }
+
+    void blend_end(int l)
+    {
+        const std::size_t count = mesh_.middles.sides.size();
+        std::vector<std::uint8_t> known(count, 0);
+        std::vector<Vec3> bends(count, Vec3::Zero());
+        const Vec3* nodes = level(l);
+        const auto straight = [&](std::size_t s) {
+            const Segment& side = mesh_.middles.sides[s];
+            return Vec3((nodes[index(side[0])] + nodes[index(side[1])]) / 2);
+        };
+        const auto place = [&](std::size_t s) {
+            return places_.side(static_cast<std::size_t>(l), static_cast<Index>(s));
+        };
+        for (std::size_t s = 0; s < count; ++s) {
+            known[s] = states_[place(s)] == Middle::settled ? 1 : 0;
+            if (known[s] == 0) continue;
+            bends[s] = mesh_.middles.nodes[place(s)] - straight(s);
+            const Segment& side = mesh_.middles.sides[s];
+            const double length = (nodes[index(side[1])] - nodes[index(side[0])]).norm();
+            if (bends[s].norm() < 1e-9 * length) bends[s].setZero(); // rounding
+        }
+        blend_.blend(nodes, known, bends);
+        for (std::size_t s = 0; s < count; ++s)
+            if (known[s] == 0) mesh_.middles.nodes[place(s)] = straight(s) + bends[s];
+    }
+
+    /// Sides along the rows of walls: between the rows above and below that are known, in frames that turn
+    /// with the wall.
+    void blend_rows()
+    {
+        const auto levels = static_cast<std::size_t>(mesh_.layers) + 1;
+        std::vector<Vec3> at(levels), local(levels);
+        for (std::size_t r = 0; r < mesh_.rim.size(); ++r) {
+            const Segment& side = mesh_.rim[r];
+            const auto place = [&](std::size_t l) { return places_.side(l, mesh_.middles.rim_side[r]); };
+            const auto node = [&](std::size_t l, std::size_t end) -> const Vec3& {
+                return level(static_cast<int>(l))[side[end]];
+            };
+            for (std::size_t l = 0; l < levels; ++l) at[l] = (node(l, 0) + node(l, 1)) / 2;
+            const auto frame = [&](std::size_t l) {
+                return SideFrame(node(l, 0), node(l, 1),
+                                 at[std::min(l + 1, levels - 1)] - at[l - (l > 0 ? 1 : 0)]);
+            };
+            const auto bend = [&](std::size_t l) {
+                return frame(l).local(mesh_.middles.nodes[place(l)] - at[l]);
+            };
+            for (std::size_t low = 0; low + 1 < levels;) {
+                std::size_t high = low + 1;
+                while (high + 1 < levels && states_[place(high)] == Middle::open) ++high;
+                if (high == low + 1) {
+                    low = high;
+                    continue;
+                }
+                const Vec3 below = bend(low), above = bend(high);
+                double whole = 0, way = 0;
+                for (std::size_t l = low; l < high; ++l) whole += (at[l + 1] - at[l]).norm();
+                if (below.norm() + above.norm() > kOn * kOn && whole > 0) {
+                    for (std::size_t l = low + 1; l < high; ++l) {
+                        way += (at[l] - at[l - 1]).norm();
+                        const Vec3 between = (1 - way / whole) * below + (way / whole) * above;
+                        mesh_.middles.nodes[place(l)] = at[l] + frame(l).world(between);
+                    }
+                }
+                low = high;
+            }
+        }
+    }
+
+    void bend_columns()
+    {
+        for (int l = 0; l < mesh_.layers; ++l)
+            for (const Segment& side : mesh_.rim) {
+                const std::size_t place = places_.upright(static_cast<std::size_t>(l), side[0]);
+                if (states_[place] != Middle::open) continue;
+                const Vec3 bend = column_bend(mesh_, side[0], l);
+                const double length = (level(l + 1)[side[0]] - level(l)[side[0]]).norm();
+                if (bend.norm() > 1e-9 * length) mesh_.middles.nodes[place] += bend;
+            }
+    }
+
+    /// @param ends  those of source and target; else those of the walls.
+    void project(bool ends)
+    {
+        std::map<FaceId, std::vector<const SkinSide*>> of_face;
+        const std::size_t first_on_walls = places_.upright(0, 0);
+        const std::size_t target = places_.side(static_cast<std::size_t>(mesh_.layers), 0);
+        for (const SkinSide& side : sides_) {
+            if (states_[side.place] != Middle::open) continue;
+            const bool on_end = side.place < first_on_walls || side.place >= target;
+            if (on_end != ends) continue;
+            // Of a side between two faces without an edge, the one that has a surface.
+            const bool other = model_[face(side.patch)].surface == nullptr &&
+                               model_[face(side.other)].surface != nullptr;
+            of_face[face(other ? side.other : side.patch)].push_back(&side);
+        }
+        for (const auto& [id, members] : of_face) project_on(id, members);
+    }
+
+    void project_on(FaceId id, const std::vector<const SkinSide*>& members)
+    {
+        const bool exact = model_[id].surface != nullptr;
+        std::vector<const SkinSide*> sides;
+        if (exact) {
+            sides = members;
+        } else {
+            const geometry::FacetTree tree(model_.points, model_[id].triangles);
+            for (const SkinSide* side : members) {
+                const Vec3 &a = mesh_.nodes[index(side->from)], &b = mesh_.nodes[index(side->to)];
+                const double near = kOn * (b - a).norm();
+                const auto on = [&](const Vec3& p) { return tree.closest(p, near * near).triangle >= 0; };
+                if (on(a) && on(b)) sides.push_back(side);
+            }
+        }
+        if (sides.empty()) return;
+        std::vector<Vec3> points;
+        for (const SkinSide* side : sides) points.push_back(middle(*side));
+        surface::Projector(model_, {id}).project(points, context_);
+        for (std::size_t i = 0; i < sides.size(); ++i) settle(*sides[i], points[i]);
+        (exact ? counts_.exact : counts_.facets) += sides.size();
+    }
+
+    const Model& model_;
+    mesh::HexMesh& mesh_;
+    mesh::MiddlePlaces places_;
+    const std::vector<FaceId>& faces_;
+    const LevelBlend& blend_;
+    const SecondOrderOptions& options_;
+    MiddleStates& states_;
+    const RunContext& context_;
+    std::vector<SkinSide> sides_;
+    SkinCounts counts_;
+};
+
+} // namespace
+
+SkinCounts place_skin(const OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
+                      const LevelBlend& blend, const SecondOrderOptions& options, MiddleStates& states,
+                      const RunContext& context)
+{
+    return SkinPlacer(volume, mesh, faces, blend, options, states, context).place();
+}
+
+void project_centres(const OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
+                     MiddleStates& states, const RunContext& context)
+{
+    std::map<FaceId, std::vector<std::size_t>> of_face;
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        const FaceId face = faces[index(mesh::skin_quad(mesh, i).patch)];
+        const std::size_t place = index(mesh::skin_nodes(mesh, i).node[8]) - mesh.nodes.size();
+        states[place] = Middle::loose;
+        if (volume.model[face].surface != nullptr && !keeps_quads(volume.model[face]))
+            of_face[face].push_back(place);
+    }
+    for (const auto& [face, places] : of_face) {
+        check_cancelled(context);
+        std::vector<Vec3> points;
+        for (const std::size_t place : places) points.push_back(mesh.middles.nodes[place]);
+        surface::Projector(volume.model, {face}).project(points, context);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            constexpr double kRounding = 1e-14; // of the model: below it, flat quads stay flat to the bit
+            Vec3& at = mesh.middles.nodes[places[i]];
+            if ((points[i] - at).norm() > kRounding * volume.model.diagonal) at = points[i];
+            states[places[i]] = Middle::settled;
+        }
+    }
+}
+
+void place_centres(mesh::HexMesh& mesh, const MiddleStates& states, std::size_t cell)
+{
+    const mesh::CellNodes nodes = mesh::cell_nodes(mesh, cell);
+    const auto at = [&](std::size_t n) -> const Vec3& { return mesh.node(index(nodes.node[n])); };
+    const auto place = [&](std::size_t n) { return index(nodes.node[n]) - mesh.nodes.size(); };
+    Vec3 faces = Vec3::Zero(), edges = Vec3::Zero(), corners = Vec3::Zero();
+    for (std::size_t f = 0; f < 6; ++f) {
+        if (states[place(20 + f)] != Middle::settled) {
+            Vec3 middle = Vec3::Zero(), corner = Vec3::Zero();
+            for (std::size_t k = 0; k < 4; ++k) {
+                middle += at(8 + index(mesh::kHexFaceEdges[f][k]));
+                corner += at(index(mesh::kHexFaces[f][k]));
+            }
+            mesh.middles.nodes[place(20 + f)] = middle / 2 - corner / 4;
+        }
+        faces += at(20 + f);
+    }
+    for (std::size_t e = 0; e < 12; ++e) edges += at(8 + e);
+    for (std::size_t c = 0; c < 8; ++c) corners += at(c);
+    mesh.middles.nodes[place(26)] = faces / 2 - edges / 4 + corners / 8;
+}
+
+} // namespace lacuna::sweep

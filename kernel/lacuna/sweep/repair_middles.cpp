@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/core/error.h>
+#include <lacuna/mesh/incidence.h>
+#include <lacuna/quality/second_order.h>
+#include <lacuna/sweep/detail/middle_skin.h>
+#include <lacuna/sweep/detail/words.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace lacuna::sweep {
+
+namespace {
+
+/// Rounds over the invalid cells. A choice, not a measurement.
+constexpr int kRounds = 4;
+/// Halvings of the step of a search, which starts at a tenth of the side. A choice, not a measurement.
+constexpr int kSteps = 4;
+constexpr double kFirstStep = 0.1;
+
+class Repair {
+public:
+    Repair(mesh::HexMesh& mesh, const MiddleStates& states)
+        : mesh_(mesh),
+          states_(states),
+          at_node_(mesh::quads_at_nodes(mesh.quads, index(mesh.nodes_per_layer))),
+          at_side_(mesh::incidence(mesh.middles.sides.size(), [&](const auto& visit) {
+              for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+                  for (const Index side : mesh.middles.side_of[q]) visit(index(side), static_cast<Index>(q));
+          }))
+    {
+    }
+
+    void mend(std::size_t cell)
+    {
+        for (std::size_t e = 0; e < 12; ++e) {
+            const mesh::CellNodes nodes = mesh::cell_nodes(mesh_, cell);
+            const std::size_t place = index(nodes.node[8 + e]) - mesh_.nodes.size();
+            if (states_[place] == Middle::settled) continue;
+            improve(place, cells_round(cell, e), mesh_.node(index(nodes.node[index(mesh::kHexEdges[e][0])])),
+                    mesh_.node(index(nodes.node[index(mesh::kHexEdges[e][1])])));
+        }
+    }
+
+private:
+    /// The cells that have side `e` of a cell.
+    std::vector<std::size_t> cells_round(std::size_t cell, std::size_t e) const
+    {
+        const std::size_t quads = mesh_.quads.size(), layer = cell / quads, q = cell % quads;
+        std::vector<std::size_t> cells;
+        if (e >= 8) {
+            for (const Index other : at_node_.of(index(mesh_.quads[q][e - 8])))
+                cells.push_back(layer * quads + index(other));
+            return cells;
+        }
+        const std::size_t level = layer + (e < 4 ? 0 : 1);
+        for (const Index other : at_side_.of(index(mesh_.middles.side_of[q][e % 4]))) {
+            if (level > 0) cells.push_back((level - 1) * quads + index(other));
+            if (level < static_cast<std::size_t>(mesh_.layers)) cells.push_back(level * quads + index(other));
+        }
+        return cells;
+    }
+
+    double least(const std::vector<std::size_t>& cells)
+    {
+        double least = 1;
+        for (const std::size_t cell : cells) {
+            if (mesh_.middles.full) place_centres(mesh_, states_, cell);
+            const quality::CurvedCell judged = quality::judge(quality::hex27_of(mesh_, cell), 0);
+            least = std::min(least, judged.volume > 0 ? judged.bound : -1e3 + judged.bound);
+        }
+        return least;
+    }
+
+    /// Straight, half bent, then a search along the axes: what leaves the worst of the cells best.
+    void improve(std::size_t place, const std::vector<std::size_t>& cells, const Vec3& a, const Vec3& b)
+    {
+        Vec3& node = mesh_.middles.nodes[place];
+        const Vec3 straight = (a + b) / 2, bend = node - straight;
+        Vec3 best = node;
+        double value = least(cells);
+        const auto offer = [&](const Vec3& at) {
+            node = at;
+            const double found = least(cells);
+            if (found > value) {
+                value = found;
+                best = at;
+            }
+            node = best;
+        };
+        if (!bend.isZero(0))
+            for (const double share : {0.0, 0.5, 1.5}) offer(straight + share * bend);
+        double step = kFirstStep * (b - a).norm();
+        // Of the skin, what no geometry holds goes no way but back.
+        for (int i = 0; i < kSteps && states_[place] == Middle::inside; ++i, step /= 2)
+            for (int d = 0; d < 6; ++d) offer(Vec3(best + (d % 2 == 0 ? step : -step) * Vec3::Unit(d / 2)));
+        least(cells); // leaves the centres where they belong
+    }
+
+    mesh::HexMesh& mesh_;
+    const MiddleStates& states_;
+    mesh::Incidence at_node_, at_side_;
+};
+
+std::string at_place(const Vec3& p)
+{
+    return "(" + in_short(p.x()) + ", " + in_short(p.y()) + ", " + in_short(p.z()) + ")";
+}
+
+/// The most of a cell's bends at which it is valid, 0…1.
+double valid_share(const std::array<Vec3, 27>& nodes)
+{
+    const std::array<Vec3, 27> straight = mesh::as_hex27(std::span(nodes).first<8>());
+    double low = 0, high = 1;
+    for (int i = 0; i < 12; ++i) {
+        const double share = (low + high) / 2;
+        std::array<Vec3, 27> cell;
+        for (std::size_t n = 0; n < 27; ++n) cell[n] = straight[n] + share * (nodes[n] - straight[n]);
+        (quality::judge(cell).positive ? low : high) = share;
+    }
+    return low;
+}
+
+/// The side of the cell that bends most of those the skin holds.
+[[noreturn]] void refuse(const topology::OpenVolume& volume, const mesh::HexMesh& mesh,
+                         const std::vector<FaceId>& faces, const MiddleStates& states, std::size_t cell,
+                         std::size_t count)
+{
+    const mesh::CellNodes nodes = mesh::cell_nodes(mesh, cell);
+    std::optional<std::size_t> worst;
+    double most = 0, side = 0;
+    for (std::size_t e = 0; e < 12; ++e) {
+        if (states[index(nodes.node[8 + e]) - mesh.nodes.size()] != Middle::settled) continue;
+        const Vec3 &a = mesh.node(index(nodes.node[index(mesh::kHexEdges[e][0])])),
+                   &b = mesh.node(index(nodes.node[index(mesh::kHexEdges[e][1])]));
+        const double bend = (mesh.node(index(nodes.node[8 + e])) - (a + b) / 2).norm();
+        if (bend <= most) continue;
+        most = bend;
+        side = (b - a).norm();
+        worst = 8 + e;
+    }
+    const std::string cells = std::to_string(count) + (count == 1 ? " cell is" : " cells are") +
+                              " not valid at order 2: the Jacobian is not positive everywhere in cell " +
+                              std::to_string(cell + 1) + " (layer " +
+                              std::to_string(cell / mesh.quads.size() + 1) + " of " +
+                              std::to_string(mesh.layers) + "). ";
+    if (!worst)
+        throw NotSweepable("sweep.second_order",
+                           cells + "Its skin is straight; a smaller size may do, or order 1");
+    std::string face = "the skin";
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        const mesh::CellNodes quad = mesh::skin_nodes(mesh, i);
+        const auto found = std::find(quad.node.begin() + 4, quad.node.begin() + 8, nodes.node[*worst]);
+        if (found == quad.node.begin() + 8) continue;
+        face = topology::name_of(volume.model, faces[index(mesh::skin_quad(mesh, i).patch)]);
+        break;
+    }
+    // A bend over its side goes with the side's length; what is named is a tenth below.
+    constexpr double kBelow = 0.9;
+    const double share = kBelow * valid_share(quality::hex27_of(mesh, cell));
+    constexpr std::size_t kFirstUpright = 16;
+    const Hex hex = mesh.hex(cell);
+    std::array<Vec3, 8> corners;
+    for (std::size_t c = 0; c < 8; ++c) corners[c] = mesh.nodes[index(hex[c])];
+    const double straight = quality::scaled_jacobian(corners);
+    std::string advice = "By its bend a size of " + in_short(share * side) + " would do";
+    if (*worst >= kFirstUpright) {
+        const int layers = share > 0 ? static_cast<int>(std::ceil(mesh.layers / share)) : 2 * mesh.layers;
+        advice = "By its bend " + std::to_string(layers) + " layers would do instead of " +
+                 std::to_string(mesh.layers);
+    }
+    // What the bend asks for was found to help where the straight cell is a good one.
+    constexpr double kGood = 0.3;
+    if (straight < kGood)
+        advice = "The cell is poor with straight sides already: its scaled Jacobian is " + in_short(straight);
+    throw NotSweepable("sweep.second_order", cells + "The middle node of a side on " + face + " belongs at " +
+                                                 at_place(mesh.node(index(nodes.node[*worst]))) + ", " +
+                                                 in_short(most) + " off a side of " + in_short(side) + ". " +
+                                                 advice);
+}
+
+} // namespace
+
+std::size_t repair_middles(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
+                           const std::vector<FaceId>& faces, const MiddleStates& states,
+                           const RunContext& context)
+{
+    std::vector<std::size_t> invalid = quality::invalid_cells(mesh, context);
+    const std::size_t before = invalid.size();
+    if (invalid.empty()) return 0;
+    Repair repair(mesh, states);
+    for (int round = 0; round < kRounds && !invalid.empty(); ++round) {
+        for (const std::size_t cell : invalid) {
+            check_cancelled(context);
+            repair.mend(cell);
+        }
+        invalid = quality::invalid_cells(mesh, context);
+    }
+    if (!invalid.empty()) refuse(volume, mesh, faces, states, invalid.front(), invalid.size());
+    return before;
+}
+
+} // namespace lacuna::sweep

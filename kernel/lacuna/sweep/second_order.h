@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/quality/quality.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <functional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// Middle nodes that a deck gives between two places of it, pair by pair; not a number where it gives none.
+using GivenMiddles = std::function<std::vector<Vec3>(std::span<const Vec3> from, std::span<const Vec3> to)>;
+
+struct SecondOrderOptions {
+    bool serendipity = false; ///< hex20 instead of hex27
+    GivenMiddles given;       ///< null: none
+};
+
+/// What became of a mesh that got middle nodes.
+struct Elevated {
+    quality::Quality quality; ///< of the cells of order 2
+    std::string report;       ///< a line
+};
+
+/// Give a proved mesh of order 1 its middle nodes: it becomes one of order 2.
+///
+/// On the skin, given middle nodes stay bit for bit. Others lie on what their side lies on: between two faces
+/// on the exact curve there, else on the face's exact surface, inside its trimming; on facets where both ends
+/// lie on them, and straight between the nodes of a mesh that was given and stays. What has no such geometry,
+/// as most void walls, is blended between the rows that have.
+///
+/// Inside, a level's sides are bent as the skin is: across the quads, from side to opposite side, every side
+/// belongs to one chord, and its bend is interpolated between the chord's ends on the rim, in a frame that
+/// turns with the sides; over a grid this is the transfinite map. What the two ends bend beyond that is
+/// blended from layer to layer. Upright sides follow their column of nodes by cubics, and the walls' by a
+/// harmonic spread of what is left. Middles of faces and cells are transfinite.
+///
+/// Where a cell is not valid by its Bézier bounds (`quality::judge()`), its middle nodes inside are moved.
+/// @param faces  of each patch of the mesh.
+/// @throw NotSweepable "sweep.second_order"  a cell is not valid however its inner nodes lie: names the face
+///                     whose place of a middle node makes it so, and the size that would do.
+///                     InvalidInput "sweep.too_many": more nodes than can be numbered. Cancelled.
+/// @note  The same for any number of threads. O(cells), but for the harmonic spread, which is made where
+///        columns of walls bend as no cubic does.
+Elevated elevate(const topology::OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
+                 const SecondOrderOptions& options = {}, const RunContext& context = {});
+
+/// The skin of a mesh of order 2 as one of order 1 with four quads for each: nodes of the
+/// skin alone have their places. For comparisons. @pre  order 2
+mesh::HexMesh finer_skin(const mesh::HexMesh& mesh);
+
+} // namespace lacuna::sweep
