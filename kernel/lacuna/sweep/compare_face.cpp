@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -193,11 +194,13 @@ private:
         }));
         const std::vector<std::int64_t> turns = border_turns(quads_, skin_.points.size());
         const auto on_border = [&](Index n) { return turns[index(n)] != 0; };
+        const FacetWalk walk(shape_.points, shape_.triangles);
         std::vector<std::size_t> border; // quads with a node there
         Tally tally;
+        Index facet = -1;
         const auto add = [&](const Vec3& point, double side, std::size_t quad) {
-            std::size_t facet = 0;
-            const Sample sample{point, 0, side, quad, distance_to_face(point, facet), false};
+            Sample sample{point, 0, side, quad, 0, false};
+            facet = compare_with_face(walk, facet, Vec3::Zero(), sample);
             tally.add(sample, allowed(sample));
         };
         for (std::size_t q = 0; q < quads_.size(); ++q) {
@@ -213,7 +216,7 @@ private:
             }
         }
         take(tally);
-        compare_border(border);
+        compare_border(walk, border);
     }
 
     [[nodiscard]] Sample quad_in_plane(std::size_t q) const
@@ -232,15 +235,13 @@ private:
     }
 
     /// Points on the border of the face, and middles of sides there, on the exact face, against those quads.
-    void compare_border(const std::vector<std::size_t>& border)
+    void compare_border(const FacetWalk& walk, const std::vector<std::size_t>& border)
     {
         const QuadTree tree = tree_of(border);
-        const std::vector<std::array<Index, 3>> across = facets_across(shape_.triangles,
-                                                                       shape_.points.size());
         take(in_blocks(shape_.triangles.size(), [&](std::size_t i, Tally& tally) {
             const Triangle& t = shape_.triangles[i];
             for (std::size_t k = 0; k < 3; ++k) {
-                if (across[i][k] >= 0) continue;
+                if (walk.across(static_cast<Index>(i))[k] >= 0) continue;
                 const std::size_t next = (k + 1) % 3;
                 Vec3 w = Vec3::Zero();
                 w[static_cast<Eigen::Index>(k)] = w[static_cast<Eigen::Index>(next)] = 0.5;
@@ -317,12 +318,13 @@ private:
     {
         std::size_t facet = 0;
         const auto foot = walk.over(sample.point, hint);
-        if (foot && std::abs(foot->height) < kFar * sample.side) {
+        if (foot && foot->nearest && std::abs(foot->height) < kFar * sample.side) {
             facet = index(foot->facet);
             const Vec3 bulge = shape_.bulge_at(facet, foot->barycentric);
             sample.distance = std::abs(foot->height - walk.normal(foot->facet).dot(bulge));
         } else {
-            sample.distance = distance_to_face(sample.point, facet);
+            const double reach = foot ? std::abs(foot->height) : std::numeric_limits<double>::infinity();
+            sample.distance = distance_to_face(sample.point, facet, reach);
         }
         // Far off, as the middle of a long quad on a bend is, the nearest facet may be one across the face.
         constexpr double kNear = 0.1; // of the quad's width; a choice, not a measurement
@@ -333,9 +335,13 @@ private:
     }
 
     /// How far a place is from the face; `facet` gets the one it is nearest to.
-    [[nodiscard]] double distance_to_face(const Vec3& point, std::size_t& facet) const
+    /// @param reach  that a facet is known to be within.
+    [[nodiscard]] double distance_to_face(const Vec3& point, std::size_t& facet,
+                                          double reach = std::numeric_limits<double>::infinity()) const
     {
-        const auto hit = face_tree_.closest(point);
+        auto hit = face_tree_.closest(point, reach * reach);
+        if (hit.triangle < 0)
+            hit = face_tree_.closest(point); // that height was found another way, and rounded
         facet = index(hit.triangle);
         Vec3 bulge = shape_.bulge_at(facet, hit.barycentric);
         // Beside the face its exact edge counts; over it only how high it bulges.
@@ -357,7 +363,11 @@ private:
     /// Corners of the facets, and middles of sides and centres on the exact face, against the quads.
     void compare_facets(const FacetWalk& walk, const std::vector<Index>& facet_of_centre)
     {
-        const std::vector<Index> hints = quads_near_facets(walk, facet_of_centre);
+        const mesh::Incidence over = mesh::incidence(walk.size(), [&](const auto& visit) {
+            for (std::size_t q = 0; q < facet_of_centre.size(); ++q)
+                visit(index(facet_of_centre[q]), static_cast<Index>(q));
+        });
+        const std::vector<Index> nearest = nearest_with_quads(walk, over);
         const mesh::Incidence round = mesh::quads_at_nodes(quads_, skin_.points.size());
         std::vector<Index> facet_at(shape_.points.size(), -1);
         for (std::size_t i = 0; i < shape_.triangles.size(); ++i) {
@@ -365,15 +375,14 @@ private:
                 if (facet_at[index(p)] < 0) facet_at[index(p)] = static_cast<Index>(i);
             }
         }
-        const std::size_t blocks = (shape_.triangles.size() + kBlock - 1) / kBlock;
-        std::vector<std::vector<Left>> left(blocks);
-        take(in_blocks(shape_.triangles.size(), [&](std::size_t i, Tally& tally) {
+        std::vector<std::vector<Left>> left((walk.size() + kBlock - 1) / kBlock);
+        take(in_blocks(walk.size(), [&](std::size_t i, Tally& tally) {
             const Triangle& t = shape_.triangles[i];
             const std::array<Vec3, 3> c{shape_.points[index(t[0])], shape_.points[index(t[1])],
                                         shape_.points[index(t[2])]};
-            std::size_t quad = index(hints[i]);
+            const std::span<const Index> near = over.of(index(nearest[i]));
             const auto compare = [&](const Vec3& point, double area) {
-                const auto sample = compare_near(round, point, area, quad);
+                const auto sample = compare_near(round, point, area, nearest_of(near, point));
                 if (sample)
                     tally.add(*sample, allowed(*sample));
                 else
@@ -389,11 +398,17 @@ private:
                 compare(flat + shape_.bulge_at(i, w), area / 4);
             }
         }));
+        compare_left(left);
+    }
+
+    /// Those that were left, by a tree of all quads.
+    void compare_left(const std::vector<std::vector<Left>>& left)
+    {
         std::vector<Left> rest;
         for (const std::vector<Left>& some : left) rest.insert(rest.end(), some.begin(), some.end());
         if (rest.empty()) return;
         std::vector<std::size_t> all(quads_.size());
-        for (std::size_t q = 0; q < all.size(); ++q) all[q] = q;
+        std::iota(all.begin(), all.end(), std::size_t{0});
         const QuadTree tree = tree_of(all);
         take(in_blocks(rest.size(), [&](std::size_t i, Tally& tally) {
             const Sample sample = compare_by_tree(tree, rest[i].point, rest[i].area);
@@ -401,16 +416,15 @@ private:
         }));
     }
 
-    /// A quad for each facet: one whose centre is over it, or over one near by.
-    std::vector<Index> quads_near_facets(const FacetWalk& walk,
-                                         const std::vector<Index>& facet_of_centre) const
+    /// For each facet, one near by that quads are over.
+    [[nodiscard]] static std::vector<Index> nearest_with_quads(const FacetWalk& walk,
+                                                               const mesh::Incidence& over)
     {
         std::vector<Index> near(walk.size(), -1), front;
-        for (std::size_t q = 0; q < facet_of_centre.size(); ++q) {
-            Index& quad = near[index(facet_of_centre[q])];
-            if (quad >= 0) continue;
-            quad = static_cast<Index>(q);
-            front.push_back(facet_of_centre[q]);
+        for (std::size_t i = 0; i < walk.size(); ++i) {
+            if (over.of(i).empty()) continue;
+            near[i] = static_cast<Index>(i);
+            front.push_back(near[i]);
         }
         for (std::size_t i = 0; i < front.size(); ++i) {
             for (const Index next : walk.across(front[i])) {
@@ -419,23 +433,36 @@ private:
                 front.push_back(next);
             }
         }
-        for (Index& quad : near) quad = std::max<Index>(quad, 0);
+        for (Index& facet : near) facet = facet < 0 ? front.front() : facet; // of another piece of the face
         return near;
     }
 
-    /// The distance to the quads near a place, by walking from node to node and from quad to quad: nothing
-    /// where that is far. No nearer than the nearest.
-    /// @param quad  to start with; gets the nearest one found.
-    [[nodiscard]] std::optional<Sample> compare_near(const mesh::Incidence& round, const Vec3& point,
-                                                     double area, std::size_t& quad) const
+    /// Of a few of some quads, the one nearest to a place.
+    [[nodiscard]] std::size_t nearest_of(std::span<const Index> quads, const Vec3& point) const
     {
+        constexpr std::size_t kMost = 16; // looked at; a choice, not a measurement
+        const std::size_t step = (quads.size() + kMost - 1) / kMost;
+        double best = std::numeric_limits<double>::infinity();
+        Index nearest = quads.front();
+        for (std::size_t i = 0; i < quads.size(); i += step) {
+            const double found = (node(quads_[index(quads[i])][0]) - point).squaredNorm();
+            if (found >= best) continue;
+            best = found;
+            nearest = quads[i];
+        }
+        return index(nearest);
+    }
+
+    /// The distance to the quads near a place, by walking from quad to quad: nothing where
+    /// that is far. No nearer than the nearest.
+    /// @param quad  to start with.
+    [[nodiscard]] std::optional<Sample> compare_near(const mesh::Incidence& round, const Vec3& point,
+                                                     double area, std::size_t quad) const
+    {
+        quad = walk_across(round, point, quad);
         bool over = false;
         double best = distance2_to_quad(point, quad, over);
-        if (!over && best > side_[quad] * side_[quad]) {
-            quad = walk_nodes(round, point, quad);
-            best = distance2_to_quad(point, quad, over);
-        }
-        for (bool moved = !over; moved;) {
+        for (bool moved = !over && best > 0; moved;) {
             moved = false;
             for (const Index n : Quad(quads_[quad])) {
                 for (const Index other : round.of(index(n))) {
@@ -453,30 +480,32 @@ private:
         return sample;
     }
 
-    /// A quad at the node that is nearer than its neighbours.
-    [[nodiscard]] std::size_t walk_nodes(const mesh::Incidence& round, const Vec3& point,
-                                         std::size_t quad) const
+    /// Go to the quad that a place is over, across the side it is furthest beyond, as far as there is one.
+    [[nodiscard]] std::size_t walk_across(const mesh::Incidence& round, const Vec3& point,
+                                          std::size_t quad) const
     {
-        double best = std::numeric_limits<double>::infinity();
-        Index nearest = -1;
-        for (bool moved = true; moved;) {
-            moved = false;
-            const std::size_t from = quad;
-            const auto try_nodes = [&](std::size_t q) {
-                for (const Index n : quads_[q]) {
-                    const double found = (node(n) - point).squaredNorm();
-                    if (found >= best) continue;
-                    best = found;
-                    nearest = n;
-                    quad = q;
-                    moved = true;
-                }
-            };
-            if (nearest < 0) {
-                try_nodes(from);
-                continue;
+        constexpr int kMostSteps = 64; // a choice, not a measurement
+        for (int step = 0; step < kMostSteps; ++step) {
+            const Quad& q = quads_[quad];
+            const std::array<Vec3, 4> c = corners(quad);
+            const Vec3 across = (c[2] - c[0]).cross(c[3] - c[1]);
+            double furthest = 0;
+            std::size_t beyond = 4;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const double inside = (c[(k + 1) % 4] - c[k]).cross(point - c[k]).dot(across);
+                if (inside >= furthest) continue;
+                furthest = inside;
+                beyond = k;
             }
-            for (const Index q : round.of(index(nearest))) try_nodes(index(q));
+            if (beyond == 4) break;
+            const Index from = q[beyond], to = q[(beyond + 1) % 4];
+            std::size_t next = quad;
+            for (const Index other : round.of(index(from))) {
+                const Quad& o = quads_[index(other)];
+                if (index(other) != quad && std::find(o.begin(), o.end(), to) != o.end()) next = index(other);
+            }
+            if (next == quad) break;
+            quad = next;
         }
         return quad;
     }
@@ -636,28 +665,31 @@ Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::s
     Skin skin;
     skin.faces.resize(face_count);
     for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
-    // All nodes of the first layer and the last are numbered through, and those of the rim between.
+    // All nodes of the first layer and the last are numbered through, and those of the rim between, in the
+    // mesh's order.
     const Index row = mesh.nodes_per_layer, top = mesh.layers * row;
     std::vector<Index> place(index(row), -1), rim;
     for (const Segment& side : mesh.rim) {
-        for (const Index n : side) {
-            if (place[index(n)] >= 0) continue;
-            place[index(n)] = static_cast<Index>(rim.size());
-            rim.push_back(n);
-        }
+        for (const Index n : side) place[index(n)] = 0;
+    }
+    for (Index n = 0; n < row; ++n) {
+        if (place[index(n)] < 0) continue;
+        place[index(n)] = static_cast<Index>(rim.size());
+        rim.push_back(n);
     }
     const auto width = static_cast<Index>(rim.size());
+    const Index last = row + std::max(mesh.layers - 1, 0) * width;
     const auto number = [&](Index n) {
         if (n < row) return n;
-        if (n >= top) return n - top + row;
-        return 2 * row + (n / row - 1) * width + place[index(n % row)];
+        if (n >= top) return last + n - top;
+        return row + (n / row - 1) * width + place[index(n % row)];
     };
-    skin.node.reserve(index(2 * row) + rim.size() * index(std::max(mesh.layers - 1, 0)));
+    skin.node.reserve(index(last + row));
     for (Index n = 0; n < row; ++n) skin.node.push_back(n);
-    for (Index n = 0; n < row; ++n) skin.node.push_back(top + n);
     for (Index layer = 1; layer < mesh.layers; ++layer) {
         for (const Index n : rim) skin.node.push_back(layer * row + n);
     }
+    for (Index n = 0; n < row; ++n) skin.node.push_back(top + n);
     skin.points.reserve(skin.node.size());
     for (const Index n : skin.node) skin.points.push_back(mesh.nodes[index(n)]);
 
