@@ -93,16 +93,24 @@ class CadFace:
         self.curves = [abs(curve) for _, curve in gmsh.model.getBoundary([(2, tag)], oriented=False)]
         box = gmsh.model.getBoundingBox(2, tag)
         self.extent = math.dist(box[:3], box[3:])
-        nodes = gmsh.model.mesh.getNodes(2, tag, includeBoundary=True)[1]
-        self.points = np.asarray(nodes).reshape(-1, 3)
+        tags, points, _ = gmsh.model.mesh.getNodes(2, tag, includeBoundary=True)
+        order = np.argsort(tags)
+        self.points = np.asarray(points).reshape(-1, 3)[order]
+        corners = gmsh.model.mesh.getElementsByType(2, tag)[1]
+        corners = np.searchsorted(np.asarray(tags)[order], corners).reshape(-1, 3)
+        self.triangles = self.points[corners]
+        # How far Gmsh's triangles are off the face they stand for.
+        centres = self.triangles.mean(axis=1)
+        on_surface = np.asarray(gmsh.model.getClosestPoint(2, tag, centres.reshape(-1))[0]).reshape(-1, 3)
+        self.sag = 1.5 * np.linalg.norm(centres - on_surface, axis=1).max() + ROUNDING * self.extent
 
     def distances(self, points):
         """From each point to the nearest one of the trimmed face."""
-        on_surface, uv = gmsh.model.getClosestPoint(2, self.tag, points.reshape(-1))
-        found = np.linalg.norm(points - np.asarray(on_surface).reshape(-1, 3), axis=1)
-        uv = np.asarray(uv).reshape(-1, 2)
-        inside = np.array([gmsh.model.isInside(2, self.tag, list(place)) == 1 for place in uv])
-        outside = np.flatnonzero(~inside)
+        on_surface = np.asarray(gmsh.model.getClosestPoint(2, self.tag, points.reshape(-1))[0]).reshape(-1, 3)
+        found = np.linalg.norm(points - on_surface, axis=1)
+        # Gmsh's isInside() asks for the range of the parameters alone: whether a place is within the trimming
+        # is known by Gmsh's triangles.
+        outside = np.flatnonzero(distances_to_triangles(on_surface, self.triangles) > self.sag)
         if len(outside) > 0:
             found[outside] = self.distances_to_border(points[outside])
         return found
@@ -111,7 +119,8 @@ class CadFace:
         found = np.full(len(points), np.inf)
         for curve in self.curves:
             low, high = (bound[0] for bound in gmsh.model.getParametrizationBounds(1, curve))
-            place = np.clip(gmsh.model.getClosestPoint(1, curve, points.reshape(-1))[1], low, high)
+            nearest = gmsh.model.getClosestPoint(1, curve, points.reshape(-1))[0]
+            place = np.clip(gmsh.model.getParametrization(1, curve, nearest), low, high)
             for at in (place, np.full(len(points), low), np.full(len(points), high)):
                 on_curve = np.asarray(gmsh.model.getValue(1, curve, at)).reshape(-1, 3)
                 found = np.minimum(found, np.linalg.norm(points - on_curve, axis=1))
@@ -175,18 +184,23 @@ def tags_of(groups, case):
 
 def judge(case, mesh, reported):
     """Rows of one case and what is wrong with it."""
-    rows, wrong = [], []
+    rows, wrong, met = [], [], []
     for groups, quads in read_skin(mesh):
         tags = tags_of(groups, case)
         if not tags:
             continue
         gmsh.model.setCurrent("cad")
-        near = {tag: quads_from_face(FACES[tag], quads) for tag in tags}
+        near = {}
+        for tag in tags:
+            out, mean = quads_from_face(FACES[tag], quads)
+            near[tag] = max(out, face_from_quads(FACES[tag], quads)), mean
         tag = min(near, key=lambda t: near[t][0])
-        face, (out, mean) = FACES[tag], near[tag]
-        most = max(out, face_from_quads(face, quads))
+        face, (most, mean) = FACES[tag], near[tag]
         side, slack = longest_side(quads), ROUNDING * face.extent
         said = reported.get(str(tag))
+        if tag in met:
+            wrong.append(f"two patches lie on face {tag}")
+        met.append(tag)
         rows.append((tag, len(quads), most, mean, said))
         if most > SHARE_OF_SIDE * side + slack:
             wrong.append(f"face {tag} is {most:.3g} off its quads, whose sides are up to {side:.3g} long")

@@ -130,11 +130,9 @@ Sewn sew(Session& session, const std::vector<int>& faces, const MakeSolidRequest
             return {out.front().second, tolerance};
         gmsh::model::occ::remove(out);
     }
-    throw BackendError(
-        "cad.not_sewn",
-        "the " + std::to_string(faces.size()) + " faces could not be sewn into one solid, with gaps up to " +
-            std::to_string(last) +
-            " closed; load the file with a larger tolerance, or write the facets with write_facets");
+    throw BackendError("cad.not_sewn", "the " + std::to_string(faces.size()) +
+                                           " faces could not be sewn into one solid, with gaps up to " +
+                                           std::to_string(last) + " closed; write_facets writes the facets");
 }
 
 /// Write one solid of the current model, and nothing else there is.
@@ -187,8 +185,8 @@ void check_volume(double volume, const MakeSolidRequest& request)
     throw BackendError("cad.volume_differs", "the solid has a volume of " + std::to_string(volume) +
                                                  ", but the facets enclose " +
                                                  std::to_string(request.facet_volume) +
-                                                 ": the surfaces fitted to void faces bulge; give more "
-                                                 "walls, or write the facets with write_facets");
+                                                 ": the surfaces fitted to void faces bulge; "
+                                                 "write_facets writes the facets");
 }
 
 } // namespace
