@@ -128,28 +128,35 @@ class CadFace:
 
 
 def distances_to_triangles(points, triangles):
-    """From each point to the nearest one of any triangle, by the regions of each (Ericson 2005, 5.1.5)."""
+    """From each point to the nearest of the triangles with the nearest centres."""
     found = np.full(len(points), np.inf)
-    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
-    ab, ac = b - a, c - a
-    normal = np.cross(ab, ac)
-    area2 = np.maximum(np.einsum("ij,ij->i", normal, normal), 1e-300)
-    for start in range(0, len(points), 64):
-        p = points[start:start + 64, None]
-        best = np.full((len(p), len(triangles)), np.inf)
-        for q, r in ((a, b), (b, c), (c, a)):
-            side = r - q
-            length2 = np.maximum(np.einsum("ij,ij->i", side, side), 1e-300)
-            t = np.clip(np.einsum("nij,ij->ni", p - q, side) / length2, 0, 1)
-            best = np.minimum(best, np.linalg.norm(p - q - t[..., None] * side, axis=2))
-        ap = p - a
-        v = np.einsum("nij,ij->ni", np.cross(ap, ac), normal) / area2
-        w = np.einsum("nij,ij->ni", np.cross(np.broadcast_to(ab, ap.shape), ap), normal) / area2
-        height = np.abs(np.einsum("nij,ij->ni", ap, normal)) / np.sqrt(area2)
-        over = (v >= 0) & (w >= 0) & (v + w <= 1)
-        best = np.where(over, np.minimum(best, height), best)
-        found[start:start + 64] = best.min(axis=1)
+    centre = triangles.mean(axis=1)
+    most = min(48, len(triangles))
+    for start in range(0, len(points), 256):
+        p = points[start:start + 256]
+        away = ((p[:, None] - centre) ** 2).sum(axis=2)
+        near = triangles[np.argpartition(away, most - 1, axis=1)[:, :most]]
+        found[start:start + 256] = distances_to_own(p[:, None], near)
     return found
+
+
+def distances_to_own(p, near):
+    """From each point to its nearest triangle, by the regions of each (Ericson 2005, 5.1.5)."""
+    a, b, c = near[..., 0, :], near[..., 1, :], near[..., 2, :]
+    best = np.full(a.shape[:2], np.inf)
+    for q, r in ((a, b), (b, c), (c, a)):
+        side = r - q
+        length2 = np.maximum((side * side).sum(axis=-1), 1e-300)
+        t = np.clip(((p - q) * side).sum(axis=-1) / length2, 0, 1)
+        best = np.minimum(best, np.linalg.norm(p - q - t[..., None] * side, axis=-1))
+    ab, ac, ap = b - a, c - a, p - a
+    normal = np.cross(ab, ac)
+    area2 = np.maximum((normal * normal).sum(axis=-1), 1e-300)
+    v = (np.cross(ap, ac) * normal).sum(axis=-1) / area2
+    w = (np.cross(ab, ap) * normal).sum(axis=-1) / area2
+    height = np.abs((ap * normal).sum(axis=-1)) / np.sqrt(area2)
+    over = (v >= 0) & (w >= 0) & (v + w <= 1)
+    return np.where(over, np.minimum(best, height), best).min(axis=1)
 
 
 def longest_side(quads):

@@ -91,7 +91,8 @@ std::vector<FaceId> named(const Model& model, const std::vector<std::string>& pr
     return found;
 }
 
-/// The walls found are those named, all others reached are left out with an edge, and the volume is of a class.
+/// The walls found are those named, all others reached are left out with an edge, and the volume is of a
+/// class.
 void check_walls(const Quilt& quilt, const std::vector<std::string>& source,
                  const std::vector<std::string>& target, const std::vector<std::string>& walls,
                  VolumeClass value)

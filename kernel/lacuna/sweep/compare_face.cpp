@@ -518,8 +518,8 @@ private:
         return (low - point).cwiseMax(point - high).cwiseMax(0.0).squaredNorm();
     }
 
-    /// @param over  whether the foot is no further from the place than from the quad's sides, so that no other
-    ///              quad is nearer unless the skin turns back within that distance.
+    /// @param over  whether the foot is no further from the place than from the quad's sides, so that no
+    ///              other quad is nearer unless the skin turns back within that distance.
     [[nodiscard]] double distance2_to_quad(const Vec3& point, std::size_t quad, bool& over) const
     {
         const std::array<Vec3, 4> c = corners(quad);

@@ -23,8 +23,8 @@ struct WallChoice {
 /// those that hang together by other edges are taken or left together. Of all choices to which nothing can be
 /// added, the one with the least length of free edges is taken, and of those as good the one that encloses
 /// least: the first faces round the void, not those round its neighbours. With one end, free edges have to
-/// remain for the other. Where so many faces meet so often that the choices cannot be counted, where faces lead
-/// round to an edge they left from, and where no choice passes, all are taken.
+/// remain for the other. Where so many faces meet so often that the choices cannot be counted, where faces
+/// lead round to an edge they left from, and where no choice passes, all are taken.
 /// @throw InvalidInput "topology.walls_ambiguous"  two choices as good as each other; names both. Cancelled.
 /// @note  O(faces) where no edge is used more than twice; else exponential in the groups of faces that meet,
 ///        up to a bound.

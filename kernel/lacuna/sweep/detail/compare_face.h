@@ -21,8 +21,8 @@ struct SkinOfFace {
     double mean_side = 0;     ///< of those [model length]
 };
 
-/// The nodes of a mesh's skin alone, which are few beside all of its nodes: numbered through in the mesh's order,
-/// with the quads of every face.
+/// The nodes of a mesh's skin alone, which are few beside all of its nodes: numbered through in the mesh's
+/// order, with the quads of every face.
 struct Skin {
     std::vector<Vec3> points;      ///< [model length]
     std::vector<Index> node;       ///< of the mesh, for each
