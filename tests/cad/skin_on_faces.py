@@ -228,12 +228,11 @@ def judge(case, mesh, reported):
     return rows, wrong
 
 
-def open_cad(path, size):
-    """The file as the model "cad", its faces meshed by Gmsh."""
+def open_cad(path):
+    """The file as the model "cad"."""
     gmsh.clear()
     gmsh.model.add("cad")
     gmsh.merge(str(path))
-    gmsh.option.setNumber("Mesh.MeshSizeMax", size / 2)
     FACES.clear()
 
 
@@ -253,9 +252,9 @@ def main():
             name = f"{pathlib.Path(case['file']).stem} {case['case']}"
             try:
                 mesh, reported = sweep(lacuna, case, data, pathlib.Path(folder))
-                open_cad(data / case["file"], size_of(case))
+                open_cad(data / case["file"])
                 given = sorted(map(int, case["kept"]))
-                mesh_faces(given)
+                mesh_faces(given, size_of(case))
                 rows, wrong = judge(case, mesh, reported)
             except (RuntimeError, subprocess.TimeoutExpired) as error:
                 rows, wrong = [], [str(error)]
@@ -272,8 +271,10 @@ def main():
     return 1 if failed else 0
 
 
-def mesh_faces(tags):
+def mesh_faces(tags, size):
     """Mesh the faces of a case and no others, and keep what is compared."""
+    extent = max(math.dist(box[:3], box[3:]) for box in (gmsh.model.getBoundingBox(2, tag) for tag in tags))
+    gmsh.option.setNumber("Mesh.MeshSizeMax", max(size / 2, extent / 60))
     gmsh.model.setVisibility(gmsh.model.getEntities(), 0)
     gmsh.model.setVisibility([(2, tag) for tag in tags], 1, recursive=True)
     gmsh.option.setNumber("Mesh.MeshOnlyVisible", 1)
