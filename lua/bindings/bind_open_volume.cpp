@@ -4,6 +4,7 @@
 #include "bindings/faces.h"
 
 #include <lacuna/topology/auto_roles.h>
+#include <lacuna/topology/auto_walls.h>
 
 #include <cctype>
 #include <cstring>
@@ -98,16 +99,24 @@ const Option<RoleArguments> kRoleOptions[] = {
 };
 
 /// The walls named "auto": what hangs together with the rim of the one end that is named.
-void find_walls(const topology::Model& model, topology::Roles& roles)
+/// @return  what was left out, and why.
+std::vector<std::string> find_walls(const topology::Model& model, topology::Roles& roles,
+                                    const RunContext& context)
 {
     if (roles.source.empty() && roles.target.empty())
         throw InvalidInput(
             "lua.walls_without_ends",
             "open_volume: walls = \"auto\" finds the walls from the rim of the source or the target; "
             "name one of them");
-    const bool from_source = !roles.source.empty();
-    roles.walls = topology::faces_reachable_from(model, from_source ? roles.source : roles.target,
-                                                 from_source ? roles.target : roles.source);
+    const topology::WallChoice found = topology::find_walls(model, roles.source, roles.target, context);
+    roles.walls = found.walls;
+    std::vector<std::string> reasons;
+    for (std::size_t i = 0; i < found.left_out.size(); ++i) {
+        reasons.push_back("no wall: " + topology::name_of(model, found.left_out[i]) +
+                          ", for two faces of the " + "volume have " +
+                          topology::name_of(model, found.taken[i]) + " already");
+    }
+    return reasons;
 }
 
 VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, const RunContext& context)
@@ -120,7 +129,7 @@ VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, 
         arguments.roles = std::move(found.roles);
         state.role_reasons = std::move(found.reasons);
     } else if (arguments.auto_walls) {
-        find_walls(model, arguments.roles);
+        state.role_reasons = find_walls(model, arguments.roles, context);
     }
     state.volume = topology::open_volume(model, arguments.roles, context);
     state.volume.override_class = arguments.override_class;

@@ -255,6 +255,47 @@ TEST_CASE("unlike numbers of edges are refused by nearest, with both, and taken 
     CHECK_NOTHROW(matching::match(volume));
 }
 
+TEST_CASE("a refusal of nearest names the other method where that matches, and only there")
+{
+    const Ends square{polygon(regular(4))};
+    const std::vector<OpenVolume> refused{
+        two_ends(square, square, lifted(1, 1, 0.1, {40, 3})),
+        two_ends({polygon(regular(6, 10)), polygon(regular(6, 9))},
+                 {polygon(regular(6, 30)), polygon(regular(6, 12))}, lifted(1)),
+        two_ends({polygon(regular(5))}, {polygon(regular(4))}, lifted(1)),
+    };
+    std::size_t helped = 0, not_helped = 0;
+    for (const OpenVolume& volume : refused) {
+        const Model& model = volume.model;
+        const Rim from = rims(model, volume.faces(Role::source)).front();
+        const Rim to = rims(model, volume.faces(Role::target)).front();
+        const auto pair = [&](std::size_t s, std::size_t t) {
+            return std::pair(model[use_from(model, from.uses[s])].tag,
+                             model[use_from(model, to.uses[t])].tag);
+        };
+        // As they are, and by pairs that go round one loop against the other's order.
+        for (const bool crossed : {false, true}) {
+            MatchOptions options = nearest();
+            if (crossed) options.vertices = {pair(0, 0), pair(1, 2), pair(2, 1), pair(3, 3)};
+            MatchOptions aligned = options;
+            aligned.method = matching::Method::aligned;
+            const std::string code = refusal([&] { matching::match(volume, aligned); });
+            std::string message;
+            try {
+                matching::match(volume, options);
+            } catch (const Error& error) {
+                message = error.what();
+            }
+            CAPTURE(message);
+            CHECK(!message.empty());
+            CHECK((message.find("aligned") != std::string::npos) == (code == "done"));
+            ++(code == "done" ? helped : not_helped);
+        }
+    }
+    CHECK(helped >= refused.size());
+    CHECK(not_helped > 0);
+}
+
 TEST_CASE("vertices, loops and flip given by hand are obeyed by nearest, and contradictions refused by tag")
 {
     std::mt19937 dice(24);

@@ -258,21 +258,6 @@ TEST_CASE("an open volume holds only what its faces use, and the model it came f
     CHECK(face_area(volume.model, FaceId(1)) == doctest::Approx(face_area(prism.model, roles.walls[0])));
 }
 
-TEST_CASE("walls are found from the source's rim over shared edges, the target left out")
-{
-    for (const int holes : {0, 3}) {
-        const auto prism = test::prism({.sides = 5, .holes = holes, .rows = 3, .pieces = 2});
-        auto found = faces_reachable_from(prism.model, prism.roles.source, prism.roles.target);
-        auto walls = prism.roles.walls;
-        std::sort(walls.begin(), walls.end());
-        CHECK(found == walls);
-    }
-    // Without the middle row the upper one cannot be reached but over the target.
-    const auto cut = test::prism(
-        {.sides = 5, .rows = 3, .drop = [](const Part& p) { return p.role == Role::wall && p.row == 1; }});
-    CHECK(faces_reachable_from(cut.model, cut.roles.source, cut.roles.target).size() == 5);
-}
-
 TEST_CASE("a description has a line a face, with its tag and name")
 {
     auto prism = test::prism({.sides = 3});

@@ -289,8 +289,8 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
                            program + " did not answer within " + plain(kStartSeconds) + " s");
     } catch (const ChannelClosed&) {
         end();
-        throw BackendError("cad.no_worker", program + " ended while it was started (" + how_it_ended() +
-                                                last_words() + "); try again");
+        throw BackendError("cad.no_worker",
+                           program + " ended while it was started (" + how_it_ended() + last_words() + ")");
     } catch (const ProtocolError& error) {
         end();
         throw BackendError("cad.no_worker", program + " is no CAD process of this Lacuna: " + error.what() +

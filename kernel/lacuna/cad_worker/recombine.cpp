@@ -69,7 +69,7 @@ RecombineReply read_quads(const RecombineRequest& region, int face,
         throw NotSweepable("cad.recombine", "Gmsh leaves " + std::to_string(elements.size()) +
                                                 " triangles in a region of " +
                                                 std::to_string(side_count(region)) +
-                                                " boundary sides; use quads = \"auto\" or another size");
+                                                " boundary sides; quads = \"auto\" leaves none");
     }
     gmsh::model::mesh::getElementsByType(3, elements, corners, face);
     double area = 0;

@@ -133,11 +133,9 @@ Sewn sew(Session& session, const std::vector<int>& faces, const MakeSolidRequest
             return {out.front().second, tolerance};
         gmsh::model::occ::remove(out);
     }
-    session.refuse(
-        "cad.not_sewn",
-        "the " + std::to_string(faces.size()) + " faces could not be sewn into one solid, with gaps up to " +
-            std::to_string(last) +
-            " closed; load the file with a larger tolerance, or write the facets with write_facets");
+    session.refuse("cad.not_sewn", "the " + std::to_string(faces.size()) +
+                                       " faces could not be sewn into one solid, with gaps up to " +
+                                       std::to_string(last) + " closed; write_facets writes the facets");
 }
 
 /// Write the current model to a file, whole. Open CASCADE writes on where the system takes no more bytes, and
@@ -211,8 +209,8 @@ void check_volume(const Session& session, double volume, const MakeSolidRequest&
     session.refuse("cad.volume_differs", "the solid has a volume of " + std::to_string(volume) +
                                              ", but the facets enclose " +
                                              std::to_string(request.facet_volume) +
-                                             ": the surfaces fitted to void faces bulge; give more "
-                                             "walls, or write the facets with write_facets");
+                                             ": the surfaces fitted to void faces bulge; write_facets writes "
+                                             "the facets");
 }
 
 } // namespace

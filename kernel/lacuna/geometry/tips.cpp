@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/geometry/tips.h>
 
-#include <lacuna/core/edge_key.h>
-
 #include <cmath>
+#include <cstdint>
 #include <numbers>
-#include <unordered_set>
+#include <vector>
 
 namespace lacuna::geometry {
 
@@ -15,25 +14,20 @@ std::vector<Index> find_tips(std::span<const Vec3> points, std::span<const Trian
     constexpr double kLack = 0.2 * std::numbers::pi;
     constexpr std::size_t kMostTips = 64;
     std::vector<double> angle(points.size(), 0);
-    std::unordered_set<std::uint64_t> sides;
+    // Inside, every neighbour comes once before the point and once after it.
+    std::vector<std::int64_t> turn(points.size(), 0);
     for (const Triangle& t : triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3& at = points[index(t[k])];
             const Vec3 a = points[index(t[(k + 1) % 3])] - at;
             const Vec3 b = points[index(t[(k + 2) % 3])] - at;
             angle[index(t[k])] += std::atan2(a.cross(b).norm(), a.dot(b));
-            sides.insert(directed_key(t[k], t[(k + 1) % 3]));
-        }
-    }
-    for (const Triangle& t : triangles) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (!sides.contains(directed_key(t[(k + 1) % 3], t[k])))
-                angle[index(t[k])] = angle[index(t[(k + 1) % 3])] = 0;
+            turn[index(t[k])] += t[(k + 1) % 3] - std::int64_t{t[(k + 2) % 3]};
         }
     }
     std::vector<Index> tips;
     for (std::size_t p = 0; p < angle.size(); ++p) {
-        if (!(angle[p] > 0 && 2 * std::numbers::pi - angle[p] > kLack)) continue;
+        if (turn[p] != 0 || !(angle[p] > 0 && 2 * std::numbers::pi - angle[p] > kLack)) continue;
         if (tips.size() == kMostTips) return {};
         tips.push_back(static_cast<Index>(p));
     }

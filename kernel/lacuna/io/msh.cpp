@@ -313,7 +313,7 @@ std::vector<Section> text_22(const mesh::HexMesh& mesh, const MshContent& conten
         const int physical = surface != nullptr ? surface->physical.front() : content.volume_physical.front();
         const int entity = surface != nullptr ? surface->tag : kVolumeTag;
         const auto unsign = [](int value) { return static_cast<std::size_t>(value); };
-        return spaced({unsign(block.type), 2, unsign(physical), unsign(entity)});
+        return spaced({unsign(block.type()), 2, unsign(physical), unsign(entity)});
     };
     const Elements elements{mesh, content};
     add_text_elements(

@@ -101,7 +101,7 @@ private:
                             "no way to lay source loop " + std::to_string(s + 1) + " on target loop " +
                                 std::to_string(t + 1) +
                                 " keeps the vertex pairs that the walls or the recipe fix" +
-                                fixed_in_words(s) + "; check match{ vertices = … }");
+                                fixed_in_words(s));
         }
         const Alignment& best = chosen_[s] = found.front();
         // A loop turned round by hand says nothing of how the others run.
@@ -173,8 +173,7 @@ private:
         if (!keeps_order(low_loop, high_loop, chosen_[s].backward, hard)) {
             throw NotClosed("matching.vertices_contradict",
                             "the vertex pairs that the walls or the recipe fix on source loop " +
-                                std::to_string(s + 1) + " cross" + fixed_in_words(s) +
-                                "; check match{ vertices = …, flip = … }");
+                                std::to_string(s + 1) + " cross" + fixed_in_words(s));
         }
         const ArcPairs pairs = pair_by_arc(low_loop, high_loop, chosen_[s].offset, chosen_[s].backward, hard,
                                            kMostTwist);
@@ -274,6 +273,20 @@ std::string loops_in_words(std::size_t count)
     return std::to_string(count) + (count == 1 ? " loop" : " loops");
 }
 
+/// Whether the other method matches what nearest vertices do not.
+bool can_be_aligned(const OpenVolume& volume, MatchOptions options, const RunContext& context)
+{
+    options.method = Method::aligned;
+    try {
+        match(volume, options, context);
+        return true;
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
 } // namespace
 
 Match match(const OpenVolume& volume, const MatchOptions& options, const RunContext& context)
@@ -293,20 +306,23 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
         throw NotClosed("matching.loop_counts",
                         "the source has " + loops_in_words(result.source_loops.size()) +
                             " and the target has " + loops_in_words(result.target_loops.size()) +
-                            "; a sweep needs as many on both ends: check the roles, or leave out the faces "
-                            "that close a loop");
+                            "; a sweep needs as many on both ends");
     }
     Problem problem = problem_of(volume, options, result, context);
     if (options.method == Method::nearest) {
-        by_nearest(problem, result);
+        try {
+            by_nearest(problem, result);
+        } catch (const NotClosed& error) {
+            if (!can_be_aligned(volume, options, context)) throw;
+            throw NotClosed(error.code(), std::string(error.what()) + "; method = \"aligned\" matches them");
+        }
         return result;
     }
 
     choose_how(problem);
     const std::vector<Arrangement> found = arrange(problem);
     if (found.empty()) {
-        throw NotClosed("matching.no_pairs", "no pairing of the loops keeps what walls and recipe fix; check "
-                                             "match{ loops = …, vertices = … }");
+        throw NotClosed("matching.no_pairs", "no pairing of the loops keeps what walls and recipe fix");
     }
     result.loops.resize(problem.source.size());
     for (std::size_t s = 0; s < result.loops.size(); ++s)

@@ -217,9 +217,7 @@ void Nearest::match_loops()
                             "method \"nearest\": source loop " + std::to_string(l + 1) + " has " +
                                 std::to_string(source_.count(l)) + " edges and target loop " +
                                 std::to_string(loop_[l] + 1) + " has " +
-                                std::to_string(target_.count(loop_[l])) +
-                                "; it needs as many on both: use method = \"aligned\", which splits edges, "
-                                "or other pairs in match{ loops = … }");
+                                std::to_string(target_.count(loop_[l])) + "; it needs as many on both");
         }
     }
 }
@@ -394,10 +392,9 @@ void Nearest::refuse_loop(std::size_t l, const std::string& why) const
         }
         list += (list.empty() ? "" : ", ") + tag(source_.vertex[s]);
     }
-    throw NotClosed("matching.nearest_failed",
-                    "method \"nearest\" cannot match source loop " + std::to_string(l + 1) + " (vertices " +
-                        list + "): " + why +
-                        "; use method = \"aligned\", or pair by hand with match{ loops = …, vertices = … }");
+    throw NotClosed("matching.nearest_failed", "method \"nearest\" cannot match source loop " +
+                                                   std::to_string(l + 1) + " (vertices " + list +
+                                                   "): " + why);
 }
 
 } // namespace

@@ -27,10 +27,10 @@ void force(Problem& problem, int s, int t, const std::string& because)
 {
     int& now = problem.forced[static_cast<std::size_t>(s)];
     if (now >= 0 && now != t) {
-        throw NotClosed("matching.loops_contradict",
-                        "source loop " + std::to_string(s + 1) + " would go to target loop " +
-                            std::to_string(now + 1) + " and, " + because + ", to target loop " +
-                            std::to_string(t + 1) + "; give the pairs by hand with match{ loops = … }");
+        throw NotClosed("matching.loops_contradict", "source loop " + std::to_string(s + 1) +
+                                                         " would go to target loop " +
+                                                         std::to_string(now + 1) + " and, " + because +
+                                                         ", to target loop " + std::to_string(t + 1));
     }
     now = t;
 }

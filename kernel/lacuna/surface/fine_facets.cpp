@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
-#include <unordered_set>
 
 namespace lacuna::surface {
 
@@ -83,7 +82,7 @@ public:
             const Vec3 chord = (fine_.points[index(side.a)] + fine_.points[index(side.b)]) / 2;
             side.halved = (side.middle - chord).norm() > off_ * size_(side.middle);
             any = any || side.halved;
-            if (!side.halved) settled_.insert(edge_key(side.a, side.b));
+            if (!side.halved) settled_.emplace(edge_key(side.a, side.b), side.middle);
         }
         if (!any) return false;
         FineFacets before = fine_;
@@ -97,14 +96,13 @@ public:
     /// How far the middle of each side of each facet is from the exact face.
     std::vector<std::array<Vec3, 3>> bulges()
     {
-        settled_.clear();
         collect();
         find_middles();
         std::vector<std::array<Vec3, 3>> result;
-        for (const Triangle& t : fine_.triangles) {
+        for (std::size_t i = 0; i < fine_.triangles.size(); ++i) {
             std::array<Vec3, 3>& bulge = result.emplace_back();
             for (std::size_t k = 0; k < 3; ++k) {
-                const FacetSide& at = side(t, k);
+                const FacetSide& at = side(i, k);
                 bulge[k] = at.middle - (fine_.points[index(at.a)] + fine_.points[index(at.b)]) / 2;
             }
         }
@@ -112,27 +110,29 @@ public:
     }
 
 private:
-    [[nodiscard]] FacetSide& side(const Triangle& t, std::size_t k)
-    {
-        return sides_[number_.at(edge_key(t[k], t[(k + 1) % 3]))];
-    }
+    /// From corner k of a facet to the next.
+    [[nodiscard]] FacetSide& side(std::size_t facet, std::size_t k) { return sides_[side_of_[facet][k]]; }
 
     void collect()
     {
         sides_.clear();
         number_.clear();
+        number_.reserve(2 * fine_.triangles.size());
+        side_of_.resize(fine_.triangles.size());
         for (std::size_t i = 0; i < fine_.triangles.size(); ++i) {
             const Triangle& t = fine_.triangles[i];
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index a = t[k], b = t[(k + 1) % 3];
-                if (!number_.try_emplace(edge_key(a, b), sides_.size()).second) continue;
+                const auto [found, fresh] = number_.try_emplace(edge_key(a, b), sides_.size());
+                side_of_[i][k] = found->second;
+                if (!fresh) continue;
                 sides_.push_back({a, b, (fine_.points[index(a)] + fine_.points[index(b)]) / 2});
                 if (!fine_.uv.empty()) sides_.back().uv = (fine_.uv[i][k] + fine_.uv[i][(k + 1) % 3]) / 2;
             }
         }
     }
 
-    /// On the exact edges and the exact surface, all at once. Known ones keep their chord's.
+    /// On the exact edges and the exact surface, all at once. Those found before are not asked for again.
     void find_middles()
     {
         for (const auto& [edge, chain] : fine_.edges) {
@@ -153,7 +153,11 @@ private:
         }
         std::vector<std::size_t> inside;
         for (std::size_t s = 0; s < sides_.size(); ++s) {
-            if (!sides_[s].on_edge && !is_settled(sides_[s])) inside.push_back(s);
+            const auto known = settled_.find(edge_key(sides_[s].a, sides_[s].b));
+            if (known != settled_.end())
+                sides_[s].middle = known->second;
+            else if (!sides_[s].on_edge)
+                inside.push_back(s);
         }
         project(inside);
     }
@@ -188,24 +192,18 @@ private:
     {
         for (bool again = true; again;) {
             again = false;
-            for (const Triangle& t : fine_.triangles) {
+            for (std::size_t i = 0; i < fine_.triangles.size(); ++i) {
                 int halved = 0;
-                for (std::size_t k = 0; k < 3; ++k) halved += side(t, k).halved ? 1 : 0;
+                for (std::size_t k = 0; k < 3; ++k) halved += side(i, k).halved ? 1 : 0;
                 if (halved != 2) continue;
                 again = true;
-                for (std::size_t k = 0; k < 3; ++k) side(t, k).halved = true;
+                for (std::size_t k = 0; k < 3; ++k) side(i, k).halved = true;
             }
         }
     }
 
     void make_points()
     {
-        // Sides settled in earlier rounds, halved after all for their neighbours' sake.
-        std::vector<std::size_t> late;
-        for (std::size_t s = 0; s < sides_.size(); ++s) {
-            if (sides_[s].halved && !sides_[s].on_edge && is_settled(sides_[s])) late.push_back(s);
-        }
-        project(late);
         for (FacetSide& side : sides_) {
             if (!side.halved) continue;
             side.point = static_cast<Index>(fine_.points.size());
@@ -236,7 +234,7 @@ private:
             std::array<Vec2, 6> place;
             place.fill(Vec2::Zero());
             for (std::size_t k = 0; k < 3; ++k) {
-                if (side(t, k).halved) point[3 + k] = side(t, k).point;
+                if (side(i, k).halved) point[3 + k] = side(i, k).point;
                 if (fine_.uv.empty()) continue;
                 place[k] = fine_.uv[i][k];
                 place[3 + k] = (fine_.uv[i][k] + fine_.uv[i][(k + 1) % 3]) / 2;
@@ -262,8 +260,9 @@ private:
     const SizeField& size_;
     double off_;
     std::vector<FacetSide> sides_;
+    std::vector<std::array<std::size_t, 3>> side_of_;       ///< of each facet, by the corner it runs from
     std::unordered_map<std::uint64_t, std::size_t> number_; ///< of each side
-    std::unordered_set<std::uint64_t> settled_;             ///< sides found straight enough
+    std::unordered_map<std::uint64_t, Vec3> settled_;       ///< middles of the sides found straight enough
 };
 
 } // namespace

@@ -153,9 +153,7 @@ public:
         base_ = *result_.volume;
         map_.emplace(base_, result_.links);
         if (!map_->one_to_one()) {
-            refuse(model(), inner_.front(),
-                   "source and target cannot be laid on each other one to one; split the volume, or name "
-                   "other faces as its ends");
+            refuse(model(), inner_.front(), "source and target cannot be laid on each other one to one");
         }
         pair_closed();
         collect();
@@ -944,7 +942,7 @@ private:
         if (known.valid() && known != found) {
             const Border& border = borders_[use.chain];
             refuse(model(), border.image ? border.image->target : inner_.front(),
-                   "there it crosses other edges in disorder; use a smaller size");
+                   "there it crosses other edges in disorder");
         }
         known = found;
     }

@@ -89,7 +89,7 @@ std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const 
         throw NotSweepable("surface.belt_loops", "the walls " + names(model, part) + " touch " +
                                                      std::to_string(touched.size()) + " loops of the " + end +
                                                      "; a sweep has one ring of walls between one source "
-                                                     "loop and one target loop: check the roles");
+                                                     "loop and one target loop");
     }
     return *touched.begin();
 }
@@ -244,8 +244,7 @@ void check_ring(const Model& model, const std::vector<FaceId>& part)
         "the walls " + names(model, part) + " do not form a plain ring between source and target" +
             (pierced.empty()
                  ? std::string()
-                 : ": " + names(model, pierced) + " have openings that other walls lead through") +
-            "; sweep along the openings instead, or leave out the walls inside them so that they are closed");
+                 : ": " + names(model, pierced) + " have openings that other walls lead through"));
 }
 
 } // namespace
@@ -259,8 +258,7 @@ std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning t
     if (source.rims.size() != target.rims.size()) {
         throw NotSweepable("surface.loop_counts",
                            "the source has " + std::to_string(source.rims.size()) + " loops and the target " +
-                               std::to_string(target.rims.size()) +
-                               "; a sweep needs as many on both ends: check the roles");
+                               std::to_string(target.rims.size()) + "; a sweep needs as many on both ends");
     }
     const std::vector<matching::SideLine> lines = matching::side_lines(volume);
     std::vector<std::optional<LinkingSurface>> by_rim(source.rims.size());

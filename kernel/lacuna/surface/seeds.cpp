@@ -165,8 +165,8 @@ private:
                     " quads of its own and " +
                     std::to_string(f.triangles.size() -
                                    std::min(f.triangles.size(), 2 * f.given_quads.size())) +
-                    " triangles; quads = \"keep\" needs quads all over: use wedges = true to keep triangles "
-                    "too, quads = \"auto\", or load with keep_mesh = true");
+                    " triangles; quads = \"keep\" needs quads all over: wedges = true keeps triangles too, "
+                    "and quads = \"auto\" makes quads");
         }
         return whole && (style_ == QuadStyle::kept || style_ == QuadStyle::automatic);
     }
@@ -474,8 +474,7 @@ private:
             throw NotSweepable(
                 "surface.odd_loop",
                 "the loops of " + name_of(model_, face) +
-                    " have an odd number of sides in all, and no edge of it is free to take one more; "
-                    "change the size, or use quads = \"mapped\" for its neighbours");
+                    " have an odd number of sides in all, and no edge of it is free to take one more");
         }
     }
 

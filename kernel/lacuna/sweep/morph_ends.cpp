@@ -73,7 +73,7 @@ Part part_of(const mesh::QuadMesh& whole, const std::vector<std::size_t>& quads,
         if (!place) {
             throw NotSweepable("sweep.imprint_torn",
                                "an edge between faces of the target has nodes on the source that no edge "
-                               "imprinted there leads to it; use a smaller size");
+                               "imprinted there leads to it");
         }
         part.columns.points.push_back(*place);
     }

@@ -60,10 +60,15 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options)
     if (options.quads == Quads::mapped) {
         return [](const quads::PlanarRegion& region, const RunContext& context) {
             if (auto grid = quads::submap(region, false, context)) return std::move(*grid);
-            throw NotSweepable("surface.not_submapped",
-                               "a source face of right angles is to be mapped, and the grid its " +
-                                   std::to_string(region.points.size()) +
-                                   " boundary nodes enclose folds or overlaps; use quads = \"auto\"");
+            const std::string why = "a source face of right angles is to be mapped, and the grid its " +
+                                    std::to_string(region.points.size()) +
+                                    " boundary nodes enclose folds or overlaps";
+            try {
+                quads::pave(region, {}, context);
+            } catch (const NotSweepable&) {
+                throw NotSweepable("surface.not_submapped", why);
+            }
+            throw NotSweepable("surface.not_submapped", why + "; quads = \"auto\" paves it");
         };
     }
     // A grid has as many quads across a neck as its rim leaves over.

@@ -347,30 +347,6 @@ OpenVolume open_volume(const Model& model, const Roles& roles, const RunContext&
     return volume;
 }
 
-std::vector<FaceId> faces_reachable_from(const Model& model, const std::vector<FaceId>& source,
-                                         const std::vector<FaceId>& target)
-{
-    const auto uses = edge_uses(model);
-    std::vector<bool> taken(model.faces.size(), false);
-    for (const FaceId face : source) taken[face.index()] = true;
-    for (const FaceId face : target) taken[face.index()] = true;
-    std::vector<FaceId> front = source, result;
-    for (std::size_t i = 0; i < front.size(); ++i) {
-        for (const Loop& loop : model[front[i]].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                for (const FaceUse& other : uses[use.edge.index()]) {
-                    if (taken[other.face.index()]) continue;
-                    taken[other.face.index()] = true;
-                    front.push_back(other.face);
-                    result.push_back(other.face);
-                }
-            }
-        }
-    }
-    std::sort(result.begin(), result.end());
-    return result;
-}
-
 Classification classify(const OpenVolume& volume)
 {
     Classification found;

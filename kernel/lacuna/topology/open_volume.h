@@ -47,11 +47,6 @@ OpenVolume open_volume(const Model& model, const Roles& roles, const RunContext&
 /// A model of the faces named alone, in that order, with the edges, vertices and points they use.
 Model extract(const Model& model, const std::vector<FaceId>& faces);
 
-/// Every face that can be reached from the rim of `source` over shared edges, and is neither source nor
-/// target.
-std::vector<FaceId> faces_reachable_from(const Model& model, const std::vector<FaceId>& source,
-                                         const std::vector<FaceId>& target);
-
 /// Which faces use an edge, and which way.
 struct FaceUse {
     FaceId face;

@@ -1,0 +1,724 @@
+// SPDX-License-Identifier: MIT
+//
+// Millions of cells have a hundred thousand quads on their skin, each with four places to compare, so the
+// usual place has to cost a few operations. Quads come in rows: the facet that the last place was over, or
+// one beside it, is the one this place is over (`FacetWalk`), and the quad nearest to one place of a facet is
+// about the nearest to the next. Only what is certain is settled so; a tree answers for the rest.
+#include <lacuna/sweep/detail/compare_face.h>
+
+#include <lacuna/core/parallel.h>
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/tips.h>
+#include <lacuna/mesh/incidence.h>
+#include <lacuna/sweep/detail/facet_walk.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace lacuna::sweep {
+
+namespace {
+
+/// A quad whose diagonals miss each other by less than this share of its longest side is flat: two triangles
+/// stand for it, else four. A choice, not a measurement.
+constexpr double kFlat = 1e-3;
+/// Quads, facets or points that are taken in one go, on one thread, with sums of their own: a choice, not a
+/// measurement.
+constexpr std::size_t kBlock = 1024;
+/// Points this near a plane lie in it, as a share of the face's extent: rounding is a thousand times less.
+constexpr double kInPlane = 1e-12;
+/// Further off than this, in sides of the quad, the walk is not asked, nor believed: there the nearest place
+/// may be one across the face. A choice, not a measurement.
+constexpr double kFar = 0.25;
+
+/// A place of one skin and how far the other is from it.
+struct Sample {
+    Vec3 point = Vec3::Zero();
+    double area = 0;      ///< that it stands for
+    double side = 0;      ///< of the quads there: what is allowed goes with it
+    std::size_t quad = 0; ///< of the patch
+    double distance = 0;
+    bool turned = false; ///< faces the other way
+};
+
+/// What is kept of many samples.
+struct Tally {
+    double area = 0, sum = 0;
+    double max_distance = -1;
+    Vec3 place = Vec3::Zero();
+    Sample worst;       ///< the one furthest over what is allowed there; a turned one before all
+    double allowed = 0; ///< there
+    bool turned = false;
+
+    void add(const Sample& sample, double most)
+    {
+        area += sample.area;
+        sum += sample.area * sample.distance;
+        if (sample.distance > max_distance) {
+            max_distance = sample.distance;
+            place = sample.point;
+        }
+        keep_worst(sample, most, sample.turned);
+    }
+    /// Take in those that came after.
+    void add(const Tally& later)
+    {
+        area += later.area;
+        sum += later.sum;
+        if (later.max_distance > max_distance) {
+            max_distance = later.max_distance;
+            place = later.place;
+        }
+        if (later.allowed > 0) keep_worst(later.worst, later.allowed, later.turned);
+    }
+
+private:
+    void keep_worst(const Sample& sample, double most, bool is_turned)
+    {
+        if (turned) return;
+        if (!is_turned && allowed > 0 && sample.distance * allowed <= worst.distance * most) return;
+        worst = sample;
+        allowed = most;
+        turned = is_turned;
+    }
+};
+
+/// Tells the nodes on the border of a patch of quads from those inside: inside, every neighbour comes once
+/// before the node and once after it.
+std::vector<std::int64_t> border_turns(std::span<const Quad> quads, std::size_t node_count)
+{
+    std::vector<std::int64_t> turn(node_count, 0);
+    for (const Quad& quad : quads) {
+        for (std::size_t k = 0; k < 4; ++k)
+            turn[index(quad[k])] += quad[(k + 1) % 4] - std::int64_t{quad[(k + 3) % 4]};
+    }
+    return turn;
+}
+
+/// A quad as triangles.
+struct QuadFacets {
+    std::array<std::array<Vec3, 3>, 4> corners;
+    std::size_t count = 0;
+};
+
+QuadFacets facets_of(const std::array<Vec3, 4>& c)
+{
+    if (c[2] == c[3]) return {{{{c[0], c[1], c[2]}}}, 1}; // a triangle
+    const Vec3 one = (c[0] + c[2]) / 2, other = (c[1] + c[3]) / 2;
+    if ((one - other).squaredNorm() < kFlat * kFlat * (c[2] - c[0]).squaredNorm())
+        return {{{{c[0], c[1], c[2]}, {c[0], c[2], c[3]}}}, 2};
+    QuadFacets facets;
+    for (std::size_t k = 0; k < 4; ++k) facets.corners[k] = {c[k], c[(k + 1) % 4], (one + other) / 2};
+    facets.count = 4;
+    return facets;
+}
+
+/// One face and the quads on it.
+class Comparison {
+public:
+    Comparison(const mesh::HexMesh& mesh, const Skin& skin, const SkinOfFace& quads, surface::FaceShape shape,
+               double sign, const DeviationLimit& limit, const RunContext& context)
+        : mesh_(mesh),
+          skin_(skin),
+          quads_(quads.quads),
+          side_(quads.side),
+          shape_(std::move(shape)),
+          face_tree_(shape_.points, shape_.triangles),
+          sign_(sign),
+          limit_(limit),
+          context_(context)
+    {
+        result_.face = quads.face;
+        result_.quads = quads_.size();
+    }
+
+    FaceFidelity run()
+    {
+        if (find_plane()) {
+            compare_flat();
+        } else {
+            for (const Index p : geometry::find_tips(shape_.points, shape_.triangles))
+                tips_.push_back(shape_.points[index(p)]);
+            compare_curved();
+        }
+        if (result_.misfit == Misfit::cut) tell_straight_from_cut();
+        return result_;
+    }
+
+private:
+    [[nodiscard]] const Vec3& node(Index n) const { return skin_.points[index(n)]; }
+    [[nodiscard]] std::array<Vec3, 4> corners(std::size_t quad) const
+    {
+        const Quad& q = quads_[quad];
+        return {node(q[0]), node(q[1]), node(q[2]), node(q[3])};
+    }
+
+    // --- a flat face ----------------------------------------------------------------------------------
+
+    /// Whether the exact face lies in a plane.
+    bool find_plane()
+    {
+        if (shape_.triangles.empty()) return false;
+        Vec3 area = Vec3::Zero(), low = shape_.points.front(), high = low;
+        for (const Triangle& t : shape_.triangles) {
+            const Vec3& a = shape_.points[index(t[0])];
+            area += (shape_.points[index(t[1])] - a).cross(shape_.points[index(t[2])] - a);
+        }
+        for (const Vec3& p : shape_.points) {
+            low = low.cwiseMin(p);
+            high = high.cwiseMax(p);
+        }
+        origin_ = (low + high) / 2;
+        normal_ = area.stableNormalized();
+        const double slack = kInPlane * ((high - low).norm() + origin_.cwiseAbs().maxCoeff());
+        const auto off = [&](const Vec3& p) { return std::abs(normal_.dot(p - origin_)) > slack; };
+        origin_ = shape_.points[index(shape_.triangles.front()[0])];
+        if (std::any_of(shape_.points.begin(), shape_.points.end(), off)) return false;
+        for (const std::array<Vec3, 3>& bulges : shape_.bulge) {
+            for (const Vec3& bulge : bulges) {
+                if (std::abs(normal_.dot(bulge)) > slack) return false;
+            }
+        }
+        return true;
+    }
+
+    /// On a plane no quad that is in it and faces its way is off inside, so that only borders are compared.
+    void compare_flat()
+    {
+        take(in_blocks(quads_.size(), [&](std::size_t q, Tally& tally) {
+            const Sample sample = quad_in_plane(q);
+            tally.add(sample, allowed(sample));
+        }));
+        const std::vector<std::int64_t> turns = border_turns(quads_, skin_.points.size());
+        const auto on_border = [&](Index n) { return turns[index(n)] != 0; };
+        const FacetWalk walk(shape_.points, shape_.triangles);
+        std::vector<std::size_t> border; // quads with a node there
+        Tally tally;
+        Index facet = -1;
+        const auto add = [&](const Vec3& point, double side, std::size_t quad) {
+            Sample sample{point, 0, side, quad, 0, false};
+            facet = compare_with_face(walk, facet, Vec3::Zero(), sample);
+            tally.add(sample, allowed(sample));
+        };
+        for (std::size_t q = 0; q < quads_.size(); ++q) {
+            const Quad& quad = quads_[q];
+            if (std::none_of(quad.begin(), quad.end(), on_border)) continue;
+            border.push_back(q);
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Index next = quad[(k + 1) % 4];
+                if (!mesh::is_side(quad, k) || !on_border(quad[k])) continue;
+                add(node(quad[k]), side_[q], q);
+                if (!on_border(next)) continue;
+                add((node(quad[k]) + node(next)) / 2, (node(next) - node(quad[k])).norm(), q);
+            }
+        }
+        take(tally);
+        compare_border(walk, border);
+    }
+
+    [[nodiscard]] Sample quad_in_plane(std::size_t q) const
+    {
+        const std::array<Vec3, 4> c = corners(q);
+        const Vec3 across = (c[2] - c[0]).cross(c[3] - c[1]) / 2;
+        Sample sample{c[0], across.norm(), side_[q], q, 0, false};
+        sample.turned = limit_.folds && sign_ * across.dot(normal_) < 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const double off = std::abs(normal_.dot(c[k] - origin_));
+            if (off <= sample.distance) continue;
+            sample.distance = off;
+            sample.point = c[k];
+        }
+        return sample;
+    }
+
+    /// Points on the border of the face, and middles of sides there, on the exact face, against those quads.
+    void compare_border(const FacetWalk& walk, const std::vector<std::size_t>& border)
+    {
+        const QuadTree tree = tree_of(border);
+        take(in_blocks(shape_.triangles.size(), [&](std::size_t i, Tally& tally) {
+            const Triangle& t = shape_.triangles[i];
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (walk.across(static_cast<Index>(i))[k] >= 0) continue;
+                const std::size_t next = (k + 1) % 3;
+                Vec3 w = Vec3::Zero();
+                w[static_cast<Eigen::Index>(k)] = w[static_cast<Eigen::Index>(next)] = 0.5;
+                const Vec3 &from = shape_.points[index(t[k])], &to = shape_.points[index(t[next])];
+                for (const Vec3& point : {from, Vec3((from + to) / 2 + shape_.bulge_at(i, w))}) {
+                    const Sample sample = compare_by_tree(tree, point, 0);
+                    tally.add(sample, allowed(sample));
+                }
+            }
+        }));
+    }
+
+    // --- a curved face --------------------------------------------------------------------------------
+
+    /// Nodes and centres of the quads and middles of their sides against the face, then the other way round.
+    void compare_curved()
+    {
+        const FacetWalk walk(shape_.points, shape_.triangles);
+        std::vector<Index> facet_of_centre(quads_.size(), -1);
+        take(compare_nodes(walk));
+        take(in_blocks(quads_.size(), [&](std::size_t q, Tally& tally) {
+            facet_of_centre[q] = compare_quad(walk, q, tally);
+        }));
+        compare_facets(walk, facet_of_centre);
+    }
+
+    /// Each node once, with its first quad.
+    Tally compare_nodes(const FacetWalk& walk)
+    {
+        facet_of_node_.assign(skin_.points.size(), -1);
+        std::vector<std::pair<Index, Index>> first; // node, quad
+        std::vector<bool> seen(skin_.points.size(), false);
+        for (std::size_t q = 0; q < quads_.size(); ++q) {
+            for (const Index n : quads_[q]) {
+                if (seen[index(n)]) continue;
+                seen[index(n)] = true;
+                first.emplace_back(n, static_cast<Index>(q));
+            }
+        }
+        return in_blocks(first.size(), [&](std::size_t i, Tally& tally) {
+            const auto [n, q] = first[i];
+            const Index hint = i % kBlock == 0 ? -1 : facet_of_node_[index(first[i - 1].first)];
+            Sample sample{node(n), 0, side_[index(q)], index(q), 0, false};
+            facet_of_node_[index(n)] = compare_with_face(walk, hint, Vec3::Zero(), sample);
+            tally.add(sample, allowed(sample));
+        });
+    }
+
+    /// The middles of a quad's sides, those of the patch's rim in one of the two patches there, and its
+    /// centre. @return the facet nearest to that.
+    Index compare_quad(const FacetWalk& walk, std::size_t q, Tally& tally) const
+    {
+        const Quad& quad = quads_[q];
+        const std::array<Vec3, 4> c = corners(q);
+        const Vec3 across = (c[2] - c[0]).cross(c[3] - c[1]) / 2;
+        const double area = across.norm();
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (quad[k] >= quad[(k + 1) % 4]) continue;
+            const Vec3 &a = c[k], &b = c[(k + 1) % 4];
+            Sample sample{(a + b) / 2, area / 4, (b - a).norm(), q, 0, false};
+            compare_with_face(walk, facet_of_node_[index(quad[k])], Vec3::Zero(), sample);
+            tally.add(sample, allowed(sample));
+        }
+        const Vec3 centre = mesh::is_triangle(quad) ? Vec3((c[0] + c[1] + c[2]) / 3)
+                                                    : Vec3((c[0] + c[1] + c[2] + c[3]) / 4);
+        Sample sample{centre, area / 2, side_[q], q, 0, false};
+        const Index facet = compare_with_face(walk, facet_of_node_[index(quad[0])], across, sample);
+        tally.add(sample, allowed(sample));
+        return facet;
+    }
+
+    /// @param hint    a facet near by, or -1.
+    /// @param across  area vector of the quad, where it is to face the same way.
+    /// @return the nearest facet.
+    Index compare_with_face(const FacetWalk& walk, Index hint, const Vec3& across, Sample& sample) const
+    {
+        std::size_t facet = 0;
+        const auto foot = walk.over(sample.point, hint);
+        if (foot && foot->nearest && std::abs(foot->height) < kFar * sample.side) {
+            facet = index(foot->facet);
+            const Vec3 bulge = shape_.bulge_at(facet, foot->barycentric);
+            sample.distance = std::abs(foot->height - walk.normal(foot->facet).dot(bulge));
+        } else {
+            const double reach = foot ? std::abs(foot->height) : std::numeric_limits<double>::infinity();
+            sample.distance = distance_to_face(sample.point, facet, reach);
+        }
+        // Far off, as the middle of a long quad on a bend is, the nearest facet may be one across the face.
+        constexpr double kNear = 0.1; // of the quad's width; a choice, not a measurement
+        const auto found = static_cast<Index>(facet);
+        sample.turned = limit_.folds && sample.distance * sample.side < kNear * across.norm() &&
+                        sign_ * across.dot(walk.normal(found)) < 0;
+        return found;
+    }
+
+    /// How far a place is from the face; `facet` gets the one it is nearest to.
+    /// @param reach  that a facet is known to be within.
+    [[nodiscard]] double distance_to_face(const Vec3& point, std::size_t& facet,
+                                          double reach = std::numeric_limits<double>::infinity()) const
+    {
+        auto hit = face_tree_.closest(point, reach * reach);
+        if (hit.triangle < 0)
+            hit = face_tree_.closest(point); // that height was found another way, and rounded
+        facet = index(hit.triangle);
+        Vec3 bulge = shape_.bulge_at(facet, hit.barycentric);
+        // Beside the face its exact edge counts; over it only how high it bulges.
+        if (hit.barycentric.minCoeff() > 0) {
+            const Vec3 normal = shape_.normal(facet);
+            bulge = bulge.dot(normal) * normal;
+        }
+        return (point - hit.point - bulge).norm();
+    }
+
+    // --- the other way round --------------------------------------------------------------------------
+
+    /// A place of the face that the quads near by did not settle.
+    struct Left {
+        Vec3 point;
+        double area = 0;
+    };
+
+    /// Corners of the facets, and middles of sides and centres on the exact face, against the quads.
+    void compare_facets(const FacetWalk& walk, const std::vector<Index>& facet_of_centre)
+    {
+        const mesh::Incidence over = mesh::incidence(walk.size(), [&](const auto& visit) {
+            for (std::size_t q = 0; q < facet_of_centre.size(); ++q)
+                visit(index(facet_of_centre[q]), static_cast<Index>(q));
+        });
+        const std::vector<Index> nearest = nearest_with_quads(walk, over);
+        const mesh::Incidence round = mesh::quads_at_nodes(quads_, skin_.points.size());
+        std::vector<Index> facet_at(shape_.points.size(), -1);
+        for (std::size_t i = 0; i < shape_.triangles.size(); ++i) {
+            for (const Index p : shape_.triangles[i]) {
+                if (facet_at[index(p)] < 0) facet_at[index(p)] = static_cast<Index>(i);
+            }
+        }
+        std::vector<std::vector<Left>> left((walk.size() + kBlock - 1) / kBlock);
+        take(in_blocks(walk.size(), [&](std::size_t i, Tally& tally) {
+            const Triangle& t = shape_.triangles[i];
+            const std::array<Vec3, 3> c{shape_.points[index(t[0])], shape_.points[index(t[1])],
+                                        shape_.points[index(t[2])]};
+            const std::span<const Index> near = over.of(index(nearest[i]));
+            const auto compare = [&](const Vec3& point, double area) {
+                const auto sample = compare_near(round, point, area, nearest_of(near, point));
+                if (sample)
+                    tally.add(*sample, allowed(*sample));
+                else
+                    left[i / kBlock].push_back({point, area});
+            };
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (facet_at[index(t[k])] == static_cast<Index>(i)) compare(c[k], 0);
+            }
+            const double area = (c[1] - c[0]).cross(c[2] - c[0]).norm() / 2;
+            for (const Vec3& w :
+                 {Vec3(1. / 3, 1. / 3, 1. / 3), Vec3(.5, .5, 0), Vec3(0, .5, .5), Vec3(.5, 0, .5)}) {
+                const Vec3 flat = w[0] * c[0] + w[1] * c[1] + w[2] * c[2];
+                compare(flat + shape_.bulge_at(i, w), area / 4);
+            }
+        }));
+        compare_left(left);
+    }
+
+    /// Those that were left, by a tree of all quads.
+    void compare_left(const std::vector<std::vector<Left>>& left)
+    {
+        std::vector<Left> rest;
+        for (const std::vector<Left>& some : left) rest.insert(rest.end(), some.begin(), some.end());
+        if (rest.empty()) return;
+        std::vector<std::size_t> all(quads_.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        const QuadTree tree = tree_of(all);
+        take(in_blocks(rest.size(), [&](std::size_t i, Tally& tally) {
+            const Sample sample = compare_by_tree(tree, rest[i].point, rest[i].area);
+            tally.add(sample, allowed(sample));
+        }));
+    }
+
+    /// For each facet, one near by that quads are over.
+    [[nodiscard]] static std::vector<Index> nearest_with_quads(const FacetWalk& walk,
+                                                               const mesh::Incidence& over)
+    {
+        std::vector<Index> near(walk.size(), -1), front;
+        for (std::size_t i = 0; i < walk.size(); ++i) {
+            if (over.of(i).empty()) continue;
+            near[i] = static_cast<Index>(i);
+            front.push_back(near[i]);
+        }
+        for (std::size_t i = 0; i < front.size(); ++i) {
+            for (const Index next : walk.across(front[i])) {
+                if (next < 0 || near[index(next)] >= 0) continue;
+                near[index(next)] = near[index(front[i])];
+                front.push_back(next);
+            }
+        }
+        for (Index& facet : near) facet = facet < 0 ? front.front() : facet; // of another piece of the face
+        return near;
+    }
+
+    /// Of a few of some quads, the one nearest to a place.
+    [[nodiscard]] std::size_t nearest_of(std::span<const Index> quads, const Vec3& point) const
+    {
+        constexpr std::size_t kMost = 16; // looked at; a choice, not a measurement
+        const std::size_t step = (quads.size() + kMost - 1) / kMost;
+        double best = std::numeric_limits<double>::infinity();
+        Index nearest = quads.front();
+        for (std::size_t i = 0; i < quads.size(); i += step) {
+            const double found = (node(quads_[index(quads[i])][0]) - point).squaredNorm();
+            if (found >= best) continue;
+            best = found;
+            nearest = quads[i];
+        }
+        return index(nearest);
+    }
+
+    /// The distance to the quads near a place, by walking from quad to quad: nothing where
+    /// that is far. No nearer than the nearest.
+    /// @param quad  to start with.
+    [[nodiscard]] std::optional<Sample> compare_near(const mesh::Incidence& round, const Vec3& point,
+                                                     double area, std::size_t quad) const
+    {
+        quad = walk_across(round, point, quad);
+        bool over = false;
+        double best = distance2_to_quad(point, quad, over);
+        for (bool moved = !over && best > 0; moved;) {
+            moved = false;
+            for (const Index n : Quad(quads_[quad])) {
+                for (const Index other : round.of(index(n))) {
+                    if (index(other) == quad || distance2_to_box(point, index(other)) >= best) continue;
+                    const double found = distance2_to_quad(point, index(other), over);
+                    if (found >= best) continue;
+                    best = found;
+                    quad = index(other);
+                    moved = true;
+                }
+            }
+        }
+        const Sample sample{point, area, side_[quad], quad, std::sqrt(best), false};
+        if (sample.distance > kFar * sample.side) return std::nullopt;
+        return sample;
+    }
+
+    /// Go to the quad that a place is over, across the side it is furthest beyond, as far as there is one.
+    [[nodiscard]] std::size_t walk_across(const mesh::Incidence& round, const Vec3& point,
+                                          std::size_t quad) const
+    {
+        constexpr int kMostSteps = 64; // a choice, not a measurement
+        for (int step = 0; step < kMostSteps; ++step) {
+            const Quad& q = quads_[quad];
+            const std::array<Vec3, 4> c = corners(quad);
+            const Vec3 across = (c[2] - c[0]).cross(c[3] - c[1]);
+            double furthest = 0;
+            std::size_t beyond = 4;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const double inside = (c[(k + 1) % 4] - c[k]).cross(point - c[k]).dot(across);
+                if (inside >= furthest) continue;
+                furthest = inside;
+                beyond = k;
+            }
+            if (beyond == 4) break;
+            const Index from = q[beyond], to = q[(beyond + 1) % 4];
+            std::size_t next = quad;
+            for (const Index other : round.of(index(from))) {
+                const Quad& o = quads_[index(other)];
+                if (index(other) != quad && std::find(o.begin(), o.end(), to) != o.end()) next = index(other);
+            }
+            if (next == quad) break;
+            quad = next;
+        }
+        return quad;
+    }
+
+    [[nodiscard]] double distance2_to_box(const Vec3& point, std::size_t quad) const
+    {
+        const std::array<Vec3, 4> c = corners(quad);
+        const Vec3 low = c[0].cwiseMin(c[1]).cwiseMin(c[2]).cwiseMin(c[3]);
+        const Vec3 high = c[0].cwiseMax(c[1]).cwiseMax(c[2]).cwiseMax(c[3]);
+        return (low - point).cwiseMax(point - high).cwiseMax(0.0).squaredNorm();
+    }
+
+    /// @param over  whether the foot is no further from the place than from the quad's sides, so that no
+    ///              other quad is nearer unless the skin turns back within that distance.
+    [[nodiscard]] double distance2_to_quad(const Vec3& point, std::size_t quad, bool& over) const
+    {
+        const std::array<Vec3, 4> c = corners(quad);
+        const QuadFacets facets = facets_of(c);
+        geometry::FacetTree::Hit best;
+        for (std::size_t i = 0; i < facets.count; ++i) {
+            const auto hit = geometry::closest_on_triangle(point, facets.corners[i]);
+            if (hit.distance2 < best.distance2) best = hit;
+        }
+        over = true;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Vec3 side = c[(k + 1) % 4] - c[k];
+            over = over && best.distance2 * side.squaredNorm() < side.cross(best.point - c[k]).squaredNorm();
+        }
+        return best.distance2;
+    }
+
+    // --- quads in a tree ------------------------------------------------------------------------------
+
+    struct QuadTree {
+        geometry::FacetTree tree;
+        std::vector<std::size_t> quad; ///< of each triangle
+    };
+
+    [[nodiscard]] QuadTree tree_of(const std::vector<std::size_t>& quads) const
+    {
+        std::vector<Vec3> points;
+        std::vector<Triangle> triangles;
+        QuadTree result;
+        for (const std::size_t q : quads) {
+            const QuadFacets facets = facets_of(corners(q));
+            for (std::size_t i = 0; i < facets.count; ++i) {
+                const auto first = static_cast<Index>(points.size());
+                triangles.push_back({first, first + 1, first + 2});
+                points.insert(points.end(), facets.corners[i].begin(), facets.corners[i].end());
+                result.quad.push_back(q);
+            }
+        }
+        result.tree = geometry::FacetTree(points, triangles);
+        return result;
+    }
+
+    [[nodiscard]] Sample compare_by_tree(const QuadTree& tree, const Vec3& point, double area) const
+    {
+        const auto hit = tree.tree.closest(point);
+        const std::size_t quad = tree.quad[index(hit.triangle)];
+        return {point, area, side_[quad], quad, std::sqrt(hit.distance2), false};
+    }
+
+    // --- what is kept ---------------------------------------------------------------------------------
+
+    /// Let `body(i, tally)` see all numbers below `count`, in blocks. The sums are those of the blocks, in
+    /// their order, whatever the number of threads.
+    template <class Body>
+    Tally in_blocks(std::size_t count, const Body& body) const
+    {
+        std::vector<Tally> tallies((count + kBlock - 1) / kBlock);
+        parallel_for(context_, count, kBlock, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) body(i, tallies[i / kBlock]);
+        });
+        Tally all;
+        for (const Tally& tally : tallies) all.add(tally);
+        return all;
+    }
+
+    /// What is allowed at a sample, more round a tip.
+    [[nodiscard]] double allowed(const Sample& sample) const
+    {
+        constexpr double kReach = 2; // sides from the tip; a choice, not a measurement
+        const bool at_tip = limit_.length == 0 &&
+                            std::any_of(tips_.begin(), tips_.end(), [&](const Vec3& tip) {
+                                return (sample.point - tip).norm() < kReach * sample.side;
+                            });
+        const double share = at_tip ? limit_.at_tip : limit_.share;
+        return (limit_.length > 0 ? limit_.length : share * sample.side) + shape_.slack;
+    }
+
+    void take(const Tally& tally)
+    {
+        if (tally.max_distance > result_.max_distance) {
+            result_.max_distance = tally.max_distance;
+            result_.place = tally.place;
+        }
+        if (tally.area > 0) result_.mean_distance = std::max(result_.mean_distance, tally.sum / tally.area);
+        if (tally.allowed == 0 || result_.misfit == Misfit::folded) return;
+        const Sample& worst = tally.worst;
+        const bool worse = worst.distance * result_.allowed > result_.found * tally.allowed;
+        if (!tally.turned && !worse && result_.allowed > 0) return;
+        result_.found = worst.distance;
+        result_.allowed = tally.allowed;
+        result_.found_at = worst.point;
+        result_.side = worst.side;
+        worst_ = worst.quad;
+        if (tally.turned)
+            result_.misfit = Misfit::folded;
+        else if (worst.distance > tally.allowed)
+            result_.misfit = Misfit::cut;
+    }
+
+    /// Where a quad's nodes are on the face, the face bends away between them.
+    void tell_straight_from_cut()
+    {
+        constexpr double kOnFace = 0.25; // of the distance found; a choice, not a measurement
+        const Quad& quad = quads_[worst_];
+        const Index row = mesh_.nodes_per_layer;
+        std::size_t facet = 0;
+        double most = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Vec3 &a = node(quad[k]), &b = node(quad[(k + 1) % 4]);
+            if (distance_to_face(a, facet) > kOnFace * result_.found) return;
+            const double sag = distance_to_face((a + b) / 2, facet);
+            if (sag <= most) continue;
+            most = sag;
+            const Index from = skin_.node[index(quad[k])], to = skin_.node[index(quad[(k + 1) % 4])];
+            result_.side = (b - a).norm();
+            result_.source_side = (mesh_.nodes[index(to % row)] - mesh_.nodes[index(from % row)]).norm();
+            result_.along_layers = from / row != to / row;
+        }
+        if (2 * most >= result_.found) result_.misfit = Misfit::straight;
+    }
+
+    const mesh::HexMesh& mesh_;
+    const Skin& skin_;
+    const std::vector<Quad>& quads_;
+    const std::vector<double>& side_;
+    surface::FaceShape shape_;
+    geometry::FacetTree face_tree_;
+    double sign_;
+    DeviationLimit limit_;
+    const RunContext& context_;
+
+    std::vector<Vec3> tips_;
+    Vec3 origin_ = Vec3::Zero(), normal_ = Vec3::Zero(); ///< of the plane of a flat face
+    std::vector<Index> facet_of_node_;                   ///< nearest to each node of the patch
+    FaceFidelity result_;
+    std::size_t worst_ = 0;
+};
+
+} // namespace
+
+Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::size_t face_count)
+{
+    Skin skin;
+    skin.faces.resize(face_count);
+    for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
+    // All nodes of the first layer and the last are numbered through, and those of the rim between, in the
+    // mesh's order.
+    const Index row = mesh.nodes_per_layer, top = mesh.layers * row;
+    std::vector<Index> place(index(row), -1), rim;
+    for (const Segment& side : mesh.rim) {
+        for (const Index n : side) place[index(n)] = 0;
+    }
+    for (Index n = 0; n < row; ++n) {
+        if (place[index(n)] < 0) continue;
+        place[index(n)] = static_cast<Index>(rim.size());
+        rim.push_back(n);
+    }
+    const auto width = static_cast<Index>(rim.size());
+    const Index last = row + std::max(mesh.layers - 1, 0) * width;
+    const auto number = [&](Index n) {
+        if (n < row) return n;
+        if (n >= top) return last + n - top;
+        return row + (n / row - 1) * width + place[index(n % row)];
+    };
+    skin.node.reserve(index(last + row));
+    for (Index n = 0; n < row; ++n) skin.node.push_back(n);
+    for (Index layer = 1; layer < mesh.layers; ++layer) {
+        for (const Index n : rim) skin.node.push_back(layer * row + n);
+    }
+    for (Index n = 0; n < row; ++n) skin.node.push_back(top + n);
+    skin.points.reserve(skin.node.size());
+    for (const Index n : skin.node) skin.points.push_back(mesh.nodes[index(n)]);
+
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        mesh::SkinQuad quad = mesh::skin_quad(mesh, i);
+        for (Index& n : quad.nodes) n = number(n);
+        double longest2 = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Vec3 side = skin.points[index(quad.nodes[(k + 1) % 4])] - skin.points[index(quad.nodes[k])];
+            longest2 = std::max(longest2, side.squaredNorm());
+        }
+        SkinOfFace& face = skin.faces[faces[index(quad.patch)].index()];
+        face.quads.push_back(quad.nodes);
+        face.side.push_back(std::sqrt(longest2));
+    }
+    for (SkinOfFace& face : skin.faces) {
+        for (const double side : face.side) face.mean_side += side / static_cast<double>(face.side.size());
+    }
+    return skin;
+}
+
+FaceFidelity compare_face(const mesh::HexMesh& mesh, const Skin& skin, const SkinOfFace& quads,
+                          surface::FaceShape shape, double sign, const DeviationLimit& limit,
+                          const RunContext& context)
+{
+    return Comparison(mesh, skin, quads, std::move(shape), sign, limit, context).run();
+}
+
+} // namespace lacuna::sweep

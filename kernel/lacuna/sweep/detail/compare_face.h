@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/surface/face_shape.h>
+#include <lacuna/sweep/fidelity.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// The quads of the skin on one face.
+struct SkinOfFace {
+    FaceId face;
+    std::vector<Quad> quads;  ///< of nodes of the skin
+    std::vector<double> side; ///< the longest of each quad [model length]
+    double mean_side = 0;     ///< of those [model length]
+};
+
+/// The nodes of a mesh's skin alone, which are few beside all of its nodes: numbered through in the mesh's
+/// order, with the quads of every face.
+struct Skin {
+    std::vector<Vec3> points;      ///< [model length]
+    std::vector<Index> node;       ///< of the mesh, for each
+    std::vector<SkinOfFace> faces; ///< by their numbers in the model
+};
+
+/// @param faces  of each patch of the mesh. @param face_count  of the model. O(skin).
+Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::size_t face_count);
+
+/// How far a face and its quads may be apart.
+struct DeviationLimit {
+    double length = 0; ///< for all; 0: a share of the side
+    double share = 0;  ///< of the side of a quad
+    double at_tip = 0; ///< the same within two sides of a tip: four quads round it are as many as can be
+    /// Whether quads that face the other way are folds: on sharply twisted void walls, where neither skin is
+    /// given, the facet nearest to a quad may face any way.
+    bool folds = true;
+};
+
+/// Compare a face with its quads.
+/// @param sign  -1 where the faces of the model look inward, else 1.
+/// @throw Cancelled
+/// @note  The same for any thread count. Near linear in quads and facets where they run along each other.
+FaceFidelity compare_face(const mesh::HexMesh& mesh, const Skin& skin, const SkinOfFace& quads,
+                          surface::FaceShape shape, double sign, const DeviationLimit& limit,
+                          const RunContext& context);
+
+} // namespace lacuna::sweep

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/topology/auto_walls.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/union_find.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace lacuna::topology {
+
+namespace {
+
+/// Steps of the search for choices; a hundred groups of faces that meet in threes take about as many.
+constexpr std::size_t kMostSteps = 100000;
+/// Free edges whose lengths differ by less than this share of the diagonal are as long as each other.
+constexpr double kSameLength = 1e-6;
+/// And voids whose volumes differ by less than this share of the larger are as large. A choice, not a
+/// measurement.
+constexpr double kSameVolume = 0.01;
+
+/// Every face that can be reached from the rim of some over shared edges, without crossing others.
+std::vector<FaceId> reachable_from(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
+                                   const std::vector<FaceId>& from, const std::vector<FaceId>& without)
+{
+    std::vector<bool> taken(model.faces.size(), false);
+    for (const FaceId face : from) taken[face.index()] = true;
+    for (const FaceId face : without) taken[face.index()] = true;
+    std::vector<FaceId> front = from, result;
+    for (std::size_t i = 0; i < front.size(); ++i) {
+        for (const Loop& loop : model[front[i]].loops) {
+            for (const EdgeUse& use : loop.uses) {
+                for (const FaceUse& other : uses[use.edge.index()]) {
+                    if (taken[other.face.index()]) continue;
+                    taken[other.face.index()] = true;
+                    front.push_back(other.face);
+                    result.push_back(other.face);
+                }
+            }
+        }
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+/// A choice of sheets, and what speaks for it.
+struct Choice {
+    std::vector<bool> sheets;
+    double free_length = 0; ///< [model length]
+    double volume = 0;      ///< enclosed, free loops closed by cones to their middle [model length³]
+};
+
+/// Searches the choices. A sheet is faces that hang together by edges that no others use.
+class Sheets {
+public:
+    Sheets(const Model& model, const std::vector<std::vector<FaceUse>>& uses, std::vector<FaceId> ends,
+           const std::vector<FaceId>& reached, const RunContext& context)
+        : model_(model), context_(context), ends_(std::move(ends)), count_(model.edges.size(), 0)
+    {
+        std::vector<bool> in(model.faces.size(), false), is_wall(model.faces.size(), false);
+        for (const FaceId face : ends_) in[face.index()] = true;
+        for (const FaceId face : reached) in[face.index()] = is_wall[face.index()] = true;
+        geometry::UnionFind hang(model.faces.size());
+        for (const std::vector<FaceUse>& all : uses) {
+            std::vector<FaceId> here;
+            for (const FaceUse& use : all) {
+                if (in[use.face.index()]) here.push_back(use.face);
+            }
+            crowded_ = crowded_ || here.size() > 2;
+            if (here.size() == 2 && is_wall[here[0].index()] && is_wall[here[1].index()])
+                hang.unite_least(here[0].index(), here[1].index());
+        }
+        std::map<std::size_t, std::vector<FaceId>> by_root;
+        for (const FaceId face : reached) by_root[hang.find(face.index())].push_back(face);
+        for (auto& [root, faces] : by_root) sheets_.push_back(std::move(faces));
+        for (const FaceId face : ends_) add(face, 1);
+    }
+
+    /// Whether an edge is used more than twice.
+    [[nodiscard]] bool crowded() const { return crowded_; }
+    [[nodiscard]] const std::vector<std::vector<FaceId>>& sheets() const { return sheets_; }
+
+    /// All choices to which no sheet can be added; nothing where there are too many to try, or where a sheet
+    /// meets itself or the ends more than twice, so that it cannot be taken as a whole.
+    std::optional<std::vector<Choice>> choices()
+    {
+        for (std::size_t s = 0; s < sheets_.size(); ++s) {
+            add_sheet(s, 1);
+            const bool alone = fits(s);
+            add_sheet(s, -1);
+            if (!alone) return std::nullopt;
+        }
+        chosen_.assign(sheets_.size(), false);
+        if (!search(0)) return std::nullopt;
+        return std::move(found_);
+    }
+
+    /// An edge of the sheet that two faces of a choice use already. @pre it cannot be added
+    EdgeId taken_edge(const Choice& choice, std::size_t sheet)
+    {
+        for (std::size_t s = 0; s < sheets_.size(); ++s) {
+            if (choice.sheets[s]) add_sheet(s, 1);
+        }
+        EdgeId taken;
+        for_edges(sheet, [&](EdgeId edge) {
+            if (!taken.valid() && count_[edge.index()] >= 2) taken = edge;
+        });
+        for (std::size_t s = 0; s < sheets_.size(); ++s) {
+            if (choice.sheets[s]) add_sheet(s, -1);
+        }
+        return taken;
+    }
+
+private:
+    template <class Visit>
+    void for_edges(std::size_t sheet, const Visit& visit) const
+    {
+        for (const FaceId face : sheets_[sheet]) {
+            for (const Loop& loop : model_[face].loops)
+                for (const EdgeUse& use : loop.uses) visit(use.edge);
+        }
+    }
+
+    void add(FaceId face, int sign)
+    {
+        for (const Loop& loop : model_[face].loops)
+            for (const EdgeUse& use : loop.uses) count_[use.edge.index()] += sign;
+    }
+
+    void add_sheet(std::size_t sheet, int sign)
+    {
+        for (const FaceId face : sheets_[sheet]) add(face, sign);
+    }
+
+    /// Whether no edge of a sheet that was added is used more than twice.
+    [[nodiscard]] bool fits(std::size_t sheet) const
+    {
+        bool fits = true;
+        for_edges(sheet, [&](EdgeId edge) { fits = fits && count_[edge.index()] <= 2; });
+        return fits;
+    }
+
+    /// @return false when there are too many steps.
+    bool search(std::size_t sheet)
+    {
+        check_cancelled(context_);
+        if (++steps_ > kMostSteps) return false;
+        if (sheet == sheets_.size()) {
+            keep();
+            return true;
+        }
+        add_sheet(sheet, 1);
+        chosen_[sheet] = true;
+        const bool counted = !fits(sheet) || search(sheet + 1);
+        add_sheet(sheet, -1);
+        chosen_[sheet] = false;
+        return counted && search(sheet + 1);
+    }
+
+    void keep()
+    {
+        for (std::size_t s = 0; s < sheets_.size(); ++s) {
+            if (chosen_[s]) continue;
+            add_sheet(s, 1);
+            const bool more = fits(s);
+            add_sheet(s, -1);
+            if (more) return;
+        }
+        std::vector<FaceId> faces = ends_;
+        for (std::size_t s = 0; s < sheets_.size(); ++s) {
+            if (chosen_[s]) faces.insert(faces.end(), sheets_[s].begin(), sheets_[s].end());
+        }
+        Choice choice{chosen_, 0, 0};
+        Vec3 middle = Vec3::Zero();
+        for (std::size_t e = 0; e < count_.size(); ++e) {
+            if (count_[e] != 1) continue;
+            const double length = edge_length(model_, EdgeId(e));
+            const std::vector<Index>& points = model_.edges[e].points;
+            choice.free_length += length;
+            middle += length * (model_.at(points.front()) + model_.at(points[points.size() / 2])) / 2;
+        }
+        if (choice.free_length > 0) middle /= choice.free_length;
+        try {
+            Model part = extract(model_, faces);
+            orient_consistently(part);
+            std::vector<FaceId> all;
+            Vec3 area = Vec3::Zero();
+            for (std::size_t f = 0; f < part.faces.size(); ++f) {
+                all.emplace_back(f);
+                area += face_area_vector(part, FaceId(f));
+            }
+            choice.volume = std::abs(volume_integral(part, all) - middle.dot(area) / 3);
+        } catch (const InvalidInput&) {
+            return; // no skin has these faces
+        }
+        found_.push_back(std::move(choice));
+    }
+
+    const Model& model_;
+    const RunContext& context_;
+    std::vector<FaceId> ends_;
+    std::vector<std::vector<FaceId>> sheets_;
+    std::vector<int> count_; ///< uses of each edge by the ends and the sheets chosen
+    std::vector<bool> chosen_;
+    std::vector<Choice> found_;
+    std::size_t steps_ = 0;
+    bool crowded_ = false;
+};
+
+WallChoice walls_of(const Choice& choice, Sheets& sheets)
+{
+    WallChoice result;
+    std::map<FaceId, EdgeId> left;
+    for (std::size_t s = 0; s < sheets.sheets().size(); ++s) {
+        const std::vector<FaceId>& faces = sheets.sheets()[s];
+        if (choice.sheets[s]) {
+            result.walls.insert(result.walls.end(), faces.begin(), faces.end());
+            continue;
+        }
+        const EdgeId edge = sheets.taken_edge(choice, s);
+        for (const FaceId face : faces) left.emplace(face, edge);
+    }
+    std::sort(result.walls.begin(), result.walls.end());
+    for (const auto& [face, edge] : left) {
+        result.left_out.push_back(face);
+        result.taken.push_back(edge);
+    }
+    return result;
+}
+
+std::string tags_of(const Model& model, const std::vector<FaceId>& faces)
+{
+    std::string text;
+    for (const FaceId face : faces) text += (text.empty() ? "" : ", ") + std::to_string(model[face].tag);
+    return text;
+}
+
+} // namespace
+
+WallChoice find_walls(const Model& model, const std::vector<FaceId>& source,
+                      const std::vector<FaceId>& target, const RunContext& context)
+{
+    const auto uses = edge_uses(model);
+    std::vector<FaceId> ends = source;
+    ends.insert(ends.end(), target.begin(), target.end());
+    const std::vector<FaceId> reached = source.empty() ? reachable_from(model, uses, target, source)
+                                                       : reachable_from(model, uses, source, target);
+    Sheets sheets(model, uses, ends, reached, context);
+    if (!sheets.crowded()) return {reached, {}, {}};
+    std::optional<std::vector<Choice>> choices = sheets.choices();
+    if (!choices) return {reached, {}, {}};
+    if (source.empty() || target.empty())
+        std::erase_if(*choices, [](const Choice& choice) { return choice.free_length == 0; });
+    if (choices->empty()) return {reached, {}, {}};
+    const double same = kSameLength * model.diagonal;
+    const auto least =
+        std::min_element(choices->begin(), choices->end(), [](const Choice& a, const Choice& b) {
+            return a.free_length < b.free_length;
+        })->free_length;
+    std::erase_if(*choices, [&](const Choice& choice) { return choice.free_length > least + same; });
+    std::stable_sort(choices->begin(), choices->end(),
+                     [](const Choice& a, const Choice& b) { return a.volume < b.volume; });
+    WallChoice result = walls_of(choices->front(), sheets);
+    if (choices->size() > 1 && (*choices)[1].volume * (1 - kSameVolume) <= choices->front().volume) {
+        throw InvalidInput(
+            "topology.walls_ambiguous",
+            "walls = \"auto\" can be read in two ways as good as each other; name the walls: {" +
+                tags_of(model, result.walls) + "} or {" +
+                tags_of(model, walls_of((*choices)[1], sheets).walls) + "}");
+    }
+    return result;
+}
+
+} // namespace lacuna::topology
