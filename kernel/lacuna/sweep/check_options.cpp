@@ -86,6 +86,9 @@ void check(const SweepOptions& options, const RunContext& context)
     if (options.second_order.serendipity && options.order != 2)
         throw InvalidInput("sweep.order",
                            "sweep: option 'serendipity' is for cells of order 2; set order = 2");
+    if (options.wedges && options.order == 2)
+        throw InvalidInput("sweep.order",
+                           "sweep: wedges have no middle nodes here: 'wedges' goes with order = 1");
     if (options.curvature < 0)
         refuse("curvature", "a whole number of at least 0", std::to_string(options.curvature));
     if (options.gap < 0) refuse("gap", "a whole number of at least 0", std::to_string(options.gap));
