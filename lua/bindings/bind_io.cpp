@@ -396,8 +396,8 @@ int load(lua_State* L)
     return 1;
 }
 
-/// All hexahedra and wedges of a deck, of any order, wedges as `mesh::hex_of()` has them; other solids cannot be
-/// judged, and where there are no others their number is an error.
+/// All hexahedra and wedges of a deck, of any order, wedges as `mesh::hex_of()` has them; other solids cannot
+/// be judged, and where there are no others their number is an error.
 std::vector<mesh::CellNodes> hexes_of(const io::Deck& deck)
 {
     std::vector<mesh::CellNodes> hexes;

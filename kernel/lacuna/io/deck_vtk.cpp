@@ -84,6 +84,13 @@ std::vector<Section> by_blocks(const std::shared_ptr<const Cells>& cells,
 
 const DeckBlock& block_at(const Cells& cells, std::size_t at) { return cells.deck.blocks[cells.blocks[at]]; }
 
+/// Node `k` of an element in VTK's order, in which a wedge's triangle 0-1-2 looks away from 3-4-5.
+Index node_at(const DeckBlock& block, std::size_t e, std::size_t k)
+{
+    constexpr std::array<std::size_t, 6> kWedge{0, 2, 1, 3, 5, 4};
+    return block.element(e)[block.shape == DeckShape::wedge6 ? kWedge[k] : k];
+}
+
 std::int32_t entity_at(const Cells& cells, std::size_t at, std::size_t e)
 {
     return cells.entities.of[cells.blocks[at]][e] + 1;
@@ -130,8 +137,9 @@ DeckFile vtu_of_deck(const Deck& deck)
                               return static_cast<std::size_t>(shape_info(block.shape).nodes) * 4;
                           },
                           [](const Cells& of, std::size_t at, std::size_t e, char* out) {
-                              for (const Index node : block_at(of, at).element(e))
-                                  out = put(out, static_cast<std::int32_t>(node));
+                              const DeckBlock& block = block_at(of, at);
+                              for (std::size_t k = 0; k < block.element(e).size(); ++k)
+                                  out = put(out, static_cast<std::int32_t>(node_at(block, e, k)));
                               return out;
                           })});
     add(Place::cells, "type=\"Int64\" Name=\"offsets\"", 8,
@@ -195,9 +203,11 @@ DeckFile vtk_of_deck(const Deck& deck, bool binary)
                 return room(static_cast<std::size_t>(shape_info(block.shape).nodes) + 1, 4);
             },
             [binary](const Cells& of, std::size_t at, std::size_t e, char* out) {
-                const std::span<const Index> nodes = block_at(of, at).element(e);
-                out = put_number(out, static_cast<std::int32_t>(nodes.size()), binary);
-                for (const Index node : nodes) out = put_number(out, static_cast<std::int32_t>(node), binary);
+                const DeckBlock& block = block_at(of, at);
+                const std::size_t nodes = block.element(e).size();
+                out = put_number(out, static_cast<std::int32_t>(nodes), binary);
+                for (std::size_t k = 0; k < nodes; ++k)
+                    out = put_number(out, static_cast<std::int32_t>(node_at(block, e, k)), binary);
                 return end_line(out, binary);
             }));
     one("\nCELL_TYPES " + count + "\n", 4,

@@ -88,7 +88,8 @@ struct MetricSummary {
     double value = 0;                                 ///< of it
 };
 
-/// Measure every cell, one of order 2 by its corners. Wedges count where the metric is one of theirs: the scaled
+/// Measure every cell, one of order 2 by its corners. Wedges count where the metric is one of theirs: the
+/// scaled
 /// Jacobian, the Jacobian and the volume. Parallel; the same for any thread count. O(cells · metrics).
 /// @pre  every corner is the number of a node (`prove()` checks it).
 std::vector<MetricSummary> measure_metrics(const mesh::HexMesh& mesh, std::span<const Metric> metrics,
@@ -99,7 +100,8 @@ std::vector<MetricSummary> measure_metrics(std::span<const Vec3> nodes, std::spa
                                            std::span<const Metric> metrics, const RunContext& context = {});
 
 /// A value a cell, by number of cell; 0 of a wedge where the metric is none of theirs. Parallel. Of cells of
-/// order 2 the corners' value, but for the scaled Jacobian, which is that of `judge()` where a cell is curved.
+/// order 2 the corners' value, but for the scaled Jacobian, which is that of `judge()` where a cell is
+/// curved.
 std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, const RunContext& context = {});
 std::vector<double> metric_values(std::span<const Vec3> nodes, std::span<const Hex> hexes, Metric metric,
                                   const RunContext& context = {});

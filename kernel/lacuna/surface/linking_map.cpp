@@ -289,6 +289,11 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
                     up += b.y() - a.y();
                 }
                 if (piece.pieces.empty() || std::abs(up) * height_ > along) {
+                    // Between quads that stay it is sides of them, and so of the mesh.
+                    const bool stays = std::ranges::all_of(beside, [&](const FaceUse& user) {
+                        return model[user.face].keeps_nodes && has_quads_all_over(model[user.face]);
+                    });
+                    if (stays) continue;
                     uprights_.push_back({use.edge, std::move(piece.pieces)});
                     continue;
                 }
