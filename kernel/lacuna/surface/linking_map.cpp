@@ -288,12 +288,17 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
                     along += std::abs(b.x() - a.x()) * width_;
                     up += b.y() - a.y();
                 }
-                if (piece.pieces.empty() || std::abs(up) * height_ > along) {
-                    // Between quads that stay it is sides of them, and so of the mesh.
-                    const bool stays = std::ranges::all_of(beside, [&](const FaceUse& user) {
-                        return model[user.face].keeps_nodes && has_quads_all_over(model[user.face]);
-                    });
-                    if (stays) continue;
+                // An edge that leaves a rim between quads that stay is sides of them, and so of the mesh.
+                constexpr double kOnRim = 1e-6;
+                const bool steep = piece.pieces.empty() || std::abs(up) * height_ > along;
+                const auto on_rim = [&](double height) { return height < kOnRim || height > 1 - kOnRim; };
+                const bool leaves = steep || on_rim(piece.pieces.front().a.y()) ||
+                                    on_rim(piece.pieces.back().b.y());
+                const bool stays = std::ranges::all_of(beside, [&](const FaceUse& user) {
+                    return model[user.face].keeps_nodes && has_quads_all_over(model[user.face]);
+                });
+                if (leaves && stays) continue;
+                if (steep) {
                     uprights_.push_back({use.edge, std::move(piece.pieces)});
                     continue;
                 }
