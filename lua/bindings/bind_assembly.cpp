@@ -143,19 +143,6 @@ int mesh_fidelity(lua_State* L)
     return 1;
 }
 
-/// The number at index 2, from 1 to `count`, as an index from 0.
-std::size_t check_number(lua_State* L, const char* call, std::size_t count)
-{
-    int whole = 0;
-    const lua_Integer number = lua_type(L, 2) == LUA_TNUMBER ? lua_tointegerx(L, 2, &whole) : 0;
-    if (!whole || number < 1 || static_cast<std::size_t>(number) > count) {
-        const char* found = push_found(L, 2);
-        fail(L, "%s: the number must be from 1 to %I, found %s", call, static_cast<lua_Integer>(count),
-             found);
-    }
-    return from_lua(number);
-}
-
 /// x, y, z = mesh:node(i)
 int node(lua_State* L)
 {
@@ -185,14 +172,6 @@ int hex(lua_State* L)
     for (const Index corner : state.swept.parts[p].mesh.hex(cell))
         lua_pushinteger(L, to_lua(state.swept.number[p][index(corner)]));
     return 8;
-}
-
-void push_group(lua_State* L, const std::string& name, int dim, std::size_t cells)
-{
-    lua_createtable(L, 0, 3);
-    set_string(L, "name", name.c_str());
-    set_count(L, "dim", static_cast<std::size_t>(dim));
-    set_count(L, "cells", cells);
 }
 
 /// { {name=, dim=, cells=}, ... } = mesh:groups()

@@ -145,6 +145,11 @@ void set_boolean(lua_State* L, const char* key, bool value);
 void set_string(lua_State* L, const char* key, const char* value);
 void set_strings(lua_State* L, const char* key, const std::vector<std::string>& values);
 void push_face(lua_State* L, const Box<ModelState>& model, FaceId face);
+void push_group(lua_State* L, const std::string& name, int dim,
+                std::size_t cells); ///< { name=, dim=, cells= }
+
+/// The number at index 2, from 1 to `count`, as an index from 0; raises where it is none.
+std::size_t check_number(lua_State* L, const char* call, std::size_t count);
 
 /// Numbers of Lua count from 1, the kernel's from 0: the one place that knows.
 inline lua_Integer to_lua(std::size_t index) { return static_cast<lua_Integer>(index) + 1; }
