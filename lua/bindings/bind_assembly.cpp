@@ -32,6 +32,11 @@ namespace {
 int make_assembly(lua_State* L)
 {
     lua_settop(L, 1);
+    if (lua_type(L, 1) == LUA_TTABLE) {
+        for (lua_pushnil(L); lua_next(L, 1) != 0; lua_pop(L, 1))
+            if (lua_type(L, -2) == LUA_TSTRING)
+                fail(L, "assembly: there is no option '%s'; give volumes alone", lua_tostring(L, -2));
+    }
     auto& volumes = temporary<std::vector<Box<VolumeState>>>(L);
     read_array(L, 1, {"assembly", "volumes"}, "an array of volumes", [&](int at, const Where& where) {
         Box<VolumeState>* const volume = test_box<VolumeState>(L, at);

@@ -135,6 +135,7 @@ int cut(lua_State* L)
             own.volume = std::move(piece.volume);
             own.classification = topology::classify(own.volume);
             own.material = state.material;
+            own.level = piece.level;
             if (!state.name.empty()) own.name = state.name + "_" + std::to_string(pieces.size());
         }
     });

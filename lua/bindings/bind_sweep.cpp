@@ -268,30 +268,60 @@ std::vector<Vec3> given_middles(const VolumeState& state, std::span<const Vec3> 
     return found;
 }
 
-/// Sweep the pieces of a volume with steps as an assembly; layers asked for are those of the pieces that go
-/// from end to end.
-int sweep_steps(lua_State* L, VolumeState& state, const SweepArguments& arguments, const RunContext& context)
+/// A volume of an assembly with its options, or the pieces of one with steps.
+void add_members(std::vector<Box<VolumeState>>& volumes, std::vector<const SweepArguments*>& options,
+                 const Box<VolumeState>& volume, const std::string& name, const SweepArguments& arguments,
+                 const RunContext& context)
+{
+    if (!closure::has_steps(volume->volume)) {
+        volumes.push_back(volume);
+        options.push_back(&arguments);
+        return;
+    }
+    int number = 0;
+    for (closure::StepPiece& piece : closure::cut_steps(volume->volume, context)) {
+        VolumeState& own = *volumes.emplace_back(std::make_shared<VolumeState>());
+        own.volume = std::move(piece.volume);
+        own.level = piece.level;
+        own.name = name + "_" + std::to_string(++number);
+        own.material = volume->material;
+        options.push_back(&arguments);
+    }
+}
+
+/// Layers asked for are those of the pieces that go from end to end.
+std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<Box<VolumeState>>& volumes,
+                                                 const std::vector<const SweepArguments*>& options,
+                                                 const RunContext& context)
+{
+    std::vector<sweep::AssemblyMember> members;
+    std::vector<std::unique_ptr<Busy>> busy;
+    auto mesh = std::make_shared<AssemblyMeshState>();
+    for (std::size_t m = 0; m < volumes.size(); ++m) {
+        VolumeState& state = *volumes[m];
+        busy.push_back(std::make_unique<Busy>(state, "sweep"));
+        close_volume(state, {}, context);
+        mesh->regions.push_back(state.name.empty() ? "volume_" + std::to_string(m + 1) : state.name);
+        mesh->materials.push_back(state.material);
+        members.push_back({&state.volume, options[m]->options, mesh->regions.back()});
+        if (state.level > 0) members.back().options.layers = {};
+    }
+    mesh->swept = sweep::sweep_assembly(members, context);
+    return mesh;
+}
+
+/// Sweep the pieces of a volume with steps as an assembly.
+int sweep_steps(lua_State* L, const Box<VolumeState>& volume, const SweepArguments& arguments,
+                const RunContext& context)
 {
     auto& box = new_box<AssemblyMeshState>(L);
     guard(L, [&] {
-        const Busy busy(state, "sweep");
-        auto mesh = std::make_shared<AssemblyMeshState>();
-        std::vector<VolumeState> pieces;
-        for (closure::StepPiece& piece : closure::cut_steps(state.volume, context)) {
-            pieces.emplace_back().volume = std::move(piece.volume);
-            close_volume(pieces.back(), {}, context);
-            mesh->regions.push_back((state.name.empty() ? "piece" : state.name) + "_" +
-                                    std::to_string(pieces.size()));
-            mesh->materials.push_back(state.material);
-            mesh->levels.push_back(piece.level);
-        }
-        std::vector<sweep::AssemblyMember> members;
-        for (std::size_t p = 0; p < pieces.size(); ++p) {
-            members.push_back({&pieces[p].volume, arguments.options, mesh->regions[p]});
-            if (mesh->levels[p] > 0) members.back().options.layers = {};
-        }
-        mesh->swept = sweep::sweep_assembly(members, context);
-        box = std::move(mesh);
+        const Busy busy(*volume, "sweep");
+        std::vector<Box<VolumeState>> pieces;
+        std::vector<const SweepArguments*> options;
+        add_members(pieces, options, volume, volume->name.empty() ? "piece" : volume->name, arguments,
+                    context);
+        box = sweep_members(pieces, options, context);
     });
     return 1;
 }
@@ -300,13 +330,14 @@ int sweep_steps(lua_State* L, VolumeState& state, const SweepArguments& argument
 int sweep_volume(lua_State* L)
 {
     lua_settop(L, 2);
-    auto& state = hold<VolumeState>(L, 1);
+    const Box<VolumeState>& volume = hold_box<VolumeState>(L, 1);
+    VolumeState& state = *volume;
     SweepArguments& arguments = push_arguments(L, 2, "sweep");
     RunContext& context = push_context(L);
     context.threads = arguments.threads;
     bool steps = false;
     guard(L, [&] { steps = closure::has_steps(state.volume); });
-    if (steps) return sweep_steps(L, state, arguments, context);
+    if (steps) return sweep_steps(L, volume, arguments, context);
     lua_gc(L, LUA_GCCOLLECT); // to Lua a mesh is a few bytes: it would let old ones pile up
     auto& box = new_box<MeshState>(L);
     guard(L, [&] {
@@ -397,19 +428,14 @@ int sweep_assembly(lua_State* L)
     lua_gc(L, LUA_GCCOLLECT);
     auto& box = new_box<AssemblyMeshState>(L);
     guard(L, [&] {
-        std::vector<sweep::AssemblyMember> members;
-        std::vector<std::unique_ptr<Busy>> busy;
-        auto mesh = std::make_shared<AssemblyMeshState>();
+        std::vector<Box<VolumeState>> volumes;
+        std::vector<const SweepArguments*> options;
         for (std::size_t m = 0; m < assembly.volumes.size(); ++m) {
-            VolumeState& state = *assembly.volumes[m];
-            busy.push_back(std::make_unique<Busy>(state, "sweep"));
-            close_volume(state, {}, context);
-            mesh->regions.push_back(state.name.empty() ? "volume_" + std::to_string(m + 1) : state.name);
-            mesh->materials.push_back(state.material);
-            members.push_back({&state.volume, arguments[m]->options, mesh->regions.back()});
+            const Box<VolumeState>& volume = assembly.volumes[m];
+            const std::string name = volume->name.empty() ? "volume_" + std::to_string(m + 1) : volume->name;
+            add_members(volumes, options, volume, name, *arguments[m], context);
         }
-        mesh->swept = sweep::sweep_assembly(members, context);
-        box = std::move(mesh);
+        box = sweep_members(volumes, options, context);
     });
     return 1;
 }

@@ -62,7 +62,8 @@ struct VolumeState {
     topology::Classification classification; ///< as the volume was given
     std::optional<matching::Match> match;
     std::optional<closure::Closure> closure;
-    std::string name;     ///< of the region its cells are; empty: the default
+    std::string name; ///< of the region its cells are; empty: the default
+    int level = 0;    ///< of a piece cut at steps: 0 goes from end to end, others have what layers are left
     std::string material; ///< name or number of its material; empty: none was said
     std::vector<std::shared_ptr<const io::Deck>> decks; ///< those of the model it was made of
     double scale = 1;                                   ///< of its coordinates to theirs
@@ -102,7 +103,6 @@ struct AssemblyMeshState {
     sweep::SweptAssembly swept;
     std::vector<std::string> regions;   ///< of each part
     std::vector<std::string> materials; ///< of each part; empty ones: none was said
-    std::vector<int> levels;            ///< of pieces of a volume with steps; else empty
     std::optional<quality::Quality> quality;
 };
 

@@ -213,6 +213,51 @@ TEST_CASE("a core, the ring round it and a plug on the core are one mesh")
     CHECK(whole.shared.size() == 2);
 }
 
+TEST_CASE("round volumes near each other are apart, and a thin one between two is one mesh with both")
+{
+    for (const double gap : {0.5, 0.2, 0.05, 0.01}) {
+        CAPTURE(gap);
+        const auto disc = [](double low, double height) {
+            test::Prism prism = test::prism({.sides = 0, .radius = 2, .height = height, .cuts = 5});
+            prism.model = test::moved(prism.model,
+                                      [low](const Vec3& p) { return Vec3(p + Vec3(0, 0, low)); });
+            return closed(prism.open());
+        };
+        Members apart;
+        apart.add(disc(0, 1), 0.6, 2);
+        apart.add(disc(1 + gap, 1), 0.6, 2);
+        const SweptAssembly two = sweep::sweep_assembly(apart.list());
+        CHECK(two.shared.empty());
+        CHECK(two.nodes == two.parts[0].mesh.nodes.size() + two.parts[1].mesh.nodes.size());
+        Members gasket;
+        gasket.add(disc(0, 1), 0.6, 2);
+        gasket.add(disc(1, gap), 0.6, 1);
+        gasket.add(disc(1 + gap, 1), 0.6, 2);
+        const SweptAssembly three = sweep::sweep_assembly(gasket.list());
+        CHECK(three.shared.size() == 2);
+        double sealed = 0;
+        for (const auto& p : three.parts) sealed += p.fidelity.sealed_volume;
+        check_assembly(three, sealed, 0.05);
+    }
+}
+
+TEST_CASE("a volume within another is refused by name, wherever their faces are")
+{
+    Members members;
+    members.add(brick({.low = {0, 0, 0}, .high = {3, 3, 3}}), 1);
+    members.add(brick({.low = {1, 1, 1}, .high = {2, 2, 2}, .cuts = 2}), 1);
+    CHECK(test::refusal([&] { sweep::sweep_assembly(members.list()); }, {"part_1", "part_2"}) ==
+          "assembly.overlap");
+}
+
+TEST_CASE("more sides on shared edges than memory holds are refused at once")
+{
+    Members members;
+    members.add(brick({.low = {0, 0, 0}, .high = {1, 1, 1}}), 1, 100'000'000);
+    members.add(brick({.low = {1, 0, 0}, .high = {2, 1, 1}}), 1);
+    CHECK(test::refusal([&] { sweep::sweep_assembly(members.list()); }, {"400000004"}) == "sweep.too_many");
+}
+
 TEST_CASE("grids of blocks swept along axes of their own are one mesh or refused by name")
 {
     int meshed = 0, refused = 0;

@@ -114,7 +114,7 @@ private:
                 refuse("the walls round the step at " + name_of(model_, ends_[*touched.rbegin()].front()) +
                        (opposite.valid() ? " go on to " + name_of(model_, opposite)
                                          : " join " + std::to_string(touched.size()) + " parts of the end") +
-                       ", so no face hangs from a closed rim there: cut the volume by hand along the step");
+                       ", so no face hangs from a closed rim there");
             }
             add_riser(walls, touched, uses, part_of);
         }
@@ -151,8 +151,7 @@ private:
             if (at_riser == 0) continue;
             if (at_riser != static_cast<long>(walk.uses.size())) {
                 refuse("the rim of the step at " + name_of(model_, ends_[riser.high].front()) +
-                       " meets other walls too, so no face hangs from a closed rim there: cut the volume by "
-                       "hand along the step");
+                       " meets other walls too, so no face hangs from a closed rim there");
             }
             riser.rims.push_back(std::move(walk));
         }
@@ -452,7 +451,8 @@ private:
         std::vector<StepPiece> result;
         for (std::size_t p = 0; p < ends_.size(); ++p) {
             if (opposite[p].empty())
-                refuse("nothing of the opposite end lies over " + name_of(model_, ends_[p].front()));
+                refuse("nothing of the opposite end lies over " + name_of(model_, ends_[p].front()) +
+                       ", seen along the sweep");
             Roles own{ends_[p], opposite[p], walls[p]};
             if (stepped_ == Role::target) std::swap(own.source, own.target);
             result.push_back({open_volume(model_, own, context_), level_of(p)});

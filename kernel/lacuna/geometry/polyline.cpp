@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <cmath>
+
 namespace lacuna::geometry {
 
 std::vector<double> arc_lengths(std::span<const Vec3> points)
@@ -41,6 +43,18 @@ Vec3 point_at(std::span<const Vec3> points, std::span<const double> arc_lengths,
     if (place.fraction == 0) return a;
     if (place.fraction == 1) return b;
     return a + place.fraction * (b - a);
+}
+
+double sag(std::span<const Vec3> points)
+{
+    double most = 0;
+    for (std::size_t i = 0; i + 2 < points.size(); ++i) {
+        const Vec3 a = points[i + 1] - points[i], b = points[i + 2] - points[i + 1];
+        if (a.dot(b) <= 0) continue;
+        const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
+        most = std::max(most, std::max(a.norm(), b.norm()) * angle / 8);
+    }
+    return most;
 }
 
 } // namespace lacuna::geometry

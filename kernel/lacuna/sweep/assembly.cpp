@@ -97,8 +97,9 @@ private:
                     "them; give it another name");
             if (members_[m].options.order > 1 || members_[m].options.wedges)
                 throw InvalidInput("assembly.cells", members_[m].region +
-                                                         ": volumes of an assembly are swept into hexahedra "
-                                                         "of order 1; leave out 'order' and 'wedges'");
+                                                         ": volumes of an assembly, and pieces of one with "
+                                                         "steps, are swept into hexahedra of order 1; "
+                                                         "leave out 'order' and 'wedges'");
             for (std::size_t n = 0; n < m; ++n) {
                 if (members_[m].region == members_[n].region)
                     throw InvalidInput("assembly.same_name", "two volumes of the assembly are named \"" +

@@ -22,6 +22,10 @@ namespace {
 /// Edges of two members are one where their middles are no further apart than this share of their length,
 /// ends apart: facets of other fineness have their middles a little elsewhere.
 constexpr double kSameMiddle = 1e-2;
+/// Means of one closed curve by two rows of chords are apart by no more than this part of their sag. A choice.
+constexpr double kSameCentre = 0.2;
+/// Nodes that edges of several members may have in all: with more the memory goes before anything is meshed.
+constexpr double kMostNodes = 2e7;
 /// Rounds of making ends even. Each bumps a class; a choice, far above what families of blocks need.
 constexpr int kRounds = 64;
 
@@ -31,6 +35,8 @@ struct MemberEdge {
     EdgeId edge;
     double length = 0;
     Vec3 from = Vec3::Zero(), middle = Vec3::Zero(), to = Vec3::Zero();
+    Vec3 centre = Vec3::Zero(); ///< mean place along it
+    double sag = 0;             ///< how far the curve may be off its points' chain
     Eigen::AlignedBox3d box;
     bool closed = false;
 };
@@ -88,6 +94,9 @@ private:
         result.from = line.front();
         result.to = line.back();
         result.middle = geometry::point_at(line, arc, arc.back() / 2);
+        result.sag = geometry::sag(line);
+        for (std::size_t i = 0; i + 1 < line.size(); ++i)
+            result.centre += (arc[i + 1] - arc[i]) / arc.back() * (line[i] + line[i + 1]) / 2;
         result.closed = edge.points.front() == edge.points.back();
         return result;
     }
@@ -98,7 +107,10 @@ private:
         const double slack = tolerance + kSameMiddle * a.length;
         if (a.closed != b.closed || std::abs(a.length - b.length) > slack) return false;
         if (a.closed) {
-            return (a.box.min() - b.box.min()).norm() <= slack && (a.box.max() - b.box.max()).norm() <= slack;
+            // Chords of one curve differ by no more than they sag, and the means of both hardly at all.
+            const double off = tolerance + 2 * std::max(a.sag, b.sag);
+            return (a.box.min() - b.box.min()).norm() <= off && (a.box.max() - b.box.max()).norm() <= off &&
+                   (a.centre - b.centre).norm() <= tolerance + kSameCentre * std::max(a.sag, b.sag);
         }
         const bool along = (a.from - b.from).norm() <= tolerance && (a.to - b.to).norm() <= tolerance;
         const bool back = (a.from - b.to).norm() <= tolerance && (a.to - b.from).norm() <= tolerance;
@@ -329,6 +341,14 @@ private:
 
     void set_nodes(AssemblyPlan& plan)
     {
+        double all = 0;
+        for (std::size_t e = 0; e < edges_.size(); ++e) {
+            if (common_[e]) all += count_.at(classes_.find(e));
+        }
+        if (all > kMostNodes)
+            throw InvalidInput("sweep.too_many", "the edges that volumes of the assembly share would have " +
+                                                     std::to_string(static_cast<long long>(all)) +
+                                                     " sides; ask for a larger 'size' or fewer 'layers'");
         plan.nodes.resize(members_.size());
         plan.layers.assign(members_.size(), 0);
         std::map<std::size_t, std::vector<Vec3>> nodes;

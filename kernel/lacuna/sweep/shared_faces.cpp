@@ -2,11 +2,15 @@
 #include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/polyline.h>
 #include <lacuna/sweep/assembly.h>
+#include <lacuna/sweep/detail/words.h>
 #include <lacuna/topology/side_points.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <unordered_map>
 
@@ -23,10 +27,16 @@ constexpr double kNothing = 1e-3;
 /// Facets are asked at the centres of this many parts of each side: a face of two facets, half covered, is
 /// seen to be.
 constexpr int kParts = 6;
-/// Facets may be off a curved edge by this part of their side: a twelfth of a turn is off by a fifteenth.
-constexpr double kRimSag = 0.07;
+/// Points of one rim may be off the chords of another by this times their sag: it is an estimate.
+constexpr double kRimSag = 1.5;
+/// Of a curved face, where facets of either fineness leave the rim to each other.
+constexpr double kWholeCurved = 0.98;
+/// A place is above a facet where the way from its foot is along the facet's normal by this cosine.
+constexpr double kAbove = 0.7;
 /// Faces that touch along a rim and bend away are within their facets' own error for less than this share.
 constexpr double kAlongRim = 0.5;
+/// Places nearer to a volume's skin than this part of its diagonal are on it: facets of curved faces differ.
+constexpr double kInside = 5e-3;
 /// A face is asked at about this many places in all; more facets are asked at fewer places each.
 constexpr std::size_t kPlaces = 4000;
 
@@ -74,19 +84,25 @@ double sag_of(const Model& model, const Face& face)
     return sag;
 }
 
-/// Share of a face that lies on another.
-double cover_of(Side& one, Side& other, double limit, const RunContext& context)
+/// How much of a face lies on another, and how much of that faces the same way.
+struct Cover {
+    double share = 0, same_way = 0;
+};
+
+Cover cover_of(Side& one, Side& other, double limit, const RunContext& context)
 {
     const Model& model = one.model();
     const std::vector<Triangle>& triangles = one.face_data().triangles;
     int parts = kParts;
     while (parts > 1 && triangles.size() * static_cast<std::size_t>(parts * parts) > kPlaces) --parts;
     const std::size_t step = std::max<std::size_t>(1, triangles.size() / kPlaces);
-    double all = 0, on = 0;
+    const double tolerance = std::max(model.tolerance, other.model().tolerance);
+    double all = 0, on = 0, same = 0;
     for (std::size_t t = 0; t < triangles.size(); t += step) {
         check_cancelled(context);
         const Triangle& facet = triangles[t];
-        const double each = area_of(model, facet).norm() / (parts * parts);
+        const Vec3 area = area_of(model, facet);
+        const double each = area.norm() / (parts * parts);
         for (int i = 0; i < parts; ++i) {
             for (int j = 0; j < 2 * (parts - i) - 1; ++j) {
                 // Centres of the parts of a facet divided evenly, those upright and those turned over.
@@ -95,11 +111,19 @@ double cover_of(Side& one, Side& other, double limit, const RunContext& context)
                 const Vec3 p = (1 - u - v) * model.at(facet[0]) + u * model.at(facet[1]) +
                                v * model.at(facet[2]);
                 all += each;
-                if (other.facets().closest(p, limit * limit).triangle >= 0) on += each;
+                const auto hit = other.facets().closest(p, limit * limit);
+                if (hit.triangle < 0) continue;
+                // Beside the rim of a face is not on it, however near.
+                const Vec3 there = area_of(other.model(), other.face_data().triangles[index(hit.triangle)]);
+                const Vec3 off = p - hit.point;
+                if (off.norm() > tolerance && std::abs(off.dot(there)) < kAbove * off.norm() * there.norm())
+                    continue;
+                on += each;
+                if (area.dot(there) > 0) same += each;
             }
         }
     }
-    return all > 0 ? on / all : 0;
+    return {all > 0 ? on / all : 0, on > 0 ? same / on : 0};
 }
 
 /// Whether the loops of a face run along those of another.
@@ -117,6 +141,13 @@ bool rim_lies_on(const Side& one, const Side& other, double tolerance)
         return loops;
     };
     const std::vector<std::vector<Index>> there = points_of(other);
+    double sag = 0;
+    for (const std::vector<Index>& chain : there) {
+        std::vector<Vec3> line;
+        for (const Index point : chain) line.push_back(other.model().at(point));
+        sag = std::max(sag, geometry::sag(line));
+    }
+    const double slack = tolerance + kRimSag * sag;
     for (const std::vector<Index>& loop : points_of(one)) {
         for (const Index point : loop) {
             const Vec3& p = one.model().at(point);
@@ -124,7 +155,6 @@ bool rim_lies_on(const Side& one, const Side& other, double tolerance)
                 for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
                     const Vec3 &a = other.model().at(chain[i]), &b = other.model().at(chain[i + 1]);
                     const double f = fraction_along(p, a, b);
-                    const double slack = tolerance + kRimSag * (b - a).norm();
                     if ((p - ((1 - f) * a + f * b)).norm() <= slack) return true;
                 }
                 return false;
@@ -154,27 +184,58 @@ bool is_shared(const AssemblyMember& a, Side& one, const AssemblyMember& b, Side
     // A face that was made where none was given is the one that is given there.
     bool same = (is_void(one) || is_void(other)) && rim_lies_on(one, other, tolerance) &&
                 rim_lies_on(other, one, tolerance);
+    const Cover there = cover_of(one, other, limit, context), back = cover_of(other, one, limit, context);
     if (!same) {
-        const double there = cover_of(one, other, limit, context);
-        const double back = cover_of(other, one, limit, context);
-        if (there <= kNothing && back <= kNothing) return false;
-        same = there >= kWhole && back >= kWhole;
+        if (there.share <= kNothing && back.share <= kNothing) return false;
+        const double whole = limit > tolerance ? kWholeCurved : kWhole;
+        same = there.share >= whole && back.share >= whole;
         // Faces that bend away from each other along a common rim are near each other there, and no more.
-        if (!same && limit > tolerance && std::max(there, back) < kAlongRim) return false;
+        if (!same && limit > tolerance && std::max(there.share, back.share) < kAlongRim) return false;
         if (!same) {
-            const auto percent = [](double share) { return std::to_string(std::lround(100 * share)) + " %"; };
+            const auto percent = [](double share) {
+                std::array<char, 32> text{};
+                std::snprintf(text.data(), text.size(), "%.3g %%", 100 * share);
+                return std::string(text.data());
+            };
             throw InvalidInput("assembly.part_of_face",
-                               percent(there) + " of " + named(a, one.face) + " lies on " +
-                                   named(b, other.face) + ", and " + percent(back) +
+                               percent(there.share) + " of " + named(a, one.face) + " lies on " +
+                                   named(b, other.face) + ", and " + percent(back.share) +
                                    " of that on it: a face must be shared as a whole; split it along the "
                                    "other's rim");
         }
     }
-    if (face_area_vector(one.model(), one.face).dot(face_area_vector(other.model(), other.face)) <= 0)
-        return true;
+    if (std::max(there.same_way, back.same_way) <= 0.5) return true;
     throw InvalidInput("assembly.overlap", named(a, one.face) + " and " + named(b, other.face) +
                                                " are one face, and both volumes lie on the same side of "
                                                "it: volumes of an assembly may touch, not overlap");
+}
+
+/// Facets of a volume of which the middles are asked whether they are within another.
+constexpr std::size_t kAsked = 64;
+
+/// Refuse a volume some of whose skin is within another's.
+void check_apart(const AssemblyMember& a, const AssemblyMember& b)
+{
+    const auto facets_of = [](const OpenVolume& volume) {
+        std::vector<Triangle> facets;
+        for (const Face& face : volume.model.faces)
+            facets.insert(facets.end(), face.triangles.begin(), face.triangles.end());
+        return facets;
+    };
+    const Model& model = a.volume->model;
+    const std::vector<Triangle> own = facets_of(*a.volume), others = facets_of(*b.volume);
+    const geometry::FacetTree tree(b.volume->model.points, others);
+    const double inside_by = kInside * b.volume->model.diagonal;
+    const std::size_t step = std::max<std::size_t>(1, own.size() / kAsked);
+    for (std::size_t t = 0; t < own.size(); t += step) {
+        const Vec3 p = (model.at(own[t][0]) + model.at(own[t][1]) + model.at(own[t][2])) / 3;
+        if (!tree.bounds().contains(p) || tree.closest(p, inside_by * inside_by).triangle >= 0) continue;
+        if (std::abs(tree.winding_number(p)) < 0.5) continue;
+        throw InvalidInput("assembly.overlap", a.region + " reaches into " + b.region + " at (" +
+                                                   in_short(p.x()) + ", " + in_short(p.y()) + ", " +
+                                                   in_short(p.z()) +
+                                                   "): volumes of an assembly may touch, not overlap");
+    }
 }
 
 } // namespace
@@ -201,6 +262,8 @@ std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, co
             if (!Eigen::AlignedBox3d(box[a].min().array() - margin, box[a].max().array() + margin)
                      .intersects(box[b]))
                 continue;
+            check_apart(members[a], members[b]);
+            check_apart(members[b], members[a]);
             for (Side& one : sides[a]) {
                 for (Side& other : sides[b]) {
                     if (is_shared(members[a], one, members[b], other, context))

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -163,6 +164,7 @@ public:
             edge.points.back() = moved(edge.points.back());
         }
         for (Vertex& vertex : model_.vertices) vertex.point = moved(vertex.point);
+        for (std::size_t e = 0; e < model_.edges.size(); ++e) drop_folded(EdgeId(e));
         // Points that nothing uses any more, and seams that are gone.
         std::vector<FaceId> all;
         for (std::size_t f = 0; f < model_.faces.size(); ++f) all.emplace_back(f);
@@ -183,6 +185,39 @@ private:
     {
         const auto found = move_.find(point);
         return found == move_.end() ? point : found->second;
+    }
+
+    /// Where all that lay beside an edge's inner point went to the edge itself, facets on both sides of it are
+    /// folded onto the edge: they go, and the point with them.
+    void drop_folded(EdgeId id)
+    {
+        std::vector<Index>& points = model_[id].points;
+        for (std::size_t i = 1; i + 1 < points.size();) {
+            const auto is_folded = [&](const Triangle& t) {
+                const auto has = [&](Index p) { return std::find(t.begin(), t.end(), p) != t.end(); };
+                return has(points[i - 1]) && has(points[i]) && has(points[i + 1]);
+            };
+            std::size_t folded = 0;
+            std::set<FaceId> faces;
+            for (const FaceUse& use : users(id)) faces.insert(use.face);
+            for (const FaceId face : faces)
+                folded += static_cast<std::size_t>(std::ranges::count_if(model_[face].triangles, is_folded));
+            if (folded == 0 || folded != users(id).size()) {
+                ++i;
+                continue;
+            }
+            for (const FaceId face : faces) {
+                Face& f = model_[face];
+                for (std::size_t t = f.triangles.size(); t-- > 0;) {
+                    if (!is_folded(f.triangles[t])) continue;
+                    f.triangles.erase(f.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+                    if (!f.uv.empty()) f.uv.erase(f.uv.begin() + static_cast<std::ptrdiff_t>(t));
+                }
+            }
+            points.erase(points.begin() + static_cast<std::ptrdiff_t>(i));
+            std::vector<double>& params = model_[id].params;
+            if (!params.empty()) params.erase(params.begin() + static_cast<std::ptrdiff_t>(i));
+        }
     }
 
     /// Surface parameters along the sides of a face's facets, as steps from the lesser point to the greater.
