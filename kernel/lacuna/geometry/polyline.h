@@ -18,8 +18,9 @@ std::vector<double> arc_lengths(std::span<const Vec3> points);
 /// Length of the chain, the last of `arc_lengths()`; 0 for fewer than two points [model length].
 double length(std::span<const Vec3> points);
 
-/// How far a smooth curve through the points may be off the chain between them [model length]: a side times the
-/// angle it makes with the next, over 8, at the most. Angles above a right one are corners and count for nothing.
+/// How far a smooth curve through the points may be off the chain between them [model length]: a side times
+/// the angle it makes with the next, over 8, at the most. Angles above a right one are corners and count for
+/// nothing.
 double sag(std::span<const Vec3> points);
 
 /// A place on a chain: `fraction` of the way from point `segment` to point `segment + 1`.

@@ -22,7 +22,8 @@ namespace {
 /// Edges of two members are one where their middles are no further apart than this share of their length,
 /// ends apart: facets of other fineness have their middles a little elsewhere.
 constexpr double kSameMiddle = 1e-2;
-/// Means of one closed curve by two rows of chords are apart by no more than this part of their sag. A choice.
+/// Means of one closed curve by two rows of chords are apart by no more than this part of their sag. A
+/// choice.
 constexpr double kSameCentre = 0.2;
 /// Nodes that edges of several members may have in all: with more the memory goes before anything is meshed.
 constexpr double kMostNodes = 2e7;

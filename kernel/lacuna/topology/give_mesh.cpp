@@ -187,8 +187,8 @@ private:
         return found == move_.end() ? point : found->second;
     }
 
-    /// Where all that lay beside an edge's inner point went to the edge itself, facets on both sides of it are
-    /// folded onto the edge: they go, and the point with them.
+    /// Where all that lay beside an edge's inner point went to the edge itself, facets on both sides of it
+    /// are folded onto the edge: they go, and the point with them.
     void drop_folded(EdgeId id)
     {
         std::vector<Index>& points = model_[id].points;
