@@ -11,7 +11,11 @@ import subprocess
 import sys
 import tempfile
 
-import numpy as np
+try:
+    import numpy as np
+except ImportError as error:
+    print(f"left out: {error}")
+    sys.exit(77)
 
 N = 6
 RECIPE = """
