@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/predicates.h>
 #include <lacuna/geometry/triangulate.h>
 
 #include <algorithm>
@@ -21,8 +22,6 @@ namespace {
 /// How many facets of a target's part say which part of the source it lies over.
 constexpr std::size_t kVotes = 50;
 
-using Parts = std::vector<std::vector<FaceId>>;
-
 /// Walls that join two parts of the stepped end.
 struct Riser {
     std::size_t low = 0, high = 0; ///< parts of the end, the higher one nearer to the other end
@@ -38,18 +37,6 @@ struct Imprinted {
     std::vector<Vec2> flat;    ///< the same seen along the sweep
     std::vector<FaceId> curtain;
 };
-
-bool within(const std::vector<Vec2>& loop, const Vec2& p)
-{
-    bool inside = false;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Vec2 &a = loop[i], &b = loop[(i + 1) % loop.size()];
-        if ((a.y() > p.y()) != (b.y() > p.y()) &&
-            p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
-            inside = !inside;
-    }
-    return inside;
-}
 
 class StepCutter {
 public:
@@ -163,14 +150,12 @@ private:
         if (tree_) return *tree_;
         std::vector<Triangle> triangles;
         for (const FaceId face : volume_.faces(other_)) {
-            for (std::size_t t = 0; t < model_[face].triangles.size(); ++t) {
-                triangles.push_back(model_[face].triangles[t]);
+            for (std::size_t t = 0; t < volume_.model[face].triangles.size(); ++t) {
+                triangles.push_back(volume_.model[face].triangles[t]);
                 facet_.emplace_back(face, t);
             }
         }
-        original_ = triangles;
-        points_before_ = model_.points;
-        return tree_.emplace(points_before_, triangles);
+        return tree_.emplace(volume_.model.points, triangles);
     }
 
     struct Hit {
@@ -181,26 +166,17 @@ private:
     /// Where the line through a point along the sweep meets the opposite end.
     std::optional<Hit> above(const Vec3& p)
     {
-        // From behind everything, so that what lies on the end meets it too.
         const auto hit = opposite_tree().first_along(p, along_);
         if (hit.triangle < 0) return std::nullopt;
         const auto& [face, t] = facet_[index(hit.triangle)];
         Hit found{Vec3::Zero(), face};
         for (std::size_t k = 0; k < 3; ++k) {
             found.place += hit.barycentric[static_cast<int>(k)] *
-                           points_before_[index(original_[index(hit.triangle)][k])];
+                           volume_.model.at(volume_.model[face].triangles[t][k]);
             if (!volume_.model[face].uv.empty())
                 found.uv += hit.barycentric[static_cast<int>(k)] * volume_.model[face].uv[t][k];
         }
         return found;
-    }
-
-    int next_tag(Origin origin, int other) const
-    {
-        int tag = other;
-        for (const Edge& e : model_.edges)
-            if (e.origin == origin) tag = std::max(tag, e.tag);
-        return tag + 1;
     }
 
     VertexId add_vertex(Index point)
@@ -213,7 +189,9 @@ private:
     EdgeId add_edge(VertexId from, VertexId to, std::vector<Index> points)
     {
         Edge edge;
-        edge.tag = next_tag(Origin::made_void, 0);
+        for (const Edge& e : model_.edges)
+            if (e.origin == Origin::made_void) edge.tag = std::max(edge.tag, e.tag);
+        ++edge.tag;
         edge.origin = Origin::made_void;
         edge.from = from;
         edge.to = to;
@@ -319,7 +297,7 @@ private:
         const std::size_t given = rings.size();
         for (const Imprinted* image : own) rings.push_back({image->points, image->flat});
         const auto depth_in = [&](std::size_t inner, std::size_t outer) {
-            return inner != outer && within(rings[outer].flat, rings[inner].flat.front());
+            return inner != outer && geometry::lies_inside(rings[outer].flat, rings[inner].flat.front());
         };
         const auto parent = [&](std::size_t ring) {
             std::size_t best = rings.size();
@@ -393,7 +371,7 @@ private:
     [[nodiscard]] Vec3 far_back() const
     {
         double least = std::numeric_limits<double>::infinity();
-        for (const Vec3& p : points_before_) least = std::min(least, p.dot(along_));
+        for (const Vec3& p : volume_.model.points) least = std::min(least, p.dot(along_));
         return (least - volume_.model.diagonal) * along_;
     }
 
@@ -495,16 +473,14 @@ private:
     Model model_;
     Role stepped_, other_;
     const RunContext& context_;
-    Parts ends_; ///< of the stepped end
+    std::vector<std::vector<FaceId>> ends_; ///< parts that hang together, of the stepped end
     Vec3 along_ = Vec3::Zero(), right_ = Vec3::Zero(), up_ = Vec3::Zero();
     std::vector<Riser> risers_;
     std::vector<std::pair<std::vector<FaceId>, std::size_t>> other_walls_; ///< and the part they touch
     std::vector<Imprinted> images_;
-    std::vector<FaceId> regions_;             ///< of the opposite end, after the cuts
-    std::map<Index, Vec2> uv_;                ///< of points laid onto the opposite end
-    std::optional<geometry::FacetTree> tree_; ///< of the opposite end as it came
-    std::vector<Vec3> points_before_;
-    std::vector<Triangle> original_;
+    std::vector<FaceId> regions_;                       ///< of the opposite end, after the cuts
+    std::map<Index, Vec2> uv_;                          ///< of points laid onto the opposite end
+    std::optional<geometry::FacetTree> tree_;           ///< of the opposite end as it came
     std::vector<std::pair<FaceId, std::size_t>> facet_; ///< of each triangle of the tree
 };
 

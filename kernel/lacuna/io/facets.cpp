@@ -298,15 +298,7 @@ private:
 std::string msh_head(const std::vector<Surface>& surfaces, const std::vector<PhysicalName>& names,
                      bool binary)
 {
-    std::string text = std::string("$MeshFormat\n4.1 ") + (binary ? "1" : "0") + " 8\n";
-    if (binary) {
-        put(text, int{1}); // tells the reader the order of bytes
-        text += "\n";
-    }
-    text += "$EndMeshFormat\n$PhysicalNames\n" + std::to_string(names.size()) + "\n";
-    for (const PhysicalName& name : names)
-        text += std::to_string(name.dimension) + " " + std::to_string(name.tag) + " \"" + name.name + "\"\n";
-    text += "$EndPhysicalNames\n$Entities\n";
+    std::string text = msh_opening(names, "4.1", binary) + "$Entities\n";
     Numbers numbers(binary);
     numbers.count(0).count(0).count(surfaces.size()).count(0).end_line();
     for (const Surface& surface : surfaces) {

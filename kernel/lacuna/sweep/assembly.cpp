@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
+#include <lacuna/sweep/detail/place_order.h>
 #include <lacuna/topology/give_mesh.h>
 #include <lacuna/topology/side_points.h>
 
@@ -19,11 +20,6 @@ namespace lacuna::sweep {
 using namespace topology;
 
 namespace {
-
-bool before(const Vec3& a, const Vec3& b)
-{
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-}
 
 std::string place_of(const Vec3& p)
 {
@@ -227,6 +223,23 @@ private:
         return std::nullopt;
     }
 
+    /// A face of a member and the same one of another.
+    struct Neighbour {
+        FaceId own;
+        std::size_t other;
+        FaceId there;
+    };
+    /// Faces that a member shares with those that are done.
+    [[nodiscard]] std::vector<Neighbour> shared_with(std::size_t m, const std::vector<char>& done) const
+    {
+        std::vector<Neighbour> found;
+        for (const SharedFace& face : result_.shared) {
+            if (face.a == m && done[face.b] != 0) found.push_back({face.face_a, face.b, face.face_b});
+            if (face.b == m && done[face.a] != 0) found.push_back({face.face_b, face.a, face.face_a});
+        }
+        return found;
+    }
+
     Swept sweep_one(std::size_t m, const std::vector<char>& done, bool& given)
     {
         const AssemblyMember& member = members_[m];
@@ -234,12 +247,8 @@ private:
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
         OpenVolume volume = *member.volume, sealed = *member.volume;
         give_edge_nodes(volume, plan_.nodes[m]);
-        for (const SharedFace& face : result_.shared) {
-            const bool is_a = face.a == m;
-            const std::size_t other = is_a ? face.b : face.a;
-            if ((!is_a && face.b != m) || done[other] == 0) continue;
+        for (const auto& [own, other, from] : shared_with(m, done)) {
             given = true;
-            const FaceId own = is_a ? face.face_a : face.face_b, from = is_a ? face.face_b : face.face_a;
             hand_on(result_.parts[other], from, volume, own);
             // Where the face is void, what the neighbour has there is the shape.
             if (is_void(m, own)) hand_on(result_.parts[other], from, sealed, own);
@@ -298,7 +307,7 @@ private:
             if (before(place(b), place(a))) return false;
             return std::tie(a.part, a.node) < std::tie(b.part, b.node);
         });
-        // The first part's node stands for all in its place: -2 - its number in `skin`.
+        // The first part's node stands for all in its place.
         std::vector<std::pair<SkinNode, SkinNode>> same;
         for (std::size_t i = 0, first = 0; i < skin.size(); ++i) {
             if (i == 0 || before(place(skin[first]), place(skin[i]))) first = i;
@@ -348,11 +357,7 @@ private:
     /// The quads of faces that members before this one have too are theirs, to the bit.
     void check_kept(std::size_t m, const Swept& part, const std::vector<char>& done)
     {
-        for (const SharedFace& face : result_.shared) {
-            const bool is_a = face.a == m;
-            const std::size_t other = is_a ? face.b : face.a;
-            if ((!is_a && face.b != m) || done[other] == 0) continue;
-            const FaceId own = is_a ? face.face_a : face.face_b, there = is_a ? face.face_b : face.face_a;
+        for (const auto& [own, other, there] : shared_with(m, done)) {
             const std::set<Places> a = places_on(part, own), b = places_on(result_.parts[other], there);
             if (a == b) {
                 result_.report.push_back("shared: " + named(other, there) + " and " + named(m, own) + ", " +

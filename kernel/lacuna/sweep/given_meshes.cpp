@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/given_meshes.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/sweep/detail/place_order.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
@@ -14,11 +15,6 @@ namespace lacuna::sweep {
 using namespace topology;
 
 namespace {
-
-bool before(const Vec3& a, const Vec3& b)
-{
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-}
 
 /// Points of a face that are to be nodes: of its cells where those stay, else of its rim.
 std::set<Index> nodes_to_keep(const Model& model, const Face& face, bool whole)

@@ -104,11 +104,6 @@ private:
     mesh::Incidence at_node_, at_side_;
 };
 
-std::string at_place(const Vec3& p)
-{
-    return "(" + in_short(p.x()) + ", " + in_short(p.y()) + ", " + in_short(p.z()) + ")";
-}
-
 /// The most of a cell's bends at which it is valid, 0…1.
 double valid_share(const std::array<Vec3, 27>& nodes)
 {
@@ -176,7 +171,7 @@ double valid_share(const std::array<Vec3, 27>& nodes)
     if (straight < kGood)
         advice = "The cell is poor with straight sides already: its scaled Jacobian is " + in_short(straight);
     throw NotSweepable("sweep.second_order", cells + "The middle node of a side on " + face + " belongs at " +
-                                                 at_place(mesh.node(index(nodes.node[*worst]))) + ", " +
+                                                 place_in_short(mesh.node(index(nodes.node[*worst]))) + ", " +
                                                  in_short(most) + " off a side of " + in_short(side) + ". " +
                                                  advice);
 }

@@ -231,10 +231,9 @@ void check_apart(const AssemblyMember& a, const AssemblyMember& b)
         const Vec3 p = (model.at(own[t][0]) + model.at(own[t][1]) + model.at(own[t][2])) / 3;
         if (!tree.bounds().contains(p) || tree.closest(p, inside_by * inside_by).triangle >= 0) continue;
         if (std::abs(tree.winding_number(p)) < 0.5) continue;
-        throw InvalidInput("assembly.overlap", a.region + " reaches into " + b.region + " at (" +
-                                                   in_short(p.x()) + ", " + in_short(p.y()) + ", " +
-                                                   in_short(p.z()) +
-                                                   "): volumes of an assembly may touch, not overlap");
+        throw InvalidInput("assembly.overlap", a.region + " reaches into " + b.region + " at " +
+                                                   place_in_short(p) +
+                                                   ": volumes of an assembly may touch, not overlap");
     }
 }
 

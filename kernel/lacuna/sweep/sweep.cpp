@@ -95,9 +95,8 @@ surface::SizeField checked(const surface::SizeField& field, const std::string& o
         const double h = field(p);
         if (!(h > 0) || !std::isfinite(h)) {
             throw InvalidInput("sweep.size", "sweep: option '" + option +
-                                                 "' must be a positive number everywhere; at (" +
-                                                 in_short(p.x()) + ", " + in_short(p.y()) + ", " +
-                                                 in_short(p.z()) + ") it is " + in_full(h));
+                                                 "' must be a positive number everywhere; at " +
+                                                 place_in_short(p) + " it is " + in_full(h));
         }
         return h;
     };

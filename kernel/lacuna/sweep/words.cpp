@@ -13,6 +13,11 @@ std::string in_short(double value)
     return text;
 }
 
+std::string place_in_short(const Vec3& p)
+{
+    return "(" + in_short(p.x()) + ", " + in_short(p.y()) + ", " + in_short(p.z()) + ")";
+}
+
 std::string in_full(double value)
 {
     char text[32];

@@ -54,6 +54,14 @@ LoopChain chain_of(const Model& model, const Loop& loop)
     return chain;
 }
 
+/// Running length at each point of an edge.
+std::vector<double> running_lengths(const Model& model, std::span<const Index> points)
+{
+    std::vector<Vec3> places;
+    for (const Index p : points) places.push_back(model.at(p));
+    return geometry::arc_lengths(places);
+}
+
 /// The node cycles of the quads' boundary, quads on the left.
 std::vector<std::vector<Index>> cycles_of(std::span<const Quad> quads)
 {
@@ -300,15 +308,12 @@ private:
 class MeshGiver {
 public:
     MeshGiver(OpenVolume& volume, FaceId face, std::span<const Vec3> nodes, std::span<const Quad> quads)
-        : model_(volume.model),
-          remesher_(volume.model),
-          face_(face),
-          quads_(quads.begin(), quads.end()),
-          first_(static_cast<Index>(model_.points.size()))
+        : model_(volume.model), remesher_(volume.model), face_(face), quads_(quads.begin(), quads.end())
     {
+        const auto first = static_cast<Index>(model_.points.size());
         model_.points.insert(model_.points.end(), nodes.begin(), nodes.end());
         for (Quad& quad : quads_) {
-            for (Index& n : quad) n += first_;
+            for (Index& n : quad) n += first;
         }
     }
 
@@ -474,9 +479,7 @@ private:
         const EdgeUse use = chain.uses[u];
         const std::vector<Index>& old = model_[use.edge].points;
         check_other_meshes(use.edge, nodes);
-        std::vector<double> at{0};
-        for (std::size_t i = 0; i + 1 < old.size(); ++i)
-            at.push_back(at.back() + (model_.at(old[i + 1]) - model_.at(old[i])).norm());
+        const std::vector<double> at = running_lengths(model_, old);
         for (RimNode& n : nodes)
             n.at = use.reversed ? chain.start[u] + at.back() - n.at : n.at - chain.start[u];
         if (use.reversed) std::reverse(nodes.begin(), nodes.end());
@@ -515,7 +518,6 @@ private:
     EdgeRemesher remesher_;
     FaceId face_;
     std::vector<Quad> quads_;
-    Index first_;
     std::vector<LoopChain> chains_;
     std::vector<std::vector<RimNode>> rims_; ///< on each loop
     std::vector<int> ends_;                  ///< edge ends at each vertex, seams left out
@@ -528,10 +530,8 @@ void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges)
     Model& model = volume.model;
     EdgeRemesher remesher(model);
     for (const EdgeNodes& given : edges) {
-        std::vector<double> at{0};
-        const std::vector<Index> old = model[given.edge].points;
-        for (std::size_t i = 0; i + 1 < old.size(); ++i)
-            at.push_back(at.back() + (model.at(old[i + 1]) - model.at(old[i])).norm());
+        const std::vector<Index>& old = model[given.edge].points;
+        const std::vector<double> at = running_lengths(model, old);
         const bool closed = old.front() == old.back();
         const auto refuse = [&](const std::string& why) {
             throw InvalidInput("topology.nodes_off_edge",

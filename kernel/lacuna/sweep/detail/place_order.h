@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+
+#include <algorithm>
+
+/// An order of places, to find equal ones by sorting. Internal to this folder.
+namespace lacuna::sweep {
+
+/// By x, then y, then z; places that are the same to the bit, but for signs of zero, come before neither.
+inline bool before(const Vec3& a, const Vec3& b)
+{
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
+
+} // namespace lacuna::sweep
