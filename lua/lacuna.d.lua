@@ -33,6 +33,7 @@
 ---@field scale? number every coordinate times this; default 1
 ---@field cad_seconds? number processor time the CAD process may take over it; in the sandbox it only lowers
 ---@field cad_megabytes? number address space the CAD process may take; in the sandbox it only lowers
+---@field without? string|integer|(string|integer)[] regions, properties, sets or parts of meshes that are left out
 
 ---@class lacuna.ModelOptions
 ---@field tolerance? number points closer than this are one [model length]; default 1e-6 × the diagonal
@@ -97,6 +98,7 @@
 ---@field binary? boolean
 ---@field quality? boolean|lacuna.MetricName|lacuna.MetricName[] metrics that go along for every cell, as $ElementData or cell arrays; true: the scaled Jacobian; default true, but false for version 2.2
 ---@field with? lacuna.Model|lacuna.Model[] loaded from finite element meshes, that the mesh is joined to; the volume's first
+---@field without? string|integer|(string|integer)[] regions, properties, sets or parts of these models that are left out
 ---@field renumber? boolean numbers and names that several decks have in common become others; default false
 ---@field first_node? integer of decks and with a model; default above all that are taken
 ---@field first_cell? integer likewise

@@ -9,6 +9,7 @@
 #include <lacuna/io/deck.h>
 #include <lacuna/io/deck_file.h>
 #include <lacuna/io/facets.h>
+#include <lacuna/io/leave_out.h>
 #include <lacuna/io/load_facets.h>
 #include <lacuna/io/msh.h>
 #include <lacuna/io/vtk.h>
@@ -28,6 +29,7 @@ struct WriteArguments {
     io::MeshDeckOptions deck;
     bool element_given = false;
     std::vector<Box<ModelState>> with; ///< the first is the volume's; empty: the mesh alone
+    std::vector<std::string> without;  ///< parts of these that the mesh stands for
     bool renumber = false, renumber_given = false;
     bool interfaces = false; ///< of an assembly: quads between its volumes too
 };
@@ -113,6 +115,28 @@ void read_with(lua_State* L, int index, const Where& where, WriteArguments& argu
     if (arguments.with.empty()) fail_value(L, where, expected, index);
 }
 
+/// A name, the number of a property, or an array of these.
+void read_parts(lua_State* L, int index, const Where& where, std::vector<std::string>& parts)
+{
+    const char* const expected = "the name or number of a region, property or set, or an array of them";
+    const auto add = [&](int at, const Where& element) {
+        const bool is_part = lua_type(L, at) == LUA_TSTRING || lua_isinteger(L, at);
+        if (!is_part) fail_value(L, element, expected, at);
+        const lua_Integer number = lua_isinteger(L, at) ? lua_tointeger(L, at) : 0;
+        const char* name = lua_type(L, at) == LUA_TSTRING ? lua_tostring(L, at) : nullptr;
+        guard(L, [&] { parts.push_back(name != nullptr ? std::string(name) : std::to_string(number)); });
+    };
+    if (lua_type(L, index) != LUA_TTABLE) return add(index, where);
+    read_array(L, index, where, expected, add);
+    if (parts.empty()) fail_value(L, where, expected, index);
+}
+
+template <class Arguments>
+void read_without(lua_State* L, int index, const Where& where, Arguments& arguments)
+{
+    read_parts(L, index, where, arguments.without);
+}
+
 void read_renumber(lua_State* L, int index, const Where& where, WriteArguments& arguments)
 {
     arguments.renumber = read_boolean(L, index, where);
@@ -124,6 +148,7 @@ const Option<WriteArguments> kWriteOptions[] = {
     {"binary", read_binary},
     {"quality", read_quality},
     {"with", read_with},
+    {"without", read_without<WriteArguments>},
     {"renumber", read_renumber},
     {"first_node", read_first<&io::MeshDeckOptions::first_node>},
     {"first_cell", read_first<&io::MeshDeckOptions::first_cell>},
@@ -148,19 +173,49 @@ const io::Deck& deck_with(const WriteArguments& arguments, io::Deck& merged, con
     return merged;
 }
 
+/// A mesh that joins the decks, and the material of its region.
+struct JoinedMesh {
+    const mesh::HexMesh* mesh;
+    std::string material;
+};
+
+/// The decks of `with`, less the parts of `without`, and meshes that fill their voids.
+io::Deck joined_deck(std::span<const JoinedMesh> meshes, const WriteArguments& arguments,
+                     const RunContext& context)
+{
+    io::MeshDeckOptions options = arguments.deck;
+    io::Deck merged;
+    const io::Deck& deck = deck_with(arguments, merged, context);
+    io::LeftOut split;
+    const bool without = !arguments.without.empty();
+    if (without) {
+        split = io::leave_out(deck, arguments.without);
+        for (std::size_t n = deck.notes.size(); n < split.kept.notes.size(); ++n)
+            log_line(context, split.kept.notes[n]);
+    }
+    const ModelState& model = *arguments.with.front();
+    io::Deck joined;
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        options.material = meshes[m].material;
+        const io::Deck& with = m > 0 ? joined : without ? split.kept : deck;
+        joined = io::join_deck(with, model.model, model.scale, *meshes[m].mesh, options, context,
+                               without ? &split.gone : nullptr);
+        options.first_node = options.first_cell = 0;
+    }
+    io::close_gap(joined);
+    return joined;
+}
+
 void write_deck(const mesh::HexMesh& mesh, const io::OutputPath& path, const WriteArguments& arguments,
                 const RunContext& context)
 {
-    io::MeshDeckOptions options = arguments.deck;
-    io::find_deck_format(io::ending_of(path.text()), options.format);
-    const io::DeckFormat format = options.format;
-    if (arguments.with.empty()) return io::write_deck(io::deck_of(mesh, options), format, path, context);
-    const io::DeckFileOptions file{arguments.msh.binary, arguments.msh.version};
-    io::Deck merged;
-    const io::Deck& deck = deck_with(arguments, merged, context);
-    const ModelState& model = *arguments.with.front();
-    io::write_deck(io::join_deck(deck, model.model, model.scale, mesh, options, context), format, path,
-                   context, file);
+    WriteArguments all = arguments;
+    io::find_deck_format(io::ending_of(path.text()), all.deck.format);
+    const io::DeckFormat format = all.deck.format;
+    if (arguments.with.empty()) return io::write_deck(io::deck_of(mesh, all.deck), format, path, context);
+    const JoinedMesh one{&mesh, arguments.deck.material};
+    io::write_deck(joined_deck({&one, 1}, all, context), format, path, context,
+                   {arguments.msh.binary, arguments.msh.version});
 }
 
 /// A format by its ending, and which options it has.
@@ -204,6 +259,7 @@ const char* idle_option(const Format& format, const WriteArguments& arguments)
     const bool numbered = format.is_deck || !arguments.with.empty();
     if (arguments.quality_given && numbered) return "quality";
     if (arguments.renumber_given && arguments.with.empty()) return "renumber";
+    if (!arguments.without.empty() && arguments.with.empty()) return "without";
     if (arguments.element_given && !format.has_element) return "element";
     if (arguments.deck.first_node != 0 && !numbered) return "first_node";
     if (arguments.deck.first_cell != 0 && !numbered) return "first_cell";
@@ -263,15 +319,10 @@ io::Deck deck_of_parts(const AssemblyMeshState& state, WriteArguments& arguments
         return io::deck_of(parts, options, arguments.interfaces);
     }
     for (const Box<ModelState>& model : arguments.with) refresh(*model);
-    const ModelState& with = *arguments.with.front();
-    io::Deck merged;
-    io::Deck deck = deck_with(arguments, merged, context);
-    for (std::size_t p = 0; p < state.regions.size(); ++p) {
-        options.material = state.materials[p];
-        deck = io::join_deck(deck, with.model, with.scale, state.swept.parts[p].mesh, options, context);
-        options.first_node = options.first_cell = 0;
-    }
-    return deck;
+    std::vector<JoinedMesh> meshes;
+    for (std::size_t p = 0; p < state.regions.size(); ++p)
+        meshes.push_back({&state.swept.parts[p].mesh, state.materials[p]});
+    return joined_deck(meshes, arguments, context);
 }
 
 /// assembly_mesh:write(path [, options])
@@ -326,6 +377,7 @@ int write_facets(lua_State* L)
 struct LoadArguments {
     io::LoadOptions load;
     cad::Limits limits{};
+    std::vector<std::string> without{};
 };
 
 void read_tolerance(lua_State* L, int index, const Where& where, LoadArguments& arguments)
@@ -350,9 +402,13 @@ void read_scale(lua_State* L, int index, const Where& where, LoadArguments& argu
 }
 
 const Option<LoadArguments> kLoadOptions[] = {
-    {"tolerance", read_tolerance},     {"feature_angle", read_feature_angle},
-    {"keep_mesh", read_keep_mesh},     {"scale", read_scale},
-    {"cad_seconds", read_cad_seconds}, {"cad_megabytes", read_cad_megabytes},
+    {"tolerance", read_tolerance},
+    {"feature_angle", read_feature_angle},
+    {"keep_mesh", read_keep_mesh},
+    {"scale", read_scale},
+    {"cad_seconds", read_cad_seconds},
+    {"cad_megabytes", read_cad_megabytes},
+    {"without", read_without<LoadArguments>},
 };
 
 /// The path or the array of paths at `index`, as a temporary.
@@ -378,8 +434,9 @@ int load(lua_State* L)
 {
     lua_settop(L, 2);
     auto& paths = push_paths(L, 1);
-    LoadArguments arguments;
+    auto& arguments = temporary<LoadArguments>(L);
     read_options(L, 2, "load", kLoadOptions, arguments);
+    guard(L, [&] { arguments.load.without = arguments.without; });
     const Host& lent = host(L);
     arguments.limits.may_raise = !lent.sandboxed;
     RunContext& context = push_context(L);

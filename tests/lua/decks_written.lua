@@ -4,14 +4,12 @@ local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
 local lacuna = require "lacuna"
 local params = lacuna.params { lacuna = "", scratch = "" }
 
-local function read(path)
-  local file <close> = assert(io.open(path, "rb"))
-  return file:read("a")
-end
 local function count(text, pattern) return select(2, text:gsub(pattern, "")) end
 
 -- A block of N³ cells, each moved a little where it is inside; `part(i, j, k)` says which cells there are.
 local N = 6
+local block = dofile(arg[0]:match("^(.*/)") .. "unit_block.lua")(check, params.scratch, N)
+local outside, roles, deck, size, read = block.outside, block.roles, block.deck, block.size, block.read
 local function node(i, j, k) return 10 + i + (N + 1) * (j + (N + 1) * k) end
 local function place(i, j, k)
   local x, y, z = i, j, k
@@ -21,11 +19,6 @@ local function place(i, j, k)
     z = z + 0.05 * math.sin(i - j)
   end
   return x / N, y / N, z / N
-end
-
-local function affine(x, y, z)
-  return 0.001 * x + 0.0004 * y - 0.0002 * z, -0.0003 * x + 0.002 * y + 0.0001 * z,
-    0.0005 * x - 0.0002 * y - 0.001 * z
 end
 
 -- The deck of the cells that are kept: nodes, cells, a set, a material, and a step.
@@ -64,34 +57,6 @@ local function inp(part)
   return table.concat(lines, "\n") .. "\n", #nodes, #cells
 end
 
--- Hooke's stresses of the displacement.
-local function stresses()
-  local e = { xx = 0.001, yy = 0.002, zz = -0.001, xy = 0.00005, xz = 0.00015, yz = -0.00005 }
-  local lambda, mu = 210000 * 0.3 / (1.3 * 0.4), 210000 / 2.6
-  local trace = lambda * (e.xx + e.yy + e.zz)
-  return { trace + 2 * mu * e.xx, trace + 2 * mu * e.yy, trace + 2 * mu * e.zz, 2 * mu * e.xy, 2 * mu * e.xz,
-    2 * mu * e.yz }
-end
-
--- Cells of the void: a box of cells, and how it is open.
-local function outside(low, high)
-  return function(i, j, k)
-    local at = { i, j, k }
-    for axis = 1, 3 do
-      if at[axis] < low[axis] or at[axis] >= high[axis] then return true end
-    end
-    return false
-  end
-end
--- The selector of the void's face at one end of an axis.
-local function face(low, high, axis, at)
-  local box = { {}, {} }
-  for k = 1, 3 do box[1][k], box[2][k] = low[k] / N - 0.03, high[k] / N + 0.03 end
-  box[1][axis], box[2][axis] = at / N - 0.03, at / N + 0.03
-  return { box = box }
-end
-local function given(at) return at > 0 and at < N end
-
 -- Voids of every class: a box of cells that reaches the block's outside where something is missing.
 local voids = {
   { class = "I", low = { 0, 0, 2 }, high = { N, N, 4 } },
@@ -101,70 +66,6 @@ local voids = {
   { class = "V", low = { 2, 2, 0 }, high = { 4, 4, N } },
   { class = "closed", low = { 2, 2, 2 }, high = { 4, 4, 5 } },
 }
-
-local function roles(void)
-  local found = { walls = {} }
-  if given(void.low[3]) then found.source = face(void.low, void.high, 3, void.low[3]) end
-  if given(void.high[3]) then found.target = face(void.low, void.high, 3, void.high[3]) end
-  for axis = 1, 2 do
-    for _, at in ipairs { void.low[axis], void.high[axis] } do
-      if given(at) then table.insert(found.walls, face(void.low, void.high, axis, at)) end
-    end
-  end
-  return found
-end
-
-local ccx = os.execute("command -v ccx >/dev/null 2>&1")
-if not ccx then print("CalculiX (ccx) is not here: no deck is solved") end
-
--- Nodes and cells of a deck by their numbers.
-local function deck(text)
-  local nodes, cells = {}, {}
-  local into
-  for line in text:gmatch("[^\n]+") do
-    if line:sub(1, 1) == "*" then
-      local word = line:match("^%*(%a+)")
-      into = word == "NODE" and nodes or word == "ELEMENT" and cells or nil
-    elseif into then
-      local numbers = {}
-      for word in line:gmatch("[^,%s]+") do numbers[#numbers + 1] = assert(tonumber(word)) end
-      check.that(into[numbers[1]] == nil, "number " .. numbers[1] .. " twice")
-      into[numbers[1]] = { table.unpack(numbers, 2) }
-    end
-  end
-  return nodes, cells
-end
-local function size(list)
-  local count = 0
-  for _ in pairs(list) do count = count + 1 end
-  return count
-end
-
--- CalculiX reads 20 characters of a number.
-local function solve(class, text, nodes)
-  local name = "solve_" .. class
-  local base = params.scratch .. "/" .. name
-  local lines = { "*STATIC\n*BOUNDARY" }
-  for tag, at in pairs(nodes) do
-    local outer = false
-    for axis = 1, 3 do outer = outer or at[axis] < 1e-9 or at[axis] > 1 - 1e-9 end
-    for axis, u in ipairs(outer and { affine(table.unpack(at)) } or {}) do
-      lines[#lines + 1] = ("%d, %d, %d, %.12e"):format(tag, axis, axis, u)
-    end
-  end
-  check.write(base .. ".inp", (text:gsub("%*STATIC", table.concat(lines, "\n"))))
-  check.that(os.execute(("cd '%s' && ccx %s > %s.log 2>&1"):format(params.scratch, name, name)))
-  local expected, points = stresses(), 0
-  for line in read(base .. ".dat"):gmatch("[^\n]+") do
-    local numbers = {}
-    for word in line:gmatch("%S+") do numbers[#numbers + 1] = tonumber(word) end
-    if #numbers == 8 then
-      points = points + 1
-      for s = 1, 6 do check.near(numbers[s + 2], expected[s], 1e-6 * expected[2]) end
-    end
-  end
-  return points
-end
 
 for _, void in ipairs(voids) do
   local path = params.scratch .. "/" .. void.class .. ".inp"
@@ -207,7 +108,7 @@ for _, void in ipairs(voids) do
   for _, set in ipairs { "first", "all", "source", "target" } do
     check.that(written:find("SET, [EN]+SET=" .. set .. "\n") or written:find("SET=" .. set), set)
   end
-  if ccx then check.equal(solve(void.class, written, after), 8 * size(all_cells), void.class) end
+  if block.ccx then check.equal(block.solve(void.class, written, after), 8 * size(all_cells), void.class) end
 end
 
 -- Alone: every format reads back with its cells, and numbers go on from where they are told.

@@ -13,7 +13,7 @@ local square = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }
 -- call = { how to call it with these options, { option = a good value, ... } }
 local calls = {
   load = { function(o) lacuna.load("nowhere.step", o) end,
-      { "tolerance", "feature_angle", "keep_mesh", "scale", "cad_seconds", "cad_megabytes" } },
+      { "tolerance", "feature_angle", "keep_mesh", "scale", "cad_seconds", "cad_megabytes", "without" } },
   model = { lacuna.model, { "tolerance" } },
   add_face = { function(o) lacuna.model():add_face(o) end, { "name", "points", "cells", "keep_mesh" } },
   faces = { function(o) lacuna.model():faces(o) end,

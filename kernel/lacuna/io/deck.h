@@ -121,11 +121,17 @@ struct DeckText {
     enum class Place : std::uint8_t {
         head, ///< before the mesh: executive and case control up to BEGIN BULK; what precedes the first *NODE
         cards, ///< beside the mesh: materials, sections, loads, frames, elements that are no shells or solids
-        tail, ///< behind it: ENDDATA; in UNV, elements that are no shells or solids
+        tail,  ///< behind it: ENDDATA; in UNV, elements that are no shells or solids
     };
     Place place = Place::cards;
     std::string part; ///< part of an Abaqus deck it stands in; empty: none
     std::string text;
+};
+
+/// What was left out of a deck.
+struct DeckGap {
+    std::vector<std::string> names{}; ///< regions and sets without elements or members now
+    DeckTag node = 0, cell = 0;       ///< the highest numbers left out, which text may still name
 };
 
 /// A finite element mesh as a file holds it.
@@ -144,6 +150,7 @@ struct Deck {
     std::vector<DeckInstance> instances;
     std::vector<DeckText> texts;
     std::vector<std::string> notes; ///< what was passed over, counted; a sentence each
+    DeckGap gap{};
 
     [[nodiscard]] std::size_t element_count() const;
     /// Of elements of a dimension. @param dimension  1, 2 or 3.

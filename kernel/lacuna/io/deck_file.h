@@ -63,9 +63,12 @@ Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& optio
 /// *SOLID SECTION before the first *STEP in Abaqus, unless the deck has a section of that set already. Where
 /// it is not said it is that of the region with most faces on the mesh, and the log says so; where that has
 /// none, Nastran's PSOLID names material 1 and Abaqus gets no section.
+/// Where `deck` lacks what `leave_out()` took from it, a mesh called as a region it emptied takes its place:
+/// its number, its sets, its sections and properties, whose cards then say the material.
 /// @param model    the deck's faces, which the patches of the mesh name by their tags.
 /// @param scale    of the model's coordinates to the deck's [-].
 /// @param options  `format` is the one it will be written in.
+/// @param gone     `LeftOut::gone`, where the model was made of the deck with it; its faces are let go.
 /// @throw InvalidInput "io.not_conformal"  a face of the deck whose quads the mesh has not; with counts.
 ///                     "io.nodes_coincide" elements beside the void use both of two coincident nodes; names
 ///                                         both.
@@ -75,7 +78,7 @@ Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& optio
 ///                     as `deck_of()`.
 /// @note  O(n log n) in the nodes of the deck; a copy of the deck is made.
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,
-               const MeshDeckOptions& options, const RunContext& context = {});
+               const MeshDeckOptions& options, const RunContext& context = {}, const Deck* gone = nullptr);
 
 struct DeckInScale {
     const Deck* deck = nullptr; ///< read, not kept

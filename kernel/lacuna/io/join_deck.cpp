@@ -42,12 +42,20 @@ public:
     {
     }
 
-    /// Of each node of the mesh the deck's point; -1: none.
-    std::vector<Index> points()
+    /// Of each quad of the skin, whether an element of the deck has it as a face.
+    const std::vector<bool>& match()
     {
         find_nodes();
         match_faces();
-        check_patches();
+        return matched_;
+    }
+
+    /// Of each node of the mesh the deck's point; -1: none.
+    /// @param gone  of each quad of the skin, whether it was a face of an element that was left out.
+    std::vector<Index> points(const std::vector<bool>& gone)
+    {
+        match();
+        check_patches(gone);
         std::vector<Index> points(mesh_.nodes.size(), -1);
         for (std::size_t n = 0; n < points.size(); ++n) points[n] = point_of(n);
         join_middles(deck_, mesh_, matched_, kTogether * model_.diagonal, scale_, points);
@@ -179,13 +187,13 @@ private:
     }
 
     /// Every quad on a face of the deck must be one of the deck's.
-    void check_patches() const
+    void check_patches(const std::vector<bool>& gone) const
     {
         std::vector<std::array<std::size_t, 2>> counts(mesh_.patches.size(), {0, 0});
         for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
             std::array<std::size_t, 2>& of = counts[index(skin_quad(mesh_, i).patch)];
             ++of[0];
-            if (matched_[i]) ++of[1];
+            if (matched_[i] || gone[i]) ++of[1];
         }
         for (std::size_t p = 0; p < counts.size(); ++p) {
             const auto [quads, matched] = counts[p];
@@ -245,10 +253,12 @@ private:
 } // namespace
 
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,
-               const MeshDeckOptions& options, const RunContext& context)
+               const MeshDeckOptions& options, const RunContext& context, const Deck* gone)
 {
+    std::vector<bool> was_there(mesh.skin_count(), false);
+    if (gone != nullptr) was_there = Joiner(*gone, model, scale, mesh).match();
     Joiner joiner(deck, model, scale, mesh);
-    const std::vector<Index> points = joiner.points();
+    const std::vector<Index> points = joiner.points(was_there);
     using enum DeckFormat;
     AddedMesh added{.points = points, .scale = scale};
     added.skin_cells = options.format == msh || options.format == vtk || options.format == vtu;

@@ -6,6 +6,7 @@
 #include <lacuna/io/detail/deck_facets.h>
 #include <lacuna/io/detail/deck_formats.h>
 #include <lacuna/io/detail/input_file.h>
+#include <lacuna/io/leave_out.h>
 
 #include <algorithm>
 #include <cctype>
@@ -161,6 +162,41 @@ bool holds_elements(const Deck& deck)
     return deck.format != DeckFormat::stl && deck.format != DeckFormat::obj;
 }
 
+/// Decks without the parts that are to be left out of them.
+class PartsLeaver {
+public:
+    explicit PartsLeaver(const std::vector<std::string>& parts) : parts_(parts), found_(parts.size(), false)
+    {
+    }
+
+    void leave_out(Deck& deck)
+    {
+        std::vector<std::string> of_deck;
+        for (std::size_t p = 0; p < parts_.size(); ++p) {
+            if (!has_part(deck, parts_[p])) continue;
+            found_[p] = true;
+            of_deck.push_back(parts_[p]);
+        }
+        Deck& names = names_.emplace_back();
+        names.path = deck.path;
+        names.regions = deck.regions;
+        for (const DeckSet& set : deck.sets) names.sets.push_back({set.kind, set.tag, set.name});
+        if (!of_deck.empty()) deck = io::leave_out(deck, of_deck).kept;
+    }
+
+    /// @throw InvalidInput  a part that none of the decks had.
+    void finish() const
+    {
+        for (std::size_t p = 0; p < parts_.size(); ++p)
+            if (!found_[p]) refuse_part(names_, parts_[p]);
+    }
+
+private:
+    const std::vector<std::string>& parts_;
+    std::vector<bool> found_;
+    std::vector<Deck> names_; ///< what the decks have, for the message
+};
+
 /// The facets of files as faces, not yet stitched.
 LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptions& options,
                           const RunContext& context)
@@ -168,10 +204,12 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     FacetFile all;
     LoadedFiles loaded{.scale = options.scale};
     std::string source;
+    PartsLeaver leaver(options.without);
     for (const std::string& path : paths) {
         check_cancelled(context);
         source += (source.empty() ? "" : ", ") + path;
         auto deck = std::make_shared<Deck>(read_deck(path));
+        if (!options.without.empty()) leaver.leave_out(*deck);
         check_cancelled(context);
         FacetFile file = facets_of(*deck, options.tolerance / options.scale);
         const bool is_mesh = !is_among(".stl .obj", ending_of(path));
@@ -179,6 +217,7 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
         append(all, std::move(file));
         if (holds_elements(*deck)) loaded.decks.push_back(std::move(deck));
     }
+    leaver.finish();
     check_cancelled(context);
     for (Vec3& p : all.soup.points) p *= options.scale;
     if (!options.keep_mesh) split_quads(all.soup);
@@ -223,6 +262,9 @@ LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions&
         if (!is_other) needed_deck_format(path, others.endings);
         (is_other ? other : facets).push_back(path);
     }
+    if (facets.empty() && !options.without.empty())
+        throw InvalidInput("io.no_such_part", "without: " + options.without.front() +
+                                                  ": parts are of finite element meshes, and none is read");
     LoadedFiles loaded{.scale = options.scale};
     if (!other.empty()) loaded.model = others.import(other, options, context);
     if (!facets.empty()) {

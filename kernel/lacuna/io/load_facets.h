@@ -60,6 +60,8 @@ struct LoadOptions {
     double feature_angle = 40; ///< where facets are cut into faces [degrees]
     bool keep_mesh = true;     ///< quads of FE formats stay as they are
     double scale = 1;          ///< every coordinate times this, > 0 [-]
+    /// Parts of the meshes that are left out, as `leave_out()` has them; each must be in one file at least.
+    std::vector<std::string> without{};
 };
 
 /// Formats that somebody else reads, all files of theirs at once.
@@ -74,7 +76,8 @@ struct OtherFormats {
 /// label has the label's tag, the others count on from the highest; tags of later files go on from those of
 /// the first. Faces that do not share edges are joined by healing::stitch().
 /// @param others  formats beside those of read_facets().
-/// @throw InvalidInput  as read_facets(), or an option out of range: "io.scale", "io.tolerance".
+/// @throw InvalidInput  as read_facets() and leave_out(), or an option out of range: "io.scale",
+///                      "io.tolerance".
 topology::Model load_facets(const std::vector<std::string>& paths, const LoadOptions& options = {},
                             const RunContext& context = {}, const OtherFormats& others = {});
 

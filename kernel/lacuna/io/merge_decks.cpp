@@ -62,6 +62,9 @@ public:
         add_sets();
         add_texts();
         all_.path += ", " + more_.path;
+        all_.gap.names.insert(all_.gap.names.end(), more_.gap.names.begin(), more_.gap.names.end());
+        all_.gap.node = std::max(all_.gap.node, more_.gap.node + node_offset_);
+        all_.gap.cell = std::max(all_.gap.cell, more_.gap.cell + cell_offset_);
         all_.notes.insert(all_.notes.end(), more_.notes.begin(), more_.notes.end());
     }
 

@@ -14,12 +14,11 @@
 namespace lacuna::io {
 namespace {
 
-/// The first of `count` numbers that none has.
+/// The first of `count` numbers that none has. @param highest  of those that are not in use any more.
 DeckTag free_from(DeckTag asked, std::size_t count, const std::set<DeckTag>& texts,
-                  std::vector<DeckTag>& taken, const char* option, const char* what)
+                  std::vector<DeckTag>& taken, DeckTag highest, const char* option, const char* what)
 {
     taken.insert(taken.end(), texts.begin(), texts.end());
-    DeckTag highest = 0;
     for (const DeckTag tag : taken) highest = std::max(highest, tag);
     const DeckTag first = asked != 0 ? asked : highest + 1;
     const auto refuse = [&](const std::string& why) {
@@ -73,6 +72,7 @@ public:
                                "sweep with order = 2, serendipity = true for those of 20");
         if (abaqus) check_element();
         texts_ = numbers_in_text(deck_);
+        find_place();
         choose_material();
         add_points();
         add_cells();
@@ -98,7 +98,8 @@ private:
     {
         const std::size_t fresh = static_cast<std::size_t>(std::ranges::count(added_.points, -1));
         std::vector<DeckTag> taken = deck_.point_tags;
-        DeckTag next = free_from(options_.first_node, fresh, texts_.nodes, taken, "first_node", "node");
+        DeckTag next = free_from(options_.first_node, fresh, texts_.nodes, taken, deck_.gap.node,
+                                 "first_node", "node");
         point_.assign(added_.points.begin(), added_.points.end());
         for (std::size_t n = 0; n < point_.size(); ++n) {
             if (point_[n] >= 0) continue;
@@ -115,15 +116,16 @@ private:
             taken.insert(taken.end(), block.tags.begin(), block.tags.end());
         const std::size_t skin = added_.skin_cells ? mesh_.skin_count() : 0;
         first_cell_ = free_from(options_.first_cell, mesh_.cell_count() + skin, texts_.cells, taken,
-                                "first_cell", "element");
+                                deck_.gap.cell, "first_cell", "element");
         int highest = static_cast<int>(
             std::min<DeckTag>(texts_.property, std::numeric_limits<int>::max() - 2));
         for (const DeckRegion& region : deck_.regions) highest = std::max(highest, region.tag);
         volume_ = volume();
-        const auto region = static_cast<Index>(deck_.regions.size());
-        deck_.regions.push_back({highest + 1, set_name(DeckSet::Kind::elements, volume_), material_});
-        if (deck_.regions.back().name != volume_)
-            log_line(context_, "the cells of " + volume_ + " are the set " + deck_.regions.back().name);
+        if (!takes_place())
+            deck_.regions.push_back({highest + 1, set_name(DeckSet::Kind::elements, volume_), material_});
+        const Index region = region_ = takes_place() ? place_ : static_cast<Index>(deck_.regions.size()) - 1;
+        if (name_of_region() != volume_)
+            log_line(context_, "the cells of " + volume_ + " are the set " + name_of_region());
         const bool abaqus = options_.format == DeckFormat::abaqus;
         const bool nastran = options_.format == DeckFormat::nastran;
         const mesh::CellKinds kinds(mesh_);
@@ -156,12 +158,36 @@ private:
         if (added_.skin_cells) add_skin_cells();
     }
 
+    [[nodiscard]] const std::string& name_of_region() const { return deck_.regions[index(region_)].name; }
+
+    [[nodiscard]] bool is_emptied(const std::string& name) const
+    {
+        return std::ranges::any_of(deck_.gap.names,
+                                   [&](const std::string& of) { return same_word(of, name); });
+    }
+
+    /// Whether the volume is called as a region whose elements were left out: then it is that region.
+    [[nodiscard]] bool takes_place() const { return place_ >= 0; }
+
+    void find_place()
+    {
+        std::vector<char> used(deck_.regions.size(), 0);
+        if (!deck_.gap.names.empty())
+            for (const DeckBlock& block : deck_.blocks)
+                for (const Index region : block.regions)
+                    if (region >= 0) used[index(region)] = 1;
+        for (std::size_t r = 0; r < used.size(); ++r)
+            if (used[r] == 0 && is_emptied(deck_.regions[r].name) &&
+                same_word(deck_.regions[r].name, volume()))
+                place_ = static_cast<Index>(r);
+    }
+
     [[nodiscard]] bool unv() const { return options_.format == DeckFormat::unv; }
 
     void add_volume_set(const std::string& group)
     {
         DeckSet& set = set_of(DeckSet::Kind::elements, group);
-        if (group == volume_) set.name = deck_.regions.back().name;
+        if (group == volume_) set.name = name_of_region();
         for (std::size_t c = 0; c < mesh_.cell_count(); ++c)
             set.members.push_back(first_cell_ + static_cast<DeckTag>(c));
     }
@@ -172,6 +198,9 @@ private:
         const std::string name = options_.format == DeckFormat::abaqus ? abaqus_name(group) : group;
         for (std::size_t s = added_.own_sets; s < deck_.sets.size(); ++s)
             if (deck_.sets[s].kind == kind && same_word(deck_.sets[s].name, name)) return deck_.sets[s];
+        for (DeckSet& set : deck_.sets)
+            if (set.kind == kind && set.members.empty() && is_emptied(set.name) && same_word(set.name, name))
+                return set;
         return deck_.sets.emplace_back(
             DeckSet{.kind = kind, .tag = next_set(), .name = set_name(kind, group)});
     }
@@ -179,7 +208,7 @@ private:
     void add_skin_cells()
     {
         // A UNV needs a property of each; elsewhere the skin is in its groups alone.
-        const auto region = unv() ? static_cast<Index>(deck_.regions.size() - 1) : -1;
+        const Index region = unv() ? region_ : -1;
         const mesh::CellKinds kinds(mesh_);
         const auto add = [&](DeckShape shape, const char* type, std::size_t begin, std::size_t end) {
             if (begin == end) return;
@@ -312,6 +341,12 @@ private:
         const auto find = [&](const std::string& name) {
             return std::ranges::find_if(known, [&](const std::string& of) { return same_word(of, name); });
         };
+        if (takes_place() && options_.format == deck_.format) {
+            material_ = deck_.regions[index(place_)].material;
+            log_line(context_, volume() + " takes the place of the region of that name, whose cards stay" +
+                                   (options_.material.empty() ? "" : "; material is not looked at"));
+            return;
+        }
         if (material_.empty()) {
             if (find(added_.neighbour_material) == known.end()) return;
             material_ = added_.neighbour_material;
@@ -340,7 +375,7 @@ private:
 
     void add_region_card()
     {
-        if (options_.format != deck_.format) return;
+        if (options_.format != deck_.format || takes_place()) return;
         const DeckRegion& region = deck_.regions.back();
         if (deck_.format == DeckFormat::nastran) {
             // A name is of another format: then the number is left for the person to set.
@@ -364,6 +399,7 @@ private:
     std::string material_;
     std::vector<Index> point_; ///< of each node of the mesh
     std::string volume_, element_;
+    Index place_ = -1, region_ = -1; ///< the region that the volume takes the place of, and the cells' own
     DeckTag first_cell_ = 1;
     std::vector<std::uint32_t> cells_;       ///< behind each quad of the skin
     std::vector<int> sides_;                 ///< of these cells

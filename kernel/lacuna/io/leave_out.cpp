@@ -1,0 +1,473 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/leave_out.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/io/detail/abaqus.h>
+#include <lacuna/io/detail/deck_builder.h>
+#include <lacuna/io/detail/deck_writer.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <optional>
+
+namespace lacuna::io {
+namespace {
+
+constexpr std::size_t kMostListed = 20; // what still reads as a list
+
+/// Whether regions of the format are properties that people know by their numbers.
+bool has_numbers(DeckFormat format)
+{
+    using enum DeckFormat;
+    return format == nastran || format == unv || format == medit || format == exodus;
+}
+
+bool is_part(const Deck& deck, const DeckRegion& region, std::string_view name)
+{
+    if (same_word(region.name, name) || same_word(region.part, name)) return true;
+    const auto number = parse_integer<int>(name);
+    return number && has_numbers(deck.format) && region.tag == *number;
+}
+
+bool is_part(const DeckSet& set, std::string_view name)
+{
+    return set.kind == DeckSet::Kind::elements && same_word(set.name, name);
+}
+
+/// Call `take(line)` for every line of a text, without its end.
+template <class Take>
+void each_line(std::string_view text, const Take& take)
+{
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        take(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+}
+
+/// Fields of a line apart by commas or, where it has none, columns; the first is the card's name.
+std::vector<std::string_view> nastran_fields(std::string_view line)
+{
+    line = line.substr(0, line.find('$'));
+    std::vector<std::string_view> fields;
+    const bool free = line.find(',') != std::string_view::npos;
+    const bool tabs = line.find('\t') != std::string_view::npos;
+    const std::size_t width = line.substr(0, 8).find('*') == std::string_view::npos ? 8 : 16;
+    while (!line.empty()) {
+        const std::size_t end = std::min(free             ? line.find(',')
+                                         : tabs           ? line.find('\t')
+                                         : fields.empty() ? 8
+                                                          : width,
+                                         line.size());
+        fields.push_back(trimmed(line.substr(0, end)));
+        line.remove_prefix(std::min(end + (free || tabs ? 1 : 0), line.size()));
+    }
+    return fields;
+}
+
+/// Cards beside the mesh as far as they name nodes and elements by their numbers.
+///
+/// `use(node)` is told of nodes that elements, constraints and frames kept as text stand on;
+/// `name(card, node, element)` of those that loads and the like name, either of which may be 0. Fields are taken for numbers of
+/// nodes too often rather than too rarely.
+struct CardReader {
+    std::function<void(DeckTag)> use;
+    std::function<void(const std::string& card, DeckTag node, DeckTag element)> name;
+
+    void read(const Deck& deck) const
+    {
+        for (const DeckText& text : deck.texts) {
+            if (deck.format == DeckFormat::nastran && text.place == DeckText::Place::cards)
+                read_nastran(text.text);
+            else if (deck.format == DeckFormat::abaqus)
+                read_abaqus(text.text);
+            else if (deck.format == DeckFormat::unv && text.place == DeckText::Place::tail)
+                each_line(text.text, [&](std::string_view line) { use_all(line); });
+        }
+    }
+
+private:
+    void use_all(std::string_view line) const
+    {
+        while (!(line = trimmed(line)).empty()) {
+            const std::size_t length = std::min(line.find_first_of(", \t"), line.size());
+            if (const auto tag = parse_integer<DeckTag>(line.substr(0, length))) use(*tag);
+            line.remove_prefix(std::min(length + 1, line.size()));
+        }
+    }
+
+    void read_nastran(std::string_view text) const
+    {
+        std::string card;
+        each_line(text, [&](std::string_view line) {
+            const std::vector<std::string_view> fields = nastran_fields(line);
+            if (fields.empty()) return;
+            const bool goes_on = fields[0].empty() || fields[0][0] == '+' || fields[0][0] == '*';
+            if (!goes_on) {
+                card.clear();
+                for (const char c : fields[0].substr(0, fields[0].find('*')))
+                    card += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+            }
+            for (std::size_t f = 1; f < std::min<std::size_t>(fields.size(), 9); ++f)
+                if (const auto tag = parse_integer<DeckTag>(fields[f]); tag && *tag > 0)
+                    take_nastran(card, goes_on ? 0 : f + 1, *tag);
+        });
+    }
+
+    /// @param field  as the manuals count, from 2; 0: of a line that goes on.
+    void take_nastran(const std::string& card, std::size_t field, DeckTag tag) const
+    {
+        const auto is = [&](std::initializer_list<std::string_view> names) {
+            return std::ranges::find(names, card) != names.end();
+        };
+        const auto starts = [&](std::string_view word) { return card.starts_with(word); };
+        const bool frame = starts("CORD1");
+        const bool stands = frame || (starts("C") && !starts("CORD")) || starts("RB") || starts("RR") ||
+                            starts("RS") || starts("RT") || starts("MPC") || starts("PLOTEL") ||
+                            starts("GENEL");
+        if (stands) {
+            if (field == 0 || field > 2) use(tag);
+        } else if (is({"FORCE", "MOMENT"})) {
+            if (field == 3) name(card, tag, 0);
+        } else if (is({"SPC", "SPCD"})) {
+            if (field == 3 || field == 6) name(card, tag, 0);
+        } else if (card == "SPC1") {
+            if (field == 0 || field > 3) name(card, tag, 0);
+        } else if (card == "TEMP") {
+            if (field == 3 || field == 5 || field == 7) name(card, tag, 0);
+        } else if (is({"PLOAD4", "PLOAD1"})) {
+            if (field == 3) name(card, 0, tag);
+        } else if (card == "PLOAD2") {
+            if (field == 0 || field > 3) name(card, 0, tag);
+        } else if (card == "PLOAD") {
+            if (field > 3) name(card, tag, 0);
+        } else if (card == "BSURFS") {
+            if (field == 0 || field > 5) name(card, 0, tag);
+        }
+    }
+
+    void read_abaqus(std::string_view text) const
+    {
+        std::string word;
+        each_line(text, [&](std::string_view line) {
+            line = trimmed(line);
+            if (line.starts_with("**")) return;
+            if (line.starts_with('*')) {
+                word = parse_keyword(line).name;
+                return;
+            }
+            const std::size_t comma = std::min(line.find(','), line.size());
+            const auto first = parse_integer<DeckTag>(trimmed(line.substr(0, comma)));
+            if (word == "ELEMENT")
+                use_all(line.substr(comma));
+            else if (word == "MPC" || word == "EQUATION" || word == "KINEMATICCOUPLING")
+                use_all(line);
+            else if (first && (word == "BOUNDARY" || word == "CLOAD" || word == "TEMPERATURE"))
+                name("*" + word, *first, 0);
+            else if (first && (word == "DLOAD" || word == "FILM" || word == "DFLUX"))
+                name("*" + word, 0, *first);
+        });
+    }
+};
+
+class Leaver {
+public:
+    Leaver(const Deck& deck, std::span<const std::string> parts) : deck_(deck), parts_(parts)
+    {
+        std::vector<DeckTag> tags;
+        for (const DeckBlock& block : deck.blocks)
+            tags.insert(tags.end(), block.tags.begin(), block.tags.end());
+        is_out_.assign(tags.size(), 0);
+        elements_.emplace(tags, [](Index, Index) {});
+        nodes_.emplace(deck.point_tags, [](Index, Index) {});
+    }
+
+    LeftOut leave_out()
+    {
+        for (const std::string& part : parts_) mark(part);
+        const std::size_t count = static_cast<std::size_t>(std::ranges::count(is_out_, 1));
+        if (count == is_out_.size() && count > 0)
+            throw InvalidInput("io.nothing_left", "without: " + list() + " " +
+                                                      (parts_.size() > 1 ? "are" : "is") + " all of " +
+                                                      deck_.path + "; nothing would be left");
+        find_nodes();
+        split_blocks();
+        split_points();
+        copy_rest();
+        filter_sets();
+        note(count);
+        return std::move(found_);
+    }
+
+private:
+    void mark(const std::string& part)
+    {
+        bool known = false;
+        std::vector<char> regions(deck_.regions.size(), 0);
+        for (std::size_t r = 0; r < regions.size(); ++r) {
+            regions[r] = is_part(deck_, deck_.regions[r], part) ? 1 : 0;
+            known = known || regions[r] != 0;
+        }
+        std::size_t at = 0;
+        for (const DeckBlock& block : deck_.blocks)
+            for (std::size_t e = 0; e < block.count(); ++e, ++at)
+                if (block.regions[e] >= 0 && regions[index(block.regions[e])] != 0) is_out_[at] = 1;
+        for (const DeckSet& set : deck_.sets) {
+            if (!is_part(set, part)) continue;
+            known = true;
+            for (const DeckTag tag : set.members)
+                if (const Index e = elements_->find(tag); e >= 0) is_out_[index(e)] = 1;
+        }
+        if (!known) refuse_part(std::span(&deck_, 1), part);
+    }
+
+    /// Nodes that only elements left out use.
+    void find_nodes()
+    {
+        std::vector<char> used(deck_.points.size(), 0);
+        goes_.assign(used.size(), 0);
+        std::size_t at = 0;
+        for (const DeckBlock& block : deck_.blocks)
+            for (std::size_t e = 0; e < block.count(); ++e, ++at)
+                for (const Index node : block.element(e))
+                    if (node >= 0) (is_out_[at] != 0 ? goes_ : used)[index(node)] = 1;
+        const auto keep = [&](DeckTag tag) {
+            if (const Index node = nodes_->find(tag); node >= 0) used[index(node)] = 1;
+        };
+        CardReader{keep, [](const std::string&, DeckTag, DeckTag) {}}.read(deck_);
+        for (std::size_t p = 0; p < goes_.size(); ++p)
+            if (used[p] != 0) goes_[p] = 0;
+    }
+
+    void split_blocks()
+    {
+        std::size_t at = 0;
+        std::vector<std::size_t> left(deck_.regions.size(), 0), gone = left;
+        for (const DeckBlock& block : deck_.blocks) {
+            DeckBlock kept{.shape = block.shape, .type = block.type}, out = kept;
+            auto more = block.more.begin();
+            for (std::size_t e = 0; e < block.count(); ++e, ++at) {
+                const bool is_out = is_out_[at] != 0;
+                DeckBlock& to = is_out ? out : kept;
+                if (more != block.more.end() && more->first == e) {
+                    if (!is_out) kept.more.emplace_back(kept.count(), more->second);
+                    ++more;
+                }
+                const auto nodes = block.element(e);
+                to.nodes.insert(to.nodes.end(), nodes.begin(), nodes.end());
+                to.tags.push_back(block.tags[e]);
+                to.regions.push_back(block.regions[e]);
+                if (block.regions[e] >= 0) ++(is_out ? gone : left)[index(block.regions[e])];
+                if (is_out) found_.kept.gap.cell = std::max(found_.kept.gap.cell, block.tags[e]);
+            }
+            if (kept.count() > 0) found_.kept.blocks.push_back(std::move(kept));
+            if (out.count() > 0) found_.gone.blocks.push_back(std::move(out));
+        }
+        for (std::size_t r = 0; r < left.size(); ++r)
+            if (gone[r] > 0 && left[r] == 0) add_emptied(deck_.regions[r].name);
+    }
+
+    void add_emptied(const std::string& name)
+    {
+        std::vector<std::string>& names = found_.kept.gap.names;
+        const auto same = [&](const std::string& other) { return same_word(other, name); };
+        if (!name.empty() && std::ranges::none_of(names, same)) names.push_back(name);
+    }
+
+    void split_points()
+    {
+        Deck& kept = found_.kept;
+        std::vector<Index> place(deck_.points.size(), -1);
+        auto more = deck_.point_more.begin();
+        for (std::size_t p = 0; p < place.size(); ++p) {
+            const bool has_more = more != deck_.point_more.end() && more->first == p;
+            if (goes_[p] == 0) {
+                place[p] = static_cast<Index>(kept.points.size());
+                if (has_more) kept.point_more.emplace_back(kept.points.size(), more->second);
+                kept.points.push_back(deck_.points[p]);
+                kept.point_tags.push_back(deck_.point_tags[p]);
+            } else {
+                kept.gap.node = std::max(kept.gap.node, deck_.point_tags[p]);
+            }
+            if (has_more) ++more;
+        }
+        for (DeckBlock& block : kept.blocks)
+            for (Index& node : block.nodes)
+                if (node >= 0) node = place[index(node)];
+        kept.instances = deck_.instances;
+        for (DeckInstance& instance : kept.instances) {
+            const auto begin = goes_.begin() + static_cast<std::ptrdiff_t>(instance.first_point);
+            const auto end = begin + static_cast<std::ptrdiff_t>(instance.points);
+            instance.first_point -= static_cast<std::size_t>(std::count(goes_.begin(), begin, 1));
+            instance.points -= static_cast<std::size_t>(std::count(begin, end, 1));
+        }
+    }
+
+    void copy_rest()
+    {
+        Deck &kept = found_.kept, &gone = found_.gone;
+        kept.path = gone.path = deck_.path;
+        kept.format = gone.format = deck_.format;
+        kept.version = gone.version = deck_.version;
+        kept.regions = gone.regions = deck_.regions;
+        kept.texts = deck_.texts;
+        kept.notes = deck_.notes;
+        kept.gap.node = std::max(kept.gap.node, deck_.gap.node);
+        kept.gap.cell = std::max(kept.gap.cell, deck_.gap.cell);
+        for (const std::string& name : deck_.gap.names) add_emptied(name);
+        gone.points = deck_.points;
+        gone.point_tags = deck_.point_tags;
+    }
+
+    [[nodiscard]] bool element_goes(DeckTag tag) const
+    {
+        const Index e = elements_->find(tag);
+        return e >= 0 && is_out_[index(e)] != 0;
+    }
+    [[nodiscard]] bool node_goes(DeckTag tag) const
+    {
+        const Index node = nodes_->find(tag);
+        return node >= 0 && goes_[index(node)] != 0;
+    }
+
+    void filter_sets()
+    {
+        for (DeckSet set : deck_.sets) {
+            const std::size_t before = set.members.size() + set.sides.size();
+            if (set.kind == DeckSet::Kind::nodes)
+                std::erase_if(set.members, [&](DeckTag tag) { return node_goes(tag); });
+            else
+                std::erase_if(set.members, [&](DeckTag tag) { return element_goes(tag); });
+            std::erase_if(set.sides, [&](const DeckSide& side) { return element_goes(side.element); });
+            const std::size_t after = set.members.size() + set.sides.size();
+            if (after < before)
+                sets_.push_back(set.name + " loses " + std::to_string(before - after) + " of " +
+                                std::to_string(before));
+            if (after == 0 && before > 0) add_emptied(set.name);
+            found_.kept.sets.push_back(std::move(set));
+        }
+    }
+
+    [[nodiscard]] std::string list() const
+    {
+        std::string text;
+        for (const std::string& part : parts_) text += (text.empty() ? "" : ", ") + part;
+        return text;
+    }
+
+    void note(std::size_t elements)
+    {
+        const auto nodes = std::ranges::count(goes_, 1);
+        std::string text = deck_.path + ": without " + list() + ": " + std::to_string(elements) +
+                           " elements are left out, and " + std::to_string(nodes) +
+                           " nodes that only they use";
+        for (std::size_t s = 0; s < std::min(sets_.size(), kMostListed); ++s)
+            text += (s == 0 ? "; " : ", ") + sets_[s];
+        if (sets_.size() > kMostListed)
+            text += " and " + std::to_string(sets_.size() - kMostListed) + " more sets lose some";
+        found_.kept.notes.push_back(std::move(text));
+        std::map<std::string, std::size_t> cards;
+        const auto count = [&](const std::string& card, DeckTag node, DeckTag element) {
+            if ((node != 0 && node_goes(node)) || (element != 0 && element_goes(element))) ++cards[card];
+        };
+        CardReader{[](DeckTag) {}, count}.read(deck_);
+        for (const auto& [card, times] : cards)
+            found_.kept.notes.push_back(deck_.path + ": " + card +
+                                        " names nodes or elements that are left "
+                                        "out, " +
+                                        std::to_string(times) +
+                                        " times; cards are kept as they stand, change them by hand");
+    }
+
+    const Deck& deck_;
+    std::span<const std::string> parts_;
+    std::optional<TagPlaces> elements_, nodes_;
+    std::vector<char> is_out_; ///< elements, of all blocks one after the other
+    std::vector<char> goes_;   ///< nodes
+    LeftOut found_;
+    std::vector<std::string> sets_; ///< that lose members, in words
+};
+
+/// The text without the sections of sets that are empty.
+std::string without_sections(std::string_view text, const std::vector<std::string>& sets)
+{
+    std::string kept;
+    bool drops = false;
+    each_line(text, [&](std::string_view line) {
+        if (line.starts_with('*') && !line.starts_with("**")) {
+            const Keyword keyword = parse_keyword(line);
+            drops = is_section(keyword) && std::ranges::any_of(sets, [&](const std::string& set) {
+                        return same_word(set, keyword.value("ELSET"));
+                    });
+        }
+        if (!drops) kept.append(line).append("\n");
+    });
+    if (!text.ends_with('\n') && !kept.empty()) kept.pop_back();
+    return kept;
+}
+
+} // namespace
+
+bool has_part(const Deck& deck, std::string_view name)
+{
+    return std::ranges::any_of(deck.regions,
+                               [&](const DeckRegion& region) { return is_part(deck, region, name); }) ||
+           std::ranges::any_of(deck.sets, [&](const DeckSet& set) { return is_part(set, name); });
+}
+
+void refuse_part(std::span<const Deck> decks, const std::string& name)
+{
+    std::vector<std::string> known;
+    const auto add = [&](const std::string& of) {
+        if (!of.empty() && std::ranges::find(known, of) == known.end()) known.push_back(of);
+    };
+    std::string paths;
+    for (const Deck& deck : decks) {
+        paths += (paths.empty() ? "" : ", ") + deck.path;
+        for (const DeckRegion& region : deck.regions) add(region.name);
+        for (const DeckSet& set : deck.sets)
+            if (set.kind == DeckSet::Kind::elements) add(set.name);
+    }
+    std::string list;
+    for (std::size_t k = 0; k < std::min(known.size(), kMostListed); ++k)
+        list += (k > 0 ? ", " : "") + known[k];
+    if (known.size() > kMostListed) list += " and " + std::to_string(known.size() - kMostListed) + " more";
+    throw InvalidInput("io.no_such_part",
+                       "without: " + name + " is no region, property or set of " + paths +
+                           (known.empty() ? ", which has none with a name" : ", which has " + list));
+}
+
+LeftOut leave_out(const Deck& deck, std::span<const std::string> parts)
+{
+    return Leaver(deck, parts).leave_out();
+}
+
+void close_gap(Deck& deck)
+{
+    if (deck.gap.names.empty()) return;
+    std::vector<std::string> empty;
+    std::vector<char> used(deck.regions.size(), 0);
+    for (const DeckBlock& block : deck.blocks)
+        for (const Index region : block.regions)
+            if (region >= 0) used[index(region)] = 1;
+    for (const std::string& name : deck.gap.names) {
+        bool has_any = false;
+        for (std::size_t r = 0; r < used.size(); ++r)
+            has_any = has_any || (used[r] != 0 && same_word(deck.regions[r].name, name));
+        for (const DeckSet& set : deck.sets)
+            has_any = has_any || (same_word(set.name, name) && set.members.size() + set.sides.size() > 0);
+        if (!has_any) empty.push_back(name);
+    }
+    const auto is_empty = [&](const std::string& name) {
+        return std::ranges::any_of(empty, [&](const std::string& of) { return same_word(of, name); });
+    };
+    std::erase_if(deck.sets, [&](const DeckSet& set) {
+        return set.members.empty() && set.sides.empty() && is_empty(set.name);
+    });
+    if (deck.format == DeckFormat::abaqus)
+        for (DeckText& text : deck.texts) text.text = without_sections(text.text, empty);
+    deck.gap.names.clear();
+}
+
+} // namespace lacuna::io
