@@ -189,8 +189,8 @@ do
     check.that(notes:find(words, 1, true), words .. "\n" .. notes)
   end
   notes = said('lacuna.load("plug.inp", { without = "plug" })')
-  for _, words in ipairs { "16 elements are left out, and 3 nodes", "some loses 1 of 3", "core loses 16 of 16",
-    "top loses 1 of 1", "line loses 2 of 3", "*CLOAD names" } do
+  for _, words in ipairs { "16 elements are left out, and 3 nodes", "some loses 1 of 3",
+    "core loses 16 of 16", "top loses 1 of 1", "line loses 2 of 3", "*CLOAD names" } do
     check.that(notes:find(words, 1, true), words .. "\n" .. notes)
   end
   -- The volume called as the property is the property.

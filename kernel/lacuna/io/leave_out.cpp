@@ -69,8 +69,8 @@ std::vector<std::string_view> nastran_fields(std::string_view line)
 /// Cards beside the mesh as far as they name nodes and elements by their numbers.
 ///
 /// `use(node)` is told of nodes that elements, constraints and frames kept as text stand on;
-/// `name(card, node, element)` of those that loads and the like name, either of which may be 0. Fields are taken for numbers of
-/// nodes too often rather than too rarely.
+/// `name(card, node, element)` of those that loads and the like name, either of which may be 0.
+/// Fields are taken for numbers of nodes too often rather than too rarely.
 struct CardReader {
     std::function<void(DeckTag)> use;
     std::function<void(const std::string& card, DeckTag node, DeckTag element)> name;
