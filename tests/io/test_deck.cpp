@@ -542,7 +542,7 @@ TEST_CASE("every shared deck has its nodes, elements and sets")
         std::size_t points, shells, solids, sets, faces;
     };
     for (const Shared& shared : {Shared{"fem/salome_cube.unv", 216, 150, 125, 6, 6},
-                                 Shared{"fem/nested_cubes.msh", 138, 240, 520, 0, 12},
+                                 Shared{"fem/nested_cubes.msh", 138, 240, 520, 14, 12},
                                  Shared{"fem/wingbox.bdf", 2675, 2464, 0, 0, 0},
                                  Shared{"fem/contact_model.bdf", 1080, 0, 675, 0, 18},
                                  Shared{"fem/codim_1-tube.inp", 120, 96, 0, 0, 1}}) {

@@ -242,3 +242,46 @@ TEST_CASE("real decks written in their own format are the same decks")
         }
     }
 }
+
+TEST_CASE("groups and entities of an MSH file keep their tags, lines stay, a cell of two groups is one cell")
+{
+    // Version 2 has a cell once for each of its groups. The entity 0 is of two groups that share no cell.
+    const std::string text =
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 8 \"skin\"\n1 5 \"rim\"\n"
+        "$EndPhysicalNames\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n9 0 0 1\n$EndNodes\n"
+        "$Elements\n8\n1 1 2 5 3 1 2\n2 2 2 7 4 1 2 3\n3 2 2 8 4 1 2 3\n4 2 2 8 4 1 3 4\n"
+        "5 4 2 2 0 1 2 3 9\n6 4 2 6 0 1 3 4 9\n7 15 2 1 1 1\n8 1 2 0 6 2 3\n$EndElements\n";
+    const Deck deck = io::read_deck("groups.msh", text);
+    CHECK(deck.element_count() == 6);
+    CHECK(deck.element_count(1) == 2);
+    const auto check = [&](const Deck& read) {
+        std::map<std::pair<std::string, int>, std::vector<io::DeckTag>> sets;
+        for (const io::DeckSet& set : read.sets) sets[{set.name, set.tag}] = set.members;
+        CHECK(sets.at({"rim", 5}) == std::vector<io::DeckTag>{1});
+        CHECK(sets.at({"physical_7", 7}) == std::vector<io::DeckTag>{2});
+        CHECK(sets.at({"skin", 8}) == std::vector<io::DeckTag>{2, 4});
+        CHECK(sets.at({"physical_2", 2}) == std::vector<io::DeckTag>{5});
+        CHECK(sets.at({"physical_6", 6}) == std::vector<io::DeckTag>{6});
+        CHECK(sets.size() == 5);
+        CHECK(elements_of(read) == elements_of(deck));
+    };
+    check(deck);
+    const Folder folder;
+    for (const bool binary : {true, false}) {
+        io::write_deck(deck, DeckFormat::msh, folder.file("a.msh"), {}, {.binary = binary});
+        check(io::read_deck(folder.file("a.msh")));
+        // A group an element: the smaller.
+        io::write_deck(deck, DeckFormat::msh, folder.file("b.msh"), {}, {binary, 2.2});
+        const Deck old = io::read_deck(folder.file("b.msh"));
+        CHECK(elements_of(old) == elements_of(deck));
+        std::vector<int> tags;
+        for (const io::DeckSet& set : old.sets) tags.push_back(set.tag);
+        std::ranges::sort(tags);
+        CHECK(tags == std::vector<int>{2, 5, 6, 7, 8});
+    }
+    for (const Target& target : kTargets) {
+        const Deck other = written(deck, target);
+        CHECK(other.element_count() == 4);
+        CHECK(std::ranges::none_of(other.sets, [](const io::DeckSet& set) { return set.name == "rim"; }));
+    }
+}

@@ -115,7 +115,6 @@ public:
         for (std::size_t s = 0; s < deck_.sets.size(); ++s)
             if (!by_elements_[s]) add_set(deck_.sets[s]);
         add_text(cards.others);
-        if (lines_ > 0) file_.notes.push_back(std::to_string(lines_) + " lines are not written");
         return std::move(file_);
     }
 
@@ -169,10 +168,6 @@ private:
 
     void add_elements(const DeckBlock& block)
     {
-        if (shape_info(block.shape).dimension == 1) {
-            lines_ += block.count();
-            return;
-        }
         const bool own = is_abaqus_element(block.type, block.shape);
         const std::string_view type = own ? std::string_view(block.type) : type_of(block.shape);
         if (type.empty()) refuse_element(block, "Abaqus", "there is no such element");
@@ -251,7 +246,6 @@ private:
     DeckFile file_;
     std::vector<bool> by_elements_; ///< sets
     std::vector<bool> makes_set_;   ///< regions
-    std::size_t lines_ = 0;
 };
 
 } // namespace

@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/triangulate.h>
+#include <lacuna/io/detail/large_pages.h>
 
 #include <algorithm>
 #include <limits>
@@ -62,6 +63,23 @@ void DeckBuilder::add_element(std::size_t block, DeckTag tag, Index region, std:
     to.tags.push_back(tag < 0 ? elements_ : tag);
     to.regions.push_back(region);
     if (place > 0) places_[block].push_back(place);
+}
+
+DeckBuilder::Room DeckBuilder::add_elements(std::size_t block, std::size_t count, Index region)
+{
+    DeckBlock& to = deck_.blocks[block];
+    const std::size_t first = to.count(), nodes = to.nodes.size();
+    // Many small lots must not each copy what is there.
+    const auto grow = [](auto& values, std::size_t size) {
+        if (size > values.capacity()) reserve_large(values, std::max(size, 2 * values.capacity()));
+        values.resize(size);
+    };
+    grow(to.nodes, nodes + count * static_cast<std::size_t>(shape_info(to.shape).nodes));
+    grow(to.tags, first + count);
+    grow(to.regions, first + count);
+    std::fill(to.regions.begin() + static_cast<std::ptrdiff_t>(first), to.regions.end(), region);
+    for (std::size_t i = 0; i < count; ++i) to.tags[first + i] = ++elements_;
+    return {to.nodes.data() + nodes, to.tags.data() + first};
 }
 
 void DeckBuilder::add_face(std::span<const Index> corners, Index region, const Cursor& cursor, DeckTag tag)
@@ -144,10 +162,8 @@ Deck DeckBuilder::take(const std::string& path)
     return std::move(deck_);
 }
 
-Index TagPlaces::find(DeckTag tag) const
+Index TagPlaces::find_sparse(DeckTag tag) const
 {
-    if (tag >= 0 && static_cast<std::uint64_t>(tag) < dense_.size())
-        return dense_[static_cast<std::size_t>(tag)];
     const auto found = std::lower_bound(sparse_.begin(), sparse_.end(), std::pair<DeckTag, Index>{tag, 0});
     return found == sparse_.end() || found->first != tag ? -1 : found->second;
 }

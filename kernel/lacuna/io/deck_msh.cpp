@@ -3,13 +3,16 @@
 // A deck as Gmsh has it: an entity of every region and list of sets, a physical group of every name. All
 // nodes are of the first entity.
 #include <lacuna/core/error.h>
+#include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_entities.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/msh_content.h>
 #include <lacuna/io/detail/msh_shapes.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <set>
 
 namespace lacuna::io {
 namespace {
@@ -22,6 +25,7 @@ struct Part {
 
 struct Content {
     DeckEntities entities;
+    std::vector<int> tag;                   ///< of each entity
     std::vector<std::vector<int>> physical; ///< tags of each entity's groups, rising
     std::vector<int> smallest;              ///< of these the one with the fewest elements
     std::vector<PhysicalName> names;
@@ -31,28 +35,65 @@ struct Content {
     Eigen::AlignedBox3d box;
 };
 
+/// Groups of an MSH file keep their tags.
+void keep_tags(const Deck& deck, GroupTags& groups)
+{
+    std::vector<DeckTag> tags;
+    std::vector<int> dimension; // of the elements
+    for (const DeckBlock& block : deck.blocks) {
+        tags.insert(tags.end(), block.tags.begin(), block.tags.end());
+        dimension.resize(tags.size(), shape_info(block.shape).dimension);
+    }
+    const TagPlaces places(tags, [](Index, Index) {});
+    for (const DeckSet& set : deck.sets) {
+        if (set.kind != DeckSet::Kind::elements || set.members.empty()) continue;
+        if (const Index e = places.find(set.members.front()); e >= 0)
+            groups.keep(dimension[index(e)], set.name, set.tag);
+    }
+}
+
+/// Entities of an MSH file keep their tags, as far as these are one's own.
+std::vector<int> entity_tags(const Deck& deck, const DeckEntities& entities)
+{
+    std::set<std::pair<int, int>> taken;
+    int highest = 0;
+    std::vector<int> tags;
+    for (const DeckEntity& entity : entities.all) {
+        const int own = deck.format == DeckFormat::msh && entity.region >= 0
+                            ? deck.regions[index(entity.region)].tag
+                            : 0;
+        tags.push_back(own > 0 && taken.insert({entity.dimension, own}).second ? own : 0);
+        highest = std::max(highest, tags.back());
+    }
+    for (int& tag : tags)
+        if (tag == 0) tag = ++highest;
+    return tags;
+}
+
 std::shared_ptr<const Content> content_of(const Deck& deck, DeckFile& file)
 {
     auto content = std::make_shared<Content>();
     content->entities = entities_of(deck);
+    content->tag = entity_tags(deck, content->entities);
     GroupTags groups;
+    const bool same = deck.format == DeckFormat::msh;
+    if (same) keep_tags(deck, groups);
     for (const DeckEntity& entity : content->entities.all)
-        content->physical.push_back(groups.tags_of(entity.dimension, entity.groups, "elements"));
+        content->physical.push_back(groups.tags_of(entity.dimension, entity.groups, same ? "" : "elements"));
     content->names = groups.take();
-    std::vector<std::size_t> size(content->names.size() + 1, 0);
+    std::map<std::pair<int, int>, std::size_t> size; // of each group, by dimension and tag
+    const auto dimension = [&](std::size_t n) { return content->entities.all[n].dimension; };
     for (std::size_t n = 0; n < content->physical.size(); ++n)
-        for (const int tag : content->physical[n]) size[index(tag)] += content->entities.all[n].count;
-    for (const std::vector<int>& tags : content->physical)
-        content->smallest.push_back(
-            *std::ranges::min_element(tags, {}, [&](int tag) { return size[index(tag)]; }));
+        for (const int tag : content->physical[n])
+            size[{dimension(n), tag}] += content->entities.all[n].count;
+    for (std::size_t n = 0; n < content->physical.size(); ++n) {
+        const auto least = std::ranges::min_element(
+            content->physical[n], {}, [&](int tag) { return size[std::pair(dimension(n), tag)]; });
+        content->smallest.push_back(least == content->physical[n].end() ? 0 : *least);
+    }
     std::vector<std::vector<Index>> place(content->entities.all.size());
-    std::size_t lines = 0;
     for (std::size_t b = 0; b < deck.blocks.size(); ++b) {
         const DeckBlock& block = deck.blocks[b];
-        if (shape_info(block.shape).dimension == 1) {
-            lines += block.count();
-            continue;
-        }
         if (std::ranges::find(block.nodes, -1) != block.nodes.end())
             refuse_element(block, "MSH", "some have not all their middle nodes");
         std::vector<Index> part(content->entities.all.size(), -1);
@@ -84,7 +125,6 @@ std::shared_ptr<const Content> content_of(const Deck& deck, DeckFile& file)
         return static_cast<std::size_t>(std::ranges::count(deck.sets, kind, &DeckSet::kind));
     };
     const std::size_t others = count(DeckSet::Kind::nodes) + count(DeckSet::Kind::sides);
-    if (lines > 0) file.notes.push_back(std::to_string(lines) + " lines are not written");
     if (others > 0)
         file.notes.push_back(std::to_string(others) +
                              " sets of nodes or sides are not written: groups of MSH are of elements");
@@ -133,13 +173,13 @@ std::string entities_text(const Content& content, const Numbers& numbers)
     std::size_t count[4] = {0, 0, 0, 0};
     for (const DeckEntity& entity : content.entities.all) ++count[index(entity.dimension)];
     std::string text = "$Entities\n" +
-                       numbers.line(size_of(0), size_of(0), size_of(count[2]), size_of(count[3]));
-    for (const int dimension : {2, 3})
+                       numbers.line(size_of(0), size_of(count[1]), size_of(count[2]), size_of(count[3]));
+    for (const int dimension : {1, 2, 3})
         for (std::size_t n = 0; n < content.entities.all.size(); ++n) {
             if (content.entities.all[n].dimension != dimension) continue;
             const Vec3 low = content.box.min(), high = content.box.max();
-            text += numbers.line(static_cast<int>(n) + 1, low.x(), low.y(), low.z(), high.x(), high.y(),
-                                 high.z(), size_of(content.physical[n].size()));
+            text += numbers.line(content.tag[n], low.x(), low.y(), low.z(), high.x(), high.y(), high.z(),
+                                 size_of(content.physical[n].size()));
             if (!numbers.binary) text.back() = ' ';
             for (const int tag : content.physical[n]) {
                 text += numbers.line(tag);
@@ -172,7 +212,8 @@ void add_41(const Deck& deck, const std::shared_ptr<const Content>& content, con
         {msh_opening(content->names, "4.1", numbers.binary) + entities_text(*content, numbers) + "$Nodes\n" +
              numbers.line(size_of(1), nodes, static_cast<std::uint64_t>(content->first_node),
                           static_cast<std::uint64_t>(content->last_node)) +
-             numbers.line(first == nullptr ? 3 : first->dimension, 1, 0, nodes),
+             numbers.line(first == nullptr ? 3 : first->dimension,
+                          first == nullptr ? 1 : content->tag.front(), 0, nodes),
          nodes, numbers.room(1, 8), [&deck, numbers](std::size_t begin, std::size_t end, char* out) {
              for (std::size_t p = begin; p < end; ++p)
                  out = numbers.end(numbers.add(out, static_cast<std::uint64_t>(deck.point_tags[p])));
@@ -196,7 +237,7 @@ void add_41(const Deck& deck, const std::shared_ptr<const Content>& content, con
         const Part& part = content->parts[p];
         const DeckBlock& block = deck.blocks[part.block];
         const std::size_t each = static_cast<std::size_t>(shape_info(block.shape).nodes) + 1;
-        head += numbers.line(shape_info(block.shape).dimension, static_cast<int>(part.entity) + 1,
+        head += numbers.line(shape_info(block.shape).dimension, content->tag[part.entity],
                              gmsh_type(block.shape), size_of(part.elements.size()));
         file.sections.push_back(
             {head, part.elements.size(), numbers.room(each, 8 * each),
@@ -247,7 +288,7 @@ void add_22(const Deck& deck, const std::shared_ptr<const Content>& content, con
                      out = numbers.add(out, static_cast<int>(block.tags[e]));
                      if (!numbers.binary) out = numbers.add(numbers.add(out, type), 2);
                      out = numbers.add(out, content->smallest[of.entity]);
-                     out = numbers.add(out, static_cast<int>(of.entity) + 1);
+                     out = numbers.add(out, content->tag[of.entity]);
                      out = put_nodes<int>(deck, block, e, numbers, out);
                  }
                  return out;

@@ -21,16 +21,11 @@ struct Cells {
     std::vector<std::size_t> first_node; ///< of each block that is written, in the list of nodes
 };
 
-std::shared_ptr<const Cells> cells_of(const Deck& deck, DeckFile& file)
+std::shared_ptr<const Cells> cells_of(const Deck& deck)
 {
     auto cells = std::make_shared<Cells>(Cells{deck, entities_of(deck), {}, 0, 0, {}});
-    std::size_t lines = 0;
     for (std::size_t b = 0; b < deck.blocks.size(); ++b) {
         const DeckBlock& block = deck.blocks[b];
-        if (shape_info(block.shape).dimension == 1) {
-            lines += block.count();
-            continue;
-        }
         if (std::ranges::find(block.nodes, -1) != block.nodes.end())
             refuse_element(block, "VTK", "some have not all their middle nodes");
         if (vtk_type_of(block.shape) == 0) refuse_element(block, "VTK", "there is no such cell");
@@ -39,7 +34,6 @@ std::shared_ptr<const Cells> cells_of(const Deck& deck, DeckFile& file)
         cells->count += block.count();
         cells->lists += block.nodes.size();
     }
-    if (lines > 0) file.notes.push_back(std::to_string(lines) + " lines are not written");
     return cells;
 }
 
@@ -110,7 +104,7 @@ DeckFile vtu_of_deck(const Deck& deck)
 {
     DeckFile file;
     file.sizes = Sizes::exact;
-    const auto cells = cells_of(deck, file);
+    const auto cells = cells_of(deck);
     const auto fixed = [](std::size_t bytes) { return [bytes](const DeckBlock&) { return bytes; }; };
     using Place = VtuArray::Place;
     std::vector<VtuArray> arrays;
@@ -172,7 +166,7 @@ DeckFile vtk_of_deck(const Deck& deck, bool binary)
 {
     DeckFile file;
     file.sizes = binary ? Sizes::exact : Sizes::varying;
-    const auto cells = cells_of(deck, file);
+    const auto cells = cells_of(deck);
     const auto room = [binary](std::size_t numbers, std::size_t bytes) {
         return binary ? numbers * bytes : numbers * kNumberBytes + 1;
     };

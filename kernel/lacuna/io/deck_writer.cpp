@@ -316,9 +316,42 @@ bool find_deck_format(std::string_view ending, DeckFormat& format)
     return true;
 }
 
+namespace {
+
+bool holds_lines(DeckFormat format)
+{
+    return format == DeckFormat::msh || format == DeckFormat::vtk || format == DeckFormat::vtu;
+}
+
+/// The deck without its lines, which sets do not name either.
+Deck without_lines(const Deck& deck)
+{
+    Deck less = deck;
+    std::vector<DeckTag> lines;
+    std::erase_if(less.blocks, [&](const DeckBlock& block) {
+        if (shape_info(block.shape).dimension != 1) return false;
+        lines.insert(lines.end(), block.tags.begin(), block.tags.end());
+        return true;
+    });
+    std::ranges::sort(lines);
+    for (DeckSet& set : less.sets)
+        if (set.kind == DeckSet::Kind::elements)
+            std::erase_if(set.members, [&](DeckTag tag) { return std::ranges::binary_search(lines, tag); });
+    std::erase_if(less.sets, [](const DeckSet& set) {
+        return set.kind == DeckSet::Kind::elements && set.members.empty();
+    });
+    return less;
+}
+
+} // namespace
+
 void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context,
                 const DeckFileOptions& options)
 {
+    if (const std::size_t lines = deck.element_count(1); lines > 0 && !holds_lines(format)) {
+        log_line(context, path.text() + ": " + std::to_string(lines) + " lines are not written");
+        return write_deck(without_lines(deck), format, path, context, options);
+    }
     DeckFile file = file_of(deck, format, options);
     const bool texts = std::ranges::any_of(
         deck.texts, [](const DeckText& text) { return text.place == DeckText::Place::cards; });

@@ -288,13 +288,8 @@ private:
 
     void find_blocks()
     {
-        std::size_t lines = 0;
         for (std::size_t b = 0; b < deck_.blocks.size(); ++b) {
             const DeckBlock& block = deck_.blocks[b];
-            if (shape_info(block.shape).dimension == 1) {
-                lines += block.count();
-                continue;
-            }
             if (exodus_type(block.shape) == nullptr)
                 refuse_element(block, "Exodus", "there is no such element");
             if (std::ranges::find(block.nodes, -1) != block.nodes.end())
@@ -310,7 +305,6 @@ private:
             block.first = elements_;
             elements_ += block.elements.size();
         }
-        if (lines > 0) file_.notes.push_back(std::to_string(lines) + " lines are not written");
     }
 
     /// A region's name and tag where it has one block, else numbers above all tags.

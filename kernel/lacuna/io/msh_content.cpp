@@ -2,9 +2,11 @@
 #include <lacuna/io/detail/msh_content.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/io/detail/msh_shapes.h>
 #include <lacuna/io/detail/sections.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace lacuna::io {
 namespace {
@@ -38,9 +40,19 @@ std::string shortened(const std::string& name, std::size_t bytes)
 
 int GroupTags::tag_of(int dimension, const std::string& group)
 {
-    const auto [at, fresh] = tags_.try_emplace({dimension, group}, static_cast<int>(names_.size()) + 1);
-    if (fresh) names_.push_back({dimension, at->second, unique_name(dimension, group)});
+    const auto [at, fresh] = tags_.try_emplace({dimension, group}, next_);
+    if (fresh) names_.push_back({dimension, next_++, unique_name(dimension, group)});
     return at->second;
+}
+
+void GroupTags::keep(int dimension, const std::string& group, int tag)
+{
+    if (tag < 1 || tag == std::numeric_limits<int>::max() || tags_.contains({dimension, group}) ||
+        !kept_.insert({dimension, tag}).second)
+        return;
+    tags_[{dimension, group}] = tag;
+    next_ = std::max(next_, tag + 1);
+    if (group != unnamed_group(tag)) names_.push_back({dimension, tag, unique_name(dimension, group)});
 }
 
 std::vector<int> GroupTags::tags_of(int dimension, const std::vector<std::string>& groups,
@@ -48,7 +60,7 @@ std::vector<int> GroupTags::tags_of(int dimension, const std::vector<std::string
 {
     std::set<int> tags;
     for (const std::string& group : groups) tags.insert(tag_of(dimension, group));
-    if (tags.empty()) tags.insert(tag_of(dimension, otherwise));
+    if (tags.empty() && !otherwise.empty()) tags.insert(tag_of(dimension, otherwise));
     return {tags.begin(), tags.end()};
 }
 

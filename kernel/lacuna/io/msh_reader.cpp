@@ -5,9 +5,13 @@
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/input_file.h>
+#include <lacuna/io/detail/large_pages.h>
 #include <lacuna/io/detail/msh_shapes.h>
 
 #include <algorithm>
+#include <bit>
+#include <compare>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <optional>
@@ -28,7 +32,7 @@ struct ElementType {
 using enum DeckShape;
 constexpr ElementType kTypes[] = {{15, 0, 1, 1},
                                   {1, 1, 2, 1},
-                                  {8, 1, 3, 2},
+                                  {8, 1, 3, 2, line3},
                                   {26, 1, 4, 3},
                                   {27, 1, 5, 4},
                                   {28, 1, 6, 5},
@@ -64,6 +68,8 @@ constexpr ElementType kTypes[] = {{15, 0, 1, 1},
                                   {14, 3, 14, 2, pyramid14},
                                   {19, 3, 13, 2, pyramid13}};
 
+constexpr bool kBig = std::endian::native == std::endian::big; // numbers lie as this machine has them
+
 ElementType type_of(const Cursor& cursor, int type)
 {
     for (const ElementType& known : kTypes)
@@ -84,6 +90,7 @@ public:
         }
         if (version_ == 0) cursor_.fail("this is no MSH file: it has no $MeshFormat");
         if (!nodes_known_) cursor_.fail("the file has no $Nodes");
+        if (version_ == 2) merge_copies();
         take_groups();
     }
 
@@ -207,8 +214,8 @@ private:
         cursor_.plausible(count, bytes, values);
         if (count > static_cast<std::uint64_t>(std::numeric_limits<Index>::max()))
             cursor_.fail("too many nodes");
-        into_.points().reserve(count);
-        into_.deck().point_tags.reserve(count);
+        reserve_large(into_.points(), count);
+        reserve_large(into_.deck().point_tags, count);
     }
 
     void end_nodes(std::uint64_t count)
@@ -236,6 +243,10 @@ private:
                 cursor_.fail("nodes of dimension " + std::to_string(dimension));
             const std::uint64_t count = cursor_.plausible(cursor_.size(), 28, 4);
             if (count > total - into_.points().size()) cursor_.fail("more nodes than announced");
+            if (cursor_.coding != Coding::text && !first_of_4_ && !parametric) {
+                take_nodes_4(count);
+                continue;
+            }
             for (std::uint64_t i = 0; i < count && !first_of_4_; ++i) add_tag(cursor_.size());
             for (std::uint64_t i = 0; i < count; ++i) {
                 if (first_of_4_) add_tag(node_tag());
@@ -246,17 +257,62 @@ private:
         end_nodes(total);
     }
 
+    /// Tags and then points as they lie, in this machine's order of bytes.
+    void take_nodes_4(std::size_t count)
+    {
+        const std::size_t first = into_.points().size();
+        std::vector<DeckTag>& tags = into_.deck().point_tags;
+        std::vector<Vec3>& points = into_.points();
+        tags.resize(first + count);
+        std::memcpy(tags.data() + first, cursor_.bytes(8 * count).data(), 8 * count);
+        for (std::size_t i = first; i < tags.size(); ++i)
+            if (tags[i] < 0) cursor_.fail("a node's tag is too large");
+        points.resize(first + count);
+        const std::string_view bytes = cursor_.bytes(sizeof(Vec3) * count);
+        std::memcpy(static_cast<void*>(points.data() + first), bytes.data(), bytes.size());
+        for (std::size_t i = first; i < points.size(); ++i)
+            if (!points[i].allFinite()) {
+                Cursor at = cursor_.part(bytes.substr((i - first) * sizeof(Vec3)));
+                at.point(); // says which number it is
+            }
+    }
+
     void read_nodes_2()
     {
         const std::int64_t count = cursor_.text_integer();
         cursor_.line();
         if (count < 0) cursor_.fail("a negative number of nodes");
         begin_nodes(static_cast<std::uint64_t>(count), 28, 4);
-        for (std::int64_t i = 0; i < count; ++i) {
-            add_tag(node_tag());
-            into_.points().push_back(cursor_.point());
+        if (cursor_.coding != Coding::text) {
+            take_nodes_2(static_cast<std::size_t>(count));
+        } else {
+            for (std::int64_t i = 0; i < count; ++i) {
+                add_tag(node_tag());
+                into_.points().push_back(cursor_.point());
+            }
         }
         end_nodes(static_cast<std::uint64_t>(count));
+    }
+
+    /// A tag and a point, one after the other, as they lie.
+    void take_nodes_2(std::size_t count)
+    {
+        constexpr std::size_t kRecord = 4 + sizeof(Vec3);
+        std::vector<DeckTag>& tags = into_.deck().point_tags;
+        std::vector<Vec3>& points = into_.points();
+        tags.resize(count);
+        points.resize(count);
+        const std::string_view bytes = cursor_.bytes(kRecord * count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const char* const record = bytes.data() + i * kRecord;
+            const int tag = from_bytes<int>(record, kBig);
+            tags[i] = tag;
+            std::memcpy(static_cast<void*>(points.data() + i), record + 4, sizeof(Vec3));
+            if (tag >= 0 && points[i].allFinite()) continue;
+            cursor_ = cursor_.part(bytes.substr(i * kRecord)); // says which number it is
+            node_tag();
+            cursor_.point();
+        }
     }
 
     /// Room for cells that are announced.
@@ -265,21 +321,76 @@ private:
         if (!nodes_known_) cursor_.fail("$Elements before $Nodes");
         if (count + cells_ > static_cast<std::uint64_t>(std::numeric_limits<Index>::max()))
             cursor_.fail("too many cells");
-        if (type.dimension < 2) return;
+        if (!is_kept(type)) return;
         block_ = into_.block_of(type.shape, std::to_string(type.type));
         DeckBlock& block = into_.deck().blocks[block_];
         // Many small blocks must not each copy what is there.
         if (count <= block.count()) return;
-        block.tags.reserve(block.count() + count);
-        block.regions.reserve(block.count() + count);
-        block.nodes.reserve((block.count() + count) * static_cast<std::size_t>(shape_info(type.shape).nodes));
+        const std::size_t all = block.count() + count;
+        reserve_large(block.tags, all);
+        reserve_large(block.regions, all);
+        reserve_large(block.nodes, all * static_cast<std::size_t>(shape_info(type.shape).nodes));
+    }
+
+    /// Points, and lines of order 3 and more, are only counted.
+    static bool is_kept(const ElementType& type)
+    {
+        return type.dimension > 1 || (type.dimension == 1 && type.order < 3);
+    }
+
+    /// The region of cells of an entity and, in version 2, of a physical group, 0: none.
+    void enter(const ElementType& type, int entity, int physical)
+    {
+        const Place place{type.dimension, entity, physical};
+        if (region_ >= 0 && place == last_place_) return;
+        last_place_ = place;
+        const auto [found, fresh] = regions_.try_emplace(place, into_.deck().regions.size());
+        if (fresh) {
+            into_.add_region(entity, "");
+            place_of_.push_back(place);
+        }
+        region_ = static_cast<Index>(found->second);
+    }
+
+    /// Cells as they lie: numbers of `Tag`, a tag, `skipped` numbers, and nodes.
+    template <class Tag>
+    void take_cells(const ElementType& type, std::size_t count, std::size_t skipped)
+    {
+        const std::size_t numbers = 1 + skipped + static_cast<std::size_t>(type.nodes);
+        const std::string_view bytes = cursor_.bytes(count * numbers * sizeof(Tag));
+        if (!is_kept(type)) {
+            others_[{type.dimension, type.type}] += count;
+            return;
+        }
+        const auto kept = static_cast<std::size_t>(shape_info(type.shape).nodes);
+        const DeckBuilder::Room room = into_.add_elements(block_, count, region_);
+        std::array<std::size_t, 27> from{};
+        const auto places = gmsh_places(type.shape);
+        for (std::size_t k = 0; k < kept; ++k) from[k] = 1 + skipped + (places.empty() ? k : places[k]);
+        const char* at = bytes.data();
+        Index* node = room.nodes;
+        for (std::size_t i = 0; i < count; ++i, at += numbers * sizeof(Tag)) {
+            room.tags[i] = tag_at<Tag>(at, "an element's");
+            for (std::size_t k = 0; k < kept; ++k)
+                *node++ = position(tag_at<Tag>(at + from[k] * sizeof(Tag), "a node's"));
+        }
+        if (shape_info(type.shape).corners == 8) order = std::max(order, type.order);
+        cells_ += count;
+    }
+
+    template <class Tag>
+    DeckTag tag_at(const char* at, const char* whose) const
+    {
+        const auto tag = static_cast<DeckTag>(from_bytes<Tag>(at, kBig));
+        if (tag < 0) cursor_.fail(std::string(whose) + " tag is too large or negative");
+        return tag;
     }
 
     /// One cell; `next_tag` reads the tag of each of its nodes.
     template <class NextTag>
-    void take_cell(const ElementType& type, std::uint64_t tag, int entity, const NextTag& next_tag)
+    void take_cell(const ElementType& type, std::uint64_t tag, const NextTag& next_tag)
     {
-        if (type.dimension < 2) {
+        if (!is_kept(type)) {
             for (int i = 0; i < type.nodes; ++i) next_tag();
             ++others_[{type.dimension, type.type}];
             return;
@@ -288,25 +399,19 @@ private:
         std::array<Index, 27> read{}, nodes{};
         for (std::size_t i = 0; i < index(type.nodes); ++i) {
             const std::uint64_t node = next_tag();
-            if (i < kept) read[i] = position(node);
+            if (i < kept) read[i] = position(static_cast<DeckTag>(node));
         }
         const auto places = gmsh_places(type.shape);
         for (std::size_t i = 0; i < kept; ++i) nodes[i] = read[places.empty() ? i : places[i]];
-        if (region_ < 0 || std::pair(type.dimension, entity) != last_entity_) {
-            last_entity_ = {type.dimension, entity};
-            region_ = into_.region_of(entity, "", type.dimension);
-            entity_of_.resize(std::max(entity_of_.size(), index(region_) + 1));
-            entity_of_[index(region_)] = last_entity_;
-        }
         if (shape_info(type.shape).corners == 8) order = std::max(order, type.order);
         if (static_cast<DeckTag>(tag) < 0) cursor_.fail("an element's tag is too large");
         ++cells_;
         into_.add_element(block_, static_cast<DeckTag>(tag), region_, {nodes.data(), kept});
     }
 
-    Index position(std::uint64_t tag) const
+    Index position(DeckTag tag) const
     {
-        const Index node = tags_->find(static_cast<DeckTag>(tag));
+        const Index node = tags_->find(tag);
         if (node < 0) cursor_.fail("a cell names node " + std::to_string(tag) + ", which is not there");
         return node;
     }
@@ -324,10 +429,18 @@ private:
             const std::uint64_t count = cursor_.plausible(cursor_.size(), (first_of_4_ ? 4 : 8) * values,
                                                           values);
             expect_cells(type, count);
+            if (is_kept(type)) enter(type, entity, 0);
+            if (cursor_.coding != Coding::text) {
+                if (first_of_4_)
+                    take_cells<int>(type, count, 0);
+                else
+                    take_cells<std::int64_t>(type, count, 0);
+                continue;
+            }
             const auto next_tag = [&] { return first_of_4_ ? node_tag() : cursor_.size(); };
             for (std::uint64_t i = 0; i < count; ++i) {
                 const std::uint64_t tag = next_tag();
-                take_cell(type, tag, entity, next_tag);
+                take_cell(type, tag, next_tag);
             }
         }
     }
@@ -345,7 +458,29 @@ private:
                 cursor_.integer();
         }
         if (physical != 0) members_[{type.dimension, physical}].insert(entity);
-        take_cell(type, tag, entity, [&] { return node_tag(); });
+        if (is_kept(type)) enter(type, entity, physical);
+        take_cell(type, tag, [&] { return node_tag(); });
+    }
+
+    /// Cells as they lie, as many at a time as have the same physical group and entity.
+    void take_cells_2(const ElementType& type, std::size_t count, std::size_t tags)
+    {
+        const std::size_t record = 4 * (1 + tags + static_cast<std::size_t>(type.nodes));
+        const std::string_view bytes = cursor_.rest();
+        cursor_.part(bytes).bytes(count * record); // or the file is cut off
+        for (std::size_t i = 0; i < count;) {
+            const char* const head = bytes.data() + i * record + 4;
+            std::size_t same = 1;
+            while (i + same < count && std::memcmp(head, head + same * record, 4 * tags) == 0) ++same;
+            const int group = tags > 0 ? from_bytes<int>(head, kBig) : 0;
+            const int entity = tags > 1 ? from_bytes<int>(head + 4, kBig) : 0;
+            if (group == std::numeric_limits<int>::min()) cursor_.fail("a group's tag is too large");
+            const int physical = std::abs(group);
+            if (physical != 0) members_[{type.dimension, physical}].insert(entity);
+            if (is_kept(type)) enter(type, entity, physical);
+            take_cells<int>(type, same, tags);
+            i += same;
+        }
     }
 
     void read_elements_2()
@@ -356,7 +491,7 @@ private:
         const std::uint64_t total = cursor_.plausible(static_cast<std::uint64_t>(announced), 8, 4);
         for (std::uint64_t done = 0; done < total;) {
             const bool text = cursor_.coding == Coding::text;
-            std::uint64_t tag = text ? node_tag() : 0;
+            const std::uint64_t tag = text ? node_tag() : 0;
             const ElementType type = type_of(cursor_, cursor_.integer());
             const int count = text ? 1 : cursor_.integer();
             const int tags = cursor_.integer();
@@ -366,10 +501,10 @@ private:
             const auto values = static_cast<std::uint64_t>(type.nodes) + static_cast<std::uint64_t>(tags);
             cursor_.plausible(static_cast<std::uint64_t>(count), 4 * (values + 1), values);
             expect_cells(type, count > 1 ? static_cast<std::uint64_t>(count) : 0);
-            for (int i = 0; i < count; ++i) {
-                if (!text) tag = node_tag();
+            if (text)
                 read_cell_2(type, tag, tags);
-            }
+            else
+                take_cells_2(type, static_cast<std::size_t>(count), static_cast<std::size_t>(tags));
             done += static_cast<std::uint64_t>(count);
         }
     }
@@ -384,7 +519,7 @@ private:
                               key.second,
                               name == names_.end() ? "" : name->second,
                               {entities.begin(), entities.end()}});
-            if (key.first >= 2) take_set(groups.back());
+            if (key.first >= 1) take_set(groups.back());
         }
         for (const auto& [key, count] : others_) {
             others.push_back({key.first, key.second, count});
@@ -393,24 +528,102 @@ private:
         std::erase_if(deck.sets, [](const DeckSet& set) { return set.members.empty(); });
     }
 
+    /// Whether the cells of a region are in a group.
+    bool holds(const MshGroup& group, std::size_t region) const
+    {
+        const Place& place = place_of_[region];
+        if (place.dimension != group.dimension) return false;
+        if (version_ == 4) return std::ranges::binary_search(group.entities, place.entity);
+        const auto more = more_groups_.find(static_cast<Index>(region));
+        return place.physical == group.tag ||
+               (more != more_groups_.end() && more->second.contains(group.tag));
+    }
+
     void take_set(const MshGroup& group)
     {
         const std::string_view name = trimmed(group.name);
-        if (name.empty()) return;
         Deck& deck = into_.deck();
         std::vector<bool> held(deck.regions.size(), false);
-        for (std::size_t r = 0; r < held.size(); ++r)
-            held[r] = entity_of_[r].first == group.dimension &&
-                      std::ranges::binary_search(group.entities, entity_of_[r].second);
+        for (std::size_t r = 0; r < held.size(); ++r) held[r] = holds(group, r);
         for (std::size_t r = 0; r < held.size(); ++r)
             if (held[r] && deck.regions[r].name.empty()) deck.regions[r].name = name;
-        DeckSet set{DeckSet::Kind::elements, group.tag, std::string(name), {}, {}};
+        DeckSet set{DeckSet::Kind::elements,
+                    group.tag,
+                    name.empty() ? unnamed_group(group.tag) : std::string(name),
+                    {},
+                    {}};
         for (const DeckBlock& block : deck.blocks)
             for (std::size_t e = 0; e < block.count(); ++e)
                 if (held[index(block.regions[e])]) set.members.push_back(block.tags[e]);
-        std::sort(set.members.begin(), set.members.end());
+        if (!std::ranges::is_sorted(set.members)) std::sort(set.members.begin(), set.members.end());
         set.members.erase(std::unique(set.members.begin(), set.members.end()), set.members.end());
         deck.sets.push_back(std::move(set));
+    }
+
+    /// In version 2 a cell of several groups stands once for each of them: one stays, in all of these.
+    void merge_copies()
+    {
+        std::map<std::pair<int, int>, int> groups_of; // of each entity
+        for (const Place& place : place_of_) ++groups_of[{place.dimension, place.entity}];
+        Deck& deck = into_.deck();
+        std::vector<bool> several;
+        for (const Place& place : place_of_)
+            several.push_back(groups_of[{place.dimension, place.entity}] > 1);
+        if (std::ranges::find(several, true) == several.end()) return;
+        std::map<std::pair<Index, std::set<int>>, Index> joined; // by the region of the first and all groups
+        for (DeckBlock& block : deck.blocks) merge_copies(block, several, joined);
+    }
+
+    void merge_copies(DeckBlock& block, const std::vector<bool>& several,
+                      std::map<std::pair<Index, std::set<int>>, Index>& joined)
+    {
+        std::vector<std::uint32_t> cells;
+        for (std::size_t e = 0; e < block.count(); ++e)
+            if (several[index(block.regions[e])]) cells.push_back(static_cast<std::uint32_t>(e));
+        const auto place = [&](std::size_t e) { return place_of_[index(block.regions[e])]; };
+        const auto compare = [&](std::size_t a, std::size_t b) {
+            if (const auto by = place(a).entity <=> place(b).entity; by != 0) return by;
+            const auto left = block.element(a), right = block.element(b);
+            return std::lexicographical_compare_three_way(left.begin(), left.end(), right.begin(),
+                                                          right.end());
+        };
+        std::sort(cells.begin(), cells.end(), [&](std::uint32_t a, std::uint32_t b) {
+            const auto by = compare(a, b);
+            return by != 0 ? by < 0 : a < b;
+        });
+        std::map<std::size_t, std::set<int>> further; // groups of cells that stand more than once
+        std::vector<bool> copy(block.count(), false);
+        for (std::size_t i = 0, first = 0; i < cells.size(); ++i) {
+            if (i == first || compare(cells[first], cells[i]) != 0) {
+                first = i;
+                continue;
+            }
+            if (place(cells[i]).physical == place(cells[first]).physical) continue; // given twice
+            further[cells[first]].insert(place(cells[i]).physical);
+            copy[cells[i]] = true;
+        }
+        for (const auto& [e, groups_of] : further) {
+            Index& region = block.regions[e];
+            const auto [found, fresh] = joined.try_emplace({region, groups_of},
+                                                           static_cast<Index>(into_.deck().regions.size()));
+            if (fresh) {
+                const Place own = place_of_[index(region)];
+                into_.add_region(own.entity, "");
+                place_of_.push_back(own);
+                more_groups_[found->second] = groups_of;
+            }
+            region = found->second;
+        }
+        into_.pass_over("cells that stand once more for a further group",
+                        static_cast<std::size_t>(std::ranges::count(copy, true)));
+        DeckBlock kept{.shape = block.shape, .type = block.type};
+        for (std::size_t e = 0; e < copy.size(); ++e) {
+            if (copy[e]) continue;
+            kept.nodes.insert(kept.nodes.end(), block.element(e).begin(), block.element(e).end());
+            kept.tags.push_back(block.tags[e]);
+            kept.regions.push_back(block.regions[e]);
+        }
+        block = std::move(kept);
     }
 
     using Key = std::pair<int, int>; // dimension, tag
@@ -419,8 +632,15 @@ private:
     std::optional<TagPlaces> tags_;
     std::size_t block_ = 0, cells_ = 0;
     Index region_ = -1;
-    std::pair<int, int> last_entity_;
-    std::vector<std::pair<int, int>> entity_of_; ///< dimension and tag, of each region
+    /// Where cells belong.
+    struct Place {
+        int dimension, entity, physical;
+        friend auto operator<=>(const Place&, const Place&) = default;
+    };
+    Place last_place_{};
+    std::map<Place, std::size_t> regions_;
+    std::vector<Place> place_of_;                ///< of each region
+    std::map<Index, std::set<int>> more_groups_; ///< of regions: further physical groups, in version 2
     std::map<Key, std::string> names_;
     std::map<Key, std::set<int>> members_;
     std::map<Key, std::size_t> others_;
@@ -430,6 +650,8 @@ private:
 };
 
 } // namespace
+
+std::string unnamed_group(int tag) { return "physical_" + std::to_string(tag); }
 
 int gmsh_type(DeckShape shape)
 {
@@ -491,7 +713,7 @@ MshCells read_msh(const std::string& path)
         else if (info.dimension == 2)
             take(cells.triangles, cells.triangle_entity);
         else
-            cells.others.push_back({3, std::stoi(block.type), block.count()});
+            cells.others.push_back({info.dimension, std::stoi(block.type), block.count()});
     }
     cells.nodes = std::move(deck.points);
     return cells;

@@ -250,13 +250,8 @@ DeckFile nastran_file(const Deck& deck)
     DeckFile file;
     file.sections.push_back({same ? text_at(deck, DeckText::Place::head) : "BEGIN BULK\n", 0, 0, {}});
     add_nodes(deck, same, file);
-    std::size_t lines = 0, surfaces = 0;
-    for (const DeckBlock& block : deck.blocks) {
-        if (shape_info(block.shape).dimension == 1)
-            lines += block.count();
-        else
-            add_elements(deck, block, same, file);
-    }
+    std::size_t surfaces = 0;
+    for (const DeckBlock& block : deck.blocks) add_elements(deck, block, same, file);
     std::string text = same ? text_at(deck, DeckText::Place::cards) : std::string();
     int number = static_cast<int>(numbers_in_text(deck).set);
     for (const DeckSet& set : deck.sets) {
@@ -268,7 +263,6 @@ DeckFile nastran_file(const Deck& deck)
     if (!same) text += property_text(deck);
     const std::string tail = same ? text_at(deck, DeckText::Place::tail) : "ENDDATA\n";
     file.sections.push_back({text + tail, 0, 0, {}});
-    if (lines > 0) file.notes.push_back(std::to_string(lines) + " lines are not written");
     if (surfaces > 0)
         file.notes.push_back(std::to_string(surfaces) + " sets of sides are not written: Nastran has none");
     return file;

@@ -143,13 +143,8 @@ DeckFile unv_file(const Deck& deck)
     if (same) file.sections.push_back({text_at(deck, DeckText::Place::cards), 0, 0, {}});
     add_nodes(deck, file);
     file.sections.push_back({std::string(kMark) + "  2412\n", 0, 0, {}});
-    std::size_t lines = 0, surfaces = 0;
-    for (const DeckBlock& block : deck.blocks) {
-        if (shape_info(block.shape).dimension == 1)
-            lines += block.count();
-        else
-            add_elements(deck, block, file);
-    }
+    std::size_t surfaces = 0;
+    for (const DeckBlock& block : deck.blocks) add_elements(deck, block, file);
     file.sections.push_back({std::string(kMark), 0, 0, {}});
     if (same) file.sections.push_back({text_at(deck, DeckText::Place::tail), 0, 0, {}});
     std::string head = std::string(kMark) + "  2467\n";
@@ -174,7 +169,6 @@ DeckFile unv_file(const Deck& deck)
         head.clear();
     }
     if (groups) file.sections.push_back({std::string(kMark), 0, 0, {}});
-    if (lines > 0) file.notes.push_back(std::to_string(lines) + " lines are not written");
     if (surfaces > 0)
         file.notes.push_back(std::to_string(surfaces) + " sets of sides are not written: a UNV has none");
     return file;

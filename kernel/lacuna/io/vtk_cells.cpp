@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/large_pages.h>
 #include <lacuna/io/detail/vtk_cells.h>
 
 #include <algorithm>
@@ -7,17 +8,31 @@
 namespace lacuna::io {
 namespace {
 
+template <class Value, class To>
+To one(const char* bytes, bool big)
+{
+    return static_cast<To>(from_bytes<Value>(bytes, big));
+}
+
+template <class Value, class To>
+void convert(const char* bytes, bool big, std::size_t count, To* out)
+{
+    if (big)
+        for (std::size_t i = 0; i < count; ++i)
+            out[i] = static_cast<To>(from_bytes<Value>(bytes + i * sizeof(Value), true));
+    else
+        for (std::size_t i = 0; i < count; ++i)
+            out[i] = static_cast<To>(from_bytes<Value>(bytes + i * sizeof(Value), false));
+}
+
 template <class Value>
 constexpr VtkType type_of(std::string_view legacy, std::string_view xml)
 {
-    VtkType type{
-        legacy, xml, sizeof(Value),
-        [](const char* bytes, bool big) { return static_cast<double>(from_bytes<Value>(bytes, big)); },
-        nullptr};
-    if constexpr (std::is_integral_v<Value>)
-        type.whole = [](const char* bytes, bool big) {
-            return static_cast<std::int64_t>(from_bytes<Value>(bytes, big));
-        };
+    VtkType type{legacy, xml, sizeof(Value), one<Value, double>, nullptr, convert<Value, double>, nullptr};
+    if constexpr (std::is_integral_v<Value>) {
+        type.whole = one<Value, std::int64_t>;
+        type.wholes = convert<Value, std::int64_t>;
+    }
     return type;
 }
 
@@ -43,7 +58,7 @@ using enum DeckShape;
 constexpr CellType kCellTypes[] = {{0, Kind::other, 0},
                                    {1, Kind::other, 1},
                                    {2, Kind::other, 1},
-                                   {3, Kind::other, 2},
+                                   {3, Kind::shape, 2, line2},
                                    {4, Kind::other, 2},
                                    {5, Kind::shape, 3, tri3},
                                    {6, Kind::strip, 3},
@@ -57,7 +72,7 @@ constexpr CellType kCellTypes[] = {{0, Kind::other, 0},
                                    {14, Kind::shape, 5, pyramid5},
                                    {15, Kind::other, 10},
                                    {16, Kind::other, 12},
-                                   {21, Kind::other, 3},
+                                   {21, Kind::shape, 3, line3},
                                    {22, Kind::shape, 6, tri6},
                                    {23, Kind::shape, 8, quad8},
                                    {24, Kind::shape, 10, tet10},
@@ -100,6 +115,24 @@ const VtkType* vtk_type(std::string_view name)
     return nullptr;
 }
 
+std::int64_t append_places(const VtkType& type, std::string_view bytes, bool big, std::vector<Index>& places)
+{
+    constexpr std::size_t kPart = 4096; // numbers at a time, which the nearest cache holds
+    std::int64_t part[kPart];
+    const std::size_t count = bytes.size() / type.bytes;
+    if (places.size() + count > places.capacity())
+        reserve_large(places, std::max(places.size() + count, 2 * places.capacity()));
+    for (std::size_t at = 0; at < count; at += kPart) {
+        const std::size_t here = std::min(kPart, count - at);
+        type.wholes(bytes.data() + at * type.bytes, big, here, static_cast<std::int64_t*>(part));
+        for (std::size_t i = 0; i < here; ++i) {
+            places.push_back(static_cast<Index>(part[i]));
+            if (places.back() != part[i]) return part[i];
+        }
+    }
+    return 0;
+}
+
 int vtk_type_of(DeckShape shape)
 {
     for (const CellType& type : kCellTypes)
@@ -116,15 +149,26 @@ void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& curs
     const auto fail = [&](std::size_t cell, const std::string& what) {
         cursor.fail("cell " + std::to_string(cell + 1) + ": " + what);
     };
-    std::int64_t begin = 0;
-    std::vector<Index> node;
-    std::int64_t last_type = -1;
-    std::size_t block = 0;
-    for (std::size_t c = 0; c < cells.ends.size(); ++c) {
-        const std::int64_t end = cells.ends[c];
+    const Index count = cells.last_point - cells.first_point;
+    const auto needs_points = [&](std::size_t cell, std::int64_t begin, std::int64_t end) {
+        for (std::int64_t k = begin; k < end; ++k)
+            if (const Index point = cells.points[static_cast<std::size_t>(k)]; point < 0 || point >= count)
+                fail(cell, "expected one of " + std::to_string(count) + " points, found number " +
+                               std::to_string(point));
+    };
+    const auto begin_of = [&](std::size_t c) { return c == 0 ? std::int64_t(0) : cells.ends[c - 1]; };
+    const auto size_of = [&](std::size_t c, const CellType& type) {
+        const std::int64_t begin = begin_of(c), end = cells.ends[c];
         if (end < begin || end > static_cast<std::int64_t>(cells.points.size()))
             fail(c, "expected its points to end between " + std::to_string(begin) + " and " +
                         std::to_string(cells.points.size()) + ", found " + std::to_string(end));
+        if (end - begin < type.points)
+            fail(c, "expected " + std::to_string(type.points) + " points or more, found " +
+                        std::to_string(end - begin));
+        return end - begin;
+    };
+    std::vector<Index> node;
+    for (std::size_t c = 0, next = 0; c < cells.ends.size(); c = next) {
         CellType type{0, cells.strips ? Kind::strip : Kind::polygon, 3};
         if (!cells.types.empty()) {
             const auto known = std::ranges::find(kCellTypes, cells.types[c], &CellType::number);
@@ -132,42 +176,45 @@ void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& curs
                 fail(c, "the cell type " + std::to_string(cells.types[c]) + " is not known");
             type = *known;
         }
-        if (end - begin < type.points)
-            fail(c, "expected " + std::to_string(type.points) + " points or more, found " +
-                        std::to_string(end - begin));
+        // Cells of one type at a time; lists of corners one by one.
+        next = c + 1;
+        const bool list = type.kind == Kind::polygon || type.kind == Kind::strip;
+        while (!list && next < cells.ends.size() && cells.types[next] == type.number) ++next;
         if (type.kind == Kind::other) {
-            into.pass_over("cells of type " + std::to_string(type.number));
-            begin = end;
+            for (std::size_t k = c; k < next; ++k) size_of(k, type);
+            into.pass_over("cells of type " + std::to_string(type.number), next - c);
             continue;
         }
-        const bool list = type.kind == Kind::polygon || type.kind == Kind::strip;
-        const std::int64_t kept = list ? end - begin : shape_info(type.shape).nodes;
-        node.clear();
-        for (std::int64_t k = begin; k < begin + kept; ++k) {
-            const std::int64_t point = cells.points[static_cast<std::size_t>(k)];
-            if (point < 0 || point >= cells.last_point - cells.first_point)
-                fail(c, "expected one of " + std::to_string(cells.last_point - cells.first_point) +
-                            " points, found number " + std::to_string(point));
-            node.push_back(cells.first_point + static_cast<Index>(point));
-        }
-        begin = end;
         const DeckTag tag = cells.types.empty() ? -1 : cells.first_cell + static_cast<DeckTag>(c) + 1;
-        const int dimension = list ? 2 : shape_info(type.shape).dimension;
-        const Index region = into.region_of(1, "", dimension);
-        if (type.kind == Kind::pixel || type.kind == Kind::voxel) std::swap(node[2], node[3]);
-        if (type.kind == Kind::voxel) std::swap(node[6], node[7]);
-        if (!list) {
-            if (type.number != last_type) {
-                last_type = type.number;
-                block = into.block_of(type.shape, std::to_string(type.number));
+        const Index region = into.region_of(1, "", list ? 2 : shape_info(type.shape).dimension);
+        if (list) {
+            const std::int64_t size = size_of(c, type), begin = begin_of(c);
+            needs_points(c, begin, begin + size);
+            node.clear();
+            for (std::int64_t k = begin; k < begin + size; ++k)
+                node.push_back(cells.first_point + cells.points[static_cast<std::size_t>(k)]);
+            if (type.kind == Kind::polygon) {
+                into.add_face(node, region, cursor, tag);
+                continue;
             }
-            into.add_element(block, tag, region, node);
-        } else if (type.kind == Kind::polygon) {
-            into.add_face(node, region, cursor, tag);
-        } else {
             for (std::size_t k = 0; k + 2 < node.size(); ++k)
                 into.add_face(Triangle{node[k], node[k + 1 + k % 2], node[k + 2 - k % 2]}, region, cursor,
                               tag);
+            continue;
+        }
+        const auto kept = static_cast<std::size_t>(shape_info(type.shape).nodes);
+        for (std::size_t k = c; k < next; ++k) size_of(k, type);
+        const std::size_t block = into.block_of(type.shape, std::to_string(type.number));
+        const DeckBuilder::Room room = into.add_elements(block, next - c, region);
+        Index* out = room.nodes;
+        for (std::size_t k = c; k < next; ++k, out += kept) {
+            const std::int64_t begin = begin_of(k);
+            needs_points(k, begin, begin + static_cast<std::int64_t>(kept));
+            for (std::size_t i = 0; i < kept; ++i)
+                out[i] = cells.first_point + cells.points[static_cast<std::size_t>(begin) + i];
+            if (type.kind == Kind::pixel || type.kind == Kind::voxel) std::swap(out[2], out[3]);
+            if (type.kind == Kind::voxel) std::swap(out[6], out[7]);
+            room.tags[k - c] = tag + static_cast<DeckTag>(k - c);
         }
     }
 }

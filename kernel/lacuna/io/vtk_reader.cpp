@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/large_pages.h>
 #include <lacuna/io/detail/vtk_cells.h>
 
 #include <algorithm>
@@ -79,6 +80,15 @@ private:
             cursor_.fail("too many points");
         const VtkType& type = needed_type(cursor_.word("a type of numbers"));
         std::vector<Vec3>& points = into_.points();
+        if (binary_) {
+            const std::string_view bytes = array_bytes(type, 3 * plausible(count, 3 * type.bytes, 3));
+            reserve_large(points, count);
+            points.resize(count);
+            if (count > 0) type.reals(bytes.data(), true, 3 * count, points.front().data());
+            if (!std::ranges::all_of(points, [](const Vec3& p) { return p.allFinite(); }))
+                cursor_.fail("expected finite coordinates, found one that is none");
+            return;
+        }
         const auto take = [&](std::uint64_t i, double value) {
             if (!std::isfinite(value)) cursor_.fail("expected finite coordinates, found one that is none");
             if (i % 3 == 0) points.emplace_back();
@@ -88,7 +98,7 @@ private:
     }
 
     /// Lists of points: each with its length before it, or, since 5.1, where each begins and then all.
-    void read_lists(std::vector<std::int64_t>& ends, std::vector<std::int64_t>& points)
+    void read_lists(std::vector<std::int64_t>& ends, std::vector<Index>& points)
     {
         ends.clear();
         points.clear();
@@ -99,7 +109,7 @@ private:
             cursor_.expect("OFFSETS");
             ends = read_wholes(cursor_.word("a type of numbers"), lists);
             cursor_.expect("CONNECTIVITY");
-            points = read_wholes(cursor_.word("a type of numbers"), values);
+            read_places(cursor_.word("a type of numbers"), values, points);
             if (!ends.empty() && ends.front() != 0) cursor_.fail("expected the first offset to be 0");
             if (!ends.empty() && ends.back() != static_cast<std::int64_t>(points.size()))
                 cursor_.fail("expected the last offset to be " + std::to_string(points.size()) + ", found " +
@@ -107,17 +117,20 @@ private:
             if (!ends.empty()) ends.erase(ends.begin());
             return;
         }
+        plausible(values, 4, 1);
+        reserve_large(ends, std::min(lists, values));
+        reserve_large(points, values - std::min(lists, values));
+        const std::string_view bytes = binary_ ? array_bytes(needed_type("int"), values) : std::string_view();
+        const auto number = [&](std::uint64_t i) {
+            return binary_ ? from_bytes<std::int32_t>(bytes.data() + 4 * i, true) : cursor_.text_integer();
+        };
         std::int64_t left = 0;
-        each_whole(needed_type("int"), plausible(values, 4, 1), [&](std::int64_t value) {
-            if (left == 0) {
-                if (value < 0) cursor_.fail("expected the length of a list, found " + std::to_string(value));
-                left = value;
-                ends.push_back(static_cast<std::int64_t>(points.size()) + value);
-            } else {
-                points.push_back(value);
-                --left;
-            }
-        });
+        for (std::uint64_t i = 0; i < values;) {
+            left = number(i++);
+            if (left < 0) cursor_.fail("expected the length of a list, found " + std::to_string(left));
+            ends.push_back(static_cast<std::int64_t>(points.size()) + left);
+            for (; left > 0 && i < values; --left) points.push_back(place_of(number(i++)));
+        }
         if (left != 0 || ends.size() != lists)
             cursor_.fail("expected " + std::to_string(lists) + " lists in " + std::to_string(values) +
                          " numbers, found " + std::to_string(ends.size()));
@@ -162,11 +175,38 @@ private:
         cursor_.line();
     }
 
+    /// A point's number, which must be one.
+    Index place_of(std::int64_t value) const
+    {
+        const auto place = static_cast<Index>(value);
+        if (place != value) cursor_.fail("expected the number of a point, found " + std::to_string(value));
+        return place;
+    }
+
+    void read_places(std::string_view name, std::uint64_t count, std::vector<Index>& places)
+    {
+        const VtkType& type = needed_type(name);
+        plausible(count, type.bytes, 1);
+        if (!binary_ || type.wholes == nullptr)
+            return each_whole(type, count, [&](std::int64_t value) { places.push_back(place_of(value)); });
+        if (const std::int64_t wrong = append_places(type, array_bytes(type, count), true, places);
+            wrong != 0)
+            place_of(wrong);
+    }
+
     std::vector<std::int64_t> read_wholes(std::string_view name, std::uint64_t count)
     {
         const VtkType& type = needed_type(name);
         std::vector<std::int64_t> values;
-        values.reserve(plausible(count, type.bytes, 1));
+        plausible(count, type.bytes, 1);
+        if (binary_ && type.wholes != nullptr) {
+            const std::string_view bytes = array_bytes(type, count);
+            reserve_large(values, count);
+            values.resize(count);
+            type.wholes(bytes.data(), true, count, values.data());
+            return values;
+        }
+        reserve_large(values, count);
         each_whole(type, count, [&](std::int64_t value) { values.push_back(value); });
         return values;
     }
@@ -216,7 +256,8 @@ private:
     DeckBuilder& into_;
     bool binary_ = false;
     VtkCells cells_;
-    std::vector<std::int64_t> unstructured_, unstructured_points_; ///< of CELLS, until their types are known
+    std::vector<std::int64_t> unstructured_; ///< ends of CELLS, until their types are known
+    std::vector<Index> unstructured_points_;
 };
 
 } // namespace

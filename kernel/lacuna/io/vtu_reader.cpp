@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/inflate.h>
+#include <lacuna/io/detail/large_pages.h>
 #include <lacuna/io/detail/vtk_cells.h>
 
 #include <algorithm>
@@ -209,37 +210,90 @@ private:
         if (points.size() + piece.points > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
             cursor_.fail("too many points");
         cells.first_point = static_cast<Index>(points.size());
-        std::uint64_t i = 0;
-        each_value(piece.at, "Points", 3 * piece.points, [&](double value) {
-            if (!std::isfinite(value)) cursor_.fail_at(piece.at.position, "expected finite coordinates");
-            if (i % 3 == 0) points.emplace_back();
-            points.back()[static_cast<Index>(i++ % 3)] = value;
-        });
+        read_points(piece);
         cells.last_point = static_cast<Index>(points.size());
         cells.ends = wholes(piece.offsets, "offsets", piece.cells);
         cells.types = wholes(piece.types, "types", piece.cells);
         const std::int64_t all = cells.ends.empty() ? 0 : cells.ends.back();
         if (all < 0) cursor_.fail_at(piece.offsets.position, "expected offsets that rise");
-        cells.points = wholes(piece.connectivity, "connectivity", static_cast<std::uint64_t>(all));
+        read_places(piece.connectivity, static_cast<std::uint64_t>(all), cells.points);
         cells.first_cell = cells_;
         cells_ += static_cast<DeckTag>(piece.cells);
         take_vtk_cells(cells, into_, cursor_);
     }
 
+    void read_points(const Piece& piece)
+    {
+        std::vector<Vec3>& points = into_.points();
+        const std::size_t first = points.size();
+        std::size_t done = 0; // numbers
+        const auto grow = [&](std::size_t count) {
+            const std::size_t needed = first + (done + count + 2) / 3;
+            if (needed > points.capacity()) reserve_large(points, std::max(needed, 2 * points.capacity()));
+            points.resize(needed);
+            double* const at = points[first].data() + done;
+            done += count;
+            return at;
+        };
+        each_run(
+            piece.at, "Points", 3 * piece.points, [&](double value) { *grow(1) = value; },
+            [&](const char* bytes, std::size_t count) {
+                piece.at.type->reals(bytes, big_, count, grow(count));
+            });
+        for (std::size_t p = first; p < points.size(); ++p)
+            if (!points[p].allFinite()) cursor_.fail_at(piece.at.position, "expected finite coordinates");
+    }
+
+    std::int64_t whole_of(double value, const Array& array, const char* name) const
+    {
+        if (value != std::floor(value) || std::abs(value) > kMostWhole)
+            cursor_.fail_at(array.position, std::string("expected whole numbers as ") + name);
+        return static_cast<std::int64_t>(value);
+    }
+
     std::vector<std::int64_t> wholes(const Array& array, const char* name, std::uint64_t count)
     {
         std::vector<std::int64_t> values;
-        each_value(array, name, count, [&](double value) {
-            if (value != std::floor(value) || std::abs(value) > kMostWhole)
-                cursor_.fail_at(array.position, std::string("expected whole numbers as ") + name);
-            values.push_back(static_cast<std::int64_t>(value));
-        });
+        each_run(
+            array, name, count, [&](double value) { values.push_back(whole_of(value, array, name)); },
+            [&](const char* bytes, std::size_t here) {
+                if (array.type->wholes == nullptr) {
+                    for (std::size_t i = 0; i < here; ++i)
+                        values.push_back(
+                            whole_of(array.type->real(bytes + i * array.type->bytes, big_), array, name));
+                    return;
+                }
+                values.resize(values.size() + here);
+                array.type->wholes(bytes, big_, here, values.data() + values.size() - here);
+            });
         return values;
     }
 
-    /// All `count` values of an array, whichever way they are written.
-    template <class Take>
-    void each_value(const Array& array, const char* name, std::uint64_t count, const Take& take)
+    void read_places(const Array& array, std::uint64_t count, std::vector<Index>& places)
+    {
+        constexpr const char* kName = "connectivity";
+        const auto refuse = [&](std::int64_t value) {
+            cursor_.fail_at(array.position, "expected the number of a point, found " + std::to_string(value));
+        };
+        const auto take = [&](double value) {
+            const std::int64_t number = whole_of(value, array, kName);
+            places.push_back(static_cast<Index>(number));
+            if (places.back() != number) refuse(number);
+        };
+        each_run(array, kName, count, take, [&](const char* bytes, std::size_t here) {
+            const std::string_view run(bytes, here * array.type->bytes);
+            if (array.type->wholes == nullptr)
+                for (std::size_t i = 0; i < here; ++i)
+                    take(array.type->real(bytes + i * array.type->bytes, big_));
+            else if (const std::int64_t wrong = append_places(*array.type, run, big_, places); wrong != 0)
+                refuse(wrong);
+        });
+    }
+
+    /// All `count` values of an array, whichever way they are written: `take(value)` of text, `run(bytes, n)`
+    /// of n values as they lie.
+    template <class Take, class Run>
+    void each_run(const Array& array, const char* name, std::uint64_t count, const Take& take, const Run& run)
     {
         const auto fail = [&](const std::string& what) {
             cursor_.fail_at(array.position, std::string(name) + ": " + what);
@@ -257,8 +311,7 @@ private:
         const bool appended = array.format == "appended";
         if (appended && array.offset > appended_.size()) fail("the appended data end before it begins");
         const std::string_view from = appended ? appended_.substr(array.offset) : array.text;
-        if (!compressor_.empty())
-            return each_compressed(array, from, appended && !base64_, count, fail, take);
+        if (!compressor_.empty()) return each_compressed(array, from, appended && !base64_, count, fail, run);
         // No count is believed beyond what the text can hold.
         if (count > from.size()) fail("the file is cut off: expected " + std::to_string(count) + " numbers");
         const std::uint64_t needed = header_->bytes + count * array.type->bytes;
@@ -271,14 +324,13 @@ private:
         if (announced != count * array.type->bytes)
             fail("expected " + std::to_string(count * array.type->bytes) + " bytes, found " +
                  std::to_string(announced));
-        for (std::uint64_t i = 0; i < count; ++i)
-            take(array.type->real(bytes.data() + header_->bytes + i * array.type->bytes, big_));
+        run(bytes.data() + header_->bytes, count);
     }
 
     /// Blocks, each compressed by itself, behind a list of their lengths.
-    template <class Fail, class Take>
+    template <class Fail, class Run>
     void each_compressed(const Array& array, std::string_view from, bool raw, std::uint64_t count,
-                         const Fail& fail, const Take& take)
+                         const Fail& fail, const Run& run)
     {
         if (compressor_ != "vtkZLibDataCompressor" || !can_inflate())
             fail("data compressed by " + shown(compressor_) + " are not read" +
@@ -305,7 +357,8 @@ private:
                 fail("the file is cut off: a block has " + std::to_string(length) + " bytes");
             packed += length;
         }
-        const std::string all = decoded(packed);
+        const std::string bytes = raw ? std::string() : decoded(packed);
+        const std::string_view all = raw ? from.substr(0, packed) : std::string_view(bytes);
         if (all.size() < packed)
             fail("the file is cut off: expected " + std::to_string(packed) + " bytes, found " +
                  std::to_string(all.size()));
@@ -314,15 +367,15 @@ private:
         for (std::uint64_t b = 0, at = (3 + blocks) * width; b < blocks; ++b) {
             const std::uint64_t length = whole(list, 3 + b);
             const std::uint64_t wanted = b + 1 == blocks && last > 0 ? last : size;
-            const auto plain = inflate(std::string_view(all).substr(at, length), wanted);
+            const auto plain = inflate(all.substr(at, length), wanted);
             if (!plain) fail("block " + std::to_string(b + 1) + " of the compressed data is damaged");
             at += length;
             left += *plain;
-            std::size_t done = 0;
-            for (; taken < count && done + array.type->bytes <= left.size();
-                 done += array.type->bytes, ++taken)
-                take(array.type->real(left.data() + done, big_));
-            left.erase(0, done);
+            const std::uint64_t here = std::min<std::uint64_t>(count - taken,
+                                                               left.size() / array.type->bytes);
+            if (here > 0) run(left.data(), here);
+            taken += here;
+            left.erase(0, here * array.type->bytes);
             if (taken == count && !left.empty()) break;
         }
         if (taken != count || !left.empty())

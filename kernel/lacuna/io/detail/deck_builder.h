@@ -18,9 +18,16 @@ public:
     template <class Twice>
     TagPlaces(std::span<const DeckTag> tags, const Twice& twice);
     /// -1 where there is none.
-    [[nodiscard]] Index find(DeckTag tag) const;
+    [[nodiscard]] Index find(DeckTag tag) const
+    {
+        return tag >= 0 && static_cast<std::uint64_t>(tag) < dense_.size()
+                   ? dense_[static_cast<std::size_t>(tag)]
+                   : find_sparse(tag);
+    }
 
 private:
+    [[nodiscard]] Index find_sparse(DeckTag tag) const;
+
     std::vector<Index> dense_;
     std::vector<std::pair<DeckTag, Index>> sparse_;
 };
@@ -47,6 +54,13 @@ public:
     /// -1: left out. @param tag  -1: counted. @param place  for messages, see `resolve()`.
     void add_element(std::size_t block, DeckTag tag, Index region, std::span<const Index> nodes,
                      std::uint64_t place = 0);
+    /// Where elements that are added many at a time go, one after the other.
+    struct Room {
+        Index* nodes;  ///< places of points, in the order of DeckShape
+        DeckTag* tags; ///< counted as they are
+    };
+    /// Add elements of one region, whose nodes and tags are to be filled in before the next are added.
+    Room add_elements(std::size_t block, std::size_t count, Index region);
     /// Add a shell of three corners or more; more than four are split into triangles.
     /// @throw InvalidInput  fewer corners, a point that is not there, a polygon that crosses itself.
     void add_face(std::span<const Index> corners, Index region, const Cursor& cursor, DeckTag tag = -1);

@@ -24,8 +24,11 @@ struct PhysicalName {
 /// Gives each group one tag. Tags are unique over all dimensions, for readers that know a tag alone.
 class GroupTags {
 public:
+    /// Give a group the tag it has in a file; its name is not written where that is `unnamed_group()`. Of
+    /// two groups that want the same tag in one dimension the first has it. Before any other is asked for.
+    void keep(int dimension, const std::string& group, int tag);
     int tag_of(int dimension, const std::string& group);
-    /// Of several groups, rising; of `otherwise` where there is none.
+    /// Of several groups, rising; of `otherwise` where there is none, and none where that is empty.
     std::vector<int> tags_of(int dimension, const std::vector<std::string>& groups,
                              const std::string& otherwise);
     std::vector<PhysicalName> take() { return std::move(names_); }
@@ -36,6 +39,8 @@ private:
     std::map<std::pair<int, std::string>, int> tags_;
     std::set<std::pair<int, std::string>> written_;
     std::vector<PhysicalName> names_;
+    std::set<std::pair<int, int>> kept_; ///< dimensions and tags
+    int next_ = 1;
 };
 
 /// A surface entity: a skin patch that has quads or triangles.

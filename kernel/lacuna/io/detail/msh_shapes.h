@@ -4,10 +4,13 @@
 #include <lacuna/io/deck.h>
 
 #include <span>
+#include <string>
 
 /// Shapes as Gmsh has them. Internal to this folder.
 namespace lacuna::io {
 
+/// What a physical group without a name is called.
+std::string unnamed_group(int tag);
 /// Gmsh's number of a shape.
 int gmsh_type(DeckShape shape);
 /// Where Gmsh has the nodes of a shape, in the order of DeckShape; empty: in the same places.

@@ -12,7 +12,12 @@ struct VtkType {
     std::size_t bytes;
     double (*real)(const char* bytes, bool big);
     std::int64_t (*whole)(const char* bytes, bool big); ///< null for floating-point numbers
+    /// Many of them, one after the other.
+    void (*reals)(const char* bytes, bool big, std::size_t count, double* out);
+    void (*wholes)(const char* bytes, bool big, std::size_t count, std::int64_t* out); ///< null likewise
 };
+/// Append whole numbers as places. @return  the first that is no `Index` and ends it; 0: all are.
+std::int64_t append_places(const VtkType& type, std::string_view bytes, bool big, std::vector<Index>& places);
 /// Null where the name is unknown.
 const VtkType* vtk_type(std::string_view name);
 /// VTK's number of a shape.
@@ -21,7 +26,7 @@ int vtk_type_of(DeckShape shape);
 /// Cells over one list of points.
 struct VtkCells {
     std::vector<std::int64_t> ends;        ///< where each cell's points end in `points`
-    std::vector<std::int64_t> points;      ///< numbers from `first_point` on
+    std::vector<Index> points;             ///< numbers from `first_point` on
     std::vector<std::int64_t> types;       ///< one each; empty: all are polygons
     bool strips = false;                   ///< all are triangle strips
     Index first_point = 0, last_point = 0; ///< which of the collector's points they count, [first, last)
