@@ -35,6 +35,13 @@ std::array<Index, N> sorted(std::array<Index, N> nodes)
     return nodes;
 }
 
+/// A face by its corners; a triangle of the mesh, whose last corner stands twice, by three.
+Quad key_of(Quad face)
+{
+    if (mesh::is_triangle(face)) face[3] = -1;
+    return sorted(face);
+}
+
 class Joiner {
 public:
     Joiner(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh)
@@ -105,20 +112,23 @@ private:
         std::unordered_map<Segment, char, Hash<2>> sides;
         for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
             const Quad quad = skin_quad(mesh_, i).nodes;
-            faces.emplace(sorted(quad), static_cast<std::uint32_t>(i));
+            faces.emplace(key_of(quad), static_cast<std::uint32_t>(i));
             for (std::size_t k = 0; k < 4; ++k) sides.emplace(sorted(Segment{quad[k], quad[(k + 1) % 4]}), 0);
         }
         touching_.assign(deck_.regions.size(), 0);
         const auto take = [&](std::span<const Index> points, Index region) {
-            Quad nodes{};
+            Quad nodes{-1, -1, -1, -1};
             const std::size_t corners = points.size();
-            for (std::size_t k = 0; k < corners; ++k) nodes[k] = node_of_[index(points[k])];
-            if (corners == 4)
-                if (const auto found = faces.find(sorted(nodes)); found != faces.end()) {
-                    matched_[found->second] = true;
-                    if (region >= 0) ++touching_[index(region)];
-                    for (std::size_t k = 0; k < 4; ++k) vote(by_face_, nodes[k], points[k]);
-                }
+            bool all = true; // corners are the skin's
+            for (std::size_t k = 0; k < corners; ++k) {
+                nodes[k] = node_of_[index(points[k])];
+                all = all && nodes[k] >= 0;
+            }
+            if (const auto found = all ? faces.find(sorted(nodes)) : faces.end(); found != faces.end()) {
+                matched_[found->second] = true;
+                if (region >= 0) ++touching_[index(region)];
+                for (std::size_t k = 0; k < corners; ++k) vote(by_face_, nodes[k], points[k]);
+            }
             for (std::size_t k = 0; k < corners; ++k) {
                 const std::size_t next = (k + 1) % corners;
                 if (!sides.contains(sorted(Segment{nodes[k], nodes[next]}))) continue;
