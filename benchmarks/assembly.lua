@@ -1,10 +1,11 @@
 -- SPDX-License-Identifier: MIT
 -- An assembly of n × n × m blocks against the same blocks swept one by one: CPU seconds of each, and their
--- ratio. usage: lacuna assembly.lua [across=5] [up=4] [quads=46] [layers=46] [threads=1]
+-- ratio. usage: lacuna assembly.lua [across=5] [up=4] [quads=46] [layers=46] [style=mapped]
 -- The peak of memory is the process's: run it with only = "assembly" or "parts" under /usr/bin/time -v.
 local lacuna = require "lacuna"
 
-local params = lacuna.params { across = 5, up = 4, quads = 46, layers = 46, only = "", style = "mapped", threads = 1 }
+local params = lacuna.params { across = 5, up = 4, quads = 46, layers = 46, only = "", style = "mapped",
+  threads = 1 }
 
 --- A block between two corners, its bottom and top the ends; its sides given or left for Lacuna to find.
 local function block(name, x, y, z)
@@ -20,7 +21,8 @@ local function block(name, x, y, z)
   return model:open_volume { source = "bottom", target = "top", walls = { "front", "back" }, name = name }
 end
 
-local options = { layers = params.layers, size = 1 / params.quads, quads = params.style, threads = params.threads }
+local options = { layers = params.layers, size = 1 / params.quads, quads = params.style,
+  threads = params.threads }
 local function blocks()
   local list = {}
   for k = 1, params.up do

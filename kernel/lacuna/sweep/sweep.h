@@ -54,9 +54,9 @@ enum class Interior {
 
 /// What a volume's neighbours in an assembly have to say to its sweep.
 struct Beside {
-    /// Null, or called with each mesh before it is proved, and with the face of each of its patches: lays nodes
-    /// of the skin onto those that a neighbour has in the same places but for rounding. What it returns are
-    /// the faces it did so on; their nodes stay from then on.
+    /// Null, or called with each mesh before it is proved, and with the face of each of its patches: lays
+    /// nodes of the skin onto those that a neighbour has in the same places but for rounding. What it returns
+    /// are the faces it did so on; their nodes stay from then on.
     std::function<std::set<FaceId>(mesh::HexMesh&, const std::vector<FaceId>&)> settle;
     /// The shape that the skin is compared with, of the volume's faces; null: the volume itself.
     const topology::OpenVolume* shape = nullptr;
