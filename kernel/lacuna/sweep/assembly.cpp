@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/assembly.h>
 
+#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
 #include <lacuna/sweep/detail/place_order.h>
+#include <lacuna/sweep/detail/shared_quads.h>
 #include <lacuna/topology/give_mesh.h>
 #include <lacuna/topology/side_points.h>
 
@@ -13,7 +15,7 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <tuple>
+#include <unordered_set>
 
 namespace lacuna::sweep {
 
@@ -28,21 +30,10 @@ std::string place_of(const Vec3& p)
     return text.data();
 }
 
-/// The quads of a face in a part's skin, by the part's nodes.
-std::vector<Quad> quads_on(const Swept& part, FaceId face)
-{
-    std::vector<Quad> quads;
-    for (std::size_t i = 0; i < part.mesh.skin_count(); ++i) {
-        const mesh::SkinQuad quad = mesh::skin_quad(part.mesh, i);
-        if (part.faces[index(quad.patch)] == face) quads.push_back(quad.nodes);
-    }
-    return quads;
-}
-
 /// Hand a face's mesh on to the volume behind it.
 void hand_on(const Swept& part, FaceId from, OpenVolume& volume, FaceId to)
 {
-    std::vector<Quad> quads = quads_on(part, from);
+    std::vector<Quad> quads = quads_on(part.mesh, part.faces, from);
     std::map<Index, Index> number;
     std::vector<Vec3> nodes;
     for (Quad& quad : quads) {
@@ -54,6 +45,17 @@ void hand_on(const Swept& part, FaceId from, OpenVolume& volume, FaceId to)
     }
     give_mesh(volume, to, nodes, quads);
 }
+
+/// Two meshes of a shared face are the same where their nodes are apart by no more than this part of the
+/// largest coordinate: rounding of the same patch in another order.
+constexpr double kRounding = 1e-12;
+/// The facets of a flat face have areas that add up to the face's but for this share.
+constexpr double kFlat = 1e-9;
+
+/// A member's own mesh of a shared face came out unlike its neighbour's.
+struct UnlikeNeighbour : Error {
+    using Error::Error;
+};
 
 /// A member that could not be swept where others had been before it.
 struct Failed {
@@ -201,25 +203,39 @@ private:
         result_.report.push_back("meshed in this order: " + names);
     }
 
+    /// What a part came out of: the neighbours that were there, and how often each had been swept.
+    using Inputs = std::vector<std::pair<std::size_t, int>>;
+
     std::optional<Failed> sweep_in_order()
     {
-        result_.parts.assign(members_.size(), {});
-        result_.report.clear();
+        result_.parts.resize(members_.size());
+        inputs_.resize(members_.size());
+        times_swept_.resize(members_.size(), 0);
+        shared_lines_.resize(members_.size());
         std::vector<char> done(members_.size(), 0);
         for (const std::size_t m : order_) {
             check_cancelled(context_);
-            bool given = false;
+            const std::vector<Neighbour> neighbours = shared_with(m, done);
+            Inputs inputs;
+            for (const Neighbour& n : neighbours) inputs.emplace_back(n.other, times_swept_[n.other]);
+            done[m] = 1;
+            if (inputs_[m] == inputs) continue;
+            ++times_swept_[m];
+            inputs_[m].reset();
             try {
-                result_.parts[m] = sweep_one(m, done, given);
+                sweep_one(m, neighbours);
             } catch (const Cancelled&) {
                 throw;
             } catch (const Error& error) {
                 Failed failed{m, error.code(), members_[m].region + ": " + error.what()};
-                if (given) return failed;
+                if (!neighbours.empty()) return failed;
                 throw NotSweepable(failed.code, failed.why);
             }
-            done[m] = 1;
+            inputs_[m] = std::move(inputs);
         }
+        result_.report.clear();
+        for (const std::size_t m : order_)
+            result_.report.insert(result_.report.end(), shared_lines_[m].begin(), shared_lines_[m].end());
         return std::nullopt;
     }
 
@@ -240,29 +256,101 @@ private:
         return found;
     }
 
-    Swept sweep_one(std::size_t m, const std::vector<char>& done, bool& given)
+    /// Faces whose rim alone says what their mesh is are left to the member itself, which is checked; meshes
+    /// of others are handed on to it, and so are all where it came to another mesh.
+    void sweep_one(std::size_t m, const std::vector<Neighbour>& neighbours)
     {
         const AssemblyMember& member = members_[m];
         SweepOptions options = member.options;
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
-        OpenVolume volume = *member.volume, sealed = *member.volume;
-        give_edge_nodes(volume, plan_.nodes[m]);
-        for (const auto& [own, other, from] : shared_with(m, done)) {
-            given = true;
-            hand_on(result_.parts[other], from, volume, own);
-            // Where the face is void, what the neighbour has there is the shape.
-            if (is_void(m, own)) hand_on(result_.parts[other], from, sealed, own);
+        std::vector<Neighbour> alike, handed;
+        for (const Neighbour& n : neighbours) (is_alike(m, n) ? alike : handed).push_back(n);
+        options.beside.settle = [&](mesh::HexMesh& mesh, const std::vector<FaceId>& faces) {
+            return settle(m, alike, mesh, faces);
+        };
+        const auto sweep_it = [&] {
+            OpenVolume volume = *member.volume, sealed = *member.volume;
+            give_edge_nodes(volume, plan_.nodes[m]);
+            for (const auto& [own, other, from] : handed) {
+                hand_on(result_.parts[other], from, volume, own);
+                // Where the face is void, what the neighbour has there is the shape.
+                if (is_void(m, own)) hand_on(result_.parts[other], from, sealed, own);
+            }
+            // Shape is that of the volume as it was sealed, not as its neighbours' quads bound it.
+            if (!plan_.nodes[m].empty()) options.beside.shape = &sealed;
+            result_.parts[m] = sweep(volume, options, context_);
+        };
+        try {
+            sweep_it();
+        } catch (const UnlikeNeighbour& unlike) {
+            log_line(context_, unlike.what());
+            alike.clear();
+            handed = neighbours;
+            sweep_it();
         }
-        Swept part = sweep(volume, options, context_);
-        check_kept(m, part, done);
-        if (plan_.nodes[m].empty()) return part;
-        // Shape is that of the volume as it was sealed, not as its neighbours' quads bound it.
-        part.fidelity = compare(sealed, part.mesh, part.faces, {}, part.fidelity.volume,
-                                {options.max_deviation}, context_);
-        require(part.fidelity, part.mesh.layers, {options.max_deviation});
-        std::erase_if(part.report, [](const std::string& line) { return line.starts_with("shape: volume"); });
-        part.report.push_back(in_words(part.fidelity));
-        return part;
+        check_kept(m, neighbours);
+    }
+
+    /// Whether a member will mesh a face as its neighbour did: flat, with four edges whose nodes are planned,
+    /// and a grid there.
+    [[nodiscard]] bool is_alike(std::size_t m, const Neighbour& n) const
+    {
+        const Model& model = members_[m].volume->model;
+        if (!is_flat(model, n.own) || !is_flat(members_[n.other].volume->model, n.there)) return false;
+        const std::vector<Loop> loops = border_loops(model, n.own);
+        if (loops.size() != 1 || loops[0].uses.size() != 4) return false;
+        std::array<std::size_t, 4> sides{};
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto planned = std::ranges::find(plan_.nodes[m], loops[0].uses[k].edge, &EdgeNodes::edge);
+            if (planned == plan_.nodes[m].end()) return false;
+            sides[k] = planned->nodes.size() - 1;
+        }
+        const Swept& part = result_.parts[n.other];
+        return sides[0] == sides[2] && sides[1] == sides[3] &&
+               quads_on(part.mesh, part.faces, n.there).size() == sides[0] * sides[1];
+    }
+    static bool is_flat(const Model& model, FaceId face)
+    {
+        return model[face].given_quads.empty() &&
+               face_area_vector(model, face).norm() >= (1 - kFlat) * face_area(model, face);
+    }
+
+    /// What was found where a member's nodes were laid onto a neighbour's.
+    struct Settled {
+        std::vector<Quad> quads; ///< of the member
+        std::vector<NodePair> pairs;
+    };
+
+    /// Lay a member's nodes on faces onto its neighbours' nodes.
+    std::set<FaceId> settle(std::size_t m, const std::vector<Neighbour>& alike, mesh::HexMesh& mesh,
+                            const std::vector<FaceId>& faces)
+    {
+        std::set<FaceId> settled;
+        settled_.clear();
+        const double within = kRounding * coordinates_of(m);
+        for (const Neighbour& n : alike) {
+            const Swept& part = result_.parts[n.other];
+            std::vector<Quad> own = quads_on(mesh, faces, n.own);
+            auto pairs = same_quads_.pairs(mesh, own, part.mesh, quads_on(part.mesh, part.faces, n.there),
+                                           within);
+            if (!pairs)
+                throw UnlikeNeighbour("assembly.unlike", named(m, n.own) +
+                                                             " is meshed unlike its neighbour; that mesh is "
+                                                             "handed on to it");
+            for (const NodePair& pair : *pairs)
+                mesh.nodes[index(pair.own)] = part.mesh.nodes[index(pair.other)];
+            settled.insert(n.own);
+            settled_.insert_or_assign(n.own, Settled{std::move(own), std::move(*pairs)});
+        }
+        return settled;
+    }
+    /// The largest coordinate of a member.
+    [[nodiscard]] double coordinates_of(std::size_t m) const
+    {
+        double largest = 0;
+        for (const Vec3& p : members_[m].volume->model.points)
+            largest = std::max(largest, p.cwiseAbs().maxCoeff());
+        return largest;
     }
 
     /// Groups of each part's own, told apart by its region's name, beside those that all parts have.
@@ -279,49 +367,37 @@ private:
         }
     }
 
-    /// One number for nodes in one place, on the skins.
+    /// A node of a part.
+    struct PartNode {
+        std::size_t part;
+        Index node;
+        friend auto operator<=>(const PartNode&, const PartNode&) = default;
+    };
+
+    /// One number for nodes in one place: those within shared faces by the pairs found there, those where
+    /// faces meet by their places, for volumes that touch along an edge share no face.
     void number_nodes()
     {
-        struct SkinNode {
-            std::size_t part;
-            Index node;
-        };
-        std::vector<SkinNode> skin;
-        result_.number.resize(members_.size());
-        for (std::size_t m = 0; m < members_.size(); ++m) {
-            const mesh::HexMesh& mesh = result_.parts[m].mesh;
-            std::vector<char> on_skin(mesh.nodes.size(), 0);
-            for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
-                for (const Index n : mesh::skin_quad(mesh, i).nodes) on_skin[index(n)] = 1;
+        std::vector<std::pair<PartNode, PartNode>> same = same_on_borders();
+        for (const std::vector<NodePairs>& faces : pairs_) {
+            for (const NodePairs& face : faces) {
+                for (const NodePair& pair : face.pairs) {
+                    PartNode a{face.own, pair.own}, b{face.other, pair.other};
+                    if (on_border_[a.part][index(a.node)] && on_border_[b.part][index(b.node)]) continue;
+                    if (a < b) std::swap(a, b);
+                    same.emplace_back(a, b);
+                }
             }
-            for (std::size_t n = 0; n < on_skin.size(); ++n) {
-                if (on_skin[n] != 0) skin.push_back({m, static_cast<Index>(n)});
-            }
-            result_.number[m].assign(mesh.nodes.size(), -1);
         }
-        const auto place = [&](const SkinNode& s) -> const Vec3& {
-            return result_.parts[s.part].mesh.nodes[index(s.node)];
-        };
-        std::sort(skin.begin(), skin.end(), [&](const SkinNode& a, const SkinNode& b) {
-            if (before(place(a), place(b))) return true;
-            if (before(place(b), place(a))) return false;
-            return std::tie(a.part, a.node) < std::tie(b.part, b.node);
-        });
-        // The first part's node stands for all in its place.
-        std::vector<std::pair<SkinNode, SkinNode>> same;
-        for (std::size_t i = 0, first = 0; i < skin.size(); ++i) {
-            if (i == 0 || before(place(skin[first]), place(skin[i]))) first = i;
-            if (first != i) same.emplace_back(skin[i], skin[first]);
-        }
-        std::sort(same.begin(), same.end(), [](const auto& a, const auto& b) {
-            return std::tie(a.first.part, a.first.node) < std::tie(b.first.part, b.first.node);
-        });
+        std::sort(same.begin(), same.end());
         Index next = 0;
         auto twin = same.begin();
+        result_.number.resize(members_.size());
         for (std::size_t m = 0; m < members_.size(); ++m) {
             std::vector<Index>& number = result_.number[m];
+            number.resize(result_.parts[m].mesh.nodes.size());
             for (std::size_t n = 0; n < number.size(); ++n) {
-                if (twin != same.end() && twin->first.part == m && index(twin->first.node) == n) {
+                if (twin != same.end() && twin->first == PartNode{m, static_cast<Index>(n)}) {
                     number[n] = result_.number[twin->second.part][index(twin->second.node)];
                     ++twin;
                 } else {
@@ -332,45 +408,90 @@ private:
         result_.nodes = index(next);
     }
 
+    /// Nodes where faces meet, each but the first in its place with that first one.
+    std::vector<std::pair<PartNode, PartNode>> same_on_borders()
+    {
+        std::vector<PartNode> nodes;
+        on_border_.resize(members_.size());
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            const mesh::HexMesh& mesh = result_.parts[m].mesh;
+            borders_.push_back(patch_borders(mesh));
+            on_border_[m].resize(mesh.nodes.size(), false);
+            for (const Segment& side : borders_[m]) {
+                for (const Index n : side) {
+                    if (!on_border_[m][index(n)]) nodes.push_back({m, n});
+                    on_border_[m][index(n)] = true;
+                }
+            }
+        }
+        const auto place = [&](const PartNode& node) -> const Vec3& {
+            return result_.parts[node.part].mesh.nodes[index(node.node)];
+        };
+        std::sort(nodes.begin(), nodes.end(), [&](const PartNode& a, const PartNode& b) {
+            if (before(place(a), place(b))) return true;
+            if (before(place(b), place(a))) return false;
+            return a < b;
+        });
+        std::vector<std::pair<PartNode, PartNode>> same;
+        for (std::size_t i = 0, first = 0; i < nodes.size(); ++i) {
+            if (i == 0 || before(place(nodes[first]), place(nodes[i]))) first = i;
+            if (first != i) same.emplace_back(nodes[i], nodes[first]);
+        }
+        return same;
+    }
+
     [[nodiscard]] std::string named(std::size_t member, FaceId face) const
     {
         return name_of(members_[member].volume->model, face) + " of " + members_[member].region;
     }
 
-    /// Corners of a quad in an order of their own.
-    using Places = std::array<std::array<double, 3>, 4>;
-    static std::set<Places> places_on(const Swept& part, FaceId face)
+    /// Pairs of nodes on a face of two parts.
+    struct NodePairs {
+        std::size_t own, other;
+        std::vector<NodePair> pairs;
+    };
+
+    /// Pairs of nodes in one place to the bit, as found when the face was settled if that is the mesh.
+    std::optional<std::vector<NodePair>> pairs_on(const Swept& part, FaceId own,
+                                                  const std::vector<Quad>& quads, const Swept& beside,
+                                                  FaceId there)
     {
-        std::set<Places> quads;
-        for (const Quad& quad : quads_on(part, face)) {
-            Places corners{};
-            for (std::size_t k = 0; k < 4; ++k) {
-                const Vec3& p = part.mesh.nodes[index(quad[k])];
-                corners[k] = {p.x(), p.y(), p.z()};
-            }
-            std::sort(corners.begin(), corners.end());
-            quads.insert(corners);
-        }
-        return quads;
+        const auto settled = settled_.find(own);
+        if (settled != settled_.end() && settled->second.quads == quads &&
+            std::ranges::all_of(settled->second.pairs, [&](const NodePair& pair) {
+                return part.mesh.nodes[index(pair.own)] == beside.mesh.nodes[index(pair.other)];
+            }))
+            return std::move(settled->second.pairs);
+        return same_quads_.pairs(part.mesh, quads, beside.mesh, quads_on(beside.mesh, beside.faces, there),
+                                 0);
     }
 
     /// The quads of faces that members before this one have too are theirs, to the bit.
-    void check_kept(std::size_t m, const Swept& part, const std::vector<char>& done)
+    void check_kept(std::size_t m, const std::vector<Neighbour>& neighbours)
     {
-        for (const auto& [own, other, there] : shared_with(m, done)) {
-            const std::set<Places> a = places_on(part, own), b = places_on(result_.parts[other], there);
-            if (a == b) {
-                result_.report.push_back("shared: " + named(other, there) + " and " + named(m, own) + ", " +
-                                         std::to_string(a.size()) + (a.size() == 1 ? " quad" : " quads"));
+        const Swept& part = result_.parts[m];
+        pairs_.resize(members_.size());
+        pairs_[m].clear();
+        shared_lines_[m].clear();
+        for (const auto& [own, other, there] : neighbours) {
+            const std::vector<Quad> a = quads_on(part.mesh, part.faces, own);
+            if (auto pairs = pairs_on(part, own, a, result_.parts[other], there)) {
+                pairs_[m].push_back({m, other, std::move(*pairs)});
+                shared_lines_[m].push_back("shared: " + named(other, there) + " and " + named(m, own) + ", " +
+                                           std::to_string(a.size()) + (a.size() == 1 ? " quad" : " quads"));
                 continue;
             }
             std::string why;
             for (const std::string& line : part.report)
                 if (line.find("not kept") != std::string::npos) why += "; " + line;
-            throw NotSweepable("assembly.not_shared", named(m, own) + " and " + named(other, there) +
-                                                          " are one face, and their meshes differ on it: " +
-                                                          std::to_string(a.size()) + " quads and " +
-                                                          std::to_string(b.size()) + why);
+            throw NotSweepable(
+                "assembly.not_shared",
+                named(m, own) + " and " + named(other, there) +
+                    " are one face, and their meshes differ on it: " + std::to_string(a.size()) +
+                    " quads and " +
+                    std::to_string(
+                        quads_on(result_.parts[other].mesh, result_.parts[other].faces, there).size()) +
+                    why);
         }
     }
 
@@ -382,34 +503,29 @@ private:
             std::size_t part;
             Segment nodes;
         };
+        // Each place once, by its number in the whole.
         std::vector<EdgeSide> sides;
         std::vector<std::array<Vec3, 2>> segments;
         std::vector<std::pair<std::size_t, Index>> at;
         std::vector<Vec3> points;
+        std::unordered_set<std::uint64_t> known_sides;
+        std::vector<bool> known(result_.nodes, false);
         double tolerance = 0;
         for (std::size_t m = 0; m < members_.size(); ++m) {
             tolerance = std::max(tolerance, members_[m].volume->model.tolerance);
             const mesh::HexMesh& mesh = result_.parts[m].mesh;
-            std::map<Segment, Index> patch_at;
-            std::set<Index> nodes;
-            for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
-                const mesh::SkinQuad quad = mesh::skin_quad(mesh, i);
-                for (std::size_t k = 0; k < 4; ++k) {
-                    Segment side{quad.nodes[k], quad.nodes[(k + 1) % 4]};
-                    if (side[0] > side[1]) std::swap(side[0], side[1]);
-                    const auto [found, fresh] = patch_at.try_emplace(side, quad.patch);
-                    if (fresh) continue;
-                    if (found->second != quad.patch) {
-                        sides.push_back({m, side});
-                        segments.push_back({mesh.nodes[index(side[0])], mesh.nodes[index(side[1])]});
-                        nodes.insert(side.begin(), side.end());
-                    }
-                    patch_at.erase(found);
+            const std::vector<Index>& number = result_.number[m];
+            for (const Segment& side : borders_[m]) {
+                if (!known_sides.insert(edge_key(number[index(side[0])], number[index(side[1])])).second)
+                    continue;
+                sides.push_back({m, side});
+                segments.push_back({mesh.nodes[index(side[0])], mesh.nodes[index(side[1])]});
+                for (const Index n : side) {
+                    if (known[index(number[index(n)])]) continue;
+                    known[index(number[index(n)])] = true;
+                    at.emplace_back(m, n);
+                    points.push_back(mesh.nodes[index(n)]);
                 }
-            }
-            for (const Index n : nodes) {
-                at.emplace_back(m, n);
-                points.push_back(mesh.nodes[index(n)]);
             }
         }
         for (const NearSegment& near : near_segments(points, segments, tolerance)) {
@@ -438,6 +554,14 @@ private:
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> after_; ///< of each member, those that must come before it
     std::vector<std::size_t> order_;
+    std::vector<std::optional<Inputs>> inputs_;          ///< of each part that is there
+    std::vector<int> times_swept_;                       ///< of each part, tries that failed too
+    std::vector<std::vector<std::string>> shared_lines_; ///< of the report, for each part
+    std::vector<std::vector<NodePairs>> pairs_;          ///< of each part with those before it
+    std::vector<std::vector<Segment>> borders_;          ///< sides between the faces of each part
+    std::vector<std::vector<bool>> on_border_;           ///< of each part's nodes
+    std::map<FaceId, Settled> settled_;                  ///< faces of the member being swept
+    SameQuads same_quads_;
     SweptAssembly result_;
 };
 

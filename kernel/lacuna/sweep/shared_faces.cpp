@@ -172,15 +172,20 @@ std::string named(const AssemblyMember& member, FaceId face)
 
 bool is_void(const Side& side) { return side.face_data().origin == Origin::made_void; }
 
+/// Whether faces within two boxes can share more than a line: the boxes do where each is widened by a limit.
+bool share_area(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double limit)
+{
+    const Vec3 common = (a.max().cwiseMin(b.max()) - a.min().cwiseMax(b.min())).array() + limit;
+    return common.minCoeff() >= 0 && (common.array() > 2 * limit).count() > 1;
+}
+
 /// Whether two faces of two members are one; refuses what is neither that nor apart.
 bool is_shared(const AssemblyMember& a, Side& one, const AssemblyMember& b, Side& other,
                const RunContext& context)
 {
     const double tolerance = std::max(a.volume->model.tolerance, b.volume->model.tolerance);
     const double limit = tolerance + one.sag + other.sag;
-    if (!Eigen::AlignedBox3d(one.box.min().array() - limit, one.box.max().array() + limit)
-             .intersects(other.box))
-        return false;
+    if (!share_area(one.box, other.box, limit)) return false;
     // A face that was made where none was given is the one that is given there.
     bool same = (is_void(one) || is_void(other)) && rim_lies_on(one, other, tolerance) &&
                 rim_lies_on(other, one, tolerance);
@@ -214,8 +219,12 @@ bool is_shared(const AssemblyMember& a, Side& one, const AssemblyMember& b, Side
 constexpr std::size_t kAsked = 64;
 
 /// Refuse a volume some of whose skin is within another's.
-void check_apart(const AssemblyMember& a, const AssemblyMember& b)
+void check_apart(const AssemblyMember& a, const Eigen::AlignedBox3d& box_of_a, const AssemblyMember& b,
+                 const Eigen::AlignedBox3d& box_of_b)
 {
+    const double inside_by = kInside * b.volume->model.diagonal;
+    const Eigen::AlignedBox3d inner(box_of_b.min().array() + inside_by, box_of_b.max().array() - inside_by);
+    if (inner.isEmpty() || !inner.intersects(box_of_a)) return;
     const auto facets_of = [](const OpenVolume& volume) {
         std::vector<Triangle> facets;
         for (const Face& face : volume.model.faces)
@@ -225,7 +234,6 @@ void check_apart(const AssemblyMember& a, const AssemblyMember& b)
     const Model& model = a.volume->model;
     const std::vector<Triangle> own = facets_of(*a.volume), others = facets_of(*b.volume);
     const geometry::FacetTree tree(b.volume->model.points, others);
-    const double inside_by = kInside * b.volume->model.diagonal;
     const std::size_t step = std::max<std::size_t>(1, own.size() / kAsked);
     for (std::size_t t = 0; t < own.size(); t += step) {
         const Vec3 p = (model.at(own[t][0]) + model.at(own[t][1]) + model.at(own[t][2])) / 3;
@@ -261,8 +269,8 @@ std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, co
             if (!Eigen::AlignedBox3d(box[a].min().array() - margin, box[a].max().array() + margin)
                      .intersects(box[b]))
                 continue;
-            check_apart(members[a], members[b]);
-            check_apart(members[b], members[a]);
+            check_apart(members[a], box[a], members[b], box[b]);
+            check_apart(members[b], box[b], members[a], box[a]);
             for (Side& one : sides[a]) {
                 for (Side& other : sides[b]) {
                     if (is_shared(members[a], one, members[b], other, context))

@@ -327,6 +327,12 @@ std::optional<surface::Imprint> imprint_of(const OpenVolume& volume,
     return surface::imprint_target(volume, links, size);
 }
 
+/// What the mesh's shape is to be: in an assembly, without the nodes and meshes of neighbours.
+const OpenVolume& shape_of(const OpenVolume& volume, const SweepOptions& options)
+{
+    return options.beside.shape != nullptr ? *options.beside.shape : volume;
+}
+
 /// Seeds, quads, walls, target, layers and proof between the rims of linking surfaces that say what goes with
 /// what.
 ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::LinkingSurface> given_links,
@@ -373,7 +379,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
         morphed.report = "its own quads are laid out as the source's and stay";
     } else {
         morphed = imprint ? morph_onto_faces(source, columns, seeds, *imprint, ends.target, context)
-                          : morph_onto(volume, source, columns, context);
+                          : morph_onto(shape_of(volume, options), source, columns, context);
     }
     result.report.push_back("target: " + morphed.report);
     PlacementOptions placement;
@@ -397,8 +403,9 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
         result.report.push_back("walls: " + name_of(volume.model, wall) +
                                 " is smaller than the quads there and has none, nor a group");
     }
-    quality::Proof proof = prove_or_improve(
-        result, volume.model, faces, given_faces(volume, seeds.kept, options.wedges), options, context);
+    std::set<FaceId> still = given_faces(volume, seeds.kept, options.wedges);
+    if (options.beside.settle) still.merge(options.beside.settle(mesh, faces));
+    quality::Proof proof = prove_or_improve(result, volume.model, faces, still, options, context);
     const quality::Quality& quality = proof.quality;
     result.min_scaled_jacobian = quality.min_scaled_jacobian;
     const std::string wedges = quality.wedges > 0
@@ -479,8 +486,8 @@ constexpr double kLessLost = 0.75;
 
 /// Middle nodes, proved, and the curved skin compared with the sealed one: as four straight quads each, which
 /// are off by a quarter of what the quad's own straight sides would be, at most.
-void elevate_and_compare(const OpenVolume& volume, ProvedSweep& result, const SweepOptions& options,
-                         const RunContext& context)
+void elevate_and_compare(const OpenVolume& volume, const OpenVolume& shape, const std::set<FaceId>& kept,
+                         ProvedSweep& result, const SweepOptions& options, const RunContext& context)
 {
     Swept& swept = result.swept;
     Elevated elevated = elevate(volume, swept.mesh, result.faces, options.second_order, context);
@@ -496,7 +503,7 @@ void elevate_and_compare(const OpenVolume& volume, ProvedSweep& result, const Sw
                                                       ", below the limit of " +
                                                       in_full(options.min_scaled_jacobian));
     }
-    swept.fidelity = compare(volume, finer_skin(swept.mesh), result.faces, result.kept, quality.volume,
+    swept.fidelity = compare(shape, finer_skin(swept.mesh), result.faces, kept, quality.volume,
                              {options.max_deviation}, context);
     for (FaceFidelity& face : swept.fidelity.faces) {
         face.quads /= 4;
@@ -514,10 +521,13 @@ Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, cons
     ProvedSweep result = sweep_both_ways(volume, options, one_way, context);
     quality::require(result.proof);
     Swept& swept = result.swept;
+    // Quads handed on by a neighbour are compared too: they are no part of that shape.
+    const OpenVolume& shape = shape_of(volume, options);
+    const std::set<FaceId> kept = options.beside.shape != nullptr ? std::set<FaceId>{} : result.kept;
     if (options.order == 2) {
-        elevate_and_compare(volume, result, options, context);
+        elevate_and_compare(volume, shape, kept, result, options, context);
     } else {
-        swept.fidelity = compare(volume, swept.mesh, result.faces, result.kept, result.proof.quality.volume,
+        swept.fidelity = compare(shape, swept.mesh, result.faces, kept, result.proof.quality.volume,
                                  {options.max_deviation}, context);
     }
     swept.report.push_back(in_words(swept.fidelity));

@@ -10,7 +10,9 @@
 #include <lacuna/sweep/second_order.h>
 #include <lacuna/topology/open_volume.h>
 
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,6 +52,16 @@ enum class Interior {
     normals,   ///< for comparison: the paper's advance along local normals
 };
 
+/// What a volume's neighbours in an assembly have to say to its sweep.
+struct Beside {
+    /// Null, or called with each mesh before it is proved, and with the face of each of its patches: lays
+    /// nodes of the skin onto those that a neighbour has in the same places but for rounding. What it returns
+    /// are the faces it did so on; their nodes stay from then on.
+    std::function<std::set<FaceId>(mesh::HexMesh&, const std::vector<FaceId>&)> settle;
+    /// The shape that the skin is compared with, of the volume's faces; null: the volume itself.
+    const topology::OpenVolume* shape = nullptr;
+};
+
 struct SweepOptions {
     LayerSpec layers;
     surface::SizeField size; ///< null: from the rim's own spacing
@@ -74,6 +86,7 @@ struct SweepOptions {
     double min_scaled_jacobian = 0;  ///< below it the mesh is refused [0, 1]
     bool improve = true;             ///< move nodes where cells are folded or poor
     ImproveOptions improving;        ///< how far
+    Beside beside;                   ///< of volumes in an assembly, which sets it
 };
 
 /// Whether options can be used, before any work is done. `sweep()` asks it itself; a host may ask first.

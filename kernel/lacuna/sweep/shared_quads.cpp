@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/core/edge_key.h>
+#include <lacuna/sweep/detail/shared_quads.h>
+
+#include <algorithm>
+#include <array>
+#include <unordered_map>
+#include <utility>
+
+namespace lacuna::sweep {
+
+namespace {
+
+/// Nodes of some quads, each once, in the order they are met, with their places along a slanted line.
+struct NodesOf {
+    std::vector<Index>& number;                 ///< of each node of the mesh, -1: not of these quads
+    std::vector<Index> nodes;                   ///< of the mesh
+    std::vector<std::pair<double, Index>> line; ///< place along the line and place in `nodes`, sorted
+
+    NodesOf(const mesh::HexMesh& mesh, std::span<const Quad> quads, std::vector<Index>& markers)
+        : number(markers)
+    {
+        if (number.size() < mesh.nodes.size()) number.resize(mesh.nodes.size(), -1);
+        // No direction that the rows of a mesh are likely to have.
+        const Vec3 slanted = Vec3(1, 0.6180339887498949, 0.2720196495140690).normalized();
+        for (const Quad& quad : quads) {
+            for (const Index n : quad) {
+                if (number[index(n)] >= 0) continue;
+                number[index(n)] = static_cast<Index>(nodes.size());
+                line.emplace_back(slanted.dot(mesh.nodes[index(n)]), static_cast<Index>(nodes.size()));
+                nodes.push_back(n);
+            }
+        }
+        std::sort(line.begin(), line.end());
+    }
+    ~NodesOf()
+    {
+        for (const Index n : nodes) number[index(n)] = -1;
+    }
+    NodesOf(const NodesOf&) = delete;
+    NodesOf& operator=(const NodesOf&) = delete;
+};
+
+/// Of each own node the other's, by place in the lists; empty where one has none.
+std::vector<Index> same_places(const mesh::HexMesh& own, const NodesOf& a, const mesh::HexMesh& other,
+                               const NodesOf& b, double within)
+{
+    std::vector<Index> twin(a.nodes.size(), -1);
+    std::vector<char> used(b.nodes.size(), 0);
+    std::size_t first = 0;
+    // Rounding of the places along the line themselves.
+    const double slack = within +
+                         1e-15 * std::max(std::abs(a.line.front().first), std::abs(a.line.back().first));
+    for (const auto& [at, place] : a.line) {
+        while (first < b.line.size() && b.line[first].first < at - slack) ++first;
+        const Vec3& p = own.nodes[index(a.nodes[index(place)])];
+        for (std::size_t i = first; i < b.line.size() && b.line[i].first <= at + slack; ++i) {
+            const Index candidate = b.line[i].second;
+            const Vec3& q = other.nodes[index(b.nodes[index(candidate)])];
+            const bool same = within > 0 ? (p - q).squaredNorm() <= within * within : p == q;
+            if (!same || used[index(candidate)] != 0) continue;
+            used[index(candidate)] = 1;
+            twin[index(place)] = candidate;
+            break;
+        }
+        if (twin[index(place)] < 0) return {};
+    }
+    return twin;
+}
+
+/// A quad by its nodes in rising order.
+Quad sorted(Quad quad)
+{
+    std::sort(quad.begin(), quad.end());
+    return quad;
+}
+
+} // namespace
+
+std::vector<Quad> quads_on(const mesh::HexMesh& mesh, std::span<const FaceId> faces, FaceId face)
+{
+    std::vector<Quad> quads;
+    const auto add = [&](const std::vector<Index>& patches, std::size_t first) {
+        for (std::size_t i = 0; i < patches.size(); ++i) {
+            if (faces[index(patches[i])] == face) quads.push_back(mesh::skin_quad(mesh, first + i).nodes);
+        }
+    };
+    add(mesh.source_patch, 0);
+    add(mesh.target_patch, mesh.quads.size());
+    add(mesh.wall_patch, 2 * mesh.quads.size());
+    return quads;
+}
+
+std::optional<std::vector<NodePair>> SameQuads::pairs(const mesh::HexMesh& own,
+                                                      std::span<const Quad> own_quads,
+                                                      const mesh::HexMesh& other,
+                                                      std::span<const Quad> other_quads, double within)
+{
+    if (own_quads.size() != other_quads.size() || own_quads.empty()) return std::nullopt;
+    const NodesOf a(own, own_quads, own_number_), b(other, other_quads, other_number_);
+    if (a.nodes.size() != b.nodes.size()) return std::nullopt;
+    const std::vector<Index> twin = same_places(own, a, other, b, within);
+    if (twin.empty()) return std::nullopt;
+    // The other's quads by their least node.
+    std::vector<std::size_t> first(b.nodes.size() + 1, 0);
+    std::vector<Quad> theirs;
+    theirs.reserve(other_quads.size());
+    for (const Quad& quad : other_quads) {
+        Quad own_numbers{};
+        for (std::size_t k = 0; k < 4; ++k) own_numbers[k] = b.number[index(quad[k])];
+        theirs.push_back(sorted(own_numbers));
+        ++first[index(theirs.back()[0]) + 1];
+    }
+    for (std::size_t n = 0; n + 1 < first.size(); ++n) first[n + 1] += first[n];
+    std::vector<std::size_t> by_least(theirs.size());
+    std::vector<std::size_t> next = first;
+    for (std::size_t q = 0; q < theirs.size(); ++q) by_least[next[index(theirs[q][0])]++] = q;
+    std::vector<char> found(theirs.size(), 0);
+    for (const Quad& quad : own_quads) {
+        Quad numbers{};
+        for (std::size_t k = 0; k < 4; ++k) numbers[k] = twin[index(a.number[index(quad[k])])];
+        numbers = sorted(numbers);
+        const auto begin = by_least.begin() + static_cast<std::ptrdiff_t>(first[index(numbers[0])]);
+        const auto end = by_least.begin() + static_cast<std::ptrdiff_t>(first[index(numbers[0]) + 1]);
+        const auto same = std::find_if(begin, end,
+                                       [&](std::size_t q) { return found[q] == 0 && theirs[q] == numbers; });
+        if (same == end) return std::nullopt;
+        found[*same] = 1;
+    }
+    std::vector<NodePair> pairs;
+    pairs.reserve(a.nodes.size());
+    for (std::size_t n = 0; n < a.nodes.size(); ++n) pairs.push_back({a.nodes[n], b.nodes[index(twin[n])]});
+    return pairs;
+}
+
+std::vector<Segment> patch_borders(const mesh::HexMesh& mesh)
+{
+    std::vector<Segment> borders;
+    const auto add = [&](Index a, Index b) { borders.push_back({std::min(a, b), std::max(a, b)}); };
+    const auto layers = static_cast<std::size_t>(mesh.layers);
+    const std::size_t sides = mesh.rim.size();
+    const Index top = mesh.layers * mesh.nodes_per_layer;
+    std::vector<std::size_t> side_from(index(mesh.nodes_per_layer), sides);
+    for (std::size_t r = 0; r < sides; ++r) {
+        add(mesh.rim[r][0], mesh.rim[r][1]);
+        add(top + mesh.rim[r][0], top + mesh.rim[r][1]);
+        side_from[index(mesh.rim[r][0])] = r;
+    }
+    for (std::size_t l = 0; l < layers; ++l) {
+        const Index low = static_cast<Index>(l) * mesh.nodes_per_layer;
+        for (std::size_t r = 0; r < sides; ++r) {
+            const Index patch = mesh.wall_patch[l * sides + r];
+            const std::size_t next = side_from[index(mesh.rim[r][1])];
+            const Index node = low + mesh.rim[r][1];
+            if (next == sides || mesh.wall_patch[l * sides + next] != patch)
+                add(node, node + mesh.nodes_per_layer);
+            if (l + 1 < layers && mesh.wall_patch[(l + 1) * sides + r] != patch)
+                add(low + mesh.nodes_per_layer + mesh.rim[r][0], low + mesh.nodes_per_layer + mesh.rim[r][1]);
+        }
+    }
+    for (const bool target : {false, true}) {
+        const std::vector<Index>& patch = target ? mesh.target_patch : mesh.source_patch;
+        const auto other = [&](Index p) { return p != patch.front(); };
+        if (std::none_of(patch.begin(), patch.end(), other)) continue;
+        std::unordered_map<std::uint64_t, Index> beside;
+        for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Index a = mesh.quads[q][k], b = mesh.quads[q][(k + 1) % 4];
+                if (a == b) continue;
+                const auto [known, fresh] = beside.try_emplace(edge_key(a, b), patch[q]);
+                if (!fresh && known->second != patch[q]) add((target ? top : 0) + a, (target ? top : 0) + b);
+            }
+        }
+    }
+    return borders;
+}
+
+} // namespace lacuna::sweep
