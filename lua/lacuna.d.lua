@@ -105,6 +105,10 @@
 ---@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"
 ---@field interfaces? boolean of an assembly: quads between its volumes are elements too; default false
 
+---@class lacuna.ConvertOptions
+---@field version? 4.1|2.2 of .msh; default 4.1
+---@field binary? boolean of .msh and .vtk; default true
+
 ---@class lacuna.Classification
 ---@field class lacuna.Class
 ---@field free_loops integer
@@ -274,6 +278,31 @@ function Volume:write_cad(path, options) end
 ---@field mean_distance number [model length]
 ---@field faces table<integer|string, lacuna.FaceFidelity> by tag, void faces by "void:<n>"
 
+--- What pcall gets when a call fails. It prints as one sentence, and has the methods of strings.
+---@class lacuna.Error
+---@field message string what was expected, what was found, what to try
+---@field code string "folder.what_went_wrong": stable, for programs
+---@field entities { kind: string, tag: integer }[] faces, edges, nodes… that the message names
+---@field file? string of the recipe
+---@field line? integer
+
+--- Numbers in rows, as they lie in memory. #buffer is the number of rows.
+---@class lacuna.Buffer
+---@field rows integer
+---@field columns integer
+---@field type "float64"|"int32"
+local Buffer = {}
+--- One row.
+---@param i integer
+---@return number ...
+function Buffer:row(i) end
+--- for i, x, y, z in buffer:each() do
+---@return fun(): integer, ...
+function Buffer:each() end
+--- All of it, in the machine's order of bytes.
+---@return string
+function Buffer:bytes() end
+
 ---@class lacuna.Mesh
 ---@field fidelity lacuna.Fidelity
 ---@field nodes integer
@@ -281,7 +310,7 @@ function Volume:write_cad(path, options) end
 ---@field wedges integer
 ---@field layers integer
 ---@field order 1|2
----@field report string[] a line a stage of the sweep
+---@field report string[] a line a stage of the sweep; prints as lines
 local Mesh = {}
 ---@return lacuna.Quality
 function Mesh:quality() end
@@ -299,6 +328,13 @@ function Mesh:wedge(i) end
 ---@param i integer
 ---@return integer ...
 function Mesh:hex(i) end
+--- Of every node x, y, z, as they lie in memory.
+---@return lacuna.Buffer
+function Mesh:coordinates() end
+--- Of every cell the numbers of its nodes, from 1; of order 2 the middle nodes too, in VTK's order.
+---@param kind? "hex"|"wedge" default "hex"
+---@return lacuna.Buffer
+function Mesh:cells(kind) end
 ---@param path string
 ---@param options? lacuna.WriteOptions
 function Mesh:write(path, options) end
@@ -334,6 +370,12 @@ function AssemblyMesh:node(i) end
 ---@param i integer
 ---@return integer ...
 function AssemblyMesh:hex(i) end
+--- Of every node x, y, z.
+---@return lacuna.Buffer
+function AssemblyMesh:coordinates() end
+--- Of every hexahedron eight node numbers, from 1.
+---@return lacuna.Buffer
+function AssemblyMesh:cells() end
 ---@param path string
 ---@param options? lacuna.WriteOptions
 function AssemblyMesh:write(path, options) end
@@ -390,5 +432,11 @@ function lacuna.assembly(volumes) end
 ---@param path string
 ---@return lacuna.Quality
 function lacuna.check(path) end
+--- A mesh or deck in any format that is read, in the format of the other's ending.
+---@param from string
+---@param to string .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e
+---@param options? lacuna.ConvertOptions
+---@return { nodes: integer, elements: integer }
+function lacuna.convert(from, to, options) end
 
 return lacuna

@@ -117,6 +117,7 @@ int mesh_report(lua_State* L)
             lua_rawseti(L, -2, next++);
         }
     }
+    set_report_meta(L);
     return 1;
 }
 

@@ -6,6 +6,7 @@
 #include "bindings/options.h"
 
 #include <lacuna/cad/load.h>
+#include <lacuna/core/progress.h>
 #include <lacuna/io/deck.h>
 #include <lacuna/io/deck_file.h>
 #include <lacuna/io/facets.h>
@@ -303,6 +304,7 @@ int write(lua_State* L)
                                                 : metrics_of(arguments))
             arguments.msh.fields.push_back(
                 {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
+        report_progress(context, "writing " + path.text());
         format.write(mesh, path, arguments, context);
     });
     return 0;
@@ -444,6 +446,7 @@ int load(lua_State* L)
     auto& box = new_box<ModelState>(L);
     guard(L, [&] {
         for (const std::string& path : paths) check_input_path(lent, path);
+        report_progress(context, "reading");
         box = std::make_shared<ModelState>();
         io::LoadedFiles loaded = cad::load_files(paths, arguments.load, context, arguments.limits);
         box->model = std::move(loaded.model);

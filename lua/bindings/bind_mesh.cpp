@@ -47,6 +47,7 @@ int mesh_report(lua_State* L)
         lua_pushlstring(L, report[i].data(), report[i].size());
         lua_rawseti(L, -2, to_lua(i));
     }
+    set_report_meta(L);
     return 1;
 }
 

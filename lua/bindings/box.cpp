@@ -29,19 +29,120 @@ int empty_ring(lua_State* L)
     return 0;
 }
 
-/// "recipe.lua:7: " of the innermost frame that is the person's own Lua, "" where there is none.
-void push_where(lua_State* L)
+// --- errors -------------------------------------------------------------------------------------------
+
+const char kErrorMeta[] = "lacuna.Error";
+
+/// Fields `file` and `line` of the error on top: the innermost frame that is the person's own Lua.
+void set_where(lua_State* L)
 {
     lua_Debug frame;
     for (int level = 1; lua_getstack(L, level, &frame); ++level) {
         lua_getinfo(L, "Sl", &frame);
         if (frame.currentline > 0 && std::strcmp(frame.source, kEmbeddedSource) != 0) {
-            lua_pushfstring(L, "%s:%d: ", frame.short_src, frame.currentline);
+            lua_pushstring(L, frame.short_src);
+            lua_setfield(L, -2, "file");
+            lua_pushinteger(L, frame.currentline);
+            lua_setfield(L, -2, "line");
             return;
         }
     }
-    lua_pushliteral(L, "");
 }
+
+/// "recipe.lua:7: message [code]": the code last, in brackets, as compilers name their warnings.
+int error_to_string(lua_State* L)
+{
+    lua_settop(L, 1);
+    luaL_checktype(L, 1, LUA_TTABLE);
+    for (const char* field : {"file", "line", "message", "code"}) {
+        lua_pushstring(L, field);
+        lua_rawget(L, 1);
+        luaL_tolstring(L, -1, nullptr); // whatever a recipe put there
+        lua_remove(L, -2);
+    }
+    lua_pushstring(L, "file");
+    const bool has_place = lua_rawget(L, 1) != LUA_TNIL;
+    if (has_place)
+        lua_pushfstring(L, "%s:%s: ", lua_tostring(L, 2), lua_tostring(L, 3));
+    else
+        lua_pushliteral(L, "");
+    lua_pushfstring(L, "%s%s [%s]", lua_tostring(L, -1), lua_tostring(L, 4), lua_tostring(L, 5));
+    return 1;
+}
+
+/// A method of strings, called on an error. Upvalue: the function.
+int call_on_text(lua_State* L)
+{
+    if (lua_istable(L, 1)) {
+        luaL_tolstring(L, 1, nullptr);
+        lua_replace(L, 1);
+    }
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
+    return lua_gettop(L);
+}
+
+/// error:find(...) and the like, as if it were its text. Upvalue: the table `string`.
+int error_index(lua_State* L)
+{
+    lua_settop(L, 2);
+    if (!lua_istable(L, lua_upvalueindex(1))) return 0;
+    lua_pushvalue(L, 2);
+    if (lua_rawget(L, lua_upvalueindex(1)) != LUA_TFUNCTION) return 0;
+    lua_pushcclosure(L, call_on_text, 1);
+    return 1;
+}
+
+int error_concat(lua_State* L)
+{
+    lua_settop(L, 2);
+    luaL_tolstring(L, 1, nullptr);
+    luaL_tolstring(L, 2, nullptr);
+    lua_concat(L, 2);
+    return 1;
+}
+
+int error_length(lua_State* L)
+{
+    luaL_tolstring(L, 1, nullptr);
+    lua_pushinteger(L, static_cast<lua_Integer>(lua_rawlen(L, -1)));
+    return 1;
+}
+
+/// Push the metatable of errors.
+void push_error_meta(lua_State* L)
+{
+    if (luaL_newmetatable(L, kErrorMeta) == 0) return;
+    const luaL_Reg meta[] = {{"__tostring", error_to_string},
+                             {"__concat", error_concat},
+                             {"__len", error_length},
+                             {nullptr, nullptr}};
+    luaL_setfuncs(L, meta, 0);
+    luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+    lua_getfield(L, -1, LUA_STRLIBNAME);
+    lua_remove(L, -2);
+    lua_pushcclosure(L, error_index, 1);
+    lua_setfield(L, -2, "__index");
+    lua_pushliteral(L, "an error of lacuna");
+    lua_setfield(L, -2, "__metatable");
+}
+
+/// Push { { kind =, tag = }, ... }.
+void push_entities(lua_State* L, const std::vector<NamedEntity>& entities)
+{
+    lua_createtable(L, static_cast<int>(entities.size()), 0);
+    for (std::size_t i = 0; i < entities.size(); ++i) {
+        lua_createtable(L, 0, 2);
+        lua_pushlstring(L, entities[i].kind.data(), entities[i].kind.size());
+        lua_setfield(L, -2, "kind");
+        lua_pushinteger(L, entities[i].tag);
+        lua_setfield(L, -2, "tag");
+        lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
+    }
+}
+
+// --- classes ------------------------------------------------------------------------------------------
 
 /// Upvalues: 1 the class name, 2 its methods, 3 its fields.
 int index_class(lua_State* L)
@@ -57,7 +158,7 @@ int index_class(lua_State* L)
     }
     lua_settop(L, 2);
     if (lua_type(L, 2) != LUA_TSTRING)
-        return luaL_error(L, "a %s is not an array", lua_tostring(L, lua_upvalueindex(1)));
+        fail_as(L, "lua.unknown_field", "a %s is not an array", lua_tostring(L, lua_upvalueindex(1)));
     // Names of both lists, for the nearest one.
     lua_newtable(L);
     for (int list : {lua_upvalueindex(2), lua_upvalueindex(3)}) {
@@ -67,18 +168,16 @@ int index_class(lua_State* L)
         }
     }
     const char* nearest = nearest_in_table(L, 3, lua_tostring(L, 2));
-    fail(L, "a %s has no field or method '%s'; the nearest is '%s'", lua_tostring(L, lua_upvalueindex(1)),
-         lua_tostring(L, 2), nearest);
+    fail_as(L, "lua.unknown_field", "a %s has no field or method '%s'; the nearest is '%s'",
+            lua_tostring(L, lua_upvalueindex(1)), lua_tostring(L, 2), nearest);
 }
 
 } // namespace
 
-void raise(lua_State* L)
+void raise(lua_State* L, const char* code)
 {
-    push_where(L);
-    lua_insert(L, -2);
-    lua_concat(L, 2);
-    lua_error(L);
+    const char* message = lua_tostring(L, -1); // stays on the stack
+    guard(L, [&] { throw InvalidInput(code, message); });
     __builtin_unreachable();
 }
 
@@ -88,7 +187,16 @@ void fail(lua_State* L, const char* format, ...)
     va_start(arguments, format);
     lua_pushvfstring(L, format, arguments);
     va_end(arguments);
-    raise(L);
+    raise(L, "lua.invalid_input");
+}
+
+void fail_as(lua_State* L, const char* code, const char* format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    lua_pushvfstring(L, format, arguments);
+    va_end(arguments);
+    raise(L, code);
 }
 
 const char* push_found(lua_State* L, int index)
@@ -149,7 +257,7 @@ Living& ring(lua_State* L)
     }
     constexpr int kUnfinished = 1; // the key is there, and the ring is not: making it failed
     if (found == LUA_TBOOLEAN && lua_toboolean(L, -1) != kUnfinished)
-        fail(L, "lacuna: the Lua state is being closed");
+        luaL_error(L, "lacuna: the Lua state is being closed"); // an error of ours would need the ring
     lua_pop(L, 1);
     lua_pushboolean(L, kUnfinished);
     lua_rawsetp(L, LUA_REGISTRYINDEX, &kRingKey);
@@ -184,13 +292,18 @@ void push_release_table(lua_State* L, bool closes)
     lua_rawsetp(L, LUA_REGISTRYINDEX, key);
 }
 
-void Failure::note(const Error& error)
+void Failure::note(const char* its_code, const char* what) noexcept
 {
-    // The code last, in brackets as compilers name their warnings, so that programs can tell failures apart.
-    message = std::string(error.what()) + " [" + error.code() + "]";
+    try {
+        message = what;
+        code = its_code;
+        entities = named_entities(message);
+    } catch (const std::bad_alloc&) {
+        message = "out of memory"; // short enough to be kept without memory
+        code = "core.memory";
+        entities.clear();
+    }
 }
-
-void Failure::note(const char* what) { message = what; }
 
 void raise(lua_State* L, const Failure& failure)
 {
@@ -200,8 +313,18 @@ void raise(lua_State* L, const Failure& failure)
         lua_rawsetp(L, LUA_REGISTRYINDEX, &kCallbackErrorKey);
         lua_error(L);
     }
+    lua_createtable(L, 0, 5);
     lua_pushlstring(L, failure.message.data(), failure.message.size());
-    raise(L);
+    lua_setfield(L, -2, "message");
+    lua_pushlstring(L, failure.code.data(), failure.code.size());
+    lua_setfield(L, -2, "code");
+    push_entities(L, failure.entities);
+    lua_setfield(L, -2, "entities");
+    set_where(L);
+    push_error_meta(L);
+    lua_setmetatable(L, -2);
+    lua_error(L);
+    __builtin_unreachable();
 }
 
 void keep_callback_error(lua_State* L)
@@ -233,6 +356,8 @@ void make_class(lua_State* L, const char* name, const Field* fields, const luaL_
         lua_pushcfunction(L, field->get);
         lua_setfield(L, -2, field->name);
     }
+    lua_pushvalue(L, -1);
+    lua_setfield(L, -5, "fields");
     lua_pushcclosure(L, index_class, 3);
     lua_setfield(L, -2, "__index");
     lua_pop(L, 1);
@@ -248,12 +373,15 @@ void add_methods(lua_State* L, const char* class_name, const luaL_Reg* methods)
 
 void fail_self(lua_State* L, int index, const char* class_name, bool released)
 {
-    if (released) fail(L, "this %s has been released (its <close> variable went out of scope)", class_name);
+    if (released)
+        fail_as(L, "lua.released", "this %s has been released (its <close> variable went out of scope)",
+                class_name);
     const char* found = push_found(L, index);
     if (index == 1)
-        fail(L, "a method of %s was called on %s; call it with a colon, as object:method(...)", class_name,
-             found);
-    fail(L, "expected a %s, found %s", class_name, found);
+        fail_as(L, "lua.wrong_object",
+                "a method of %s was called on %s; call it with a colon, as object:method(...)", class_name,
+                found);
+    fail_as(L, "lua.wrong_object", "expected a %s, found %s", class_name, found);
 }
 
 } // namespace lacuna::lua

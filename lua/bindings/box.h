@@ -15,6 +15,7 @@
 #include <lua.hpp>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/named_entities.h>
 
 #include <exception>
 #include <memory>
@@ -22,6 +23,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace lacuna::lua {
 
@@ -31,10 +33,15 @@ inline constexpr const char* kClassName = nullptr;
 
 // --- raising ----------------------------------------------------------------------------------------
 
-/// Raise the message on top of the stack, with the recipe's file and line before it.
-[[noreturn]] void raise(lua_State* L);
-/// Raise a message put together as by lua_pushfstring.
+// Every error of the bindings is a table { message, code, entities, file, line }. It prints as one sentence
+// and answers to the methods of strings, so that a recipe may use it as the text it once was.
+
+/// Raise the message on top of the stack, a string, with the recipe's file and line.
+[[noreturn]] void raise(lua_State* L, const char* code);
+/// Raise a message put together as by lua_pushfstring, with the code "lua.invalid_input".
 [[noreturn]] void fail(lua_State* L, const char* format, ...);
+/// The same with a code of its own.
+[[noreturn]] void fail_as(lua_State* L, const char* code, const char* format, ...);
 /// Push the words for "what was found": `-3`, `"abc"`, `a table`, `a Face`, `nothing`.
 const char* push_found(lua_State* L, int index);
 
@@ -132,10 +139,10 @@ struct CallbackFailed {};
 
 /// What went wrong inside a guard, kept where no longjmp can lose it.
 struct Failure {
-    std::string message;
+    std::string message, code;
+    std::vector<NamedEntity> entities; ///< that the message names
     bool from_callback = false;
-    void note(const Error& error);
-    void note(const char* what);
+    void note(const char* its_code, const char* what) noexcept;
 };
 
 [[noreturn]] void raise(lua_State* L, const Failure& failure);
@@ -151,13 +158,13 @@ bool run_guarded(Failure& failure, Body& body) noexcept
     } catch (const CallbackFailed&) {
         failure.from_callback = true;
     } catch (const Error& error) {
-        failure.note(error);
+        failure.note(error.code().c_str(), error.what());
     } catch (const std::bad_alloc&) {
-        failure.note("not enough memory");
+        failure.note("core.memory", "not enough memory");
     } catch (const std::exception& error) {
-        failure.note(error.what());
+        failure.note("core.unexpected", error.what());
     } catch (...) {
-        failure.note("an unknown error inside the kernel");
+        failure.note("core.unexpected", "an unknown error inside the kernel");
     }
     return false;
 }

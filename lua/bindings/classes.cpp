@@ -3,6 +3,8 @@
 
 #include "bindings/lacuna_lua.h"
 
+#include <lacuna/core/progress.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -131,6 +133,7 @@ void close_volume(VolumeState& state, const closure::CloseOptions& options, cons
         by_hand.vertices = closure::pairs_by_hand(state.volume, options);
         match_volume(state, by_hand, context);
     }
+    report_progress(context, "closing");
     topology::OpenVolume sealed = state.volume;
     state.closure = closure::close(sealed, state.match.value_or(matching::Match{}), options, context);
     state.volume = std::move(sealed);
@@ -143,6 +146,8 @@ RunContext& push_context(lua_State* L)
     context.cancel = lent.cancel;
     if (lent.log)
         context.log = [&lent](std::string_view line) { lent.log(line); }; // one pointer: no allocation
+    if (lent.progress)
+        context.progress = [&lent](std::string_view stage, double share) { lent.progress(stage, share); };
     return context;
 }
 
@@ -257,6 +262,37 @@ void push_group(lua_State* L, const std::string& name, int dim, std::size_t cell
     set_string(L, "name", name.c_str());
     set_count(L, "dim", static_cast<std::size_t>(dim));
     set_count(L, "cells", cells);
+}
+
+namespace {
+
+int report_to_string(lua_State* L)
+{
+    luaL_checktype(L, 1, LUA_TTABLE);
+    luaL_Buffer buffer;
+    luaL_buffinit(L, &buffer);
+    const auto count = static_cast<lua_Integer>(lua_rawlen(L, 1));
+    for (lua_Integer i = 1; i <= count; ++i) {
+        if (i > 1) luaL_addchar(&buffer, '\n');
+        lua_rawgeti(L, 1, i);
+        luaL_tolstring(L, -1, nullptr); // whatever a recipe put there
+        lua_remove(L, -2);
+        luaL_addvalue(&buffer);
+    }
+    luaL_pushresult(&buffer);
+    return 1;
+}
+
+} // namespace
+
+void set_report_meta(lua_State* L)
+{
+    if (luaL_newmetatable(L, "Report")) {
+        lua_pushcfunction(L, report_to_string);
+        lua_setfield(L, -2, "__tostring");
+        set_string(L, "__metatable", "Report");
+    }
+    lua_setmetatable(L, -2);
 }
 
 std::size_t check_number(lua_State* L, const char* call, std::size_t count)

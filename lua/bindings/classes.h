@@ -144,6 +144,8 @@ void set_count(lua_State* L, const char* key, std::size_t value);
 void set_boolean(lua_State* L, const char* key, bool value);
 void set_string(lua_State* L, const char* key, const char* value);
 void set_strings(lua_State* L, const char* key, const std::vector<std::string>& values);
+/// The array of lines on top prints as lines from now on.
+void set_report_meta(lua_State* L);
 void push_face(lua_State* L, const Box<ModelState>& model, FaceId face);
 void push_group(lua_State* L, const std::string& name, int dim,
                 std::size_t cells); ///< { name=, dim=, cells= }

@@ -12,7 +12,11 @@ struct EmbeddedChunk {
     const char* source;
 };
 
+/// Of the module: run in this order as it is opened.
 extern const EmbeddedChunk kEmbeddedChunks[];
 extern const std::size_t kEmbeddedChunkCount;
+/// Of the program alone: its commands, its prompt, and the stub, which `help` reads.
+extern const EmbeddedChunk kProgramChunks[];
+extern const std::size_t kProgramChunkCount;
 
 } // namespace lacuna::lua

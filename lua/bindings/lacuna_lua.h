@@ -18,10 +18,11 @@ namespace lacuna::lua {
 
 /// What the program around the interpreter lends to the bindings. A stock interpreter lends nothing.
 struct Host {
-    const std::atomic<bool>* cancel = nullptr;       ///< set by the host to stop kernel work
-    std::function<void(std::string_view)> log;       ///< notes of the kernel, a line each
-    bool sandboxed = false;                          ///< files are written below `output_folder` alone
-    std::shared_ptr<const io::Folder> output_folder; ///< null with `sandboxed`: nothing is written
+    const std::atomic<bool>* cancel = nullptr;              ///< set by the host to stop kernel work
+    std::function<void(std::string_view)> log;              ///< notes of the kernel, a line each
+    std::function<void(std::string_view, double)> progress; ///< stage, share in [0, 1]
+    bool sandboxed = false;                                 ///< files are written below `output_folder` alone
+    std::shared_ptr<const io::Folder> output_folder;        ///< null with `sandboxed`: nothing is written
 };
 
 /// Lend `host` to the state; the host keeps it alive as long as the state. Call before luaopen_lacuna.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The module's table: every kernel folder's bindings, then the Lua sources inside the binary.
+#include "bindings/bind_buffer.h"
 #include "bindings/classes.h"
 #include "bindings/embedded.h"
 #include "bindings/lacuna_lua.h"
@@ -10,22 +11,25 @@
 namespace lacuna::lua {
 
 int gmsh_version(lua_State* L);
+void bind_convert(lua_State* L);
 
 namespace {
 
 void (*const kBinders[])(lua_State*) = {
-    bind_topology, bind_open_volume,    bind_matching, bind_closure, bind_mesh, bind_sweep,
-    bind_assembly, bind_assembly_sweep, bind_quality,  bind_io,      bind_cad,
+    bind_topology, bind_open_volume, bind_matching,       bind_closure, bind_mesh,
+    bind_sweep,    bind_assembly,    bind_assembly_sweep, bind_quality, bind_io,
+    bind_cad,      bind_buffer,      bind_convert,
 };
 
 // --- what the embedded Lua sources get besides the module ---------------------------------------------
 
-/// fail(message): an error at the recipe's line, as the C++ side raises them.
+/// fail(code, message): an error at the recipe's line, as the C++ side raises them.
 int fail_from_lua(lua_State* L)
 {
-    luaL_checkstring(L, 1);
-    lua_settop(L, 1);
-    raise(L);
+    const char* code = luaL_checkstring(L, 1);
+    luaL_checkstring(L, 2);
+    lua_settop(L, 2);
+    raise(L, code);
 }
 
 /// word = nearest(word, words)

@@ -39,7 +39,7 @@ void fail_value(lua_State* L, const Where& where, const char* expected, int inde
     index = lua_absindex(L, index);
     const char* found = push_found(L, index);
     const char* subject = push_subject(L, where);
-    fail(L, "%s must be %s, found %s", subject, expected, found);
+    fail_as(L, "lua.bad_value", "%s must be %s, found %s", subject, expected, found);
 }
 
 void fail_option(lua_State* L, const Where& where, const char* format, ...)
@@ -49,7 +49,7 @@ void fail_option(lua_State* L, const Where& where, const char* format, ...)
     const char* what = lua_pushvfstring(L, format, arguments);
     va_end(arguments);
     const char* subject = push_subject(L, where);
-    fail(L, "%s %s", subject, what);
+    fail_as(L, "lua.bad_value", "%s %s", subject, what);
 }
 
 double read_number(lua_State* L, int index, const Where& where)
@@ -128,7 +128,8 @@ bool has_options(lua_State* L, int index, const char* call)
     if (lua_isnoneornil(L, index)) return false;
     if (lua_type(L, index) != LUA_TTABLE) {
         const char* found = push_found(L, index);
-        fail(L, "%s: the options must be a table { key = value, ... }, found %s", call, found);
+        fail_as(L, "lua.bad_value", "%s: the options must be a table { key = value, ... }, found %s", call,
+                found);
     }
     return true;
 }
@@ -139,14 +140,15 @@ void check_keys(lua_State* L, int index, const char* call, const char* const* ke
     for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1)) {
         if (lua_type(L, -2) != LUA_TSTRING) {
             const char* found = push_found(L, -1);
-            fail(L, "%s: %s stands among the options without a name; write key = value. The keys are: %s",
-                 call, found, push_list(L, keys, count));
+            fail_as(L, "lua.unknown_option",
+                    "%s: %s stands among the options without a name; write key = value. The keys are: %s",
+                    call, found, push_list(L, keys, count));
         }
         const char* key = lua_tostring(L, -2);
         const auto is_key = [key](const char* known) { return std::strcmp(known, key) == 0; };
         if (std::none_of(keys, keys + count, is_key))
-            fail(L, "%s: unknown option '%s'; the nearest is '%s'. The keys are: %s", call, key,
-                 keys[nearest(key, keys, count)], push_list(L, keys, count));
+            fail_as(L, "lua.unknown_option", "%s: unknown option '%s'; the nearest is '%s'. The keys are: %s",
+                    call, key, keys[nearest(key, keys, count)], push_list(L, keys, count));
     }
 }
 

@@ -2,7 +2,7 @@
 -- lacuna.params: a recipe's parameters, with the words key=value of the command line laid over them.
 local lacuna, internal = ...
 
-local function fail(...) internal.fail("params: " .. string.format(...)) end
+local function fail(...) internal.fail("lua.parameter", "params: " .. string.format(...)) end
 
 -- The word as a value of the same type as `default`; nil where it is none.
 local function value_like(default, word)

@@ -23,7 +23,9 @@ local kinds = {
   sides = { function(v) return v >= 3 and math.tointeger(v) end, "a whole number of at least 3" },
 }
 
-local function fail(call, ...) internal.fail("synthetic." .. call .. ": " .. string.format(...)) end
+local function fail(call, ...)
+  internal.fail("lua.bad_value", "synthetic." .. call .. ": " .. string.format(...))
+end
 
 -- Options laid over their defaults. spec: key -> { default, kind }.
 local function read_options(call, spec, given)

@@ -3,6 +3,7 @@
 
 #include "bindings/options.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -10,28 +11,74 @@
 
 namespace lacuna::program {
 
+namespace {
+
 const char* const kHelp = R"(usage: lacuna [option ...] RECIPE [key=value ...]
-       lacuna [option ...] info FILE | check FILE | -i
+       lacuna [option ...] COMMAND FILE ...
+       lacuna [option ...] -i
 
   RECIPE [key=value ...]  run a recipe, with parameters changed; - reads it from standard input
-  -i                      a prompt
-  info FILE               the faces of a file, and the roles and class they seem to have
-  check FILE          read a mesh and print its quality; exit 1 when a cell is invalid
+  -i                      a prompt; help there says what there is
+)";
 
+const char* const kOptionHelp = R"(
+  --verbose               what the kernel notes as it works, on standard error
+  --quiet                 no line of progress while standard error is a terminal
+  --traceback             where in the recipe an error came from, call by call
+  --history FILE          of the prompt: lines typed are kept there; default $LACUNA_HISTORY, else nowhere
   --sandbox               no os, io or bytecode; limits on memory and time; no file is written
     --output-dir FOLDER   ... but below this folder
     --memory MB           default 2048
     --seconds S           default 300
-  --verbose               what the kernel notes as it works, and tracebacks, on standard error
-  --version, --help
+  --version, --help       COMMAND --help says more about one
 
 exit codes: 0 done, 1 the recipe failed, 2 bad usage, 130 interrupted, 143 terminated
 )";
 
-namespace {
+/// A word that does something with files; lua/program/commands.lua has what it does.
+struct Command {
+    const char* name;
+    const char* files; ///< in capitals, one a file
+    std::size_t count; ///< of files
+    bool has_json;
+    const char* summary;
+    const char* help;
+};
 
-const char* const kFlags[] = {"--sandbox", "--output-dir", "--memory", "--seconds",
-                              "--verbose", "--version",    "--help"};
+const Command kCommands[] = {
+    {"info", "FILE", 1, true, "the faces of a file, and the roles and class they seem to have",
+     R"(
+Reads CAD, facets or a finite element mesh, and prints a line a face: its tag, which is the one Gmsh
+shows, its kind, area and normal. Then the roles and the class of the open volume that the faces bound, where
+they can be found. A recipe names faces by these tags: part:open_volume { source = 12, target = 31 }.
+
+  --json   { file =, faces = [ { tag, name, kind, ... } ], class =, roles_refused = } for scripts
+)"},
+    {"check", "FILE", 1, true, "a mesh and its quality; exit code 1 when a cell is invalid",
+     R"(
+Reads the hexahedra and wedges of a mesh: .msh .vtu .vtk .inp .bdf .nas .dat .unv .mesh. Prints counts, a
+histogram of the scaled Jacobian and a line a metric. A cell is valid when its Jacobian is proved positive
+everywhere in it. The exit code is 1 when one is not.
+
+  --json   every number that is printed, and the worst cells, for scripts
+)"},
+    {"convert", "IN OUT", 2, false, "a mesh or deck from one format to another",
+     R"(
+Reads a mesh, .msh .vtu .vtk .inp .bdf .nas .dat .unv .mesh .stl .obj, and writes it in the format that
+OUT's ending says: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e. Nodes, elements, their numbers, regions
+and sets are kept. What the format cannot hold is named on standard error.
+)"},
+};
+
+const char* const kFlags[] = {"--sandbox",   "--output-dir", "--memory",  "--seconds", "--verbose", "--quiet",
+                              "--traceback", "--history",    "--version", "--help",    "--json"};
+
+const Command* find_command(const std::string& name)
+{
+    const auto found = std::find_if(std::begin(kCommands), std::end(kCommands),
+                                    [&](const Command& command) { return name == command.name; });
+    return found == std::end(kCommands) ? nullptr : found;
+}
 
 bool is_parameter(const std::string& word)
 {
@@ -73,6 +120,12 @@ bool read_flag(const std::string& word, Words& words, CommandLine& line, bool& l
         line.sandbox = true;
     else if (word == "--verbose")
         line.verbose = true;
+    else if (word == "--quiet")
+        line.quiet = true;
+    else if (word == "--traceback")
+        line.traceback = true;
+    else if (word == "--history")
+        line.history = words.value_of(word);
     else if (word == "--output-dir")
         line.output_dir = words.value_of(word), limits = true;
     else if (word == "--memory")
@@ -84,20 +137,50 @@ bool read_flag(const std::string& word, Words& words, CommandLine& line, bool& l
     return true;
 }
 
+/// What comes after the word of a command: its flags before, between or after its files.
+void read_command(const Command& command, Words& words, CommandLine& line)
+{
+    line.action = Action::command;
+    line.command = command.name;
+    bool limits = false;
+    while (!words.empty()) {
+        const std::string& word = words.take();
+        if (word == "--help" || word == "-h") {
+            line.action = Action::help;
+            return;
+        }
+        if (word == "--json" && command.has_json)
+            line.json = true;
+        else if (word.size() > 1 && word[0] == '-' && !read_flag(word, words, line, limits))
+            throw BadUsage(std::string(command.name) + " has no option " + word + "; `lacuna " +
+                           command.name + " --help` says what it has");
+        else if (word[0] != '-' || word == "-")
+            line.words.push_back(word);
+    }
+    if (limits) throw BadUsage("--output-dir, --memory and --seconds go before " + std::string(command.name));
+    const std::string wants = std::string(command.name) + " wants " +
+                              (command.count == 1 ? "a file" : "two files") + ", " + command.files;
+    if (line.words.size() < command.count) throw BadUsage(wants);
+    if (line.words.size() > command.count)
+        throw BadUsage(wants + "; found " + line.words[command.count] + " too");
+}
+
 /// The word that says what is to be done, and what belongs to it.
 void read_action(const std::string& word, Words& words, CommandLine& line)
 {
     if (word == "--version")
         line.action = Action::version;
-    else if (word == "--help" || word == "-h")
+    else if (word == "--help" || word == "-h" || word == "help") {
         line.action = Action::help;
-    else if (word == "-i")
+        if (word == "help" && !words.empty()) {
+            line.command = words.take();
+            if (!find_command(line.command)) throw BadUsage("there is no command " + line.command);
+        }
+    } else if (word == "-i")
         line.action = Action::prompt;
-    else if (word == "info" || word == "check") {
-        line.action = word == "info" ? Action::info : Action::check;
-        if (words.empty()) throw BadUsage(word + " wants a file");
-        line.file = words.take();
-    } else if (word != "-" && word.starts_with("-")) {
+    else if (const Command* command = find_command(word))
+        read_command(*command, words, line);
+    else if (word != "-" && word.starts_with("-")) {
         const std::size_t near = lua::nearest(word.c_str(), kFlags, std::size(kFlags));
         throw BadUsage("unknown option " + word + "; the nearest is " + kFlags[near]);
     } else {
@@ -114,6 +197,20 @@ void read_action(const std::string& word, Words& words, CommandLine& line)
 
 } // namespace
 
+std::string help_text(const std::string& name)
+{
+    if (const Command* command = find_command(name))
+        return std::string("usage: lacuna ") + command->name + (command->has_json ? " [--json] " : " ") +
+               command->files + "\n" + command->help;
+    std::string text = kHelp;
+    for (const Command& command : kCommands) {
+        std::string left = std::string("  ") + command.name + " " + command.files;
+        left.resize(std::max<std::size_t>(left.size() + 1, 26), ' ');
+        text += left + command.summary + "\n";
+    }
+    return text + kOptionHelp;
+}
+
 CommandLine parse(const std::vector<std::string>& all)
 {
     CommandLine line;
@@ -127,6 +224,7 @@ CommandLine parse(const std::vector<std::string>& all)
             continue;
         }
         read_action(word, words, line);
+        if (line.action == Action::help) break;
         if (!words.empty()) throw BadUsage("nothing is expected after " + word + ", found " + words.take());
     }
     if (limits && !line.sandbox) throw BadUsage("--output-dir, --memory and --seconds go with --sandbox");

@@ -7,18 +7,23 @@
 
 namespace lacuna::program {
 
-enum class Action { run, prompt, info, check, version, help };
+enum class Action { run, prompt, command, version, help };
 
 /// What the command line asks for.
 struct CommandLine {
     Action action = Action::help;
-    std::string file;               ///< recipe ("-": standard input), or the file of `info` and `check`
-    std::vector<std::string> words; ///< key=value words after the recipe
-    bool verbose = false;           ///< notes of the kernel and tracebacks on standard error
+    std::string file;               ///< of a run: the recipe, "-" for standard input
+    std::string command;            ///< of a command, or of help: which; empty: all
+    std::vector<std::string> words; ///< key=value words after the recipe; the files of a command
+    bool json = false;              ///< of a command
+    bool verbose = false;           ///< notes of the kernel on standard error
+    bool quiet = false;             ///< no line of progress
+    bool traceback = false;
     bool sandbox = false;
     std::string output_dir; ///< of the sandbox; empty: nothing is written
     double memory = 2048;   ///< of the sandbox [MB]
     double seconds = 300;   ///< of the sandbox
+    std::string history;    ///< of the prompt: a file; empty: none is kept
 };
 
 /// The command line makes no sense; exit code 2.
@@ -30,7 +35,7 @@ public:
 /// @throw BadUsage
 CommandLine parse(const std::vector<std::string>& words);
 
-/// Text of --help.
-extern const char* const kHelp;
+/// Text of --help, of the whole or of one command.
+std::string help_text(const std::string& command);
 
 } // namespace lacuna::program

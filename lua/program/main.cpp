@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "program/chunks.h"
 #include "program/command_line.h"
-#include "program/interpreter.h"
+#include "program/progress_line.h"
+#include "program/prompt.h"
+#include "program/stopping.h"
+
+#include <lacuna/interpreter.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -18,47 +23,75 @@ local lacuna = require "lacuna"
 print(("lacuna %s (%s, Gmsh %s)"):format(lacuna.version, _VERSION, lacuna.gmsh_version))
 )lua";
 
-const char* const kInfo = R"lua(
-local lacuna = require "lacuna"
-local model = lacuna.load((...))
-print(model:describe())
-local found, volume = pcall(model.open_volume, model)
-if found then
-  print(volume:describe())
-else
-  print("roles: none found: " .. volume)
-end
-)lua";
-
-const char* const kCheck = R"lua(
-local lacuna = require "lacuna"
-local quality = lacuna.check((...))
-print(quality)
-if not quality.certified then
-  local cells = quality.hexes + quality.wedges
-  error(("%s: %d of %d cells are invalid"):format(..., quality.uncertified, cells), 0)
-end
-)lua";
-
-Exit run(const CommandLine& line)
+void run_action(const CommandLine& line, lacuna::Interpreter& interpreter)
 {
-    Interpreter interpreter(line);
     switch (line.action) {
     case Action::run:
-        return interpreter.run_file(line.file, line.words);
+        interpreter.run_file(line.file, line.words);
+        if (!line.words.empty() && !interpreter.words_used())
+            std::fprintf(stderr, "lacuna: note: %s changed nothing: %s does not call lacuna.params\n",
+                         line.words.front().c_str(), line.file.c_str());
+        break;
     case Action::prompt:
-        return run_prompt(interpreter);
-    case Action::info:
-        return interpreter.run_text(kInfo, line.file);
-    case Action::check:
-        return interpreter.run_text(kCheck, line.file);
+        run_prompt(interpreter, line.history);
+        break;
+    case Action::command: {
+        lua_State* const L = push_chunk(interpreter, "commands");
+        luaopen_debug(L); // which the sandbox keeps from recipes
+        lua_pushstring(L, line.command.c_str());
+        lua_pushboolean(L, line.json);
+        for (const std::string& word : line.words) lua_pushstring(L, word.c_str());
+        interpreter.call(3 + static_cast<int>(line.words.size()));
+        break;
+    }
     case Action::version:
-        return interpreter.run_text(kVersion, "");
+        interpreter.run_string(kVersion, "lacuna");
+        break;
     case Action::help:
         break;
     }
-    std::fputs(kHelp, stdout);
-    return Exit::done;
+}
+
+Exit run(const CommandLine& line)
+{
+    if (line.action == Action::help) {
+        std::fputs(help_text(line.command).c_str(), stdout);
+        return Exit::done;
+    }
+    ProgressLine progress(!line.quiet);
+    lacuna::InterpreterOptions options;
+    progress.watch(options);
+    options.sandbox = line.sandbox;
+    options.output_folder = line.output_dir;
+    options.traceback = line.traceback;
+    // What a format cannot hold is said by notes.
+    if (line.verbose || line.command == "convert")
+        options.log = [&](std::string_view text) {
+            progress.clear();
+            std::fprintf(stderr, "lacuna: %.*s\n", static_cast<int>(text.size()), text.data());
+        };
+    if (line.sandbox) {
+        options.memory = static_cast<std::size_t>(line.memory * 1024 * 1024);
+        limit_process(line.memory, line.seconds);
+    }
+    lacuna::Interpreter interpreter(std::move(options));
+    struct Watched {
+        explicit Watched(lacuna::Interpreter* own) { watch_interrupts(own); }
+        ~Watched() { watch_interrupts(nullptr); }
+    } const watched(&interpreter);
+    try {
+        run_action(line, interpreter);
+        return Exit::done;
+    } catch (const lacuna::Cancelled&) {
+        progress.clear();
+        std::fflush(stdout); // what fails is told at the end
+        return report_stop(line.seconds);
+    } catch (const lacuna::ScriptError& error) {
+        progress.clear();
+        std::fflush(stdout);
+        report(error);
+        return Exit::failed;
+    }
 }
 
 /// Whether all that was printed arrived; a full disk behind standard output is an error as any other.

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "program/interpreter.h"
+// Lines and their editing; what a line means, shows and may go on with is in lua/program/prompt.lua.
+#include "program/prompt.h"
+
+#include "program/chunks.h"
+#include "program/stopping.h"
 
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
-#include <string>
 #include <unistd.h>
+#include <vector>
 
 #ifdef LACUNA_WITH_EDITLINE
 #include <editline/readline.h>
@@ -16,68 +20,62 @@ namespace lacuna::program {
 
 namespace {
 
+/// Call a function of prompt.lua with texts; what it returns.
+Value ask(Interpreter& interpreter, const char* function, std::initializer_list<std::string_view> texts)
+{
+    lua_State* const L = interpreter.state();
+    lua_getfield(L, LUA_REGISTRYINDEX, "lacuna.prompt");
+    lua_getfield(L, -1, function);
+    lua_remove(L, -2);
+    for (const std::string_view text : texts) lua_pushlstring(L, text.data(), text.size());
+    return interpreter.call(static_cast<int>(texts.size()));
+}
+
 #ifdef LACUNA_WITH_EDITLINE
 
-lua_State* g_completing = nullptr; // editline hands its callbacks nothing of ours
+Interpreter* g_completing = nullptr; // editline hands its callbacks nothing of ours
 
-/// Push the table named by the dotted path before the last word; nil where there is none.
-void push_owner(lua_State* L, const std::string& path)
+/// What `text`, at the end of what was typed, may go on with: one a line of prompt.lua's answer.
+std::vector<std::string> words_for(const char* text)
 {
-    lua_pushglobaltable(L);
-    for (std::size_t at = 0; at < path.size();) {
-        const std::size_t dot = path.find_first_of(".:", at);
-        if (dot == std::string::npos) return;
-        if (lua_istable(L, -1)) {
-            lua_pushlstring(L, path.data() + at, dot - at);
-            lua_rawget(L, -2); // raw: completing must run nobody's code
-            lua_remove(L, -2);
-        } else if (luaL_getmetafield(L, -1, "methods") == LUA_TTABLE) {
-            lua_remove(L, -2);
-        }
-        at = dot + 1;
+    std::vector<std::string> words;
+    try {
+        const std::string_view typed(rl_line_buffer, static_cast<std::size_t>(rl_point));
+        const Value found = ask(*g_completing, "complete", {typed, text});
+        if (const auto* lines = std::get_if<std::string>(&found))
+            for (std::size_t at = 0; at < lines->size();) {
+                const std::size_t end = std::min(lines->find('\n', at), lines->size());
+                words.push_back(lines->substr(at, end - at));
+                at = end + 1;
+            }
+    } catch (const std::exception&) { // no words then
     }
-    if (lua_isuserdata(L, -1) && luaL_getmetafield(L, -1, "methods") == LUA_TTABLE) lua_remove(L, -2);
+    return words;
 }
 
 char* complete(const char* text, int state)
 {
-    static std::string owner, start;
-    static int skip = 0;
-    if (state == 0) {
-        const std::string whole = text;
-        const std::size_t dot = whole.find_last_of(".:");
-        owner = dot == std::string::npos ? "" : whole.substr(0, dot + 1);
-        start = whole.substr(owner.size());
-        skip = 0;
-    }
-    lua_State* L = g_completing;
-    const int top = lua_gettop(L);
-    push_owner(L, owner);
-    char* found = nullptr;
-    int seen = 0;
-    if (lua_istable(L, -1))
-        for (lua_pushnil(L); !found && lua_next(L, -2); lua_pop(L, 1)) {
-            if (lua_type(L, -2) != LUA_TSTRING) continue;
-            const char* name = lua_tostring(L, -2);
-            if (std::strncmp(name, start.c_str(), start.size()) == 0 && seen++ == skip)
-                found = strdup((owner + name).c_str());
-        }
-    lua_settop(L, top);
-    ++skip;
-    return found;
+    static std::vector<std::string> words;
+    if (state == 0) words = words_for(text);
+    return static_cast<std::size_t>(state) < words.size()
+               ? strdup(words[static_cast<std::size_t>(state)].c_str())
+               : nullptr;
 }
 
-char** complete_words(const char* text, int, int)
+/// Inside quotes names of files, words elsewhere.
+char** complete_words(const char* text, int start, int)
 {
     rl_completion_append_character = '\0';
-    rl_attempted_completion_over = 1; // no file names after ours
-    return rl_completion_matches(text, complete);
-}
-
-std::string history_file()
-{
-    const char* home = std::getenv("HOME");
-    return home ? std::string(home) + "/.lacuna_history" : std::string();
+    char quote = '\0';
+    for (int i = 0; i < start; ++i) {
+        const char c = rl_line_buffer[i];
+        if (quote == '\0' && (c == '"' || c == '\''))
+            quote = c;
+        else if (c == quote)
+            quote = '\0';
+    }
+    rl_attempted_completion_over = quote == '\0' ? 1 : 0;
+    return quote == '\0' ? rl_completion_matches(text, complete) : nullptr;
 }
 
 #endif
@@ -85,30 +83,33 @@ std::string history_file()
 /// Where lines come from: an edited line with history at a terminal, plain ones elsewhere.
 class Lines {
 public:
-    explicit Lines(lua_State* L) : edited_(isatty(STDIN_FILENO) && isatty(STDOUT_FILENO))
+    Lines(Interpreter& interpreter, std::string history)
+        : edited_(isatty(STDIN_FILENO) && isatty(STDOUT_FILENO)), history_(std::move(history))
     {
 #ifdef LACUNA_WITH_EDITLINE
         if (!edited_) return;
-        g_completing = L;
+        g_completing = &interpreter;
         rl_readline_name = const_cast<char*>("lacuna");
+        rl_initialize();
         rl_attempted_completion_function = complete_words;
         rl_basic_word_break_characters = const_cast<char*>(" \t\n\"\\'`@$><=;|&{([,+-*/#^~%");
         using_history();
-        if (const std::string file = history_file(); !file.empty()) read_history(file.c_str());
+        if (!history_.empty()) read_history(history_.c_str());
 #else
-        (void)L;
+        (void)interpreter;
 #endif
     }
     ~Lines()
     {
 #ifdef LACUNA_WITH_EDITLINE
-        if (const std::string file = history_file(); edited_ && !file.empty()) write_history(file.c_str());
+        if (edited_ && !history_.empty() && write_history(history_.c_str()) != 0)
+            std::fprintf(stderr, "lacuna: the history cannot be written to %s\n", history_.c_str());
 #endif
     }
     Lines(const Lines&) = delete;
     Lines& operator=(const Lines&) = delete;
 
-    std::optional<std::string> next(const char* prompt) const
+    [[nodiscard]] std::optional<std::string> next(const char* prompt) const
     {
 #ifdef LACUNA_WITH_EDITLINE
         if (edited_) {
@@ -132,67 +133,53 @@ public:
 
 private:
     bool edited_;
+    std::string history_;
 };
 
-bool load(lua_State* L, const std::string& text)
+/// Run what was typed; asks for more lines while it is unfinished.
+void run_statement(Interpreter& interpreter, std::string text, const Lines& lines)
 {
-    return luaL_loadbufferx(L, text.data(), text.size(), "=prompt", "t") == LUA_OK;
-}
-
-/// True when the message on top says that the chunk only lacks its end.
-bool is_unfinished(lua_State* L)
-{
-    const std::string_view message = lua_tostring(L, -1);
-    return message.ends_with("<eof>");
-}
-
-/// Load what was typed, first as an expression; asks for more lines while it is unfinished.
-bool load_statement(lua_State* L, std::string text, const Lines& lines)
-{
-    if (load(L, "return " + text)) return true;
-    lua_pop(L, 1);
-    while (!load(L, text)) {
-        if (!is_unfinished(L)) return false;
-        const std::optional<std::string> more = lines.next(">> ");
-        if (!more) return false;
-        lua_pop(L, 1);
-        text += "\n" + *more;
+    while (true) {
+        const Value more = ask(interpreter, "run", {text});
+        if (!std::holds_alternative<bool>(more) || !std::get<bool>(more)) return;
+        const std::optional<std::string> line = lines.next(">> ");
+        if (!line) {
+            ask(interpreter, "run", {text, "no more"});
+            return;
+        }
+        text += "\n" + *line;
     }
-    return true;
-}
-
-/// print(...) of what stands above `base`.
-void print_results(Interpreter& interpreter, int base)
-{
-    lua_State* L = interpreter.state();
-    const int results = lua_gettop(L) - base;
-    if (results == 0) return;
-    lua_getglobal(L, "print");
-    lua_insert(L, base + 1);
-    interpreter.call(results, 0);
 }
 
 } // namespace
 
-Exit run_prompt(Interpreter& interpreter)
+void run_prompt(Interpreter& interpreter, const std::string& history)
 {
-    lua_State* L = interpreter.state();
-    if (interpreter.run_text("lacuna = require 'lacuna'", "") != Exit::done) return Exit::failed;
-    const Lines lines(L);
-    if (lines.at_terminal()) std::printf("lacuna %s, %s; Ctrl-D leaves\n", LACUNA_VERSION, LUA_RELEASE);
-    watch_interrupts(false);
+    lua_State* const L = push_chunk(interpreter, "prompt");
+    const char* const stub = chunk_text("lacuna");
+    lua_pushstring(L, stub);
+    lua_createtable(L, 0, 3); // which the chunk fills
+    lua_pushvalue(L, -1);
+    lua_setfield(L, LUA_REGISTRYINDEX, "lacuna.prompt");
+    luaopen_debug(L); // a table of its own, which the sandbox's recipes do not see
+    interpreter.call(3);
+
+    const char* const named = std::getenv("LACUNA_HISTORY");
+    const Lines lines(interpreter, !history.empty() ? history : named ? named : "");
+    if (lines.at_terminal())
+        std::printf("lacuna %s, %s; help says what there is, Ctrl-D leaves\n", LACUNA_VERSION, LUA_RELEASE);
     while (const std::optional<std::string> line = lines.next("> ")) {
-        const int base = lua_gettop(L);
-        watch_interrupts(true);
-        if (!load_statement(L, *line, lines))
-            interpreter.report();
-        else if (interpreter.call(0, LUA_MULTRET) == Exit::done)
-            print_results(interpreter, base);
-        watch_interrupts(false);
-        interpreter.resume_after_stop();
-        lua_settop(L, base);
+        try {
+            run_statement(interpreter, *line, lines);
+        } catch (const ScriptError& error) {
+            std::fflush(stdout);
+            report(error);
+        } catch (const Cancelled&) {
+            std::fflush(stdout);
+            // SIGTERM and SIGHUP end the prompt as they end a recipe.
+            if (report_stop(0) != Exit::interrupted) throw Cancelled();
+        }
     }
-    return Exit::done;
 }
 
 } // namespace lacuna::program

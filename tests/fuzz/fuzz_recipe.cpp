@@ -5,7 +5,7 @@
 // recipe ends with exit code 0, or with 1 and a sentence; all else is a fault: a report of a sanitizer, a
 // signal, time beyond the limit, a file outside the output folder. Without libFuzzer:
 //   fuzz_recipe [--runs N] [--seconds S] [--seed N] [--show] [FILE...]
-#include "program/interpreter.h"
+#include "program/stopping.h"
 
 #include <algorithm>
 #include <chrono>
@@ -402,18 +402,24 @@ struct Ends {
     using namespace lacuna::program;
     const int nowhere = open("/dev/null", O_WRONLY);
     if (dup2(nowhere, STDOUT_FILENO) < 0 || dup2(errors, STDERR_FILENO) < 0) _exit(kReported);
-    CommandLine line;
-    line.sandbox = true;
-    line.output_dir = (world.home() / "out").string();
-    line.seconds = kSeconds;
-    line.memory = kMegabytes;
-    Exit result;
+    lacuna::InterpreterOptions options;
+    options.sandbox = true;
+    options.output_folder = (world.home() / "out").string();
+    options.memory = static_cast<std::size_t>(kMegabytes * 1024 * 1024);
+    limit_process(kMegabytes, kSeconds);
+    Exit result = Exit::done;
     {
-        Interpreter interpreter(line);
-        lua_State* const L = interpreter.state();
-        result = luaL_loadbufferx(L, recipe.data(), recipe.size(), "=recipe", "t") == LUA_OK
-                     ? interpreter.call(0, 0)
-                     : interpreter.report();
+        lacuna::Interpreter interpreter(std::move(options));
+        watch_interrupts(&interpreter);
+        try {
+            interpreter.run_string(recipe);
+        } catch (const lacuna::ScriptError& error) {
+            report(error);
+            result = Exit::failed;
+        } catch (const lacuna::Cancelled&) {
+            result = report_stop(kSeconds);
+        }
+        watch_interrupts(nullptr);
     }
     std::fflush(stdout);
     _exit(static_cast<int>(result));

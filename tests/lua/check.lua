@@ -27,11 +27,19 @@ function check.near(found, expected, tolerance)
   end
 end
 
--- `call` must fail with a string that contains every one of the words, without patterns.
+-- `call` must fail with a string, or an error that prints as one, that contains every one of the words,
+-- without patterns.
 function check.fails(call, ...)
   check.count = check.count + 1
   local fine, message = pcall(call)
   if fine then error(where() .. ": nothing failed", 0) end
+  if type(message) == "table" then
+    local whole = type(message.message) == "string" and type(message.entities) == "table"
+    if not whole or not tostring(message.code):match("^[%l_]+%.[%l_]+$") then
+      error(("%s: no code or no entities: %s"):format(where(), tostring(message)), 0)
+    end
+    message = tostring(message)
+  end
   if type(message) ~= "string" then error(where() .. ": the error is a " .. type(message), 0) end
   for _, word in ipairs { ... } do
     if not message:find(word, 1, true) then

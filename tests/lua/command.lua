@@ -13,10 +13,10 @@ local function expect(words, code, out_words, err_words, input)
   local told = ("lacuna %s\nstandard output: %s\nstandard error: %s"):format(table.concat(words, " "), out,
       err)
   check.equal(found, code, told)
-  for _, pair in ipairs { { out_words, out }, { err_words, err } } do
+  for _, pair in ipairs { { out_words, out }, { err_words or false, err } } do
     local wanted, text = table.unpack(pair)
-    if #wanted == 0 then check.equal(text, "", told) end
-    for _, word in ipairs(wanted) do
+    if wanted and #wanted == 0 then check.equal(text, "", told) end
+    for _, word in ipairs(wanted or {}) do
       check.that(text:find(word, 1, true), ("'%s' is not said:\n%s"):format(word, told))
     end
   end
@@ -24,6 +24,15 @@ end
 
 expect({ "--version" }, 0, { "lacuna " .. lacuna.version, "Lua 5.4", lacuna.gmsh_version }, {})
 expect({ "--help" }, 0, { "usage: lacuna", "exit codes" }, {})
+for _, command in ipairs { "info", "check", "convert" } do
+  for _, words in ipairs { { command, "--help" }, { "help", command }, { command, "x", "--help" } } do
+    expect(words, 0, { "usage: lacuna " .. command }, {})
+  end
+  expect({ command, "--jsn", "x" }, 2, {}, { command, "--jsn", "--help" })
+end
+expect({ "help", "nothing" }, 2, {}, { "nothing" })
+expect({ "convert", "a.msh" }, 2, {}, { "IN OUT" })
+expect({ "convert", "--json", "a.msh", "b.vtu" }, 2, {}, { "--json" })
 
 -- Bad usage is 2.
 expect({}, 2, {}, { "lacuna: ", "--help" })
@@ -47,7 +56,7 @@ check.write(folder .. "/object.lua",
 expect({ "object.lua" }, 1, {}, { "lacuna: told by an object" })
 check.write(folder .. "/object.lua", "error(setmetatable({}, { __tostring = function() end }))\n")
 expect({ "object.lua" }, 1, {}, { "lacuna: (error object is a table value)" })
-expect({ "--verbose", "fails.lua" }, 1, { "before" }, { "traceback" })
+expect({ "--traceback", "fails.lua" }, 1, { "before" }, { "traceback" })
 
 -- Parameters.
 check.write(folder .. "/params.lua", [[
@@ -109,6 +118,58 @@ $Elements
 $EndElements
 ]])
 expect({ "check", "inverted.msh" }, 1, { "caled" }, { "inverted.msh", "1 of 1 cells" })
+
+-- Every format that is written is checked and converted, and the numbers of cells and the volume stay.
+local function json_of(words)
+  local code, out, err = run(words)
+  check.equal(code, 0, err)
+  return out
+end
+local function field(text, name) return tonumber(text:match('"' .. name .. '": ([%d.e+-]+)')) end
+local good = json_of { "check", "--json", "good.msh" }
+check.that(good:find("^{.*}\n$"), good)
+check.that(field(good, "hexes") > 0 and good:find('"certified": true', 1, true), good)
+check.that(good:find('"scaled_jacobian": {', 1, true), good)
+for _, ending in ipairs { "msh", "vtu", "vtk", "inp", "bdf", "nas", "dat", "unv", "exo", "e" } do
+  local path = "other." .. ending
+  expect({ "convert", "good.msh", path }, 0, { path, "elements" }, nil)
+  if not ending:match("^e") then  -- Exodus files are written and not read
+    local found = json_of { "check", path, "--json" }
+    check.equal(field(found, "hexes"), field(good, "hexes"), path)
+    check.near(field(found, "volume"), field(good, "volume"), 1e-5 * field(good, "volume"))
+    expect({ "check", path }, 0, { "caled" }, {})
+  end
+end
+expect({ "convert", "good.msh", "x.xyz" }, 1, {}, { "x.xyz", ".vtu" })
+expect({ "convert", "nowhere.msh", "x.vtu" }, 1, {}, { "nowhere.msh" })
+check.that(not check.exists(folder .. "/x.vtu"))
+local faces = json_of { "info", "--json", "good.msh" }
+check.that(faces:find('"faces": [{', 1, true) and faces:find('"area": ', 1, true), faces)
+
+-- Nothing is written outside: neither to the home folder nor where there is none.
+local home = check.empty_folder(folder .. "/home")
+for _, words in ipairs { "--version", "info good.msh", "check good.msh", "make.lua output=again.msh" } do
+  local done = os.execute(("cd '%s' && HOME='%s' '%s' %s >/dev/null 2>&1"):format(folder, home,
+      params.lacuna, words))
+  check.that(done, words)
+end
+local pipe = assert(io.popen(("printf '1\\nlacuna.version\\n' | HOME='%s' '%s' -i"):format(home,
+    params.lacuna)))
+check.that(pipe:read("a"):find(lacuna.version, 1, true))
+pipe:close()
+check.equal(#check.files(home), 0, "files in the home folder")
+
+-- The prompt's help and what it shows.
+expect({ "-i" }, 0, { "lacuna.load", 'help "sweep"' }, {}, "help\n")
+expect({ "-i" }, 0, { "Volume:sweep", "layers", "min_scaled_jacobian" }, {}, 'help "sweep"\n')
+expect({ "-i" }, 0, { "coordinates" }, {}, 'help "Mesh"\n')
+expect({ "-i" }, 0, { "feature_angle", "lacuna.load" }, {}, 'help(lacuna.load)\n')
+expect({ "-i" }, 0, { "Volume:sweep(options): layers", "about as high" }, {}, 'help "layers"\n')
+expect({ "-i" }, 0, { "sweep" }, {}, 'help "sweeep"\n')
+expect({ "-i" }, 0, { "{ 1, 2, x = { y = \"z\" } }", "text", "... 5 more" }, {},
+       "{ 1, 2, x = { y = 'z' } }\n'text'\nt = {} for i = 1, 25 do t[i] = i end\nt\n")
+expect({ "-i" }, 0, { "after" }, { "prompt:1:" }, "x = = 1\nprint 'after'\n")
+
 if lacuna.gmsh_version ~= "none" then
   check.write(folder .. "/square.geo", 'SetFactory("OpenCASCADE"); Rectangle(7) = {0, 0, 0, 3, 2};\n')
   expect({ "info", "square.geo" }, 0, { "area", "7  plane", "6" }, {})

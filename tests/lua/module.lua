@@ -11,7 +11,7 @@ check.equal(void.class, "I")
 local mesh = void:sweep { layers = 2, size = 0.5 }
 check.equal(mesh:quality().inverted, 0)
 
--- Errors are strings that print, with file and line, and leave the state whole.
+-- Errors print, with file and line, and leave the state whole.
 local message = check.fails(function() void:sweep { layres = 2 } end, "'layers'", "module.lua:")
 check.equal(type(message), "string")
 check.equal(#lacuna.synthetic.barrel():faces(), 3)

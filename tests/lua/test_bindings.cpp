@@ -57,7 +57,7 @@ struct CancellableState {
 std::string error_of(lua_State* L, const char* chunk)
 {
     std::string message;
-    if (luaL_dostring(L, chunk) != LUA_OK) message = lua_tostring(L, -1) ? lua_tostring(L, -1) : "no string";
+    if (luaL_dostring(L, chunk) != LUA_OK) message = luaL_tolstring(L, -1, nullptr);
     lua_settop(L, 0);
     return message;
 }

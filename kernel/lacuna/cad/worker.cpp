@@ -125,10 +125,12 @@ Channel::Patience patience_of(const RunContext* context, double seconds, double 
     };
 }
 
-/// What the worker gets of the host's environment: where its libraries lie.
+/// What the worker gets of the host's environment: where its libraries lie. FLTK, which Gmsh brings along,
+/// writes preferences to the home folder as it starts, and to /etc where there is none; below /dev/null it
+/// can write nothing.
 std::vector<std::string> worker_environment()
 {
-    std::vector<std::string> kept{"LC_ALL=C"};
+    std::vector<std::string> kept{"LC_ALL=C", "HOME=/dev/null"};
     for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
         const std::string_view text(*entry);
         for (const std::string_view name : {"LD_LIBRARY_PATH=", "CSF_", "ASAN_OPTIONS=", "UBSAN_OPTIONS="})

@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/progress.h>
 #include <lacuna/quads/odd_region.h>
 #include <lacuna/quads/pave.h>
 #include <lacuna/quads/submap.h>
@@ -349,12 +350,14 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
                                             ? default_heights(links, size, options.layers, least_layers)
                                             : given.heights;
     for (std::string& note : given.notes) result.report.push_back("given: " + note);
+    report_progress(context, "quads of the source");
     const surface::Seeds seeds = surface::seed_source(
         split, links, size, style_of(options), {options.curvature, options.gap},
         imprint ? surface::image_lengths(*imprint) : std::map<EdgeId, double>{}, options.wedges);
     for (const std::string& note : seeds.notes) result.report.push_back("given: " + note);
     surface::SourceMesh source = surface::mesh_source(split, links, seeds, size_fields(size, options),
                                                       mesher_for_all(options), context);
+    report_progress(context, "walls");
     std::vector<surface::WallMesh> walls;
     const RimColumns columns = columns_of(split, links, given.columns, source, heights, walls, context);
     if (outline == Outline::mean && !options.wedges)
@@ -365,6 +368,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     }
     check_cancelled(context);
 
+    report_progress(context, "target");
     std::string why;
     std::optional<surface::GivenTarget> given_target;
     if (!imprint) given_target = surface::given_target(volume, links, source, why, options.wedges);
@@ -382,6 +386,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
                           : morph_onto(shape_of(volume, options), source, columns, context);
     }
     result.report.push_back("target: " + morphed.report);
+    report_progress(context, "layers");
     PlacementOptions placement;
     placement.straight_lines = options.interior == Interior::automatic && ruled(volume, links);
     placement.heights = heights;
@@ -403,6 +408,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
         result.report.push_back("walls: " + name_of(volume.model, wall) +
                                 " is smaller than the quads there and has none, nor a group");
     }
+    report_progress(context, "proof of every cell");
     std::set<FaceId> still = given_faces(volume, seeds.kept, options.wedges);
     if (options.beside.settle) still.merge(options.beside.settle(mesh, faces));
     quality::Proof proof = prove_or_improve(result, volume.model, faces, still, options, context);

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// Buffer: many numbers at once, for hosts and for recipes that walk over a whole mesh.
+#include "bindings/bind_buffer.h"
+
+#include "bindings/classes.h"
+#include "bindings/options.h"
+
+#include <utility>
+#include <vector>
+
+namespace lacuna::lua {
+
+namespace {
+
+static_assert(sizeof(Vec3) == 3 * sizeof(double), "coordinates lie one after the other");
+static_assert(sizeof(Index) == 4, "hosts are told of int32");
+
+BufferState of_wholes(std::vector<Index> numbers, std::size_t columns)
+{
+    const auto kept = std::make_shared<const std::vector<Index>>(std::move(numbers));
+    return {kept, nullptr, kept->data(), kept->size(), columns};
+}
+
+BufferState of_points(std::vector<Vec3> points)
+{
+    const auto kept = std::make_shared<const std::vector<Vec3>>(std::move(points));
+    return {kept, kept->empty() ? nullptr : kept->front().data(), nullptr, 3 * kept->size(), 3};
+}
+
+/// Nodes of all cells of a kind, from 1, in the order of mesh:hex(i) and mesh:wedge(i).
+BufferState cells_of(const mesh::HexMesh& mesh, bool wedges)
+{
+    const mesh::CellKinds kinds(mesh);
+    const std::size_t first = wedges ? mesh.hex_count() : 0;
+    const std::size_t count = wedges ? mesh.wedge_count() : mesh.hex_count();
+    const std::size_t columns = wedges ? 6 : mesh.order() == 1 ? 8 : mesh.middles.full ? 27 : 20;
+    std::vector<Index> nodes;
+    nodes.reserve(count * columns);
+    for (std::size_t i = 0; i < count; ++i) {
+        const mesh::CellNodes cell = mesh::cell_nodes(mesh, kinds.cell(first + i));
+        for (const Index node : cell.all()) nodes.push_back(node + 1);
+    }
+    return of_wholes(std::move(nodes), columns);
+}
+
+/// buffer = mesh:coordinates(): of every node x, y, z
+int coordinates(lua_State* L)
+{
+    lua_settop(L, 1);
+    const auto& mesh = hold_box<MeshState>(L, 1);
+    auto& box = new_box<BufferState>(L);
+    guard(L, [&] {
+        const mesh::HexMesh& hexes = mesh->swept.mesh;
+        if (hexes.middles.empty()) { // as they lie in the mesh, which stays
+            box = std::make_shared<BufferState>(
+                BufferState{mesh, hexes.nodes.empty() ? nullptr : hexes.nodes.front().data(), nullptr,
+                            3 * hexes.nodes.size(), 3});
+            return;
+        }
+        std::vector<Vec3> points = hexes.nodes;
+        points.insert(points.end(), hexes.middles.nodes.begin(), hexes.middles.nodes.end());
+        box = std::make_shared<BufferState>(of_points(std::move(points)));
+    });
+    return 1;
+}
+
+/// buffer = mesh:cells(["hex" | "wedge"]): node numbers from 1
+int cells(lua_State* L)
+{
+    lua_settop(L, 2);
+    const auto& mesh = hold<MeshState>(L, 1);
+    const Word<bool> kinds[] = {{"hex", false}, {"wedge", true}};
+    const bool wedges = !lua_isnil(L, 2) && read_word(L, 2, {"cells", nullptr}, kinds);
+    auto& box = new_box<BufferState>(L);
+    guard(L, [&] { box = std::make_shared<BufferState>(cells_of(mesh.swept.mesh, wedges)); });
+    return 1;
+}
+
+int assembly_coordinates(lua_State* L)
+{
+    lua_settop(L, 1);
+    const auto& mesh = hold<AssemblyMeshState>(L, 1);
+    auto& box = new_box<BufferState>(L);
+    guard(L, [&] { box = std::make_shared<BufferState>(of_points(whole_cells(mesh.swept).nodes)); });
+    return 1;
+}
+
+int assembly_cells(lua_State* L)
+{
+    lua_settop(L, 1);
+    const auto& mesh = hold<AssemblyMeshState>(L, 1);
+    auto& box = new_box<BufferState>(L);
+    guard(L, [&] {
+        const WholeCells whole = whole_cells(mesh.swept);
+        std::vector<Index> nodes;
+        nodes.reserve(whole.hexes.size() * 8);
+        for (const Hex& hex : whole.hexes)
+            for (const Index node : hex) nodes.push_back(node + 1);
+        box = std::make_shared<BufferState>(of_wholes(std::move(nodes), 8));
+    });
+    return 1;
+}
+
+void push_at(lua_State* L, const BufferState& buffer, std::size_t at)
+{
+    if (buffer.is_real())
+        lua_pushnumber(L, buffer.reals[at]);
+    else
+        lua_pushinteger(L, buffer.wholes[at]);
+}
+
+int push_row(lua_State* L, const BufferState& buffer, std::size_t row)
+{
+    const auto columns = static_cast<int>(buffer.columns);
+    luaL_checkstack(L, columns, "too many columns");
+    for (std::size_t c = 0; c < buffer.columns; ++c) push_at(L, buffer, row * buffer.columns + c);
+    return columns;
+}
+
+/// ... = buffer:row(i)
+int row(lua_State* L)
+{
+    lua_settop(L, 2);
+    const BufferState& buffer = check<BufferState>(L, 1);
+    return push_row(L, buffer, check_number(L, "row", buffer.rows()));
+}
+
+/// Upvalues: the buffer, the row that was last.
+int next_row(lua_State* L)
+{
+    const BufferState& buffer = check<BufferState>(L, lua_upvalueindex(1));
+    const auto next = static_cast<std::size_t>(lua_tointeger(L, lua_upvalueindex(2)));
+    if (next >= buffer.rows()) return 0;
+    lua_pushinteger(L, to_lua(next));
+    lua_copy(L, -1, lua_upvalueindex(2));
+    return 1 + push_row(L, buffer, next);
+}
+
+/// for i, ... in buffer:each() do
+int each(lua_State* L)
+{
+    lua_settop(L, 1);
+    check<BufferState>(L, 1);
+    lua_pushinteger(L, 0);
+    lua_pushcclosure(L, next_row, 2);
+    return 1;
+}
+
+/// text = buffer:bytes(): as they lie in memory, for string.unpack and files
+int bytes(lua_State* L)
+{
+    const BufferState& buffer = check<BufferState>(L, 1);
+    lua_pushlstring(L, static_cast<const char*>(buffer.data()), buffer.numbers * buffer.size());
+    return 1;
+}
+
+int length(lua_State* L)
+{
+    lua_pushinteger(L, static_cast<lua_Integer>(check<BufferState>(L, 1).rows()));
+    return 1;
+}
+
+int columns(lua_State* L)
+{
+    lua_pushinteger(L, static_cast<lua_Integer>(check<BufferState>(L, 1).columns));
+    return 1;
+}
+
+int type(lua_State* L)
+{
+    lua_pushstring(L, check<BufferState>(L, 1).is_real() ? "float64" : "int32");
+    return 1;
+}
+
+int to_string(lua_State* L)
+{
+    const BufferState& buffer = check<BufferState>(L, 1);
+    lua_pushfstring(L, "Buffer of %I rows of %I %s", static_cast<lua_Integer>(buffer.rows()),
+                    static_cast<lua_Integer>(buffer.columns), buffer.is_real() ? "float64" : "int32");
+    return 1;
+}
+
+const luaL_Reg kMethods[] = {{"row", row}, {"each", each}, {"bytes", bytes}, {nullptr, nullptr}};
+const luaL_Reg kMeta[] = {{"__len", length}, {"__tostring", to_string}, {nullptr, nullptr}};
+const Field kFields[] = {{"rows", length}, {"columns", columns}, {"type", type}, {nullptr, nullptr}};
+const luaL_Reg kMeshMethods[] = {{"coordinates", coordinates}, {"cells", cells}, {nullptr, nullptr}};
+const luaL_Reg kAssemblyMethods[] = {
+    {"coordinates", assembly_coordinates}, {"cells", assembly_cells}, {nullptr, nullptr}};
+
+} // namespace
+
+void bind_buffer(lua_State* L)
+{
+    make_class<BufferState>(L, kFields, kMeta);
+    add_methods(L, kClassName<BufferState>, kMethods);
+    add_methods(L, kClassName<MeshState>, kMeshMethods);
+    add_methods(L, kClassName<AssemblyMeshState>, kAssemblyMethods);
+}
+
+} // namespace lacuna::lua

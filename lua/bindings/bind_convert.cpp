@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// lacuna.convert: a mesh or deck from one format to another.
+#include "bindings/classes.h"
+#include "bindings/io_paths.h"
+#include "bindings/lacuna_lua.h"
+#include "bindings/options.h"
+
+#include <lacuna/io/deck_file.h>
+
+namespace lacuna::lua {
+
+namespace {
+
+void read_version(lua_State* L, int index, const Where& where, io::DeckFileOptions& options)
+{
+    options.msh_version = read_number(L, index, where);
+    if (options.msh_version != 4.1 && options.msh_version != 2.2) fail_value(L, where, "4.1 or 2.2", index);
+}
+
+const Option<io::DeckFileOptions> kOptions[] = {{"version", read_version},
+                                                {"binary", boolean<&io::DeckFileOptions::binary>}};
+
+/// { nodes =, elements = } = lacuna.convert(from, to [, options])
+int convert(lua_State* L)
+{
+    lua_settop(L, 3);
+    const char* from = read_string(L, 1, {"convert", nullptr});
+    const io::OutputPath& to = push_output_path(L, 2, "convert");
+    io::DeckFileOptions options;
+    read_options(L, 3, "convert", kOptions, options);
+    RunContext& context = push_context(L);
+    const Host& lent = host(L);
+    std::size_t nodes = 0, elements = 0;
+    guard(L, [&] {
+        check_input_path(lent, from);
+        io::DeckFormat format{};
+        if (!io::find_deck_format(io::ending_of(to.text()), format))
+            throw InvalidInput(
+                "lua.unknown_ending",
+                "convert: the ending of " + to.text() +
+                    " says no format that meshes are written in; those are .msh .vtu .vtk .inp "
+                    ".bdf .nas .dat .unv .exo .e");
+        const io::Deck deck = io::read_deck(from);
+        nodes = deck.points.size();
+        for (const io::DeckBlock& block : deck.blocks) elements += block.count();
+        io::write_deck(deck, format, to, context, options);
+    });
+    lua_createtable(L, 0, 2);
+    set_count(L, "nodes", nodes);
+    set_count(L, "elements", elements);
+    return 1;
+}
+
+const luaL_Reg kFunctions[] = {{"convert", convert}, {nullptr, nullptr}};
+
+} // namespace
+
+void bind_convert(lua_State* L) { luaL_setfuncs(L, kFunctions, 0); }
+
+} // namespace lacuna::lua

@@ -1,0 +1,608 @@
+// SPDX-License-Identifier: MIT
+// Lua raises by longjmp and C++ throws, and neither may pass through the other's frames. So all that may
+// raise runs inside a protected call and holds nothing to destroy; what was found is left on Lua's stack, and
+// C++ takes it from there by calls that do not raise.
+#include <lacuna/interpreter.h>
+
+#include "bindings/bind_buffer.h"
+#include "bindings/box.h"
+#include "bindings/lacuna_lua.h"
+#include "host/sandbox.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <clocale>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <new>
+#include <utility>
+
+namespace lacuna {
+
+namespace {
+
+constexpr int kHookInstructions = 10'000; // often enough to feel immediate, too seldom to cost time
+
+/// Numbers with a decimal point in this thread, whatever the host's locale; as it was when this ends.
+class PlainNumbers {
+public:
+    PlainNumbers() : before_(uselocale(plain())) {}
+    ~PlainNumbers() { uselocale(before_); }
+    PlainNumbers(const PlainNumbers&) = delete;
+    PlainNumbers& operator=(const PlainNumbers&) = delete;
+
+private:
+    static locale_t plain()
+    {
+        static const locale_t kPlain = newlocale(LC_NUMERIC_MASK, "C", duplocale(uselocale(nullptr)));
+        return kPlain;
+    }
+    locale_t before_;
+};
+
+/// Lua's stack as it was, on every way out.
+class SameTop {
+public:
+    explicit SameTop(lua_State* L) : state_(L), top_(lua_gettop(L)) {}
+    ~SameTop() { lua_settop(state_, top_); }
+    SameTop(const SameTop&) = delete;
+    SameTop& operator=(const SameTop&) = delete;
+
+private:
+    lua_State* state_;
+    int top_;
+};
+
+std::string text_at(lua_State* L, int index)
+{
+    std::size_t length = 0;
+    const char* text = lua_type(L, index) == LUA_TSTRING ? lua_tolstring(L, index, &length) : nullptr;
+    return text ? std::string(text, length) : std::string();
+}
+
+// --- inside protected calls -----------------------------------------------------------------------------
+
+/// text, message, code, file, line of the error at 1; nil for what it does not say.
+int read_error(lua_State* L)
+{
+    lua_settop(L, 1);
+    if (lua_isstring(L, 1) || luaL_getmetafield(L, 1, "__tostring") != LUA_TNIL) {
+        lua_settop(L, 1);
+        luaL_tolstring(L, 1, nullptr);
+    } else {
+        lua_pushfstring(L, "(error object is a %s value)", luaL_typename(L, 1));
+    }
+    for (const char* field : {"message", "code", "file", "line"}) {
+        lua_pushstring(L, field);
+        if (lua_istable(L, 1))
+            lua_rawget(L, 1);
+        else
+            lua_pop(L, 1), lua_pushnil(L);
+    }
+    return 5;
+}
+
+/// Push what the path names; with `owner` all but its last part, and that as a key. Raises.
+void push_path(lua_State* L, const char* path, bool owner)
+{
+    lua_pushglobaltable(L);
+    for (const char* at = path;;) {
+        const char* const end = at + std::strcspn(at, ".");
+        if (end == at) lua::fail_as(L, "lua.no_value", "the path '%s' has an empty part", path);
+        lua_Integer number = 0;
+        const auto [read, error] = std::from_chars(at, end, number);
+        if (error == std::errc() && read == end)
+            lua_pushinteger(L, number);
+        else
+            lua_pushlstring(L, at, static_cast<std::size_t>(end - at));
+        if (*end == '\0' && owner) return;
+        lua_gettable(L, -2);
+        lua_remove(L, -2);
+        if (*end == '\0') return;
+        if (!lua_istable(L, -1)) {
+            if (luaL_getmetafield(L, -1, "__index") == LUA_TNIL) {
+                const char* found = lua::push_found(L, -1);
+                lua::fail_as(L, "lua.no_value", "'%s' in the path '%s' is %s, which has no fields",
+                             lua_pushlstring(L, path, static_cast<std::size_t>(end - path)), path, found);
+            }
+            lua_pop(L, 1);
+        }
+        at = end + 1;
+    }
+}
+
+} // namespace
+
+struct Interpreter::State {
+    enum class Why { nothing, cancelled, instructions };
+
+    InterpreterOptions options;
+    lua::Host host;
+    std::atomic<bool> stop{false};
+    Why why = Why::nothing;
+    std::uint64_t steps = 0;
+    bool running = false;
+    std::exception_ptr thrown; ///< by a callback
+    std::size_t used = 0;      ///< [bytes]
+    std::string traceback;
+    lua_State* lua = nullptr;
+
+    explicit State(InterpreterOptions asked);
+    ~State()
+    {
+        if (lua) lua_close(lua);
+    }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+
+    static State& of(lua_State* L) { return **static_cast<State**>(lua_getextraspace(L)); }
+    static void* allocate(void* state, void* block, std::size_t old_size, std::size_t new_size);
+    static void hook(lua_State* L, lua_Debug*);
+    static int handle_message(lua_State* L);
+    static int open(lua_State* L);
+    static int print(lua_State* L);
+
+    /// Call back; what it throws is kept, and the run stops.
+    template <class Body>
+    void call_back(Body&& body) noexcept
+    {
+        try {
+            body();
+        } catch (...) {
+            if (!thrown) thrown = std::current_exception();
+            stop = true;
+        }
+    }
+    void ask_host() noexcept
+    {
+        if (options.cancelled && !stop)
+            call_back([&] {
+                if (options.cancelled()) stop = true;
+            });
+    }
+
+    /// Of a run: a pending request to stop ends it at once.
+    void start(bool is_run);
+    void end() noexcept;
+    [[noreturn]] void fail(int status);
+    void call(int arguments, int results, bool is_run = true);
+    Value value_at(int index) const;
+
+    /// Run `work(L)` protected; what it pushes is left on the stack.
+    template <class Work>
+    void protect(const Work& work)
+    {
+        static_assert(std::is_trivially_destructible_v<Work>, "capture by reference");
+        if (!lua_checkstack(lua, 4)) throw std::bad_alloc();
+        lua_pushcfunction(lua, [](lua_State* L) {
+            const auto& body = *static_cast<const Work*>(lua_touserdata(L, 1));
+            lua_settop(L, 0);
+            body(L);
+            return lua_gettop(L);
+        });
+        lua_pushlightuserdata(lua, const_cast<Work*>(&work));
+        call(1, LUA_MULTRET, false);
+    }
+    void check_free() const
+    {
+        if (running)
+            throw InvalidInput("lua.busy", "this interpreter is running a recipe; call it when that is done");
+    }
+};
+
+void* Interpreter::State::allocate(void* state, void* block, std::size_t old_size, std::size_t new_size)
+{
+    State& self = *static_cast<State*>(state);
+    if (!block) old_size = 0; // Lua then gives a kind of object instead
+    const std::size_t limit = self.options.memory;
+    if (new_size > old_size && limit > 0 && self.used + (new_size - old_size) > limit) return nullptr;
+    void* moved = nullptr;
+    if (new_size == 0) {
+        std::free(block);
+    } else {
+        moved = std::realloc(block, new_size);
+        if (!moved) return nullptr;
+    }
+    self.used = self.used - old_size + new_size;
+    return moved;
+}
+
+/// Runs every so many instructions. Once asked to stop it raises at every one, so that no pcall can go on.
+void Interpreter::State::hook(lua_State* L, lua_Debug*)
+{
+    State& self = of(L);
+    if (self.why == Why::nothing) {
+        self.steps += kHookInstructions;
+        self.ask_host();
+        if (self.stop) {
+            self.why = Why::cancelled;
+        } else if (self.options.instructions > 0 && self.steps > self.options.instructions) {
+            self.why = Why::instructions;
+            self.stop = true;
+        }
+    }
+    if (!self.stop) return;
+    lua_sethook(L, hook, LUA_MASKCOUNT, 1);
+    luaL_error(L, "interrupted");
+}
+
+/// Keeps the error as it is, and the traceback where one is wanted.
+int Interpreter::State::handle_message(lua_State* L)
+{
+    State& self = of(L);
+    lua_settop(L, 1);
+    if (self.options.traceback) {
+        luaL_traceback(L, L, nullptr, 1);
+        try {
+            self.traceback = lua_tostring(L, -1);
+        } catch (const std::bad_alloc&) {
+            self.traceback.clear();
+        }
+        lua_settop(L, 1);
+    }
+    return 1;
+}
+
+int Interpreter::State::open(lua_State* L)
+{
+    const State& self = of(L);
+    if (self.options.sandbox) {
+        lua::open_sandbox_libraries(L);
+    } else {
+        luaL_openlibs(L);
+        luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
+        lua_pushcfunction(L, luaopen_lacuna);
+        lua_setfield(L, -2, "lacuna");
+    }
+    if (self.options.print) {
+        lua_pushcfunction(L, print);
+        lua_setglobal(L, "print");
+    }
+    return 0;
+}
+
+int Interpreter::State::print(lua_State* L)
+{
+    const int count = lua_gettop(L);
+    luaL_Buffer buffer;
+    luaL_buffinit(L, &buffer);
+    for (int i = 1; i <= count; ++i) {
+        if (i > 1) luaL_addchar(&buffer, '\t');
+        luaL_tolstring(L, i, nullptr);
+        luaL_addvalue(&buffer);
+    }
+    luaL_addchar(&buffer, '\n');
+    luaL_pushresult(&buffer);
+    std::size_t length = 0;
+    const char* text = lua_tolstring(L, -1, &length);
+    State& self = of(L);
+    self.call_back([&] { self.options.print({text, length}); });
+    if (self.thrown) luaL_error(L, "interrupted");
+    return 0;
+}
+
+Interpreter::State::State(InterpreterOptions asked) : options(std::move(asked))
+{
+    host.cancel = &stop;
+    host.sandboxed = options.sandbox;
+    if (!options.output_folder.empty())
+        host.output_folder = std::make_shared<const io::Folder>(options.output_folder);
+    if (options.log) host.log = [this](std::string_view line) { call_back([&] { options.log(line); }); };
+    if (options.progress)
+        host.progress = [this](std::string_view stage, double share) {
+            ask_host();
+            call_back([&] {
+                if (!options.progress(stage, share)) stop = true;
+            });
+        };
+    lua = lua_newstate(allocate, this);
+    if (!lua) throw std::bad_alloc();
+    *static_cast<State**>(lua_getextraspace(lua)) = this;
+    try {
+        protect([this](lua_State* L) {
+            lua::set_host(L, &host);
+            open(L);
+            lua_settop(L, 0);
+        });
+    } catch (...) {
+        lua_close(lua);
+        throw;
+    }
+}
+
+void Interpreter::State::start(bool is_run)
+{
+    check_free();
+    running = true;
+    why = Why::nothing;
+    steps = 0;
+    thrown = nullptr;
+    traceback.clear();
+    if (is_run) lua_sethook(lua, hook, LUA_MASKCOUNT, stop ? 1 : kHookInstructions);
+}
+
+void Interpreter::State::end() noexcept
+{
+    running = false;
+    lua_sethook(lua, nullptr, 0, 0);
+}
+
+/// Throw what the error on top of the stack says, and pop it.
+void Interpreter::State::fail(int status)
+{
+    const std::string kind = lua_typename(lua, lua_type(lua, -1));
+    lua_pushcfunction(lua, read_error);
+    lua_insert(lua, -2);
+    const bool read = lua_pcall(lua, 1, 5, 0) == LUA_OK;
+    const int first = lua_gettop(lua) - 4;
+    std::string text = read ? text_at(lua, first) : "(error object is a " + kind + " value)";
+    const std::string usual = status == LUA_ERRSYNTAX ? "lua.syntax"
+                              : status == LUA_ERRMEM  ? "lua.memory"
+                              : status == LUA_ERRFILE ? "lua.no_recipe"
+                                                      : "lua.error";
+    const std::string code = read ? text_at(lua, first + 2) : "";
+    ScriptError error(code.empty() ? usual : code, text);
+    error.traceback = traceback;
+    if (read && !text_at(lua, first + 1).empty()) {
+        error.message = text_at(lua, first + 1);
+        error.file = text_at(lua, first + 3);
+        error.line = lua_isinteger(lua, first + 4) ? static_cast<int>(lua_tointeger(lua, first + 4)) : 0;
+    } else {
+        // "recipe.lua:7: message", as Lua has it.
+        error.message = text;
+        for (std::size_t colon = text.find(':'); colon != std::string::npos;
+             colon = text.find(':', colon + 1)) {
+            const std::size_t end = text.find_first_not_of("0123456789", colon + 1);
+            if (end == std::string::npos || end == colon + 1 || text.compare(end, 2, ": ") != 0) continue;
+            error.file = text.substr(0, colon);
+            std::from_chars(text.data() + colon + 1, text.data() + end, error.line);
+            error.message = text.substr(end + 2);
+            break;
+        }
+    }
+    lua_settop(lua, read ? first - 1 : first + 3);
+    error.entities = named_entities(error.message);
+    throw error;
+}
+
+/// Call the function under `arguments` values; what it returns is left on the stack.
+void Interpreter::State::call(int arguments, int results, bool is_run)
+{
+    if (!lua_checkstack(lua, LUA_MINSTACK)) throw std::bad_alloc();
+    start(is_run);
+    struct Ended {
+        State& self;
+        ~Ended() { self.end(); }
+    } const ended{*this};
+    const PlainNumbers numbers;
+    const int base = lua_gettop(lua) - arguments;
+    lua_pushcfunction(lua, handle_message); // for which Lua keeps room
+    lua_insert(lua, base);
+    const int status = lua_pcall(lua, arguments, results, base);
+    lua_remove(lua, base);
+    // Asked to stop while the last step ran, or by a recipe that caught the error: it did not do all it was
+    // to do.
+    if (is_run && (thrown || stop)) {
+        lua_settop(lua, base - 1);
+        const bool limited = why == Why::instructions;
+        stop = false;
+        if (thrown) std::rethrow_exception(std::exchange(thrown, nullptr));
+        if (!limited) throw Cancelled();
+        ScriptError error("lua.instructions", "the limit of " + std::to_string(options.instructions) +
+                                                  " instructions is over; raise it, or do less");
+        error.message = error.what();
+        throw error;
+    }
+    if (status != LUA_OK) fail(status);
+}
+
+Value Interpreter::State::value_at(int index) const
+{
+    switch (lua_type(lua, index)) {
+    case LUA_TBOOLEAN:
+        return lua_toboolean(lua, index) != 0;
+    case LUA_TNUMBER:
+        if (lua_isinteger(lua, index)) return static_cast<std::int64_t>(lua_tointeger(lua, index));
+        return lua_tonumber(lua, index);
+    case LUA_TSTRING:
+        return text_at(lua, index);
+    default:
+        return {};
+    }
+}
+
+Interpreter::Interpreter(InterpreterOptions options) : state_(std::make_unique<State>(std::move(options))) {}
+Interpreter::~Interpreter() = default;
+
+void Interpreter::cancel() noexcept { state_->stop = true; }
+void Interpreter::resume() noexcept { state_->stop = false; }
+lua_State* Interpreter::state() const noexcept { return state_->lua; }
+
+Value Interpreter::call(int arguments)
+{
+    state_->check_free();
+    const int base = lua_gettop(state_->lua) - arguments - 1;
+    state_->call(arguments, 1);
+    const SameTop restored(state_->lua);
+    const Value result = state_->value_at(-1);
+    lua_settop(state_->lua, base);
+    return result;
+}
+
+Value Interpreter::run_file(const std::string& path, const std::vector<std::string>& words)
+{
+    State& self = *state_;
+    self.check_free();
+    const SameTop restored(self.lua);
+    self.protect([&](lua_State* L) {
+        lua_pushboolean(L, 0);
+        lua_setfield(L, LUA_REGISTRYINDEX, lua::kUsedParams);
+        lua_createtable(L, static_cast<int>(words.size()), 2);
+        lua_pushstring(L, path.c_str());
+        lua_rawseti(L, -2, 0);
+        lua_pushliteral(L, "lacuna");
+        lua_rawseti(L, -2, -1);
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            lua_pushlstring(L, words[i].data(), words[i].size());
+            lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
+        }
+        lua_setglobal(L, "arg");
+    });
+    int loaded = LUA_OK;
+    self.protect([&](lua_State* L) {
+        // Bytecode can crash the machine that runs it.
+        const char* const mode = self.options.sandbox ? "t" : nullptr;
+        loaded = luaL_loadfilex(L, path == "-" ? nullptr : path.c_str(), mode);
+        if (loaded != LUA_OK) return;
+        luaL_checkstack(L, static_cast<int>(words.size()) + LUA_MINSTACK, "too many words");
+        for (const std::string& word : words) lua_pushlstring(L, word.data(), word.size());
+    });
+    if (loaded != LUA_OK) self.fail(loaded);
+    self.call(static_cast<int>(words.size()), 1);
+    return self.value_at(-1);
+}
+
+Value Interpreter::run_string(std::string_view text, const std::string& name)
+{
+    State& self = *state_;
+    self.check_free();
+    const SameTop restored(self.lua);
+    const std::string chunk = "=" + name;
+    int loaded = LUA_OK;
+    self.protect([&](lua_State* L) {
+        const char* const mode = self.options.sandbox ? "t" : nullptr;
+        loaded = luaL_loadbufferx(L, text.data(), text.size(), chunk.c_str(), mode);
+    });
+    if (loaded != LUA_OK) self.fail(loaded);
+    self.call(0, 1);
+    return self.value_at(-1);
+}
+
+bool Interpreter::words_used()
+{
+    State& self = *state_;
+    self.check_free();
+    const SameTop restored(self.lua);
+    self.protect([](lua_State* L) { lua_getfield(L, LUA_REGISTRYINDEX, lua::kUsedParams); });
+    return lua_toboolean(self.lua, -1) != 0;
+}
+
+void Interpreter::set(const std::string& path, const Value& value)
+{
+    State& self = *state_;
+    self.check_free();
+    const SameTop restored(self.lua);
+    self.protect([&](lua_State* L) {
+        push_path(L, path.c_str(), true);
+        if (const auto* boolean = std::get_if<bool>(&value))
+            lua_pushboolean(L, *boolean);
+        else if (const auto* integer = std::get_if<std::int64_t>(&value))
+            lua_pushinteger(L, *integer);
+        else if (const auto* number = std::get_if<double>(&value))
+            lua_pushnumber(L, *number);
+        else if (const auto* text = std::get_if<std::string>(&value))
+            lua_pushlstring(L, text->data(), text->size());
+        else
+            lua_pushnil(L);
+        lua_settable(L, -3);
+    });
+}
+
+void Interpreter::set_numbers(const std::string& path, const double* numbers, std::size_t count)
+{
+    State& self = *state_;
+    self.check_free();
+    const SameTop restored(self.lua);
+    self.protect([&](lua_State* L) {
+        push_path(L, path.c_str(), true);
+        const std::size_t room = std::min<std::size_t>(count, std::numeric_limits<int>::max());
+        lua_createtable(L, static_cast<int>(room), 0);
+        for (std::size_t i = 0; i < count; ++i) {
+            lua_pushnumber(L, numbers[i]);
+            lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
+        }
+        lua_settable(L, -3);
+    });
+}
+
+Value Interpreter::get(const std::string& path)
+{
+    State& self = *state_;
+    self.check_free();
+    const SameTop restored(self.lua);
+    self.protect([&](lua_State* L) { push_path(L, path.c_str(), false); });
+    return self.value_at(-1);
+}
+
+std::string Interpreter::type_of(const std::string& path)
+{
+    State& self = *state_;
+    self.check_free();
+    const SameTop restored(self.lua);
+    self.protect([&](lua_State* L) {
+        push_path(L, path.c_str(), false);
+        if (luaL_getmetafield(L, -1, "__name") != LUA_TSTRING) lua_pushstring(L, luaL_typename(L, 1));
+    });
+    return text_at(self.lua, -1);
+}
+
+BufferView Interpreter::buffer(const std::string& path)
+{
+    State& self = *state_;
+    self.check_free();
+    const SameTop restored(self.lua);
+    BufferView view;
+    self.protect([&](lua_State* L) {
+        push_path(L, path.c_str(), false);
+        const auto* box = lua::test_box<lua::BufferState>(L, -1);
+        if (!box || !*box)
+            lua::fail_as(L, "lua.no_value", "'%s' must be a Buffer, found %s", path.c_str(),
+                         lua::push_found(L, -1));
+        const lua::BufferState& found = **box;
+        view.type = found.is_real() ? BufferView::Type::float64 : BufferView::Type::int32;
+        view.data = found.data();
+        view.rows = found.rows();
+        view.columns = found.columns;
+    });
+    return view;
+}
+
+std::vector<double> Interpreter::get_numbers(const std::string& path)
+{
+    State& self = *state_;
+    if (type_of(path) == "Buffer") {
+        const BufferView view = buffer(path);
+        std::vector<double> numbers(view.rows * view.columns);
+        if (view.type == BufferView::Type::float64)
+            std::copy_n(static_cast<const double*>(view.data), numbers.size(), numbers.begin());
+        else
+            std::copy_n(static_cast<const std::int32_t*>(view.data), numbers.size(), numbers.begin());
+        return numbers;
+    }
+    const SameTop restored(self.lua);
+    std::size_t count = 0;
+    self.protect([&](lua_State* L) {
+        push_path(L, path.c_str(), false);
+        if (!lua_istable(L, -1))
+            lua::fail_as(L, "lua.no_value", "'%s' must be an array of numbers or a Buffer, found %s",
+                         path.c_str(), lua::push_found(L, -1));
+        count = lua_rawlen(L, -1);
+    });
+    std::vector<double> numbers(count);
+    self.protect([&](lua_State* L) {
+        push_path(L, path.c_str(), false);
+        for (std::size_t i = 0; i < count; ++i) {
+            if (lua_rawgeti(L, 1, static_cast<lua_Integer>(i) + 1) != LUA_TNUMBER)
+                lua::fail_as(L, "lua.no_value", "'%s' must be an array of numbers, found %s at %I",
+                             path.c_str(), lua::push_found(L, -1), static_cast<lua_Integer>(i) + 1);
+            numbers[i] = lua_tonumber(L, -1);
+            lua_settop(L, 1);
+        }
+    });
+    return numbers;
+}
+
+} // namespace lacuna

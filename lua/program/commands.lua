@@ -1,0 +1,104 @@
+-- SPDX-License-Identifier: MIT
+-- The commands of the program: command, options, file, ...
+local debug, command, json, first, second = ...
+local lacuna = require "lacuna"
+
+-- --- JSON --------------------------------------------------------------------------------------------------
+
+local escapes = { ['"'] = '\\"', ["\\"] = "\\\\", ["\n"] = "\\n", ["\r"] = "\\r", ["\t"] = "\\t" }
+
+local function quoted(text)
+  return '"' .. text:gsub('[%c"\\]', function(c) return escapes[c] or ("\\u%04x"):format(c:byte()) end) .. '"'
+end
+
+local function number(value)
+  if math.type(value) == "integer" then return ("%d"):format(value) end
+  if value ~= value or value == math.huge or value == -math.huge then return "null" end
+  local short = ("%.15g"):format(value)
+  return tonumber(short) == value and short or ("%.17g"):format(value)
+end
+
+local encode
+
+-- Keys in order, so that the same file gives the same text.
+local function object(value)
+  local keys, parts = {}, {}
+  for key in pairs(value) do keys[#keys + 1] = key end
+  table.sort(keys, function(a, b) return tostring(a) < tostring(b) end)
+  for i, key in ipairs(keys) do parts[i] = quoted(tostring(key)) .. ": " .. encode(value[key]) end
+  return "{" .. table.concat(parts, ", ") .. "}"
+end
+
+function encode(value)
+  local kind = type(value)
+  if kind == "number" then return number(value) end
+  if kind == "boolean" then return tostring(value) end
+  if kind == "string" then return quoted(value) end
+  if kind == "nil" then return "null" end
+  if kind ~= "table" then return quoted(tostring(value)) end
+  if #value == 0 and next(value) ~= nil then return object(value) end
+  local parts = {}
+  for i = 1, #value do parts[i] = encode(value[i]) end
+  return "[" .. table.concat(parts, ", ") .. "]"
+end
+
+-- --- the commands ------------------------------------------------------------------------------------------
+
+-- The fields of an object, as plain values; faces among them by their tags.
+local function fields_of(object_of_class)
+  local plain = {}
+  local function plain_of(value)
+    if type(value) == "userdata" then return value.tag end
+    if type(value) ~= "table" then return value end
+    local copy = {}
+    for key, part in pairs(value) do copy[key] = plain_of(part) end
+    return copy
+  end
+  for name in pairs(debug.getmetatable(object_of_class).fields) do
+    plain[name] = plain_of(object_of_class[name])
+  end
+  return plain
+end
+
+local commands = {}
+
+function commands.info()
+  local model = lacuna.load(first)
+  local found, volume = pcall(model.open_volume, model)
+  if json then
+    local faces = {}
+    for i, face in ipairs(model:faces()) do faces[i] = fields_of(face) end
+    local told = { file = first, faces = faces }
+    if found then told.class, told.roles = volume.class, volume:describe() end
+    if not found then told.roles_refused = volume.message or tostring(volume) end
+    return print(encode(told))
+  end
+  print(model:describe())
+  print(found and volume:describe() or "roles: none found: " .. volume)
+end
+
+function commands.check()
+  local quality = lacuna.check(first)
+  if json then
+    local told = {}
+    for key, value in pairs(quality) do told[key] = value end
+    -- Metrics go by name; their places in the array repeat them.
+    local metrics = {}
+    for _, metric in ipairs(told.metrics) do metrics[metric.name] = metric end
+    told.metrics, told.file = metrics, first
+    print(encode(told))
+  else
+    print(quality)
+  end
+  if not quality.certified then
+    local cells = quality.hexes + quality.wedges
+    error(("%s: %d of %d cells are invalid"):format(first, quality.uncertified, cells), 0)
+  end
+end
+
+function commands.convert()
+  local found = lacuna.convert(first, second)
+  print(("%s: %d nodes, %d elements"):format(second, found.nodes, found.elements))
+end
+
+commands[command]()

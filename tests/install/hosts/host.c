@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT */
+/* A pre-processor in C: options, values in, progress, a mesh as arrays, an error. */
+#include <lacuna.h>
+
+#include <stdio.h>
+#include <string.h>
+
+static const char recipe[] = "local lacuna = require 'lacuna'\n"
+                             "local part = lacuna.synthetic.prism { sides = sides, drop = { 'wall_1' } }\n"
+                             "mesh = part:open_volume { source = 'source', target = 'target', walls = 'auto' }\n"
+                             "  :sweep { layers = 6, size = 0.3 }\n"
+                             "print(mesh)\n"
+                             "nodes, cells = mesh:coordinates(), mesh:cells()\n";
+
+static void print(void* user, const char* text, size_t length)
+{
+    ++*(int*)user;
+    fwrite(text, 1, length, stdout);
+}
+
+static int progress(void* user, const char* stage, double share)
+{
+    (void)user;
+    fprintf(stderr, "%s %.0f %%\n", stage, 100 * share);
+    return 0; /* go on */
+}
+
+int main(void)
+{
+    int lines = 0;
+    lacuna_options options;
+    lacuna_default_options(&options);
+    options.user = &lines;
+    options.print = print;
+    options.progress = progress;
+    lacuna_interpreter* recipes = lacuna_open(&options);
+    if (!recipes) return 1;
+
+    lacuna_set_integer(recipes, "sides", 5);
+    if (lacuna_run_string(recipes, recipe, strlen(recipe), "recipe") != LACUNA_OK) {
+        fprintf(stderr, "%s\n", lacuna_error_text(recipes));
+        return 1;
+    }
+    lacuna_buffer nodes, cells;
+    if (lacuna_get_buffer(recipes, "nodes", &nodes) != LACUNA_OK) return 1;
+    if (lacuna_get_buffer(recipes, "cells", &cells) != LACUNA_OK) return 1;
+    const double* at = nodes.data;
+    const int32_t* first = cells.data; /* numbers of nodes count from 1 */
+    printf("lacuna %s: %zu nodes, %zu cells; the first corner is at %g %g %g\n", lacuna_version(), nodes.rows,
+           cells.rows, at[3 * (first[0] - 1)], at[3 * (first[0] - 1) + 1], at[3 * (first[0] - 1) + 2]);
+
+    const char wrong[] = "mesh:write 'nowhere/at/all/x.msh'";
+    const lacuna_status status = lacuna_run_string(recipes, wrong, strlen(wrong), "recipe");
+    printf("%s: %s\n", lacuna_error_code(recipes), lacuna_error_message(recipes));
+    const int right = status == LACUNA_FAILED && lines == 1 && cells.columns == 8 && nodes.rows > 0;
+    lacuna_close(recipes);
+    return right ? 0 : 1;
+}
