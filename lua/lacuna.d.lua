@@ -103,6 +103,12 @@
 ---@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"
 ---@field interfaces? boolean of an assembly: quads between its volumes are elements too; default false
 
+---@class lacuna.PageOptions
+---@field title? string default: what the input is called
+
+---@class lacuna.ViewOptions: lacuna.PageOptions
+---@field show? "auto"|"faces"|"cells" default "auto": cells of meshes that have solids, else faces
+
 ---@class lacuna.Classification
 ---@field class lacuna.Class
 ---@field free_loops integer
@@ -205,6 +211,10 @@ function Model:add_face(face) end
 function Model:open_volume(roles) end
 ---@return string
 function Model:describe() end
+--- A page for a browser: the faces, labelled, to be clicked for the roles of a recipe.
+---@param path string .html
+---@param options? lacuna.PageOptions
+function Model:view(path, options) end
 
 ---@class lacuna.Volume
 ---@field class lacuna.Class as the volume was given
@@ -228,6 +238,10 @@ function Volume:free_edges() end
 function Volume:tree() end
 ---@return string
 function Volume:describe() end
+--- A page for a browser: roles, void faces, free edges and vertices on no wall.
+---@param path string .html
+---@param options? lacuna.PageOptions
+function Volume:view(path, options) end
 --- The pieces of a volume one of whose ends lies at several heights; itself where none does.
 ---@return lacuna.Volume[]
 function Volume:cut() end
@@ -291,8 +305,10 @@ function Mesh:hex(i) end
 ---@param path string
 ---@param options? lacuna.WriteOptions
 function Mesh:write(path, options) end
+--- A page for a browser: the mesh, to be turned, cut and coloured.
 ---@param path string .html
-function Mesh:view(path) end
+---@param options? lacuna.PageOptions
+function Mesh:view(path, options) end
 
 --- Several volumes to be meshed as one.
 ---@class lacuna.Assembly
@@ -326,6 +342,10 @@ function AssemblyMesh:hex(i) end
 ---@param path string
 ---@param options? lacuna.WriteOptions
 function AssemblyMesh:write(path, options) end
+--- A page for a browser, regions told apart.
+---@param path string .html
+---@param options? lacuna.PageOptions
+function AssemblyMesh:view(path, options) end
 
 ---@class lacuna.Synthetic
 local synthetic = {}
@@ -379,5 +399,10 @@ function lacuna.assembly(volumes) end
 ---@param path string
 ---@return lacuna.Quality
 function lacuna.check(path) end
+--- A page of a file for a browser: its faces, or the cells of a mesh.
+---@param file string in any format that is read
+---@param path string .html
+---@param options? lacuna.ViewOptions
+function lacuna.view(file, path, options) end
 
 return lacuna

@@ -11,11 +11,12 @@
 namespace lacuna::program {
 
 const char* const kHelp = R"(usage: lacuna [option ...] RECIPE [key=value ...]
-       lacuna [option ...] info FILE | check FILE | -i
+       lacuna [option ...] info FILE | view FILE | check FILE | -i
 
   RECIPE [key=value ...]  run a recipe, with parameters changed; - reads it from standard input
   -i                      a prompt
   info FILE               the faces of a file, and the roles and class they seem to have
+  view FILE               a page FILE.view.html of its faces or cells, in this folder, for a browser
   check FILE          read a mesh and print its quality; exit 1 when a cell is invalid
 
   --sandbox               no os, io or bytecode; limits on memory and time; no file is written
@@ -93,8 +94,8 @@ void read_action(const std::string& word, Words& words, CommandLine& line)
         line.action = Action::help;
     else if (word == "-i")
         line.action = Action::prompt;
-    else if (word == "info" || word == "check") {
-        line.action = word == "info" ? Action::info : Action::check;
+    else if (word == "info" || word == "view" || word == "check") {
+        line.action = word == "info" ? Action::info : word == "view" ? Action::view : Action::check;
         if (words.empty()) throw BadUsage(word + " wants a file");
         line.file = words.take();
     } else if (word != "-" && word.starts_with("-")) {

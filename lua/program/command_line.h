@@ -7,12 +7,12 @@
 
 namespace lacuna::program {
 
-enum class Action { run, prompt, info, check, version, help };
+enum class Action { run, prompt, info, view, check, version, help };
 
 /// What the command line asks for.
 struct CommandLine {
     Action action = Action::help;
-    std::string file;               ///< recipe ("-": standard input), or the file of `info` and `check`
+    std::string file; ///< recipe ("-": standard input), or the file of `info`, `view` and `check`
     std::vector<std::string> words; ///< key=value words after the recipe
     bool verbose = false;           ///< notes of the kernel and tracebacks on standard error
     bool sandbox = false;

@@ -40,6 +40,14 @@ if not quality.certified then
 end
 )lua";
 
+const char* const kView = R"lua(
+local lacuna = require "lacuna"
+local file = ...
+local page = file:match("[^/]*$"):gsub("%.[^.]*$", "") .. ".view.html"
+lacuna.view(file, page)
+print("wrote " .. page .. "; open it in a browser")
+)lua";
+
 Exit run(const CommandLine& line)
 {
     Interpreter interpreter(line);
@@ -52,6 +60,8 @@ Exit run(const CommandLine& line)
         return interpreter.run_text(kInfo, line.file);
     case Action::check:
         return interpreter.run_text(kCheck, line.file);
+    case Action::view:
+        return interpreter.run_text(kView, line.file);
     case Action::version:
         return interpreter.run_text(kVersion, "");
     case Action::help:

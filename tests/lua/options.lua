@@ -21,6 +21,7 @@ local calls = {
     "region", "radius", "normal_within", "within" } },
   open_volume = { function(o) lacuna.synthetic.barrel():open_volume(o) end,
       { "source", "target", "walls", "faces", "class" } },
+  view = { function(o) lacuna.synthetic.barrel():view("never_written.html", o) end, { "title" } },
   match = { function(o) volume():match(o) end, { "method", "vertices", "loops", "flip" } },
   close = { function(o) volume():close(o) end, { "edge_shape", "void_edges", "cap" } },
   sweep = { function(o) volume():sweep(o) end,
