@@ -109,6 +109,19 @@
 ---@class lacuna.ViewOptions: lacuna.PageOptions
 ---@field show? "auto"|"faces"|"cells" default "auto": cells of meshes that have solids, else faces
 
+--- Of a model or volume.
+---@class lacuna.FacePictureOptions
+---@field width? integer default 1200 [pixels]
+---@field height? integer default 900 [pixels]
+---@field view? "iso"|"front"|"back"|"left"|"right"|"top"|"bottom"|lacuna.Vector from what is seen to the eye; default "iso"
+
+---@class lacuna.PictureOptions: lacuna.FacePictureOptions
+---@field colour? "quality"|"layer"|"groups"|"region"|"origin" default "quality"
+---@field cut? { point: lacuna.Vector, normal: lacuna.Vector } cells whose centre lies behind the plane are shown whole
+---@field layers? { [1]: integer, [2]: integer } first and last that is shown; default all
+---@field edges? boolean sides of cells; default true
+---@field legend? boolean a bar with the numbers at its ends; default true
+
 ---@class lacuna.Classification
 ---@field class lacuna.Class
 ---@field free_loops integer
@@ -215,6 +228,9 @@ function Model:describe() end
 ---@param path string .html
 ---@param options? lacuna.PageOptions
 function Model:view(path, options) end
+---@param path string .png
+---@param options? lacuna.FacePictureOptions
+function Model:picture(path, options) end
 
 ---@class lacuna.Volume
 ---@field class lacuna.Class as the volume was given
@@ -242,6 +258,9 @@ function Volume:describe() end
 ---@param path string .html
 ---@param options? lacuna.PageOptions
 function Volume:view(path, options) end
+---@param path string .png
+---@param options? lacuna.FacePictureOptions
+function Volume:picture(path, options) end
 --- The pieces of a volume one of whose ends lies at several heights; itself where none does.
 ---@return lacuna.Volume[]
 function Volume:cut() end
@@ -309,6 +328,10 @@ function Mesh:write(path, options) end
 ---@param path string .html
 ---@param options? lacuna.PageOptions
 function Mesh:view(path, options) end
+--- Drawn without a display.
+---@param path string .png
+---@param options? lacuna.PictureOptions
+function Mesh:picture(path, options) end
 
 --- Several volumes to be meshed as one.
 ---@class lacuna.Assembly
@@ -346,6 +369,9 @@ function AssemblyMesh:write(path, options) end
 ---@param path string .html
 ---@param options? lacuna.PageOptions
 function AssemblyMesh:view(path, options) end
+---@param path string .png
+---@param options? lacuna.PictureOptions
+function AssemblyMesh:picture(path, options) end
 
 ---@class lacuna.Synthetic
 local synthetic = {}

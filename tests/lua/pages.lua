@@ -53,6 +53,43 @@ if params.lacuna ~= "" then
   check.that(check.exists(folder .. "/a.html"))
 end
 
+-- --- pictures ----------------------------------------------------------------------------------------------
+
+local picture = folder .. "/plate.png"
+local function drawn(options)
+  mesh:picture(picture, options)
+  local bytes = read(picture)
+  check.equal(bytes:sub(1, 8), "\x89PNG\r\n\x1a\n")
+  local width, height = (">I4I4"):unpack(bytes, 17)
+  return bytes, width, height
+end
+local plain, wide, high = drawn()
+check.equal(wide .. "x" .. high, "1200x900")
+check.equal(drawn { view = { 1, -1.6, 0.9 }, colour = "quality", edges = true, legend = true }, plain)
+for _, options in ipairs {
+  { view = "top" }, { view = { 1, 1, 0 } },
+  { colour = "layer" }, { colour = "groups" }, { colour = "origin" },
+  { colour = "region" }, { edges = false }, { legend = false }, { layers = { 2, 2 } },
+  { cut = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } } },
+} do
+  check.that(drawn(options) ~= plain, "an option shows")
+end
+check.equal(select(2, drawn { width = 64, height = 32 }), 64)
+for _, wrong in ipairs {
+  { { cut = { point = { 0, 0, 0 } } }, "no 'normal'" }, { { cut = "x" }, "a table" },
+  { { cut = { point = { 0, 0, 0 }, normal = { 0, 0, 0 } } }, "no length" },
+  { { cut = { point = { -99, 0, 0 }, normal = { 1, 0, 0 } } }, "no cell" },
+  { { layers = { 1 } }, "two numbers" }, { { layers = { 3, 4, 5 } }, "two numbers" },
+  { { layers = { 4, 4 } }, "there are 1 to 3" }, { { layers = { 2, 1 } }, "there are 1 to 3" },
+  { { colour = "qality" }, 'did you mean "quality"?' },
+} do
+  check.fails(function() mesh:picture(picture, wrong[1]) end, "picture:", wrong[2])
+end
+check.fails(function() mesh:picture(folder .. "/plate.jpg") end, ".png")
+void:picture(picture)
+plate:picture(picture)
+os.remove(picture)
+
 -- --- in a browser ------------------------------------------------------------------------------------------
 
 if params.browser == "" then
@@ -299,6 +336,18 @@ if params.lacuna ~= "" then
   check.write(folder .. "/made.lua", loads[1]:gsub("|", "\n") .. "\nprint(void.class)\n")
   local code, out, err = check.run(params.lacuna, folder, { "made.lua" })
   check.equal(code .. out, "0closed\n", err)
+end
+
+-- A seam is no free edge: its face is on both sides of it.
+if lacuna.gmsh_version ~= "none" then
+  check.write(folder .. "/pin.geo", 'SetFactory("OpenCASCADE");\nCylinder(1) = {0, 0, 0, 0, 0, 2, 1};\n')
+  lacuna.load(folder .. "/pin.geo"):view(folder .. "/pin.html")
+  local pin = play(folder .. "/pin.html", [=[
+    say(page.data.edges.length, page.state.textContent);
+    say(page.over(...findPixel(page, side => page.data.faces[page.faceOf[side]].kind, "cylinder")).join("|"));
+  ]=])
+  check.equal(pin[1], "3 No free edge: the faces close round.")
+  check.that(pin[2]:find("radius 1|", 1, true) and pin[2]:find("3 edges, 1 loop|", 1, true), pin[2])
 end
 
 -- A volume, sealed: void faces are told apart and are no part of the recipe.

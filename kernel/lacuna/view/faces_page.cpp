@@ -64,13 +64,12 @@ Sides sides_of(const Model& model)
     return sides;
 }
 
-/// Edges of a face, each once.
+/// Edges of a face as its loops use them: a seam twice.
 std::vector<EdgeId> edges_of(const topology::Face& face)
 {
     std::vector<EdgeId> edges;
     for (const topology::Loop& loop : face.loops)
-        for (const topology::EdgeUse& use : loop.uses)
-            if (std::find(edges.begin(), edges.end(), use.edge) == edges.end()) edges.push_back(use.edge);
+        for (const topology::EdgeUse& use : loop.uses) edges.push_back(use.edge);
     return edges;
 }
 

@@ -264,7 +264,7 @@ class FacesPage {
             `area ${digits(face.area)}`,
             `centre ${place(face.centre)}`,
             Math.hypot(...face.normal) > 0.3 ? `normal ${place(face.normal)}` : "",
-            `${things(face.edges.length, "edge")}, ${things(face.loops, "loop")}` +
+            `${things(new Set(face.edges).size, "edge")}, ${things(face.loops, "loop")}` +
                 (freeEdges ? `, ${freeEdges} free` : ""),
             neighbours.length ? `next to ${neighbours.join(", ")}` : "no neighbours",
             face.quads ? `came with ${things(face.quads, "quad")}` : "",
