@@ -349,18 +349,6 @@ int write_assembly(lua_State* L)
     return 0;
 }
 
-/// A method the kernel has nothing for yet, and what does instead.
-template <class T>
-int not_yet(lua_State* L, const char* name, const char* instead)
-{
-    lua_settop(L, 2);
-    check<T>(L, 1);
-    push_output_path(L, 2, name);
-    fail(L, "%s is not available yet; %s", name, instead);
-}
-
-int view(lua_State* L) { return not_yet<MeshState>(L, "view", "write a .msh and open it in Gmsh"); }
-
 const Option<io::FacetFileOptions> kFacetOptions[] = {{"binary", boolean<&io::FacetFileOptions::binary>}};
 
 /// volume:write_facets(path [, options])
@@ -509,7 +497,7 @@ int check_file(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kMeshMethods[] = {{"write", write}, {"view", view}, {nullptr, nullptr}};
+const luaL_Reg kMeshMethods[] = {{"write", write}, {nullptr, nullptr}};
 const luaL_Reg kVolumeMethods[] = {{"write_facets", write_facets}, {nullptr, nullptr}};
 
 const luaL_Reg kFunctions[] = {{"check", check_file}, {"load", load}, {nullptr, nullptr}};
