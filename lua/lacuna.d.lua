@@ -270,6 +270,7 @@ function Volume:write_cad(path, options) end
 ---@field wedges integer
 ---@field layers integer
 ---@field order 1|2
+---@field regions string[] the one volume's name
 ---@field report string[] a line a stage of the sweep
 local Mesh = {}
 ---@return lacuna.Quality
@@ -307,6 +308,8 @@ function Assembly:sweep(options) end
 ---@field fidelity { volume: number, sealed_volume: number, max_distance: number, mean_distance: number, regions: table<string, lacuna.Fidelity> }
 ---@field nodes integer
 ---@field hexes integer
+---@field wedges integer
+---@field order 1|2
 ---@field layers table<string, integer> by region
 ---@field regions string[]
 ---@field report string[]
@@ -323,6 +326,9 @@ function AssemblyMesh:node(i) end
 ---@param i integer
 ---@return integer ...
 function AssemblyMesh:hex(i) end
+---@param i integer
+---@return integer ... six numbers of nodes
+function AssemblyMesh:wedge(i) end
 ---@param path string
 ---@param options? lacuna.WriteOptions
 function AssemblyMesh:write(path, options) end
