@@ -14,6 +14,12 @@
 namespace lacuna::io {
 namespace {
 
+/// Formats with hexahedra of 27 nodes.
+bool has_hex27(DeckFormat format)
+{
+    return format != DeckFormat::abaqus && format != DeckFormat::nastran && format != DeckFormat::unv;
+}
+
 /// The first of `count` numbers that none has.
 DeckTag free_from(DeckTag asked, std::size_t count, const std::set<DeckTag>& texts,
                   std::vector<DeckTag>& taken, const char* option, const char* what)
@@ -67,7 +73,7 @@ public:
     {
         check_skin(mesh_);
         const bool abaqus = options_.format == DeckFormat::abaqus;
-        if (cell_shape(mesh_) == DeckShape::hex27)
+        if (cell_shape(mesh_) == DeckShape::hex27 && !has_hex27(options_.format))
             throw InvalidInput("io.no_such_element",
                                "hexahedra of 27 nodes are no elements of Abaqus, CalculiX, Nastran or UNV; "
                                "sweep with order = 2, serendipity = true for those of 20");
