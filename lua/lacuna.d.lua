@@ -206,6 +206,10 @@ function Model:open_volume(roles) end
 ---@return string
 function Model:describe() end
 
+---@class lacuna.CutOptions
+---@field plane? { [1]: lacuna.Vector, [2]: lacuna.Vector } point and normal
+---@field face? lacuna.FaceRef a Face of any model, or one of the volume's own
+
 ---@class lacuna.Volume
 ---@field class lacuna.Class as the volume was given
 local Volume = {}
@@ -228,9 +232,14 @@ function Volume:free_edges() end
 function Volume:tree() end
 ---@return string
 function Volume:describe() end
---- The pieces of a volume one of whose ends lies at several heights; itself where none does.
+--- By a plane or a face: the pieces, which share what was cut. Without options: the pieces of a volume one of
+--- whose ends lies at several heights; itself where none does.
+---@param options? lacuna.CutOptions
 ---@return lacuna.Volume[]
-function Volume:cut() end
+function Volume:cut(options) end
+--- The volume's faces, void ones included.
+---@return lacuna.Model
+function Volume:model() end
 --- Closes first where the recipe did not. A volume with steps is cut into pieces and meshed as an assembly.
 ---@param options lacuna.SweepOptions
 ---@return lacuna.Mesh|lacuna.AssemblyMesh

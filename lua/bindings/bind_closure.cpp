@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "bindings/classes.h"
+#include "bindings/faces.h"
 #include "bindings/options.h"
 
+#include <lacuna/closure/cut.h>
 #include <lacuna/closure/steps.h>
 
 namespace lacuna::lua {
@@ -117,25 +119,102 @@ int is_watertight(lua_State* L)
     return 1;
 }
 
-/// { volume, ... } = volume:cut(): at its steps, pieces from end to end first
+// --- cutting ------------------------------------------------------------------------------------------
+
+/// What a volume is cut by.
+struct CutArguments {
+    const Box<ModelState>* model = nullptr; ///< the volume's own faces; held by the call
+    std::optional<geometry::Plane> plane;
+    Box<ModelState> of; ///< the model of `face`
+    FaceId face;
+};
+
+/// { point, normal }
+void read_plane(lua_State* L, int index, const Where& where, CutArguments& arguments)
+{
+    if (length_of(L, index) != 2)
+        fail_value(L, where, "a plane { point, normal }, as { { 0, 0, 1 }, { 0, 0, 1 } }", index);
+    lua_rawgeti(L, index, 1);
+    lua_rawgeti(L, index, 2);
+    const Vec3 point = read_vector(L, lua_absindex(L, -2), where),
+               normal = read_vector(L, lua_absindex(L, -1), where);
+    lua_pop(L, 2);
+    if (!(normal.norm() > 0)) fail_option(L, where, "has a normal of no length");
+    arguments.plane = geometry::plane_across(point, normal.normalized());
+}
+
+/// A Face of any model, or one of the volume's own by tag, name or selector.
+void read_cutting_face(lua_State* L, int index, const Where& where, CutArguments& arguments)
+{
+    if (const Box<FaceHandle>* const handle = test_box<FaceHandle>(L, index); handle != nullptr && *handle) {
+        guard(L, [&] {
+            arguments.of = (*handle)->model;
+            arguments.face = face_of(**handle);
+        });
+        return;
+    }
+    auto& faces = temporary<std::vector<FaceId>>(L);
+    read_faces(L, index, where, *arguments.model, faces);
+    if (faces.size() != 1) fail_option(L, where, "means several faces of the volume; give one");
+    guard(L, [&] {
+        arguments.of = *arguments.model;
+        arguments.face = faces.front();
+    });
+}
+
+const Option<CutArguments> kCutOptions[] = {{"plane", read_plane}, {"face", read_cutting_face}};
+
+/// The faces of a volume as a model of their own, on top of the stack.
+Box<ModelState>& push_model(lua_State* L, const VolumeState& state)
+{
+    auto& box = new_box<ModelState>(L);
+    guard(L, [&] {
+        box = std::make_shared<ModelState>();
+        box->model = state.volume.model;
+        box->decks = state.decks;
+        box->scale = state.scale;
+    });
+    return box;
+}
+
+/// model = volume:model()
+int volume_model(lua_State* L)
+{
+    push_model(L, hold<VolumeState>(L, 1));
+    return 1;
+}
+
+/// { volume, ... } = volume:cut { plane = | face = }; without options where the volume has to be
 int cut(lua_State* L)
 {
     lua_settop(L, 2);
     const auto& state = hold<VolumeState>(L, 1);
-    if (!lua_isnil(L, 2))
-        fail(L,
-             "cut: cutting by a plane or a face is not available yet; without options the volume is cut at "
-             "its steps");
+    auto& arguments = temporary<CutArguments>(L);
+    if (!lua_isnil(L, 2)) {
+        arguments.model = &push_model(L, state);
+        read_options(L, 2, "cut", kCutOptions, arguments);
+        if (arguments.plane.has_value() == (arguments.of != nullptr))
+            fail(L, "cut: give either 'plane' or 'face', or no options, for a volume with steps");
+    }
     RunContext& context = push_context(L);
     auto& pieces = temporary<std::vector<Box<VolumeState>>>(L);
     guard(L, [&] {
-        for (closure::StepPiece& piece : closure::cut_steps(state.volume, context)) {
+        std::vector<closure::StepPiece> cut;
+        if (arguments.plane)
+            cut = closure::cut_by_plane(state.volume, *arguments.plane, context);
+        else if (arguments.of)
+            cut = closure::cut_by_face(state.volume, arguments.of->model, arguments.face, context);
+        else
+            cut = closure::cut_steps(state.volume, context);
+        for (closure::StepPiece& piece : cut) {
             pieces.push_back(std::make_shared<VolumeState>());
             VolumeState& own = *pieces.back();
             own.volume = std::move(piece.volume);
             own.classification = topology::classify(own.volume);
             own.material = state.material;
-            own.level = piece.level;
+            own.decks = state.decks;
+            own.scale = state.scale;
+            own.level = std::max(state.level, piece.level);
             if (!state.name.empty()) own.name = state.name + "_" + std::to_string(pieces.size());
         }
     });
@@ -147,8 +226,11 @@ int cut(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kVolumeMethods[] = {
-    {"close", close}, {"cut", cut}, {"is_watertight", is_watertight}, {nullptr, nullptr}};
+const luaL_Reg kVolumeMethods[] = {{"close", close},
+                                   {"cut", cut},
+                                   {"is_watertight", is_watertight},
+                                   {"model", volume_model},
+                                   {nullptr, nullptr}};
 
 } // namespace
 

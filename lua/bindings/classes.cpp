@@ -187,10 +187,10 @@ std::string describe(const VolumeState& state)
             << state.match->vertices.size() << " vertices, confidence " << state.match->confidence << '\n';
         for (const std::string& note : state.match->notes) out << "  " << note << '\n';
     }
+    list_faces(out, "void source: ", state.volume, Role::source, Origin::made_void);
+    list_faces(out, "void target: ", state.volume, Role::target, Origin::made_void);
+    list_faces(out, "void walls:  ", state.volume, Role::wall, Origin::made_void);
     if (state.closure) {
-        list_faces(out, "void source: ", state.volume, Role::source, Origin::made_void);
-        list_faces(out, "void target: ", state.volume, Role::target, Origin::made_void);
-        list_faces(out, "void walls:  ", state.volume, Role::wall, Origin::made_void);
         out << "sealed: " << state.closure->void_edges.size() << " void edges, "
             << state.closure->void_faces.size() << " void faces, "
             << (state.closure->watertight ? "watertight" : "not watertight") << '\n';

@@ -179,27 +179,6 @@ private:
         return found;
     }
 
-    VertexId add_vertex(Index point)
-    {
-        int tag = 0;
-        for (const Vertex& v : model_.vertices) tag = std::max(tag, v.tag);
-        model_.vertices.push_back({point, tag + 1, Origin::made_void});
-        return VertexId(model_.vertices.size() - 1);
-    }
-    EdgeId add_edge(VertexId from, VertexId to, std::vector<Index> points)
-    {
-        Edge edge;
-        for (const Edge& e : model_.edges)
-            if (e.origin == Origin::made_void) edge.tag = std::max(edge.tag, e.tag);
-        ++edge.tag;
-        edge.origin = Origin::made_void;
-        edge.from = from;
-        edge.to = to;
-        edge.points = std::move(points);
-        model_.edges.push_back(std::move(edge));
-        return EdgeId(model_.edges.size() - 1);
-    }
-
     /// Faces from the riser's upper rims to the opposite end.
     void hang(std::size_t r)
     {
@@ -231,12 +210,12 @@ private:
             const auto vertex = [&](VertexId v) {
                 const auto known = vertex_above.find(v);
                 if (known != vertex_above.end()) return known->second;
-                return vertex_above.emplace(v, add_vertex(lift(model_[v].point))).first->second;
+                return vertex_above.emplace(v, add_void_vertex(model_, lift(model_[v].point))).first->second;
             };
             const auto side_line = [&](VertexId v) {
                 if (line.contains(v)) return;
                 const VertexId top = vertex(v);
-                line.emplace(v, add_edge(v, top, {model_[v].point, model_[top].point}));
+                line.emplace(v, add_void_edge(model_, v, top, {model_[v].point, model_[top].point}));
             };
             for (const EdgeUse& use : rim.uses) {
                 const std::vector<Index> low = use_points(model_, use);
@@ -245,24 +224,17 @@ private:
                 const VertexId from = use_from(model_, use), to = use_to(model_, use);
                 // A closed rim hangs as a ring of two loops, others as one face a side.
                 const bool closed = rim.uses.size() == 1;
-                add_edge(vertex(from), vertex(to), high);
+                add_void_edge(model_, vertex(from), vertex(to), high);
                 if (!closed) {
                     side_line(from);
                     side_line(to);
                 }
-                Face face;
-                face.origin = Origin::made_void;
-                face.geometry = Geometry::transfinite;
-                int tag = 0;
-                for (const Face& f : model_.faces)
-                    if (f.origin == Origin::made_void) tag = std::max(tag, f.tag);
-                face.tag = tag + 1;
+                image.curtain.push_back(add_void_face(model_, Geometry::transfinite));
+                Face& face = model_.faces.back();
                 for (std::size_t i = 0; i + 1 < low.size(); ++i) {
                     face.triangles.push_back({low[i], low[i + 1], high[i + 1]});
                     face.triangles.push_back({low[i], high[i + 1], high[i]});
                 }
-                image.curtain.emplace_back(model_.faces.size());
-                model_.faces.push_back(std::move(face));
                 image.points.insert(image.points.end(), high.begin(), high.end() - 1);
             }
             for (const Index p : image.points) image.flat.push_back(flat(model_.at(p)));

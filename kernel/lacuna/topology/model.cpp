@@ -248,6 +248,41 @@ Vec3 face_centroid(const Model& model, FaceId face)
     return area > 0 ? Vec3(sum / area) : model.at(model[face].triangles.front()[0]);
 }
 
+VertexId add_void_vertex(Model& model, Index point)
+{
+    int tag = 0;
+    for (const Vertex& vertex : model.vertices) tag = std::max(tag, vertex.tag);
+    model.vertices.push_back({point, tag + 1, Origin::made_void});
+    return VertexId(model.vertices.size() - 1);
+}
+
+EdgeId add_void_edge(Model& model, VertexId from, VertexId to, std::vector<Index> points)
+{
+    Edge edge;
+    for (const Edge& other : model.edges)
+        if (other.origin == Origin::made_void) edge.tag = std::max(edge.tag, other.tag);
+    ++edge.tag;
+    edge.origin = Origin::made_void;
+    edge.from = from;
+    edge.to = to;
+    edge.points = std::move(points);
+    model.edges.push_back(std::move(edge));
+    return EdgeId(model.edges.size() - 1);
+}
+
+FaceId add_void_face(Model& model, Geometry geometry)
+{
+    Face face;
+    for (const Face& other : model.faces)
+        if (other.origin == Origin::made_void) face.tag = std::max(face.tag, other.tag);
+    ++face.tag;
+    face.origin = Origin::made_void;
+    face.geometry = geometry;
+    face.kind = "void";
+    model.faces.push_back(std::move(face));
+    return FaceId(model.faces.size() - 1);
+}
+
 void build_loops(Model& model)
 {
     const SegmentMap segments = segments_of_edges(model);

@@ -126,6 +126,12 @@ Vec3 face_centroid(const Model& model, FaceId face);
 /// @throw InvalidInput  a boundary side lies on no edge, or the facets are not a manifold; names the face.
 void build_loops(Model& model);
 
+/// Add what closing or cutting makes, numbered on from the void ones there are. Loops are the caller's.
+VertexId add_void_vertex(Model& model, Index point);
+EdgeId add_void_edge(Model& model, VertexId from, VertexId to, std::vector<Index> points);
+/// A face without facets yet.
+FaceId add_void_face(Model& model, Geometry geometry);
+
 /// Flip faces until neighbours agree along shared edges; one flood per connected part, started at its
 /// first face. A connected part that encloses a volume is turned outward.
 /// @throw InvalidInput  a part that cannot be oriented (a Möbius band), or an edge of three faces; names

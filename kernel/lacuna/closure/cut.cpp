@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/cut.h>
+
+#include <lacuna/closure/close.h>
+#include <lacuna/closure/detail/pieces.h>
+#include <lacuna/core/edge_key.h>
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/plane.h>
+#include <lacuna/geometry/predicates.h>
+#include <lacuna/geometry/triangulate.h>
+#include <lacuna/matching/match.h>
+#include <lacuna/topology/section.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// Open walks are joined by trying all orders up to so many.
+constexpr std::size_t kAllOrders = 7;
+/// Loops of less area than this part of the square of their length enclose nothing. A choice.
+constexpr double kSlit = 1e-6;
+
+std::string number(double value)
+{
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.4g", value);
+    return text.data();
+}
+
+std::vector<FaceId> all_faces(const Model& model)
+{
+    std::vector<FaceId> faces;
+    for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
+    return faces;
+}
+
+double signed_area(std::span<const Vec2> loop)
+{
+    double twice = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        twice += geometry::cross(loop[i], loop[(i + 1) % loop.size()]);
+    return twice / 2;
+}
+
+class PlaneCutter {
+public:
+    PlaneCutter(const OpenVolume& volume, const geometry::Plane& plane, const RunContext& context)
+        : context_(context), plane_(plane), tolerance_(volume.model.tolerance)
+    {
+        parted_.model = volume.model;
+        parted_.role = volume.role;
+        parted_.turned_round = volume.turned_round;
+    }
+
+    /// @param within  null, or facets of a face: only regions with some of them are cut.
+    std::vector<StepPiece> run(const geometry::FacetTree* within)
+    {
+        find_walks();
+        if (within != nullptr) choose(*within);
+        const WalkImprint made = imprint_walks(parted_.model, walks_, plane_, tolerance_, context_);
+        for (std::size_t f = parted_.role.size(); f < made.parent.size(); ++f)
+            parted_.role.push_back(parted_.role[made.parent[f].index()]);
+        parted_.plane = plane_;
+        add_partitions(made);
+        build_loops(parted_.model);
+        return pieces_of(parted_, "the plane", context_);
+    }
+
+private:
+    [[nodiscard]] std::vector<Vec2> outline(const SectionWalk& walk) const
+    {
+        std::vector<Vec2> line;
+        for (const SectionPlace& place : walk.places) {
+            const Vec3& a = parted_.model.at(place.a);
+            if (place.b < 0) {
+                line.push_back(geometry::to_plane(plane_, a));
+                continue;
+            }
+            const Vec3& b = parted_.model.at(place.b);
+            const double ha = geometry::height(plane_, a), hb = geometry::height(plane_, b);
+            line.push_back(geometry::to_plane(plane_, a + ha / (ha - hb) * (b - a)));
+        }
+        return line;
+    }
+
+    void find_walks()
+    {
+        Model& model = parted_.model;
+        walks_ = section_walks(model, all_faces(model), plane_, tolerance_);
+        double most = 0;
+        for (const SectionWalk& walk : walks_) {
+            const double area = signed_area(outline(walk));
+            if (std::abs(area) > std::abs(most)) most = area;
+        }
+        // Walks round what is within the skin run clockwise. Else it faces inward, and what lies in the plane
+        // would be taken for the other side.
+        if (most > 0) {
+            flip_faces(model, all_faces(model));
+            walks_ = section_walks(model, all_faces(model), plane_, tolerance_);
+        }
+        if (walks_.empty()) refuse_miss();
+    }
+
+    [[noreturn]] void refuse_miss() const
+    {
+        const Model& model = parted_.model;
+        double least = std::numeric_limits<double>::infinity(), most = -least;
+        std::string touched;
+        for (std::size_t f = 0; f < model.faces.size(); ++f) {
+            bool touches = false;
+            for (const Triangle& t : model.faces[f].triangles) {
+                for (const Index p : t) {
+                    const double h = geometry::height(plane_, model.at(p));
+                    least = std::min(least, h);
+                    most = std::max(most, h);
+                    touches = touches || std::abs(h) <= tolerance_;
+                }
+            }
+            if (touches) touched += (touched.empty() ? "" : ", ") + name_of(model, FaceId(f));
+        }
+        const std::string where = "the volume lies from " + number(least) + " to " + number(most) +
+                                  " along the normal from the point given";
+        if (!touched.empty())
+            throw NotSweepable("closure.cut_misses",
+                               "the plane only touches " + touched + " and cuts nothing off: " + where);
+        if (least < 0 && most > 0)
+            throw NotSweepable("closure.cut_misses", "the plane passes between the faces and crosses none: "
+                                                     "close the volume first, then its void faces are cut");
+        throw NotSweepable("closure.cut_misses", "the plane misses the volume: " + where);
+    }
+
+    /// Keep the walks round regions that have some of the facets.
+    void choose(const geometry::FacetTree& within)
+    {
+        std::vector<std::vector<Vec2>> loops;
+        for (const SectionWalk& walk : walks_) loops.push_back(outline(walk));
+        std::vector<SectionWalk> kept;
+        for (const std::vector<std::size_t>& region : regions_of(loops)) {
+            std::vector<Vec2> flat;
+            std::vector<std::vector<Index>> rings;
+            for (const std::size_t l : region) {
+                rings.emplace_back();
+                for (const Vec2& p : loops[l]) {
+                    rings.back().push_back(static_cast<Index>(flat.size()));
+                    flat.push_back(p);
+                }
+            }
+            geometry::TriangulateOptions options;
+            options.interior_points = false;
+            const geometry::Triangulation facets = geometry::triangulate(flat, rings, options, context_);
+            const bool met = std::ranges::any_of(facets.triangles, [&](const Triangle& t) {
+                const Vec2 centre = (flat[index(t[0])] + flat[index(t[1])] + flat[index(t[2])]) / 3;
+                return within.closest(geometry::from_plane(plane_, centre), tolerance_ * tolerance_)
+                           .triangle >= 0;
+            });
+            if (!met) continue;
+            for (const std::size_t l : region) kept.push_back(walks_[l]);
+        }
+        if (kept.empty())
+            throw NotSweepable("closure.cut_misses",
+                               "the face lies outside the volume, which its plane cuts elsewhere");
+        walks_ = std::move(kept);
+    }
+
+    [[nodiscard]] std::vector<Vec2> flat_line(const std::vector<EdgeUse>& uses) const
+    {
+        std::vector<Vec2> line;
+        for (const EdgeUse& use : uses) {
+            const std::vector<Index> points = use_points(parted_.model, use);
+            for (std::size_t i = line.empty() ? 0 : 1; i < points.size(); ++i)
+                line.push_back(geometry::to_plane(plane_, parted_.model.at(points[i])));
+        }
+        return line;
+    }
+
+    /// Which open line follows each, so that the straight ways between them are shortest and cross nothing.
+    [[nodiscard]] std::vector<std::size_t> join(const std::vector<std::vector<Vec2>>& lines) const
+    {
+        std::vector<std::size_t> order(lines.size()), best;
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        if (lines.size() > kAllOrders) return best;
+        double least = std::numeric_limits<double>::infinity();
+        do {
+            double length = 0;
+            for (std::size_t i = 0; i < lines.size(); ++i)
+                length += (lines[order[i]].front() - lines[i].back()).norm();
+            if (length < least && is_clean(lines, order)) {
+                least = length;
+                best = order;
+            }
+        } while (std::next_permutation(order.begin(), order.end()));
+        return best;
+    }
+
+    [[nodiscard]] bool is_clean(const std::vector<std::vector<Vec2>>& lines,
+                                const std::vector<std::size_t>& follower) const
+    {
+        std::vector<Vec2> points;
+        std::vector<std::vector<Index>> rings;
+        std::vector<char> seen(lines.size(), 0);
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            if (seen[i] != 0) continue;
+            std::vector<Vec2> loop;
+            for (std::size_t k = i; seen[k] == 0; k = follower[k]) {
+                seen[k] = 1;
+                for (const Vec2& p : lines[k])
+                    if (loop.empty() || (p - loop.back()).norm() > tolerance_) loop.push_back(p);
+            }
+            if ((loop.front() - loop.back()).norm() <= tolerance_) loop.pop_back();
+            double length = 0;
+            for (std::size_t k = 0; k < loop.size(); ++k)
+                length += (loop[(k + 1) % loop.size()] - loop[k]).norm();
+            if (loop.size() < 3 || std::abs(signed_area(loop)) < kSlit * length * length) return false;
+            rings.emplace_back();
+            for (const Vec2& p : loop) {
+                rings.back().push_back(static_cast<Index>(points.size()));
+                points.push_back(p);
+            }
+        }
+        return !geometry::find_crossing(points, rings);
+    }
+
+    void add_partitions(const WalkImprint& made)
+    {
+        Model& model = parted_.model;
+        std::vector<std::vector<EdgeUse>> loops, skin; // with and without edges across gaps
+        std::vector<std::vector<EdgeUse>> open;
+        for (std::size_t w = 0; w < walks_.size(); ++w) {
+            if (walks_[w].closed) {
+                loops.push_back(made.lines[w]);
+                skin.push_back(made.lines[w]);
+            } else {
+                open.push_back(made.lines[w]);
+            }
+        }
+        if (!open.empty()) {
+            std::vector<std::vector<Vec2>> lines;
+            for (const std::vector<EdgeUse>& line : open) lines.push_back(flat_line(line));
+            const std::vector<std::size_t> follower = join(lines);
+            if (follower.empty())
+                throw NotSweepable(
+                    "closure.cut_gaps",
+                    "the plane crosses walls with gaps between them, which straight lines do "
+                    "not join to simple loops: close the volume first, then its void faces are "
+                    "cut");
+            std::vector<char> seen(open.size(), 0);
+            for (std::size_t i = 0; i < open.size(); ++i) {
+                if (seen[i] != 0) continue;
+                std::vector<EdgeUse>&loop = loops.emplace_back(), &rim = skin.emplace_back();
+                for (std::size_t k = i; seen[k] == 0; k = follower[k]) {
+                    seen[k] = 1;
+                    loop.insert(loop.end(), open[k].begin(), open[k].end());
+                    rim.insert(rim.end(), open[k].begin(), open[k].end());
+                    const VertexId from = use_to(model, open[k].back()),
+                                   to = use_from(model, open[follower[k]].front());
+                    if (from != to)
+                        loop.push_back(
+                            {add_void_edge(model, from, to, {model[from].point, model[to].point}), false});
+                }
+            }
+        }
+        std::vector<std::vector<Vec2>> flat;
+        for (const std::vector<EdgeUse>& loop : loops) {
+            flat.push_back(flat_line(loop));
+            flat.back().pop_back();
+        }
+        for (const std::vector<std::size_t>& region : regions_of(flat)) {
+            std::vector<std::vector<EdgeUse>> rings;
+            Partition partition;
+            for (const std::size_t l : region) {
+                rings.push_back(loops[l]);
+                partition.behind.insert(partition.behind.end(), skin[l].begin(), skin[l].end());
+            }
+            try {
+                partition.face = add_partition(model, rings, plane_, context_);
+            } catch (const InvalidInput& error) {
+                throw NotSweepable(
+                    "closure.cut_touches",
+                    std::string("the plane runs along faces that lie nearly in it: move or tilt "
+                                "it a little (") +
+                        error.what() + ")");
+            }
+            parted_.partitions.push_back(std::move(partition));
+            parted_.role.push_back(Role::wall);
+        }
+    }
+
+    const RunContext& context_;
+    geometry::Plane plane_;
+    double tolerance_;
+    PartedModel parted_;
+    std::vector<SectionWalk> walks_;
+};
+
+/// The plane of a face all of whose points are on it.
+std::optional<geometry::Plane> plane_of(const Model& model, FaceId face)
+{
+    const Vec3 area = face_area_vector(model, face);
+    if (!(area.norm() > 0)) return std::nullopt;
+    const geometry::Plane plane = geometry::plane_across(face_centroid(model, face), area);
+    for (const Triangle& t : model[face].triangles) {
+        for (const Index p : t)
+            if (std::abs(geometry::height(plane, model.at(p))) > model.tolerance) return std::nullopt;
+    }
+    return plane;
+}
+
+/// A face of another model as a partition along edges of the volume.
+class EdgePartition {
+public:
+    EdgePartition(const OpenVolume& volume, const Model& model, FaceId face)
+        : model_(model), face_(face), tolerance_(volume.model.tolerance)
+    {
+        parted_.model = volume.model;
+        parted_.role = volume.role;
+        parted_.turned_round = volume.turned_round;
+    }
+
+    /// Whether the rim runs along edges; where it leaves them otherwise.
+    bool fits()
+    {
+        std::vector<Triangle> dots;
+        std::vector<Index> of_edges;
+        for (const Edge& edge : parted_.model.edges)
+            of_edges.insert(of_edges.end(), edge.points.begin(), edge.points.end());
+        for (const Index p : of_edges) dots.push_back({p, p, p});
+        const geometry::FacetTree tree(parted_.model.points, dots);
+        std::unordered_map<std::uint64_t, EdgeUse> use;
+        for (std::size_t e = 0; e < parted_.model.edges.size(); ++e) {
+            const std::vector<Index>& points = parted_.model.edges[e].points;
+            for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+                use.try_emplace(directed_key(points[i], points[i + 1]), EdgeUse{EdgeId(e), false});
+                use.try_emplace(directed_key(points[i + 1], points[i]), EdgeUse{EdgeId(e), true});
+            }
+        }
+        for (const Loop& loop : border_loops(model_, face_)) {
+            for (const EdgeUse& own : loop.uses) {
+                const std::vector<Index> points = use_points(model_, own);
+                for (std::size_t i = 0; i < points.size(); ++i) {
+                    const auto hit = tree.closest(model_.at(points[i]), tolerance_ * tolerance_);
+                    off_ = model_.at(points[i]);
+                    if (hit.triangle < 0) return false;
+                    there_[points[i]] = of_edges[index(hit.triangle)];
+                    if (i == 0) continue;
+                    const auto found = use.find(directed_key(there_.at(points[i - 1]), there_.at(points[i])));
+                    if (found == use.end()) return false;
+                    const EdgeUse behind{found->second.edge, !found->second.reversed};
+                    if (rim_.empty() || rim_.back() != behind) rim_.push_back(behind);
+                }
+            }
+        }
+        return true;
+    }
+
+    [[nodiscard]] const Vec3& off() const { return off_; }
+
+    std::vector<StepPiece> run(const RunContext& context)
+    {
+        Model& model = parted_.model;
+        Face face = model_[face_];
+        if (face.name.empty() && face.origin == Origin::made_void) face.name = partition_name(model);
+        for (Triangle& t : face.triangles) {
+            for (Index& p : t) p = point(p);
+        }
+        for (Quad& quad : face.given_quads) {
+            for (Index& p : quad) p = point(p);
+        }
+        parted_.partitions.push_back({FaceId(model.faces.size()), rim_});
+        parted_.role.push_back(Role::wall);
+        model.faces.push_back(std::move(face));
+        build_loops(model);
+        return pieces_of(parted_, name_of(model_, face_), context);
+    }
+
+private:
+    Index point(Index p)
+    {
+        const auto [found, fresh] = there_.try_emplace(p, static_cast<Index>(parted_.model.points.size()));
+        if (fresh) parted_.model.points.push_back(model_.at(p));
+        return found->second;
+    }
+
+    const Model& model_;
+    FaceId face_;
+    double tolerance_;
+    PartedModel parted_;
+    std::map<Index, Index> there_; ///< of points of the face: those of the volume
+    std::vector<EdgeUse> rim_;
+    Vec3 off_ = Vec3::Zero();
+};
+
+/// The volume closed as a whole; nothing where that is not possible.
+std::optional<OpenVolume> sealed(const OpenVolume& volume, const RunContext& context)
+{
+    OpenVolume result = volume;
+    try {
+        matching::Match match;
+        if (!volume.faces(Role::source).empty() && !volume.faces(Role::target).empty())
+            match = matching::match(volume, {}, context);
+        close(result, match, {}, context);
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+    return result;
+}
+
+std::vector<StepPiece> cut_within(const OpenVolume& volume, const geometry::Plane& plane,
+                                  const geometry::FacetTree* within, const RunContext& context)
+{
+    const auto walks = section_walks(volume.model, all_faces(volume.model), plane, volume.model.tolerance);
+    if (std::ranges::any_of(walks, [](const SectionWalk& walk) { return !walk.closed; })) {
+        // What is missing there has the shape that closing the whole gives it, corners and all.
+        if (const std::optional<OpenVolume> whole = sealed(volume, context))
+            return PlaneCutter(*whole, plane, context).run(within);
+    }
+    return PlaneCutter(volume, plane, context).run(within);
+}
+
+/// Whether a face is one of the volume's, or what it was before that was split.
+bool is_own(const OpenVolume& volume, const Model& model, FaceId face)
+{
+    const geometry::FacetTree facets(model.points, model[face].triangles);
+    const double near = volume.model.tolerance * volume.model.tolerance;
+    return std::ranges::any_of(volume.model.faces, [&](const Face& own) {
+        if (own.tag != model[face].tag || own.origin != model[face].origin) return false;
+        return std::ranges::all_of(own.triangles.front(), [&](Index p) {
+            return facets.closest(volume.model.at(p), near).triangle >= 0;
+        });
+    });
+}
+
+} // namespace
+
+std::vector<StepPiece> cut_by_plane(const OpenVolume& volume, const geometry::Plane& plane,
+                                    const RunContext& context)
+{
+    return cut_within(volume, plane, nullptr, context);
+}
+
+std::vector<StepPiece> cut_by_face(const OpenVolume& volume, const Model& model, FaceId face,
+                                   const RunContext& context)
+{
+    const bool own = is_own(volume, model, face);
+    EdgePartition partition(volume, model, face);
+    if (!own && partition.fits()) return partition.run(context);
+    const std::optional<geometry::Plane> plane = plane_of(model, face);
+    if (!plane) {
+        std::array<char, 96> place{};
+        std::snprintf(place.data(), place.size(), "(%.4g, %.4g, %.4g)", partition.off().x(),
+                      partition.off().y(), partition.off().z());
+        throw NotSweepable(
+            "closure.cut_face",
+            name_of(model, face) + " is curved" +
+                (own ? " and one of the volume's own"
+                     : ", and its rim leaves the volume's edges at " + std::string(place.data())) +
+                ": a flat face cuts by its plane, a curved one must end on edges of the volume "
+                "all round");
+    }
+    if (own) return cut_by_plane(volume, *plane, context);
+    const geometry::FacetTree facets(model.points, model[face].triangles);
+    return cut_within(volume, *plane, &facets, context);
+}
+
+} // namespace lacuna::closure

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/pieces.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/predicates.h>
+#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/union_find.h>
+#include <lacuna/topology/auto_roles.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// A piece, still in the model of all.
+struct Part {
+    std::vector<FaceId> skin, partitions;
+};
+
+class Parter {
+public:
+    Parter(const PartedModel& parted, const std::string& what, const RunContext& context)
+        : parted_(parted), model_(parted.model), what_(what), context_(context), uses_(edge_uses(model_))
+    {
+    }
+
+    std::vector<StepPiece> run()
+    {
+        find_parts();
+        std::vector<StepPiece> pieces;
+        for (const Part& part : parts_) pieces.push_back({open_volume(model_, roles_of(part), context_), 0});
+        return pieces;
+    }
+
+private:
+    void find_parts()
+    {
+        const std::size_t faces = model_.faces.size();
+        geometry::UnionFind sets(faces + 2 * parted_.partitions.size());
+        std::set<EdgeId> rims;
+        std::vector<char> is_partition(faces, 0);
+        for (const Partition& partition : parted_.partitions) {
+            is_partition[partition.face.index()] = 1;
+            for (const EdgeUse& use : partition.behind) rims.insert(use.edge);
+        }
+        for (std::size_t e = 0; e < uses_.size(); ++e) {
+            if (rims.contains(EdgeId(e))) continue;
+            std::size_t first = faces;
+            for (const FaceUse& use : uses_[e]) {
+                if (is_partition[use.face.index()] != 0) continue;
+                if (first != faces) sets.unite_least(first, use.face.index());
+                first = use.face.index();
+            }
+        }
+        for (std::size_t p = 0; p < parted_.partitions.size(); ++p) {
+            for (const EdgeUse& use : parted_.partitions[p].behind) {
+                for (const FaceUse& user : uses_[use.edge.index()]) {
+                    if (is_partition[user.face.index()] != 0) continue;
+                    const bool behind = user.reversed == use.reversed;
+                    sets.unite(faces + 2 * p + (behind ? 0 : 1), user.face.index());
+                }
+            }
+        }
+        std::map<std::size_t, std::size_t> number;
+        for (std::size_t p = 0; p < parted_.partitions.size(); ++p) {
+            const FaceId face = parted_.partitions[p].face;
+            const std::size_t behind = sets.find(faces + 2 * p), before = sets.find(faces + 2 * p + 1);
+            if (behind == before) {
+                throw NotSweepable("closure.cut_apart",
+                                   what_ + " cuts the volume open at " + name_of(model_, face) +
+                                       ", and what lies on both sides of it still hangs together: cut it at "
+                                       "another place too, or where it comes apart");
+            }
+            for (const std::size_t root : {behind, before}) {
+                const auto [found, fresh] = number.try_emplace(root, parts_.size());
+                if (fresh) parts_.emplace_back();
+                parts_[found->second].partitions.push_back(face);
+            }
+        }
+        std::map<std::size_t, std::vector<FaceId>> lone;
+        for (std::size_t f = 0; f < faces; ++f) {
+            if (is_partition[f] != 0) continue;
+            const auto found = number.find(sets.find(f));
+            if (found != number.end())
+                parts_[found->second].skin.emplace_back(f);
+            else
+                lone[sets.find(f)].emplace_back(f);
+        }
+        // What no partition touches is of the piece it lies in; ends apart from all walls of the nearest.
+        std::vector<std::size_t> home;
+        for (const auto& [root, skin] : lone) home.push_back(part_round(skin));
+        std::size_t next = 0;
+        for (const auto& [root, skin] : lone) {
+            std::vector<FaceId>& own = parts_[home[next++]].skin;
+            own.insert(own.end(), skin.begin(), skin.end());
+        }
+    }
+
+    [[nodiscard]] std::size_t part_round(const std::vector<FaceId>& skin)
+    {
+        const Triangle& t = model_[skin.front()].triangles.front();
+        const Vec3 p = (model_.at(t[0]) + model_.at(t[1]) + model_.at(t[2])) / 3;
+        std::size_t best = 0;
+        double most = -1;
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            Roles roles;
+            roles.walls = parts_[i].skin;
+            roles.walls.insert(roles.walls.end(), parts_[i].partitions.begin(), parts_[i].partitions.end());
+            const Model part = open_volume(model_, roles, context_).model;
+            std::vector<Triangle> triangles;
+            for (const Face& face : part.faces)
+                triangles.insert(triangles.end(), face.triangles.begin(), face.triangles.end());
+            const double winding = std::abs(geometry::FacetTree(part.points, triangles).winding_number(p));
+            if (winding <= most) continue;
+            most = winding;
+            best = i;
+        }
+        return best;
+    }
+
+    /// Whether some faces meet faces of a role, be it in a vertex.
+    [[nodiscard]] bool touches(const std::vector<FaceId>& faces, const std::vector<FaceId>& ends) const
+    {
+        std::set<VertexId> met;
+        for (const FaceId face : faces) {
+            for (const Loop& loop : model_[face].loops)
+                for (const EdgeUse& use : loop.uses) met.insert(use_from(model_, use));
+        }
+        return std::ranges::any_of(ends, [&](FaceId end) {
+            return std::ranges::any_of(model_[end].loops, [&](const Loop& loop) {
+                return std::ranges::any_of(
+                    loop.uses, [&](const EdgeUse& use) { return met.contains(use_from(model_, use)); });
+            });
+        });
+    }
+
+    [[nodiscard]] Roles roles_of(const Part& part) const
+    {
+        Roles roles;
+        for (const FaceId face : part.skin) {
+            const Role role = parted_.role[face.index()];
+            (role == Role::source   ? roles.source
+             : role == Role::target ? roles.target
+                                    : roles.walls)
+                .push_back(face);
+        }
+        std::vector<std::vector<FaceId>> across;
+        for (std::vector<FaceId>& cut : connected_parts(model_, part.partitions)) {
+            if (touches(cut, roles.source) || touches(cut, roles.target) ||
+                (!roles.source.empty() && !roles.target.empty()))
+                roles.walls.insert(roles.walls.end(), cut.begin(), cut.end());
+            else
+                across.push_back(std::move(cut));
+        }
+        if (across.empty()) return turned(roles);
+        for (std::vector<FaceId>& cut : across) take_coplanar(roles.walls, cut);
+        if (roles.source.empty() && roles.target.empty() && across.size() == 1) take_end(roles);
+        for (std::size_t c = 0; c < across.size(); ++c) {
+            const bool first = c == 0 && roles.source.empty();
+            std::vector<FaceId>& end = first || (!roles.target.empty() && c == 0) ? roles.source
+                                                                                  : roles.target;
+            end.insert(end.end(), across[c].begin(), across[c].end());
+        }
+        return turned(roles);
+    }
+
+    /// Walls in the plane of a cut that is an end, as a shoulder it goes on from, are of that end.
+    void take_coplanar(std::vector<FaceId>& walls, std::vector<FaceId>& cut) const
+    {
+        if (!parted_.plane) return;
+        std::vector<FaceId> both = cut;
+        for (const FaceId wall : walls) {
+            const bool flat = std::ranges::all_of(model_[wall].triangles, [&](const Triangle& t) {
+                return std::ranges::all_of(t, [&](Index p) {
+                    return std::abs(geometry::height(*parted_.plane, model_.at(p))) <= model_.tolerance;
+                });
+            });
+            if (flat) both.push_back(wall);
+        }
+        if (both.size() == cut.size()) return;
+        for (const std::vector<FaceId>& end : connected_parts(model_, both)) {
+            if (std::ranges::find(end, cut.front()) == end.end()) continue;
+            cut = end;
+            std::erase_if(walls, [&](FaceId wall) { return std::ranges::find(end, wall) != end.end(); });
+        }
+    }
+
+    [[nodiscard]] Roles turned(Roles roles) const
+    {
+        if (parted_.turned_round) std::swap(roles.source, roles.target);
+        return roles;
+    }
+
+    /// An end among faces that were all named as walls, where they show one.
+    void take_end(Roles& roles) const
+    {
+        for (const RoleCandidate& candidate : role_candidates(model_, roles.walls, context_)) {
+            const bool source = !candidate.roles.source.empty(), target = !candidate.roles.target.empty();
+            if (source == target) continue;
+            roles.target = source ? candidate.roles.source : candidate.roles.target;
+            roles.walls = candidate.roles.walls;
+            return;
+        }
+    }
+
+    const PartedModel& parted_;
+    const Model& model_;
+    const std::string& what_;
+    const RunContext& context_;
+    std::vector<std::vector<FaceUse>> uses_;
+    std::vector<Part> parts_;
+};
+
+} // namespace
+
+std::vector<StepPiece> pieces_of(const PartedModel& parted, const std::string& what,
+                                 const RunContext& context)
+{
+    return Parter(parted, what, context).run();
+}
+
+std::vector<std::vector<std::size_t>> regions_of(const std::vector<std::vector<Vec2>>& loops)
+{
+    std::vector<std::vector<std::size_t>> round(loops.size()); // of each loop: those it lies in
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+        for (std::size_t o = 0; o < loops.size(); ++o)
+            if (i != o && geometry::lies_inside(loops[o], loops[i].front())) round[i].push_back(o);
+    }
+    std::vector<std::vector<std::size_t>> regions;
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+        if (round[i].size() % 2 != 0) continue;
+        std::vector<std::size_t>& region = regions.emplace_back(1, i);
+        for (std::size_t h = 0; h < loops.size(); ++h) {
+            if (round[h].size() == round[i].size() + 1 && std::ranges::find(round[h], i) != round[h].end())
+                region.push_back(h);
+        }
+    }
+    return regions;
+}
+
+std::string partition_name(const Model& model)
+{
+    int number = 1;
+    for (const Face& face : model.faces) {
+        if (face.name.starts_with("cut_"))
+            number = std::max(number, std::atoi(face.name.c_str() + 4) + 1); // 0 where it is no number
+    }
+    return "cut_" + std::to_string(number);
+}
+
+FaceId add_partition(Model& model, const std::vector<std::vector<EdgeUse>>& loops,
+                     const geometry::Plane& plane, const RunContext& context)
+{
+    std::vector<Vec2> flat;
+    std::vector<Index> points;
+    std::vector<std::vector<Index>> rings;
+    for (const std::vector<EdgeUse>& loop : loops) {
+        std::vector<Index>& ring = rings.emplace_back();
+        for (const EdgeUse& use : loop) {
+            const std::vector<Index> along = use_points(model, use);
+            for (std::size_t i = 0; i + 1 < along.size(); ++i) {
+                ring.push_back(static_cast<Index>(points.size()));
+                points.push_back(along[i]);
+                flat.push_back(geometry::to_plane(plane, model.at(along[i])));
+            }
+        }
+    }
+    geometry::TriangulateOptions options;
+    options.interior_points = false;
+    const geometry::Triangulation made = geometry::triangulate(flat, rings, options, context);
+    const std::string name = partition_name(model);
+    const FaceId face = add_void_face(model, Geometry::newell);
+    model[face].name = name;
+    for (const Triangle& t : made.triangles)
+        model[face].triangles.push_back({points[index(t[0])], points[index(t[1])], points[index(t[2])]});
+    return face;
+}
+
+} // namespace lacuna::closure

@@ -1,0 +1,610 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/topology/section.h>
+
+#include <lacuna/core/edge_key.h>
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/plane.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/union_find.h>
+#include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/side_points.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace lacuna::topology {
+
+namespace {
+
+/// Times a point is laid onto plane and surface in turn: each halves the error at least where they meet at
+/// more than 45°.
+constexpr int kLaid = 12;
+/// Steps of bisection along a curve's parameter: as many as a double has digits.
+constexpr int kHalvings = 52;
+
+SectionPlace place_between(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// Move points onto a surface and a plane; surface last.
+void lay_onto(const geometry::ExactSurface& surface, const geometry::Plane& plane, std::span<Vec3> points,
+              std::span<Vec2> uv, double tolerance, const RunContext& context)
+{
+    for (int i = 0; i < kLaid; ++i) {
+        double off = 0;
+        for (Vec3& p : points) {
+            const double h = geometry::height(plane, p);
+            off = std::max(off, std::abs(h));
+            p -= h * plane.normal;
+        }
+        surface.project(points, uv, context);
+        if (i > 0 && off <= 1e-3 * tolerance) return;
+    }
+}
+
+/// The curve in which a plane cuts an exact surface, near a chain of points; parameter: number of the point.
+class SectionCurve : public geometry::ExactCurve {
+public:
+    SectionCurve(std::shared_ptr<const geometry::ExactSurface> surface, const geometry::Plane& plane,
+                 double tolerance, std::vector<Vec3> points, std::vector<std::array<Vec2, 2>> uv)
+        : surface_(std::move(surface)),
+          plane_(plane),
+          tolerance_(tolerance),
+          points_(std::move(points)),
+          uv_(std::move(uv))
+    {
+    }
+
+    void evaluate(std::span<const double> params, std::span<Vec3> points,
+                  const RunContext& context) const override
+    {
+        std::vector<Vec2> uv;
+        for (std::size_t i = 0; i < params.size(); ++i) {
+            const double at = std::clamp(params[i], 0.0, static_cast<double>(uv_.size()));
+            const std::size_t k = std::min(static_cast<std::size_t>(at), uv_.size() - 1);
+            const double f = at - static_cast<double>(k);
+            points[i] = (1 - f) * points_[k] + f * points_[k + 1];
+            uv.emplace_back((1 - f) * uv_[k][0] + f * uv_[k][1]);
+        }
+        lay_onto(*surface_, plane_, points, uv, tolerance_, context);
+    }
+
+private:
+    std::shared_ptr<const geometry::ExactSurface> surface_;
+    geometry::Plane plane_;
+    double tolerance_;
+    std::vector<Vec3> points_;
+    std::vector<std::array<Vec2, 2>> uv_; ///< of both ends of each segment
+};
+
+// --- finding ------------------------------------------------------------------------------------------
+
+struct Step {
+    SectionPlace from, to;
+};
+
+class WalkFinder {
+public:
+    WalkFinder(const Model& model, const std::vector<FaceId>& faces, const geometry::Plane& plane,
+               double tolerance)
+        : model_(model), plane_(plane)
+    {
+        side_.reserve(model.points.size());
+        for (const Vec3& p : model.points) {
+            const double h = geometry::height(plane, p);
+            side_.push_back(std::abs(h) <= tolerance ? 0 : h > 0 ? 1 : -1);
+        }
+        for (const FaceId face : faces) {
+            for (const Triangle& t : model[face].triangles) read(t);
+        }
+        for (const auto& [key, at] : behind_) {
+            const auto [a, b] = at;
+            if (before_.contains(directed_key(b, a))) steps_.push_back({{a, -1}, {b, -1}});
+        }
+        std::ranges::sort(steps_, [](const Step& a, const Step& b) {
+            return std::tie(a.from, a.to) < std::tie(b.from, b.to);
+        });
+    }
+
+    std::vector<SectionWalk> walks()
+    {
+        std::map<SectionPlace, int> excess;
+        for (std::size_t s = 0; s < steps_.size(); ++s) {
+            from_[steps_[s].from].push_back(s);
+            ++excess[steps_[s].from];
+            --excess[steps_[s].to];
+        }
+        used_.assign(steps_.size(), 0);
+        std::vector<SectionWalk> result;
+        for (std::size_t s = 0; s < steps_.size(); ++s)
+            if (used_[s] == 0 && excess.at(steps_[s].from) > 0) result.push_back(walk(s));
+        for (std::size_t s = 0; s < steps_.size(); ++s)
+            if (used_[s] == 0) result.push_back(walk(s));
+        return result;
+    }
+
+private:
+    void read(const Triangle& t)
+    {
+        const std::array<int, 3> s{side_[index(t[0])], side_[index(t[1])], side_[index(t[2])]};
+        const bool before = std::ranges::find(s, 1) != s.end(), behind = std::ranges::find(s, -1) != s.end();
+        if (before && behind) {
+            Step step;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+                if (s[k] * s[l] < 0) (s[k] < 0 ? step.from : step.to) = place_between(t[k], t[l]);
+                if (s[k] == 0 && s[l] * s[m] < 0) (s[m] < 0 ? step.from : step.to) = {t[k], -1};
+            }
+            steps_.push_back(step);
+            return;
+        }
+        bool is_behind = behind;
+        if (!before && !behind) {
+            const Vec3 area = (model_.at(t[1]) - model_.at(t[0])).cross(model_.at(t[2]) - model_.at(t[0]));
+            is_behind = area.dot(plane_.normal) > 0;
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index a = t[k], b = t[(k + 1) % 3];
+            if (side_[index(a)] != 0 || side_[index(b)] != 0) continue;
+            if (is_behind)
+                behind_.emplace(directed_key(a, b), std::pair(a, b));
+            else
+                before_.insert(directed_key(a, b));
+        }
+    }
+
+    [[nodiscard]] Vec2 flat(const SectionPlace& place) const
+    {
+        const Vec2 a = geometry::to_plane(plane_, model_.at(place.a));
+        if (place.b < 0) return a;
+        const double ha = geometry::height(plane_, model_.at(place.a)),
+                     hb = geometry::height(plane_, model_.at(place.b));
+        const double f = ha / (ha - hb);
+        return (1 - f) * a + f * geometry::to_plane(plane_, model_.at(place.b));
+    }
+
+    SectionWalk walk(std::size_t start)
+    {
+        SectionWalk result;
+        for (std::size_t s = start;;) {
+            used_[s] = 1;
+            result.places.push_back(steps_[s].from);
+            const SectionPlace& at = steps_[s].to;
+            if (at == steps_[start].from) {
+                result.closed = true;
+                return result;
+            }
+            // Where walks touch, the sharpest turn to the right keeps each a simple loop.
+            std::size_t next = steps_.size();
+            double best = 0;
+            const auto onward = from_.find(at);
+            if (onward != from_.end()) {
+                for (const std::size_t other : onward->second) {
+                    if (used_[other] != 0) continue;
+                    const double turn = onward->second.size() == 1
+                                            ? 0
+                                            : geometry::turn_between(flat(steps_[s].from) - flat(at),
+                                                                     flat(steps_[other].to) - flat(at));
+                    if (next != steps_.size() && turn >= best) continue;
+                    best = turn;
+                    next = other;
+                }
+            }
+            if (next == steps_.size()) {
+                result.places.push_back(at);
+                return result;
+            }
+            s = next;
+        }
+    }
+
+    const Model& model_;
+    const geometry::Plane& plane_;
+    std::vector<signed char> side_; ///< of each point: behind -1, on it 0, before 1
+    std::vector<Step> steps_;
+    std::map<std::uint64_t, std::pair<Index, Index>> behind_; ///< sides in the plane, of facets behind it
+    std::unordered_set<std::uint64_t> before_;
+    std::map<SectionPlace, std::vector<std::size_t>> from_;
+    std::vector<char> used_;
+};
+
+// --- imprinting ---------------------------------------------------------------------------------------
+
+class Imprinter {
+public:
+    Imprinter(Model& model, std::span<const SectionWalk> walks, const geometry::Plane& plane,
+              double tolerance, const RunContext& context)
+        : model_(model), walks_(walks), plane_(plane), tolerance_(tolerance), context_(context)
+    {
+    }
+
+    WalkImprint run()
+    {
+        make_points();
+        refuse_split_quads();
+        for (Face& face : model_.faces) cut_at_sides(model_.points, face, sides_);
+        find_segments();
+        make_vertices();
+        split_edges();
+        make_edges();
+        WalkImprint result;
+        result.lines = lines();
+        split_faces(result.parent);
+        build_loops(model_);
+        return result;
+    }
+
+private:
+    [[nodiscard]] Index point(const SectionPlace& place) const
+    {
+        return place.b < 0 ? place.a : made_.at(place);
+    }
+    [[nodiscard]] std::size_t segments(const SectionWalk& walk) const
+    {
+        return walk.places.size() - (walk.closed ? 0 : 1);
+    }
+    [[nodiscard]] std::pair<Index, Index> segment(const SectionWalk& walk, std::size_t i) const
+    {
+        return {point(walk.places[i]), point(walk.places[(i + 1) % walk.places.size()])};
+    }
+
+    void make_points()
+    {
+        for (const SectionWalk& walk : walks_) {
+            for (const SectionPlace& place : walk.places) {
+                if (place.b < 0 || made_.contains(place)) continue;
+                const double ha = geometry::height(plane_, model_.at(place.a)),
+                             hb = geometry::height(plane_, model_.at(place.b));
+                const double f = ha / (ha - hb);
+                made_.emplace(place, static_cast<Index>(model_.points.size()));
+                model_.points.emplace_back((1 - f) * model_.at(place.a) + f * model_.at(place.b));
+            }
+        }
+        lay_onto_faces();
+        lay_onto_edges();
+        for (const auto& [place, p] : made_) sides_.add(place.a, place.b, {p});
+    }
+
+    void lay_onto_faces()
+    {
+        for (const Face& face : model_.faces) {
+            if (!face.surface) continue;
+            std::map<Index, Vec2> start;
+            for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::size_t l = (k + 1) % 3;
+                    const auto found = made_.find(place_between(face.triangles[t][k], face.triangles[t][l]));
+                    if (found == made_.end()) continue;
+                    const double f = fraction_along(model_.at(found->second), model_.at(face.triangles[t][k]),
+                                                    model_.at(face.triangles[t][l]));
+                    start.try_emplace(found->second, (1 - f) * face.uv[t][k] + f * face.uv[t][l]);
+                }
+            }
+            if (start.empty()) continue;
+            std::vector<Vec3> points;
+            std::vector<Vec2> uv;
+            for (const auto& [p, at] : start) {
+                points.push_back(model_.at(p));
+                uv.push_back(at);
+            }
+            lay_onto(*face.surface, plane_, points, uv, tolerance_, context_);
+            std::size_t i = 0;
+            for (const auto& [p, at] : start) model_.points[index(p)] = points[i++];
+        }
+    }
+
+    /// Points on edges go into their chains, onto the curve at the parameter where it meets the plane.
+    void lay_onto_edges()
+    {
+        for (Edge& edge : model_.edges) {
+            for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
+                const auto found = made_.find(place_between(edge.points[i], edge.points[i + 1]));
+                if (found == made_.end()) continue;
+                const auto after = static_cast<std::ptrdiff_t>(i) + 1;
+                if (edge.curve && !edge.params.empty()) {
+                    Vec3& place = model_.points[index(found->second)];
+                    double low = edge.params[i], high = edge.params[i + 1], middle = low;
+                    const bool rises = geometry::height(plane_, model_.at(edge.points[i])) < 0;
+                    for (int k = 0; k < kHalvings; ++k) {
+                        middle = (low + high) / 2;
+                        edge.curve->evaluate({&middle, 1}, {&place, 1}, context_);
+                        const double h = geometry::height(plane_, place);
+                        if (std::abs(h) <= 1e-3 * tolerance_) break;
+                        ((h < 0) == rises ? low : high) = middle;
+                    }
+                    edge.params.insert(edge.params.begin() + after, middle);
+                } else if (!edge.params.empty()) {
+                    edge.params.insert(edge.params.begin() + after,
+                                       (edge.params[i] + edge.params[i + 1]) / 2);
+                }
+                edge.points.insert(edge.points.begin() + after, found->second);
+                ++i;
+            }
+        }
+    }
+
+    void refuse_split_quads() const
+    {
+        std::set<std::pair<Index, Index>> walked;
+        for (const SectionWalk& walk : walks_) {
+            for (std::size_t i = 0; i < segments(walk); ++i) {
+                const auto [a, b] = segment(walk, i);
+                walked.insert(std::minmax(a, b));
+            }
+        }
+        for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+            for (const Quad& quad : model_.faces[f].given_quads) {
+                bool cut = walked.contains(std::minmax(quad[0], quad[2])) ||
+                           walked.contains(std::minmax(quad[1], quad[3]));
+                for (std::size_t k = 0; k < 4; ++k)
+                    cut = cut || made_.contains(place_between(quad[k], quad[(k + 1) % 4])) ||
+                          made_.contains(place_between(quad[k], quad[(k + 2) % 4]));
+                if (!cut) continue;
+                throw InvalidInput("topology.splits_mesh",
+                                   "the cut goes through quads that " + name_of(model_, FaceId(f)) +
+                                       " came with, and those stay as they are: lay the plane along lines of "
+                                       "that mesh, or load it with keep_mesh = false");
+            }
+        }
+    }
+
+    void find_segments()
+    {
+        for (const SectionWalk& walk : walks_) {
+            for (std::size_t i = 0; i < segments(walk); ++i) {
+                const auto [a, b] = segment(walk, i);
+                walked_.insert(edge_key(a, b));
+            }
+        }
+        for (const Edge& edge : model_.edges) {
+            for (std::size_t i = 0; i + 1 < edge.points.size(); ++i)
+                edge_sides_.insert(edge_key(edge.points[i], edge.points[i + 1]));
+        }
+    }
+
+    /// Places where a walk meets an edge, or where it leaves one it runs along.
+    void make_vertices()
+    {
+        std::unordered_set<Index> at_edge;
+        for (const Edge& edge : model_.edges) at_edge.insert(edge.points.begin(), edge.points.end());
+        for (const Vertex& vertex : model_.vertices) vertex_points_.insert(vertex.point);
+        for (const SectionWalk& walk : walks_) {
+            const std::size_t count = segments(walk);
+            const auto runs_along = [&](std::size_t i) {
+                const auto [a, b] = segment(walk, i);
+                return edge_sides_.contains(edge_key(a, b));
+            };
+            for (std::size_t i = 0; i < walk.places.size(); ++i) {
+                const Index p = point(walk.places[i]);
+                const bool end = !walk.closed && (i == 0 || i == count);
+                const bool leaves = end || !runs_along(i % count) || !runs_along((i + count - 1) % count);
+                if (at_edge.contains(p) ? leaves : end) vertex_points_.insert(p);
+            }
+            const bool any = std::ranges::any_of(walk.places, [&](const SectionPlace& place) {
+                return vertex_points_.contains(point(place));
+            });
+            if (!any) vertex_points_.insert(point(walk.places.front()));
+        }
+        for (const Vertex& vertex : model_.vertices) vertex_points_.erase(vertex.point);
+        for (const Index p : vertex_points_) vertex_at_.emplace(p, add_void_vertex(model_, p));
+        for (std::size_t v = 0; v < model_.vertices.size(); ++v)
+            vertex_at_.emplace(model_.vertices[v].point, VertexId(v));
+    }
+
+    void split_edges()
+    {
+        std::array<int, 2> next_tag{1, 1};
+        for (const Edge& edge : model_.edges) {
+            int& next = next_tag[edge.origin == Origin::given ? 0 : 1];
+            next = std::max(next, edge.tag + 1);
+        }
+        const std::size_t before = model_.edges.size();
+        for (std::size_t e = 0; e < before; ++e) {
+            const Edge whole = model_.edges[e];
+            std::size_t from = 0;
+            VertexId vertex = whole.from;
+            for (std::size_t i = 1; i < whole.points.size(); ++i) {
+                const bool last = i + 1 == whole.points.size();
+                if (!last && !vertex_points_.contains(whole.points[i])) continue;
+                if (last && from == 0) break; // it stays whole
+                Edge part = whole;
+                const auto first = static_cast<std::ptrdiff_t>(from),
+                           end = static_cast<std::ptrdiff_t>(i) + 1;
+                part.points.assign(whole.points.begin() + first, whole.points.begin() + end);
+                if (!whole.params.empty())
+                    part.params.assign(whole.params.begin() + first, whole.params.begin() + end);
+                part.from = vertex;
+                part.to = vertex = last ? whole.to : vertex_at_.at(whole.points[i]);
+                if (from == 0) {
+                    model_.edges[e] = std::move(part);
+                } else {
+                    part.tag = next_tag[whole.origin == Origin::given ? 0 : 1]++;
+                    model_.edges.push_back(std::move(part));
+                }
+                from = i;
+            }
+        }
+    }
+
+    /// Edges for the parts of walks that run across faces.
+    void make_edges()
+    {
+        std::unordered_map<std::uint64_t, std::pair<std::size_t, std::size_t>> facet; // a side: face, facet
+        for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+            if (!model_.faces[f].surface) continue;
+            const std::vector<Triangle>& triangles = model_.faces[f].triangles;
+            for (std::size_t t = 0; t < triangles.size(); ++t) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::uint64_t side = directed_key(triangles[t][k], triangles[t][(k + 1) % 3]);
+                    if (walked_.contains(edge_key(triangles[t][k], triangles[t][(k + 1) % 3])))
+                        facet.emplace(side, std::pair(f, t));
+                }
+            }
+        }
+        for (const SectionWalk& walk : walks_) {
+            const std::size_t count = segments(walk), start = first_vertex(walk);
+            std::vector<Index> chain;
+            for (std::size_t k = 0; k < count; ++k) {
+                const auto [a, b] = segment(walk, (start + k) % count);
+                if (edge_sides_.contains(edge_key(a, b))) continue;
+                if (chain.empty()) chain.push_back(a);
+                chain.push_back(b);
+                if (!vertex_at_.contains(b)) continue;
+                const EdgeId edge = add_void_edge(model_, vertex_at_.at(chain.front()), vertex_at_.at(b),
+                                                  chain);
+                set_curve(edge, facet);
+                chain.clear();
+            }
+        }
+    }
+
+    [[nodiscard]] std::size_t first_vertex(const SectionWalk& walk) const
+    {
+        const auto found = std::ranges::find_if(
+            walk.places, [&](const SectionPlace& place) { return vertex_at_.contains(point(place)); });
+        return walk.closed ? static_cast<std::size_t>(found - walk.places.begin()) : 0;
+    }
+
+    void set_curve(EdgeId id,
+                   const std::unordered_map<std::uint64_t, std::pair<std::size_t, std::size_t>>& facet)
+    {
+        Edge& edge = model_[id];
+        std::vector<std::array<Vec2, 2>> uv;
+        std::vector<Vec3> points{model_.at(edge.points.front())};
+        std::shared_ptr<const geometry::ExactSurface> surface;
+        for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
+            const Index a = edge.points[i], b = edge.points[i + 1];
+            points.push_back(model_.at(b));
+            const auto found = facet.find(directed_key(a, b));
+            if (found == facet.end()) return;
+            const auto [f, t] = found->second;
+            surface = model_.faces[f].surface;
+            const Triangle& corner = model_.faces[f].triangles[t];
+            const auto uv_at = [&, f = f, t = t](Index p) {
+                return model_.faces[f]
+                    .uv[t][static_cast<std::size_t>(std::ranges::find(corner, p) - corner.begin())];
+            };
+            uv.push_back({uv_at(a), uv_at(b)});
+            edge.params.push_back(static_cast<double>(i));
+        }
+        edge.params.push_back(static_cast<double>(uv.size()));
+        edge.curve = std::make_shared<SectionCurve>(surface, plane_, tolerance_, std::move(points),
+                                                    std::move(uv));
+    }
+
+    [[nodiscard]] std::vector<std::vector<EdgeUse>> lines() const
+    {
+        std::unordered_map<std::uint64_t, EdgeUse> use;
+        for (std::size_t e = 0; e < model_.edges.size(); ++e) {
+            const std::vector<Index>& points = model_.edges[e].points;
+            for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+                use.try_emplace(directed_key(points[i], points[i + 1]), EdgeUse{EdgeId(e), false});
+                use.try_emplace(directed_key(points[i + 1], points[i]), EdgeUse{EdgeId(e), true});
+            }
+        }
+        std::vector<std::vector<EdgeUse>> result;
+        for (const SectionWalk& walk : walks_) {
+            std::vector<EdgeUse>& line = result.emplace_back();
+            const std::size_t count = segments(walk), start = first_vertex(walk);
+            for (std::size_t k = 0; k < count; ++k) {
+                const auto [a, b] = segment(walk, (start + k) % count);
+                if (vertex_at_.contains(a)) line.push_back(use.at(directed_key(a, b)));
+            }
+        }
+        return result;
+    }
+
+    /// Faces that fall apart along the walks.
+    void split_faces(std::vector<FaceId>& parent)
+    {
+        const std::size_t before = model_.faces.size();
+        for (std::size_t f = 0; f < before; ++f) parent.emplace_back(f);
+        for (std::size_t f = 0; f < before; ++f) {
+            const std::vector<std::size_t> part = parts_of(model_.faces[f]);
+            const std::size_t count = part.empty() ? 0 : *std::ranges::max_element(part) + 1;
+            if (count < 2) continue;
+            const Face whole = model_.faces[f];
+            std::unordered_map<std::uint64_t, std::size_t> part_at; // of a side
+            for (std::size_t t = 0; t < part.size(); ++t) {
+                for (std::size_t k = 0; k < 3; ++k)
+                    part_at.emplace(directed_key(whole.triangles[t][k], whole.triangles[t][(k + 1) % 3]),
+                                    part[t]);
+            }
+            for (std::size_t p = 0; p < count; ++p) {
+                Face face = whole;
+                face.triangles.clear();
+                face.uv.clear();
+                face.given_quads.clear();
+                for (std::size_t t = 0; t < part.size(); ++t) {
+                    if (part[t] != p) continue;
+                    face.triangles.push_back(whole.triangles[t]);
+                    if (!whole.uv.empty()) face.uv.push_back(whole.uv[t]);
+                }
+                for (const Quad& quad : whole.given_quads)
+                    if (part_at.at(directed_key(quad[0], quad[1])) == p) face.given_quads.push_back(quad);
+                if (p == 0) {
+                    model_.faces[f] = std::move(face);
+                } else {
+                    model_.faces.push_back(std::move(face));
+                    parent.emplace_back(f);
+                }
+            }
+        }
+    }
+
+    /// Which part each facet is of, where the walks are between them.
+    [[nodiscard]] std::vector<std::size_t> parts_of(const Face& face) const
+    {
+        const bool met = std::ranges::any_of(face.triangles, [&](const Triangle& t) {
+            return walked_.contains(edge_key(t[0], t[1])) || walked_.contains(edge_key(t[1], t[2])) ||
+                   walked_.contains(edge_key(t[2], t[0]));
+        });
+        if (!met) return {};
+        geometry::UnionFind sets(face.triangles.size());
+        std::unordered_map<std::uint64_t, std::size_t> beside;
+        for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint64_t side = edge_key(face.triangles[t][k], face.triangles[t][(k + 1) % 3]);
+                if (walked_.contains(side)) continue;
+                const auto [other, fresh] = beside.emplace(side, t);
+                if (!fresh) sets.unite_least(other->second, t);
+            }
+        }
+        std::map<std::size_t, std::size_t> number;
+        std::vector<std::size_t> part;
+        for (std::size_t t = 0; t < face.triangles.size(); ++t)
+            part.push_back(number.try_emplace(sets.find(t), number.size()).first->second);
+        return part;
+    }
+
+    Model& model_;
+    std::span<const SectionWalk> walks_;
+    const geometry::Plane& plane_;
+    double tolerance_;
+    const RunContext& context_;
+    std::map<SectionPlace, Index> made_; ///< points put on sides
+    SidePoints sides_;
+    std::unordered_set<std::uint64_t> walked_;     ///< sides along the walks
+    std::unordered_set<std::uint64_t> edge_sides_; ///< sides on edges that were there
+    std::set<Index> vertex_points_;                ///< to become vertices
+    std::map<Index, VertexId> vertex_at_;
+};
+
+} // namespace
+
+std::vector<SectionWalk> section_walks(const Model& model, const std::vector<FaceId>& faces,
+                                       const geometry::Plane& plane, double tolerance)
+{
+    return WalkFinder(model, faces, plane, tolerance).walks();
+}
+
+WalkImprint imprint_walks(Model& model, std::span<const SectionWalk> walks, const geometry::Plane& plane,
+                          double tolerance, const RunContext& context)
+{
+    return Imprinter(model, walks, plane, tolerance, context).run();
+}
+
+} // namespace lacuna::topology
