@@ -343,6 +343,7 @@ function Buffer:bytes() end
 ---@field wedges integer
 ---@field layers integer
 ---@field order 1|2
+---@field regions string[] the one volume's name
 ---@field report string[] a line a stage of the sweep; prints as lines
 local Mesh = {}
 ---@return lacuna.Quality
@@ -393,6 +394,8 @@ function Assembly:sweep(options) end
 ---@field fidelity { volume: number, sealed_volume: number, max_distance: number, mean_distance: number, regions: table<string, lacuna.Fidelity> }
 ---@field nodes integer
 ---@field hexes integer
+---@field wedges integer
+---@field order 1|2
 ---@field layers table<string, integer> by region
 ---@field regions string[]
 ---@field report string[]
@@ -415,6 +418,9 @@ function AssemblyMesh:coordinates() end
 --- Of every hexahedron eight node numbers, from 1.
 ---@return lacuna.Buffer
 function AssemblyMesh:cells() end
+---@param i integer
+---@return integer ... six numbers of nodes
+function AssemblyMesh:wedge(i) end
 ---@param path string
 ---@param options? lacuna.WriteOptions
 function AssemblyMesh:write(path, options) end

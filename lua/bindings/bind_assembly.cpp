@@ -16,11 +16,16 @@ WholeCells whole_cells(const sweep::SweptAssembly& swept)
     for (std::size_t p = 0; p < swept.parts.size(); ++p) {
         const mesh::HexMesh& mesh = swept.parts[p].mesh;
         const std::vector<Index>& number = swept.number[p];
-        for (std::size_t n = 0; n < number.size(); ++n) whole.nodes[index(number[n])] = mesh.nodes[n];
-        for (std::size_t c = 0; c < mesh.hex_count(); ++c) {
-            Hex hex = mesh.hex(c);
+        for (std::size_t n = 0; n < number.size(); ++n) whole.nodes[index(number[n])] = mesh.node(n);
+        const mesh::CellKinds kinds(mesh);
+        for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+            Hex hex = mesh.hex(kinds.cell(c));
             for (Index& n : hex) n = number[index(n)];
             whole.hexes.push_back(hex);
+            if (mesh.order() == 1) continue;
+            mesh::CellNodes cell = mesh::cell_nodes(mesh, kinds.cell(c));
+            for (std::size_t n = 0; n < cell.count; ++n) cell.node[n] = number[index(cell.node[n])];
+            whole.curved.push_back(cell);
         }
     }
     return whole;
@@ -60,11 +65,13 @@ int assembly_to_string(lua_State* L)
 
 // --- its mesh -------------------------------------------------------------------------------------------
 
-std::size_t hex_count(const AssemblyMeshState& state)
+/// Sum of a count over the parts.
+template <class Count>
+std::size_t sum(const AssemblyMeshState& state, Count count)
 {
-    std::size_t count = 0;
-    for (const sweep::Swept& part : state.swept.parts) count += part.mesh.hex_count();
-    return count;
+    std::size_t all = 0;
+    for (const sweep::Swept& part : state.swept.parts) all += (part.mesh.*count)();
+    return all;
 }
 
 int mesh_nodes(lua_State* L)
@@ -75,7 +82,21 @@ int mesh_nodes(lua_State* L)
 
 int mesh_hexes(lua_State* L)
 {
-    lua_pushinteger(L, static_cast<lua_Integer>(hex_count(check<AssemblyMeshState>(L, 1))));
+    const auto& state = check<AssemblyMeshState>(L, 1);
+    lua_pushinteger(L, static_cast<lua_Integer>(sum(state, &mesh::HexMesh::hex_count)));
+    return 1;
+}
+
+int mesh_wedges(lua_State* L)
+{
+    const auto& state = check<AssemblyMeshState>(L, 1);
+    lua_pushinteger(L, static_cast<lua_Integer>(sum(state, &mesh::HexMesh::wedge_count)));
+    return 1;
+}
+
+int mesh_order(lua_State* L)
+{
+    lua_pushinteger(L, check<AssemblyMeshState>(L, 1).swept.parts.front().mesh.order());
     return 1;
 }
 
@@ -121,17 +142,10 @@ int mesh_report(lua_State* L)
     return 1;
 }
 
-/// { volume=, sealed_volume=, max_distance=, mean_distance=, regions = { [region] = the same } }
+/// { volume=, sealed_volume=, max_distance=, mean_distance=, regions = { [region] = a Mesh's } }
 int mesh_fidelity(lua_State* L)
 {
     const auto& state = hold<AssemblyMeshState>(L, 1);
-    const auto push = [&](const sweep::Fidelity& fidelity) {
-        lua_createtable(L, 0, 5);
-        set_number(L, "volume", fidelity.volume);
-        set_number(L, "sealed_volume", fidelity.sealed_volume);
-        set_number(L, "max_distance", fidelity.max_distance);
-        set_number(L, "mean_distance", fidelity.mean_distance);
-    };
     sweep::Fidelity whole;
     for (const sweep::Swept& part : state.swept.parts) {
         whole.volume += part.fidelity.volume;
@@ -139,10 +153,12 @@ int mesh_fidelity(lua_State* L)
         whole.max_distance = std::max(whole.max_distance, part.fidelity.max_distance);
         whole.mean_distance += part.fidelity.mean_distance / static_cast<double>(state.regions.size());
     }
-    push(whole);
+    push_fidelity(L, whole);
+    lua_pushnil(L); // tags of faces are each volume's own
+    lua_setfield(L, -2, "faces");
     lua_createtable(L, 0, static_cast<int>(state.regions.size()));
     for (std::size_t p = 0; p < state.regions.size(); ++p) {
-        push(state.swept.parts[p].fidelity);
+        push_fidelity(L, state.swept.parts[p].fidelity);
         lua_setfield(L, -2, state.regions[p].c_str());
     }
     lua_setfield(L, -2, "regions");
@@ -159,25 +175,47 @@ int node(lua_State* L)
         const std::vector<Index>& number = state.swept.number[p];
         const auto found = std::find(number.begin(), number.end(), static_cast<Index>(wanted));
         if (found == number.end()) continue;
-        for (const double x :
-             state.swept.parts[p].mesh.nodes[static_cast<std::size_t>(found - number.begin())])
+        const mesh::HexMesh& mesh = state.swept.parts[p].mesh;
+        for (const double x : mesh.node(static_cast<std::size_t>(found - number.begin())))
             lua_pushnumber(L, x);
         return 3;
     }
     return 0;
 }
 
-/// n1, ..., n8 = mesh:hex(i): the parts' cells one after the other
-int hex(lua_State* L)
+/// Push the corners of the i-th of the cells that `count` counts, the parts' one after the other.
+/// @param behind  counts the cells of a part that come before those.
+template <class Count, class Behind>
+int push_cell(lua_State* L, const char* call, Count count, Behind behind)
 {
     lua_settop(L, 2);
     const auto& state = check<AssemblyMeshState>(L, 1);
-    std::size_t cell = check_number(L, "hex", hex_count(state));
+    std::size_t cell = check_number(L, call, sum(state, count));
     std::size_t p = 0;
-    while (cell >= state.swept.parts[p].mesh.hex_count()) cell -= state.swept.parts[p++].mesh.hex_count();
-    for (const Index corner : state.swept.parts[p].mesh.hex(cell))
-        lua_pushinteger(L, to_lua(state.swept.number[p][index(corner)]));
-    return 8;
+    while (cell >= (state.swept.parts[p].mesh.*count)()) cell -= (state.swept.parts[p++].mesh.*count)();
+    const mesh::HexMesh& mesh = state.swept.parts[p].mesh;
+    const Hex hex = mesh.hex(mesh::CellKinds(mesh).cell(behind(mesh) + cell));
+    const auto push = [&](Index corner) { lua_pushinteger(L, to_lua(state.swept.number[p][index(corner)])); };
+    if (!mesh::is_wedge(hex)) {
+        for (const Index corner : hex) push(corner);
+        return 8;
+    }
+    for (const Index corner : mesh::wedge_of(hex)) push(corner);
+    return 6;
+}
+
+/// n1, ..., n8 = mesh:hex(i): the parts' cells one after the other
+int hex(lua_State* L)
+{
+    return push_cell(L, "hex", &mesh::HexMesh::hex_count,
+                     [](const mesh::HexMesh&) { return std::size_t{0}; });
+}
+
+/// n1, ..., n6 = mesh:wedge(i)
+int wedge(lua_State* L)
+{
+    return push_cell(L, "wedge", &mesh::HexMesh::wedge_count,
+                     [](const mesh::HexMesh& mesh) { return mesh.hex_count(); });
 }
 
 /// { {name=, dim=, cells=}, ... } = mesh:groups()
@@ -199,10 +237,10 @@ int groups(lua_State* L)
         lua_rawseti(L, -2, next++);
     }
     for (std::size_t p = 0; p < state.regions.size(); ++p) {
-        push_group(L, state.regions[p], 3, state.swept.parts[p].mesh.hex_count());
+        push_group(L, state.regions[p], 3, state.swept.parts[p].mesh.cell_count());
         lua_rawseti(L, -2, next++);
     }
-    push_group(L, "volume", 3, hex_count(state));
+    push_group(L, "volume", 3, sum(state, &mesh::HexMesh::cell_count));
     lua_rawseti(L, -2, next);
     return 1;
 }
@@ -210,7 +248,8 @@ int groups(lua_State* L)
 int mesh_to_string(lua_State* L)
 {
     const auto& state = check<AssemblyMeshState>(L, 1);
-    lua_pushfstring(L, "Mesh of %I hexes, %I nodes, %I regions", static_cast<lua_Integer>(hex_count(state)),
+    lua_pushfstring(L, "Mesh of %I hexes, %I nodes, %I regions",
+                    static_cast<lua_Integer>(sum(state, &mesh::HexMesh::hex_count)),
                     static_cast<lua_Integer>(state.swept.nodes),
                     static_cast<lua_Integer>(state.regions.size()));
     return 1;
@@ -218,10 +257,12 @@ int mesh_to_string(lua_State* L)
 
 const luaL_Reg kAssemblyMeta[] = {{"__tostring", assembly_to_string}, {nullptr, nullptr}};
 const Field kAssemblyFields[] = {{nullptr, nullptr}};
-const luaL_Reg kMethods[] = {{"node", node}, {"hex", hex}, {"groups", groups}, {nullptr, nullptr}};
+const luaL_Reg kMethods[] = {
+    {"node", node}, {"hex", hex}, {"wedge", wedge}, {"groups", groups}, {nullptr, nullptr}};
 const luaL_Reg kMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
 const Field kFields[] = {
-    {"nodes", mesh_nodes},   {"hexes", mesh_hexes},       {"layers", mesh_layers}, {"regions", mesh_regions},
+    {"wedges", mesh_wedges}, {"order", mesh_order},       {"nodes", mesh_nodes},
+    {"hexes", mesh_hexes},   {"layers", mesh_layers},     {"regions", mesh_regions},
     {"report", mesh_report}, {"fidelity", mesh_fidelity}, {nullptr, nullptr},
 };
 

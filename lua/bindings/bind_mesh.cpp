@@ -61,10 +61,10 @@ void push_face_fidelity(lua_State* L, const sweep::FaceFidelity& face)
     lua_setfield(L, -2, "place");
 }
 
-/// mesh.fidelity: given faces by their tags, void ones by their groups' names.
-int mesh_fidelity(lua_State* L)
+} // namespace
+
+void push_fidelity(lua_State* L, const sweep::Fidelity& fidelity)
 {
-    const sweep::Fidelity& fidelity = hold<MeshState>(L, 1).swept.fidelity;
     lua_createtable(L, 0, 5);
     set_number(L, "volume", fidelity.volume);
     set_number(L, "sealed_volume", fidelity.sealed_volume);
@@ -80,6 +80,23 @@ int mesh_fidelity(lua_State* L)
         lua_rawset(L, -3);
     }
     lua_setfield(L, -2, "faces");
+}
+
+namespace {
+
+int mesh_fidelity(lua_State* L)
+{
+    push_fidelity(L, hold<MeshState>(L, 1).swept.fidelity);
+    return 1;
+}
+
+/// mesh.regions: the one volume's name
+int mesh_regions(lua_State* L)
+{
+    const auto& groups = hold<MeshState>(L, 1).swept.mesh.volume_groups;
+    lua_createtable(L, 1, 0);
+    lua_pushstring(L, groups.front().c_str());
+    lua_rawseti(L, -2, 1);
     return 1;
 }
 
@@ -166,8 +183,9 @@ const luaL_Reg kMethods[] = {
     {"node", node}, {"hex", hex}, {"wedge", wedge}, {"groups", groups}, {nullptr, nullptr}};
 const luaL_Reg kMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
 const Field kFields[] = {
-    {"nodes", mesh_nodes}, {"hexes", mesh_hexes},   {"wedges", mesh_wedges},     {"layers", mesh_layers},
-    {"order", mesh_order}, {"report", mesh_report}, {"fidelity", mesh_fidelity}, {nullptr, nullptr},
+    {"nodes", mesh_nodes},   {"hexes", mesh_hexes},       {"wedges", mesh_wedges},
+    {"layers", mesh_layers}, {"regions", mesh_regions},   {"order", mesh_order},
+    {"report", mesh_report}, {"fidelity", mesh_fidelity}, {nullptr, nullptr},
 };
 
 } // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bindings/bind_quality.h"
 
+#include <lacuna/quality/second_order.h>
+
 #include <cstring>
 
 namespace lacuna::lua {
@@ -178,7 +180,9 @@ int assembly_quality(lua_State* L)
     RunContext& context = push_context(L);
     guard(L, [&] {
         WholeCells whole = whole_cells(mesh.swept);
-        if (!mesh.quality) mesh.quality = quality::measure_cells(whole.nodes, whole.hexes, context);
+        if (!mesh.quality)
+            mesh.quality = whole.curved.empty() ? quality::measure_cells(whole.nodes, whole.hexes, context)
+                                                : quality::measure_cells(whole.nodes, whole.curved, context);
         source.quality = *mesh.quality;
         source.nodes = std::move(whole.nodes);
         source.hexes = std::move(whole.hexes);

@@ -109,9 +109,13 @@ struct AssemblyMeshState {
 /// The nodes and cells of all parts, numbered as one mesh.
 struct WholeCells {
     std::vector<Vec3> nodes;
-    std::vector<Hex> hexes;
+    std::vector<Hex> hexes;              ///< corners; wedges as `mesh::is_wedge()` has them
+    std::vector<mesh::CellNodes> curved; ///< of order 2: all nodes
 };
 WholeCells whole_cells(const sweep::SweptAssembly& swept);
+
+/// Push what a mesh's `fidelity` is to recipes: given faces by their tags, void ones by their groups' names.
+void push_fidelity(lua_State* L, const sweep::Fidelity& fidelity);
 
 template <>
 inline constexpr const char* kClassName<ModelState> = "Model";

@@ -64,6 +64,32 @@ check.fails(function() mesh:write(params.scratch .. "/a.msh", { quality = true }
 check.fails(function() core():sweep { size = 1 }:write(params.scratch .. "/a.msh", { interfaces = true }) end,
   "interfaces")
 
+-- The calls of a Mesh: order 2 with nodes in the middle that both volumes have, regions, wedges.
+check.equal(table.concat(core "alone":sweep { size = 0.5 }.regions, " "), "alone")
+check.equal(mesh.order, 1)
+check.equal(mesh.wedges, 0)
+check.that(next(mesh.fidelity.regions.core.faces), "faces of a region")
+check.equal(mesh.fidelity.faces, nil, "tags of faces are each volume's own")
+check.fails(function() mesh:wedge(1) end, "wedge")
+for _, serendipity in ipairs { false, true } do
+  local curved = assembly:sweep { size = 0.6, order = 2, serendipity = serendipity }
+  check.equal(curved.order, 2)
+  check.equal(curved:quality().certified, true)
+  check.near(curved:quality().volume, 12 * math.sqrt(3), 1e-9)
+  local at = {}
+  for i = 1, curved.nodes do
+    local key = ("%.12f %.12f %.12f"):format(curved:node(i))
+    check.that(not at[key], "node " .. i .. " is where node " .. tostring(at[key]) .. " is")
+    at[key] = i
+  end
+  for _, ending in ipairs { ".msh", ".vtu", serendipity and ".inp" or ".vtk" } do
+    local path = params.scratch .. "/curved" .. ending
+    curved:write(path)
+    check.equal(lacuna.check(path).hexes, curved.hexes, ending)
+  end
+end
+check.fails(function() assembly:sweep { size = 0.6, order = 2, [a] = { order = 1 } } end, "core", "order")
+
 -- What is refused.
 check.fails(function() lacuna.assembly {} end, "give volumes")
 check.fails(function() lacuna.assembly { a, a } end, "volumes[2]", "already")

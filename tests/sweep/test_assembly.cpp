@@ -11,6 +11,7 @@
 #include <lacuna/matching/match.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/assembly.h>
+#include <lacuna/topology/give_mesh.h>
 
 #include <doctest/doctest.h>
 
@@ -114,7 +115,7 @@ void check_assembly(const SweptAssembly& whole, double volume, double share = 1e
         sum += whole.parts[p].fidelity.volume;
         for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
             nodes[static_cast<std::size_t>(whole.number[p][n])] = mesh.nodes[n];
-        for (std::size_t c = 0; c < mesh.hex_count(); ++c) {
+        for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
             Hex hex = mesh.hex(c);
             for (Index& n : hex) n = whole.number[p][static_cast<std::size_t>(n)];
             hexes.push_back(hex);
@@ -193,24 +194,120 @@ TEST_CASE("volumes that cover part of a face, or overlap, are refused by name")
     CHECK(test::refusal([&] { sweep::sweep_assembly(twice.list()); }, {"same side"}) == "assembly.overlap");
 }
 
-TEST_CASE("a core, the ring round it and a plug on the core are one mesh")
+namespace {
+
+/// A core of a height, the ring round it, and a plug on the core.
+Members core_ring_plug(double size)
 {
     Members members;
     test::PrismOptions core{.sides = 0, .radius = 1, .height = 2, .cuts = 4};
     test::PrismOptions ring{.sides = 0, .radius = 2, .height = 2, .cuts = 4};
     ring.hole_list = {{{0, 0}, 1}};
-    members.add(closed(test::prism(core).open()), 0.35);
-    members.add(closed(test::prism(ring).open()), 0.5);
+    members.add(closed(test::prism(core).open()), size);
+    members.add(closed(test::prism(ring).open()), size);
     test::PrismOptions plug = core;
     plug.height = 1;
     test::Prism on_top = test::prism(plug);
     on_top.model = test::moved(on_top.model, [](const Vec3& p) { return Vec3(p + Vec3(0, 0, 2)); });
-    members.add(closed(on_top.open()), 0.3);
+    members.add(closed(on_top.open()), size);
+    return members;
+}
+
+/// Middle nodes of shared quads are one node too: as many as the quads have sides and, of hex27, middles.
+void check_middles(const SweptAssembly& whole, bool full)
+{
+    std::vector<std::set<Index>> skin(whole.parts.size());
+    for (std::size_t p = 0; p < whole.parts.size(); ++p) {
+        const mesh::HexMesh& mesh = whole.parts[p].mesh;
+        REQUIRE(whole.number[p].size() == mesh.node_count());
+        for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+            for (const Index n : mesh::skin_nodes(mesh, i).all())
+                skin[p].insert(whole.number[p][static_cast<std::size_t>(n)]);
+        }
+    }
+    for (const sweep::SharedFace& face : whole.shared) {
+        const mesh::HexMesh& mesh = whole.parts[face.a].mesh;
+        std::size_t quads = 0;
+        std::set<Index> nodes;
+        for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+            const Index patch = mesh::skin_quad(mesh, i).patch;
+            if (whole.parts[face.a].faces[static_cast<std::size_t>(patch)] != face.face_a) continue;
+            ++quads;
+            const mesh::CellNodes all = mesh::skin_nodes(mesh, i);
+            CHECK(all.count == (full ? 9 : 8));
+            for (const Index n : all.all()) nodes.insert(whole.number[face.a][static_cast<std::size_t>(n)]);
+        }
+        CHECK(quads > 0);
+        for (const Index n : nodes) CHECK(skin[face.b].contains(n));
+    }
+}
+
+} // namespace
+
+TEST_CASE("a core, the ring round it and a plug on the core are one mesh")
+{
+    Members members = core_ring_plug(0.35);
+    members.options[1].size = [](const Vec3&) { return 0.5; };
     const SweptAssembly whole = sweep::sweep_assembly(members.list());
     double sealed = 0;
     for (const auto& p : whole.parts) sealed += p.fidelity.sealed_volume;
     check_assembly(whole, sealed, 0.05);
     CHECK(whole.shared.size() == 2);
+}
+
+TEST_CASE("volumes of an assembly at order 2 share middle nodes, on flat faces and round ones")
+{
+    for (const bool serendipity : {false, true}) {
+        CAPTURE(serendipity);
+        Members members = core_ring_plug(0.5);
+        Members blocks;
+        blocks.add(brick({.low = {0, 0, 0}, .high = {1, 1, 1}}), 0.5);
+        blocks.add(brick({.low = {1, 0, 0}, .high = {2, 1, 1}, .axis = 0}), 0.3);
+        blocks.add(brick({.low = {1, 1, 0}, .high = {2, 2, 1}, .axis = 1}), 0.3);
+        for (Members* each : {&members, &blocks}) {
+            for (sweep::SweepOptions& options : each->options) {
+                options.order = 2;
+                options.second_order.serendipity = serendipity;
+            }
+            const SweptAssembly whole = sweep::sweep_assembly(each->list());
+            check_middles(whole, !serendipity);
+            for (const sweep::Swept& part : whole.parts) {
+                test::check_valid(part.mesh);
+                CHECK(quality::measure(part.mesh).uncertified == 0);
+                CHECK(part.fidelity.volume == doctest::Approx(part.fidelity.sealed_volume).epsilon(0.01));
+            }
+        }
+        members.options[1].order = 1;
+        members.options[1].second_order.serendipity = false;
+        CHECK(test::refusal([&] { sweep::sweep_assembly(members.list()); }, {"part_1", "part_2", "order"}) ==
+              "assembly.order");
+    }
+}
+
+TEST_CASE("wedges of one volume's end are the end of the next, with hexahedra beside them")
+{
+    for (const bool below : {false, true}) {
+        CAPTURE(below);
+        Members members;
+        members.add(brick({.low = {0, 0, 0}, .high = {2, 2, 1}}), 1);
+        members.add(brick({.low = {0, 0, 1}, .high = {2, 2, 2}}), 1);
+        members.add(brick({.low = {2, 0, 0}, .high = {3, 2, 1}}), 1);
+        for (sweep::SweepOptions& options : members.options) options.wedges = true;
+        // Four quads, one of them as two triangles, on the far end of the first or the second.
+        OpenVolume& first = members.volumes[below ? 0 : 1];
+        const FaceId end = first.faces(below ? Role::source : Role::target).front();
+        std::vector<Vec3> nodes;
+        for (int j = 0; j < 3; ++j)
+            for (int i = 0; i < 3; ++i) nodes.emplace_back(i, j, below ? 0 : 2);
+        const std::vector<Quad> cells{{0, 1, 4, 3}, {1, 2, 5, 4}, {3, 4, 7, 6}, {4, 5, 8, 8}, {4, 8, 7, 7}};
+        topology::give_mesh(first, end, nodes, cells);
+        const SweptAssembly whole = sweep::sweep_assembly(members.list());
+        check_assembly(whole, 10);
+        CHECK(whole.parts[0].mesh.wedge_count() == 2 * static_cast<std::size_t>(whole.parts[0].mesh.layers));
+        CHECK(whole.parts[1].mesh.wedge_count() == 2 * static_cast<std::size_t>(whole.parts[1].mesh.layers));
+        CHECK(whole.parts[2].mesh.wedge_count() == 0);
+        CHECK(whole.shared.size() == 2);
+    }
 }
 
 TEST_CASE("round volumes near each other are apart, and a thin one between two is one mesh with both")

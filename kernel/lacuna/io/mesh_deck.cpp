@@ -14,6 +14,12 @@
 namespace lacuna::io {
 namespace {
 
+/// Formats with hexahedra of 27 nodes.
+bool has_hex27(DeckFormat format)
+{
+    return format != DeckFormat::abaqus && format != DeckFormat::nastran && format != DeckFormat::unv;
+}
+
 /// The first of `count` numbers that none has. @param highest  of those that are not in use any more.
 DeckTag free_from(DeckTag asked, std::size_t count, const std::set<DeckTag>& texts,
                   std::vector<DeckTag>& taken, DeckTag highest, const char* option, const char* what)
@@ -66,7 +72,7 @@ public:
     {
         check_skin(mesh_);
         const bool abaqus = options_.format == DeckFormat::abaqus;
-        if (cell_shape(mesh_) == DeckShape::hex27)
+        if (cell_shape(mesh_) == DeckShape::hex27 && !has_hex27(options_.format))
             throw InvalidInput("io.no_such_element",
                                "hexahedra of 27 nodes are no elements of Abaqus, CalculiX, Nastran or UNV; "
                                "sweep with order = 2, serendipity = true for those of 20");

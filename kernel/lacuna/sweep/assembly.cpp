@@ -1,34 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/assembly.h>
 
-#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
+#include <lacuna/sweep/detail/assembly_nodes.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
-#include <lacuna/sweep/detail/place_order.h>
-#include <lacuna/sweep/detail/shared_quads.h>
+#include <lacuna/sweep/detail/shared_middles.h>
 #include <lacuna/topology/give_mesh.h>
-#include <lacuna/topology/side_points.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
-#include <unordered_set>
 
 namespace lacuna::sweep {
 
 using namespace topology;
 
 namespace {
-
-std::string place_of(const Vec3& p)
-{
-    std::array<char, 96> text{};
-    std::snprintf(text.data(), text.size(), "(%.6g, %.6g, %.6g)", p.x(), p.y(), p.z());
-    return text.data();
-}
 
 /// Hand a face's mesh on to the volume behind it.
 void hand_on(const Swept& part, FaceId from, OpenVolume& volume, FaceId to)
@@ -77,8 +67,8 @@ public:
         find_order();
         plan_ = plan_assembly(members_, result_.shared, context_);
         sweep_all();
-        number_nodes();
-        check_no_hanging_nodes();
+        number_nodes(result_, pairs_);
+        check_no_hanging_nodes(result_, members_);
         name_groups();
         return std::move(result_);
     }
@@ -93,11 +83,12 @@ private:
                     "assembly.same_name",
                     "a volume of an assembly is named \"volume\", which is the group of all of "
                     "them; give it another name");
-            if (members_[m].options.order > 1 || members_[m].options.wedges)
-                throw InvalidInput("assembly.cells", members_[m].region +
-                                                         ": volumes of an assembly, and pieces of one with "
-                                                         "steps, are swept into hexahedra of order 1; "
-                                                         "leave out 'order' and 'wedges'");
+            const SweepOptions &first = members_.front().options, &own = members_[m].options;
+            if (own.order != first.order || own.second_order.serendipity != first.second_order.serendipity)
+                throw InvalidInput("assembly.order",
+                                   members_.front().region + " and " + members_[m].region +
+                                       " are one mesh, whose cells are of one order, with or without "
+                                       "'serendipity'; give both the same");
             for (std::size_t n = 0; n < m; ++n) {
                 if (members_[m].region == members_[n].region)
                     throw InvalidInput("assembly.same_name", "two volumes of the assembly are named \"" +
@@ -138,8 +129,17 @@ private:
                                "be meshed first; give one of them that face too");
     }
 
-    /// Members by what they wait for; of those that are free to come, `first` as listed, then those that
-    /// share an end with one that is there, those whose walls are no one's ends that wait, and by number.
+    /// Whether faces of a member came with quads or triangles that stay.
+    [[nodiscard]] bool came_with_mesh(std::size_t m) const
+    {
+        return std::ranges::any_of(members_[m].volume->model.faces, [&](const Face& face) {
+            return face.keeps_nodes && has_cells_to_keep(face, members_[m].options.wedges);
+        });
+    }
+
+    /// Members by what they wait for; of those that are free to come, `first` as listed, then those that came
+    /// with meshes, then those that share an end with one that is there, those whose walls are no one's ends
+    /// that wait, and by number.
     [[nodiscard]] std::vector<std::size_t> order_of(std::span<const std::size_t> first) const
     {
         std::vector<char> placed(members_.size(), 0);
@@ -162,6 +162,7 @@ private:
                     next = m;
             };
             for (const std::size_t m : first) take(m, true);
+            for (std::size_t m = 0; m < members_.size(); ++m) take(m, came_with_mesh(m));
             const auto waits = [&](std::size_t m) { return has(m, false, true, false); };
             for (std::size_t m = 0; m < members_.size(); ++m)
                 take(m, has(m, false, false, true) && !waits(m));
@@ -211,19 +212,25 @@ private:
         result_.parts.resize(members_.size());
         inputs_.resize(members_.size());
         times_swept_.resize(members_.size(), 0);
+        middles_.resize(members_.size());
         shared_lines_.resize(members_.size());
         std::vector<char> done(members_.size(), 0);
         for (const std::size_t m : order_) {
             check_cancelled(context_);
             const std::vector<Neighbour> neighbours = shared_with(m, done);
+            // Middle nodes agree along edges too.
+            const std::vector<std::size_t> touching = members_[m].options.order > 1
+                                                          ? touching_before(m, done)
+                                                          : std::vector<std::size_t>{};
             Inputs inputs;
             for (const Neighbour& n : neighbours) inputs.emplace_back(n.other, times_swept_[n.other]);
+            for (const std::size_t other : touching) inputs.emplace_back(other, times_swept_[other]);
             done[m] = 1;
             if (inputs_[m] == inputs) continue;
             ++times_swept_[m];
             inputs_[m].reset();
             try {
-                sweep_one(m, neighbours);
+                sweep_one(m, neighbours, touching);
             } catch (const Cancelled&) {
                 throw;
             } catch (const Error& error) {
@@ -258,13 +265,15 @@ private:
 
     /// Faces whose rim alone says what their mesh is are left to the member itself, which is checked; meshes
     /// of others are handed on to it, and so are all where it came to another mesh.
-    void sweep_one(std::size_t m, const std::vector<Neighbour>& neighbours)
+    void sweep_one(std::size_t m, const std::vector<Neighbour>& neighbours,
+                   const std::vector<std::size_t>& touching)
     {
         const AssemblyMember& member = members_[m];
         SweepOptions options = member.options;
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
         std::vector<Neighbour> alike, handed;
         for (const Neighbour& n : neighbours) (is_alike(m, n) ? alike : handed).push_back(n);
+        if (options.order > 1) give_middles(touching, options.second_order);
         options.beside.settle = [&](mesh::HexMesh& mesh, const std::vector<FaceId>& faces) {
             return settle(m, alike, mesh, faces);
         };
@@ -277,7 +286,7 @@ private:
                 if (is_void(m, own)) hand_on(result_.parts[other], from, sealed, own);
             }
             // Shape is that of the volume as it was sealed, not as its neighbours' quads bound it.
-            if (!plan_.nodes[m].empty()) options.beside.shape = &sealed;
+            if (!plan_.nodes[m].empty() || !handed.empty()) options.beside.shape = &sealed;
             result_.parts[m] = sweep(volume, options, context_);
         };
         try {
@@ -289,6 +298,73 @@ private:
             sweep_it();
         }
         check_kept(m, neighbours);
+        if (options.order > 1) keep_middles(m, touching);
+    }
+
+    /// Members that are there and may touch another, by their boxes.
+    [[nodiscard]] std::vector<std::size_t> touching_before(std::size_t m, const std::vector<char>& done)
+    {
+        if (boxes_.empty()) {
+            for (const AssemblyMember& member : members_) {
+                Eigen::AlignedBox3d& box = boxes_.emplace_back();
+                for (const Vec3& p : member.volume->model.points) box.extend(p);
+                box.min().array() -= member.volume->model.tolerance;
+                box.max().array() += member.volume->model.tolerance;
+            }
+        }
+        std::vector<std::size_t> found;
+        for (std::size_t other = 0; other < members_.size(); ++other) {
+            if (done[other] != 0 && boxes_[m].intersects(boxes_[other])) found.push_back(other);
+        }
+        return found;
+    }
+
+    /// Middle nodes of those that are there, before those that a person's decks give.
+    void give_middles(const std::vector<std::size_t>& from_members, SecondOrderOptions& options) const
+    {
+        const Vec3 none = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+        const auto first_of = [this, &from_members](const auto& find) {
+            std::optional<Vec3> found;
+            for (const std::size_t m : from_members) {
+                if (!found && middles_[m]) found = find(*middles_[m]);
+            }
+            return found;
+        };
+        options.given_all_over = true;
+        options.given = [=, decks = options.given](std::span<const Vec3> from, std::span<const Vec3> to) {
+            std::vector<Vec3> middles = decks ? decks(from, to) : std::vector<Vec3>(from.size(), none);
+            for (std::size_t i = 0; i < from.size(); ++i) {
+                const auto known = first_of([&](const SharedMiddles& m) { return m.side(from[i], to[i]); });
+                if (known) middles[i] = *known;
+            }
+            return middles;
+        };
+        options.given_centres = [=](std::span<const std::array<Vec3, 4>> quads) {
+            std::vector<Vec3> middles;
+            for (const std::array<Vec3, 4>& quad : quads)
+                middles.push_back(
+                    first_of([&](const SharedMiddles& m) { return m.centre(quad); }).value_or(none));
+            return middles;
+        };
+    }
+
+    /// Keep a part's middle nodes for those that come after, and see that it kept theirs.
+    void keep_middles(std::size_t m, const std::vector<std::size_t>& from_members)
+    {
+        const Swept& part = result_.parts[m];
+        std::set<FaceId> shared;
+        for (const SharedFace& face : result_.shared) {
+            if (face.a == m) shared.insert(face.face_a);
+            if (face.b == m) shared.insert(face.face_b);
+        }
+        middles_[m].emplace(part.mesh,
+                            [&](Index patch) { return shared.contains(part.faces[index(patch)]); });
+        for (const std::size_t other : from_members) {
+            if (middles_[m]->agrees(*middles_[other])) continue;
+            throw NotSweepable("assembly.not_shared", members_[m].region + " and " + members_[other].region +
+                                                          " have middle nodes in different places on what "
+                                                          "they share");
+        }
     }
 
     /// Whether a member will mesh a face as its neighbour did: flat, with four edges whose nodes are planned,
@@ -367,89 +443,10 @@ private:
         }
     }
 
-    /// A node of a part.
-    struct PartNode {
-        std::size_t part;
-        Index node;
-        friend auto operator<=>(const PartNode&, const PartNode&) = default;
-    };
-
-    /// One number for nodes in one place: those within shared faces by the pairs found there, those where
-    /// faces meet by their places, for volumes that touch along an edge share no face.
-    void number_nodes()
-    {
-        std::vector<std::pair<PartNode, PartNode>> same = same_on_borders();
-        for (const std::vector<NodePairs>& faces : pairs_) {
-            for (const NodePairs& face : faces) {
-                for (const NodePair& pair : face.pairs) {
-                    PartNode a{face.own, pair.own}, b{face.other, pair.other};
-                    if (on_border_[a.part][index(a.node)] && on_border_[b.part][index(b.node)]) continue;
-                    if (a < b) std::swap(a, b);
-                    same.emplace_back(a, b);
-                }
-            }
-        }
-        std::sort(same.begin(), same.end());
-        Index next = 0;
-        auto twin = same.begin();
-        result_.number.resize(members_.size());
-        for (std::size_t m = 0; m < members_.size(); ++m) {
-            std::vector<Index>& number = result_.number[m];
-            number.resize(result_.parts[m].mesh.nodes.size());
-            for (std::size_t n = 0; n < number.size(); ++n) {
-                if (twin != same.end() && twin->first == PartNode{m, static_cast<Index>(n)}) {
-                    number[n] = result_.number[twin->second.part][index(twin->second.node)];
-                    ++twin;
-                } else {
-                    number[n] = next++;
-                }
-            }
-        }
-        result_.nodes = index(next);
-    }
-
-    /// Nodes where faces meet, each but the first in its place with that first one.
-    std::vector<std::pair<PartNode, PartNode>> same_on_borders()
-    {
-        std::vector<PartNode> nodes;
-        on_border_.resize(members_.size());
-        for (std::size_t m = 0; m < members_.size(); ++m) {
-            const mesh::HexMesh& mesh = result_.parts[m].mesh;
-            borders_.push_back(patch_borders(mesh));
-            on_border_[m].resize(mesh.nodes.size(), false);
-            for (const Segment& side : borders_[m]) {
-                for (const Index n : side) {
-                    if (!on_border_[m][index(n)]) nodes.push_back({m, n});
-                    on_border_[m][index(n)] = true;
-                }
-            }
-        }
-        const auto place = [&](const PartNode& node) -> const Vec3& {
-            return result_.parts[node.part].mesh.nodes[index(node.node)];
-        };
-        std::sort(nodes.begin(), nodes.end(), [&](const PartNode& a, const PartNode& b) {
-            if (before(place(a), place(b))) return true;
-            if (before(place(b), place(a))) return false;
-            return a < b;
-        });
-        std::vector<std::pair<PartNode, PartNode>> same;
-        for (std::size_t i = 0, first = 0; i < nodes.size(); ++i) {
-            if (i == 0 || before(place(nodes[first]), place(nodes[i]))) first = i;
-            if (first != i) same.emplace_back(nodes[i], nodes[first]);
-        }
-        return same;
-    }
-
     [[nodiscard]] std::string named(std::size_t member, FaceId face) const
     {
         return name_of(members_[member].volume->model, face) + " of " + members_[member].region;
     }
-
-    /// Pairs of nodes on a face of two parts.
-    struct NodePairs {
-        std::size_t own, other;
-        std::vector<NodePair> pairs;
-    };
 
     /// Pairs of nodes in one place to the bit, as found when the face was settled if that is the mesh.
     std::optional<std::vector<NodePair>> pairs_on(const Swept& part, FaceId own,
@@ -495,60 +492,6 @@ private:
         }
     }
 
-    /// Nodes on the edges of a part's faces against such sides of the others: volumes that touch along an
-    /// edge alone have no face to agree on.
-    void check_no_hanging_nodes() const
-    {
-        struct EdgeSide {
-            std::size_t part;
-            Segment nodes;
-        };
-        // Each place once, by its number in the whole.
-        std::vector<EdgeSide> sides;
-        std::vector<std::array<Vec3, 2>> segments;
-        std::vector<std::pair<std::size_t, Index>> at;
-        std::vector<Vec3> points;
-        std::unordered_set<std::uint64_t> known_sides;
-        std::vector<bool> known(result_.nodes, false);
-        double tolerance = 0;
-        for (std::size_t m = 0; m < members_.size(); ++m) {
-            tolerance = std::max(tolerance, members_[m].volume->model.tolerance);
-            const mesh::HexMesh& mesh = result_.parts[m].mesh;
-            const std::vector<Index>& number = result_.number[m];
-            for (const Segment& side : borders_[m]) {
-                if (!known_sides.insert(edge_key(number[index(side[0])], number[index(side[1])])).second)
-                    continue;
-                sides.push_back({m, side});
-                segments.push_back({mesh.nodes[index(side[0])], mesh.nodes[index(side[1])]});
-                for (const Index n : side) {
-                    if (known[index(number[index(n)])]) continue;
-                    known[index(number[index(n)])] = true;
-                    at.emplace_back(m, n);
-                    points.push_back(mesh.nodes[index(n)]);
-                }
-            }
-        }
-        for (const NearSegment& near : near_segments(points, segments, tolerance)) {
-            const auto& [part, node] = at[index(near.point)];
-            const EdgeSide& side = sides[index(near.segment)];
-            if (part == side.part) continue;
-            const Index number = result_.number[part][index(node)];
-            const Segment ends{result_.number[side.part][index(side.nodes[0])],
-                               result_.number[side.part][index(side.nodes[1])]};
-            if (number == ends[0] || number == ends[1]) continue;
-            const Vec3& p = points[index(near.point)];
-            const auto& [a, b] = segments[index(near.segment)];
-            const double f = fraction_along(p, a, b);
-            if ((p - ((1 - f) * a + f * b)).norm() > tolerance) continue;
-            throw NotSweepable(
-                "assembly.hanging_node",
-                members_[part].region + " has a node at " + place_of(p) + ", where " +
-                    members_[side.part].region +
-                    " has none: they touch along an edge and share no face there; give them the "
-                    "same size along it");
-        }
-    }
-
     std::span<const AssemblyMember> members_;
     const RunContext& context_;
     AssemblyPlan plan_;
@@ -557,9 +500,9 @@ private:
     std::vector<std::optional<Inputs>> inputs_;          ///< of each part that is there
     std::vector<int> times_swept_;                       ///< of each part, tries that failed too
     std::vector<std::vector<std::string>> shared_lines_; ///< of the report, for each part
-    std::vector<std::vector<NodePairs>> pairs_;          ///< of each part with those before it
-    std::vector<std::vector<Segment>> borders_;          ///< sides between the faces of each part
-    std::vector<std::vector<bool>> on_border_;           ///< of each part's nodes
+    std::vector<std::vector<SharedNodes>> pairs_;        ///< of each part with those before it
+    std::vector<std::optional<SharedMiddles>> middles_;  ///< of each part, at order 2
+    std::vector<Eigen::AlignedBox3d> boxes_;             ///< of each member, at order 2
     std::map<FaceId, Settled> settled_;                  ///< faces of the member being swept
     SameQuads same_quads_;
     SweptAssembly result_;

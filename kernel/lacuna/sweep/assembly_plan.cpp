@@ -171,28 +171,25 @@ private:
     }
 
     /// Walls have rows and columns, and so has an end of one member that is a wall of another: opposite edges
-    /// agree.
+    /// agree. They do on all shared ends of four edges, so that every volume with such an end comes to the
+    /// same quads.
     void join_opposite()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
-            for (const FaceId wall : members_[m].volume->faces(Role::wall)) join_opposite(m, wall);
+            for (const FaceId wall : members_[m].volume->faces(Role::wall)) join_opposite(m, wall, true);
         }
         for (const SharedFace& face : shared_) {
-            join_opposite(face.a, face.face_a, face.b, face.face_b);
-            join_opposite(face.b, face.face_b, face.a, face.face_a);
+            const bool rows = members_[face.a].volume->role[face.face_a.index()] == Role::wall ||
+                              members_[face.b].volume->role[face.face_b.index()] == Role::wall;
+            join_opposite(face.a, face.face_a, rows);
+            join_opposite(face.b, face.face_b, rows);
         }
     }
-    void join_opposite(std::size_t m, FaceId end, std::size_t other, FaceId wall)
-    {
-        if (members_[m].volume->role[end.index()] == Role::wall ||
-            members_[other].volume->role[wall.index()] != Role::wall)
-            return;
-        join_opposite(m, end);
-    }
-    void join_opposite(std::size_t m, FaceId face)
+    /// @param rows  a face with two rims has as many nodes on both.
+    void join_opposite(std::size_t m, FaceId face, bool rows)
     {
         const std::vector<Loop> loops = border_loops(model(m), face);
-        if (loops.size() == 2 && loops[0].uses.size() == 1 && loops[1].uses.size() == 1)
+        if (rows && loops.size() == 2 && loops[0].uses.size() == 1 && loops[1].uses.size() == 1)
             classes_.unite(number(m, loops[0].uses[0].edge), number(m, loops[1].uses[0].edge));
         if (loops.size() != 1 || loops[0].uses.size() != 4) return;
         for (std::size_t k = 0; k < 2; ++k)

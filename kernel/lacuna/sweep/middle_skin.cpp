@@ -209,7 +209,9 @@ private:
         std::vector<const SkinSide*> asked;
         std::vector<Vec3> from, to;
         for (const SkinSide& side : sides_) {
-            if (!model_[face(side.patch)].keeps_nodes && !model_[face(side.other)].keeps_nodes) continue;
+            if (!options_.given_all_over && !model_[face(side.patch)].keeps_nodes &&
+                !model_[face(side.other)].keeps_nodes)
+                continue;
             asked.push_back(&side);
             from.push_back(mesh_.nodes[index(side.from)]);
             to.push_back(mesh_.nodes[index(side.to)]);
@@ -399,14 +401,29 @@ SkinCounts place_skin(const OpenVolume& volume, mesh::HexMesh& mesh, const std::
     return SkinPlacer(volume, mesh, faces, blend, options, states, context).place();
 }
 
-void project_centres(const OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
-                     MiddleStates& states, const RunContext& context)
+void place_skin_centres(const OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
+                        const GivenCentres& given, MiddleStates& states, const RunContext& context)
 {
+    std::vector<Vec3> known;
+    if (given) {
+        std::vector<std::array<Vec3, 4>> corners;
+        for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+            const Quad quad = mesh::skin_quad(mesh, i).nodes;
+            std::array<Vec3, 4>& own = corners.emplace_back();
+            for (std::size_t k = 0; k < 4; ++k) own[k] = mesh.nodes[index(quad[k])];
+        }
+        known = given(corners);
+    }
     std::map<FaceId, std::vector<std::size_t>> of_face;
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         const FaceId face = faces[index(mesh::skin_quad(mesh, i).patch)];
         const std::size_t place = index(mesh::skin_nodes(mesh, i).node[8]) - mesh.nodes.size();
         states[place] = Middle::loose;
+        if (!known.empty() && known[i].allFinite()) {
+            mesh.middles.nodes[place] = known[i];
+            states[place] = Middle::settled;
+            continue;
+        }
         if (volume.model[face].surface != nullptr && !keeps_quads(volume.model[face]))
             of_face[face].push_back(place);
     }

@@ -197,7 +197,7 @@ Elevated elevate(const topology::OpenVolume& volume, mesh::HexMesh& mesh, const 
     place_columns(mesh, context);
     if (mesh.middles.full) {
         place_all_centres(mesh, states, context);
-        project_centres(volume, mesh, faces, states, context);
+        place_skin_centres(volume, mesh, faces, options.given_centres, states, context);
         place_all_centres(mesh, states, context);
     }
     check_cancelled(context);

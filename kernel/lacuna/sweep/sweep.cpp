@@ -492,11 +492,11 @@ constexpr double kLessLost = 0.75;
 
 /// Middle nodes, proved, and the curved skin compared with the sealed one: as four straight quads each, which
 /// are off by a quarter of what the quad's own straight sides would be, at most.
-void elevate_and_compare(const OpenVolume& volume, const OpenVolume& shape, const std::set<FaceId>& kept,
-                         ProvedSweep& result, const SweepOptions& options, const RunContext& context)
+void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, ProvedSweep& result,
+                         const SweepOptions& options, const RunContext& context)
 {
     Swept& swept = result.swept;
-    Elevated elevated = elevate(volume, swept.mesh, result.faces, options.second_order, context);
+    Elevated elevated = elevate(shape, swept.mesh, result.faces, options.second_order, context);
     swept.report.push_back(std::move(elevated.report));
     const quality::Quality& quality = elevated.quality;
     swept.min_scaled_jacobian = quality.min_scaled_jacobian;
@@ -531,7 +531,7 @@ Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, cons
     const OpenVolume& shape = shape_of(volume, options);
     const std::set<FaceId> kept = options.beside.shape != nullptr ? std::set<FaceId>{} : result.kept;
     if (options.order == 2) {
-        elevate_and_compare(volume, shape, kept, result, options, context);
+        elevate_and_compare(shape, kept, result, options, context);
     } else {
         swept.fidelity = compare(shape, swept.mesh, result.faces, kept, result.proof.quality.volume,
                                  {options.max_deviation}, context);

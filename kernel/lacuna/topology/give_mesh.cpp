@@ -62,17 +62,22 @@ std::vector<double> running_lengths(const Model& model, std::span<const Index> p
     return geometry::arc_lengths(places);
 }
 
+/// A triangle among quads has its last corner twice.
+bool is_triangle(const Quad& quad) { return quad[2] == quad[3]; }
+
 /// The node cycles of the quads' boundary, quads on the left.
 std::vector<std::vector<Index>> cycles_of(std::span<const Quad> quads)
 {
     std::unordered_map<std::uint64_t, int> uses;
     for (const Quad& q : quads) {
-        for (std::size_t k = 0; k < 4; ++k) ++uses[edge_key(q[k], q[(k + 1) % 4])];
+        for (std::size_t k = 0; k < 4; ++k)
+            if (q[k] != q[(k + 1) % 4]) ++uses[edge_key(q[k], q[(k + 1) % 4])];
     }
     std::map<Index, Index> next;
     for (const Quad& q : quads) {
         for (std::size_t k = 0; k < 4; ++k) {
             const Index a = q[k], b = q[(k + 1) % 4];
+            if (a == b) continue;
             if (uses.at(edge_key(a, b)) == 1 && !next.emplace(a, b).second) return {};
         }
     }
@@ -367,7 +372,7 @@ private:
             refuse("mesh_unlike_face",
                    "the rims of the mesh for " + name_of(model_, face_) + " do not run as its loops do");
         if (turned == 0) return;
-        for (Quad& quad : quads_) std::swap(quad[1], quad[3]);
+        for (Quad& quad : quads_) std::swap(quad[is_triangle(quad) ? 0 : 3], quad[1]);
         for (std::vector<RimNode>& rim : rims_) std::reverse(rim.begin(), rim.end());
     }
 
@@ -505,10 +510,12 @@ private:
         face.triangles.clear();
         face.uv.clear();
         face.surface = nullptr;
-        face.given_quads = quads_;
+        face.given_quads.clear();
         face.keeps_nodes = true;
         for (const Quad& q : quads_) {
             face.triangles.push_back({q[0], q[1], q[2]});
+            if (is_triangle(q)) continue;
+            face.given_quads.push_back(q);
             face.triangles.push_back({q[0], q[2], q[3]});
         }
         face.loops = loops;

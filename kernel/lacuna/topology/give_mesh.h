@@ -33,7 +33,7 @@ void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges);
 /// none does, such as the start of a closed edge, goes to the nearest node; so do the ends of seams. Edges
 /// lose their exact curve, and the face its exact surface: what they were needed for is there.
 /// @param nodes  of the mesh [model length].
-/// @param quads  of the mesh, one way round all of them; either way.
+/// @param quads  of the mesh, one way round all of them; either way. A triangle has its last corner twice.
 /// @throw InvalidInput "topology.mesh_unlike_face"  quads that are no manifold, whose rim has other loops
 ///     than
 ///         the face, or is off them; "topology.mesh_misses_vertex"  a vertex that is no node;

@@ -73,9 +73,10 @@ struct SkinCounts {
 SkinCounts place_skin(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
                       const std::vector<FaceId>& faces, const LevelBlend& blend,
                       const SecondOrderOptions& options, MiddleStates& states, const RunContext& context);
-/// Project the middles of the skin's quads where their faces say so.
-void project_centres(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
-                     const std::vector<FaceId>& faces, MiddleStates& states, const RunContext& context);
+/// Put the middles of the skin's quads where they are given, and project them where their faces say so.
+void place_skin_centres(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
+                        const std::vector<FaceId>& faces, const GivenCentres& given, MiddleStates& states,
+                        const RunContext& context);
 
 /// Middles of the faces of a cell and of the cell: they follow from those of the sides, but for settled ones.
 void place_centres(mesh::HexMesh& mesh, const MiddleStates& states, std::size_t cell);

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/mesh/hex_mesh.h>
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// Middle nodes of the skin of a mesh of order 2, to be found by the places of corners, to the bit. Internal
+/// to this folder.
+class SharedMiddles {
+public:
+    /// @param wanted  whether quads of a patch are shared; others give the middles of their borders alone.
+    SharedMiddles(const mesh::HexMesh& mesh, const std::function<bool(Index patch)>& wanted);
+
+    /// The middle node between two places, or in the middle of a quad by two opposite corners.
+    [[nodiscard]] std::optional<Vec3> side(const Vec3& a, const Vec3& b) const { return find(sides_, a, b); }
+    [[nodiscard]] std::optional<Vec3> centre(const std::array<Vec3, 4>& corners) const;
+
+    /// Whether two have the same middle wherever both have one. O(the smaller).
+    [[nodiscard]] bool agrees(const SharedMiddles& other) const
+    {
+        return agree(sides_, other.sides_) && agree(centres_, other.centres_);
+    }
+
+private:
+    using Key = std::array<double, 6>;
+    struct Hash {
+        std::size_t operator()(const Key& key) const;
+    };
+    using Places = std::unordered_map<Key, Vec3, Hash>;
+    static Key key_of(const Vec3& a, const Vec3& b);
+    static Key key_of(const std::array<Vec3, 4>& corners);
+    static std::optional<Vec3> find(const Places& places, const Vec3& a, const Vec3& b);
+
+    static bool agree(const Places& a, const Places& b);
+
+    Places sides_, centres_;
+};
+
+} // namespace lacuna::sweep

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/place_order.h>
+#include <lacuna/sweep/detail/shared_middles.h>
+#include <lacuna/sweep/detail/shared_quads.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+namespace lacuna::sweep {
+
+SharedMiddles::SharedMiddles(const mesh::HexMesh& mesh, const std::function<bool(Index)>& wanted)
+{
+    std::vector<bool> on_border(mesh.nodes.size(), false);
+    for (const Segment& side : patch_borders(mesh)) {
+        for (const Index n : side) on_border[index(n)] = true;
+    }
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        const mesh::CellNodes nodes = mesh::skin_nodes(mesh, i);
+        const bool shared = wanted(mesh::skin_quad(mesh, i).patch);
+        std::array<Vec3, 4> corners;
+        for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.nodes[index(nodes.node[k])];
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::size_t next = (k + 1) % 4;
+            if (!shared && !(on_border[index(nodes.node[k])] && on_border[index(nodes.node[next])])) continue;
+            sides_.try_emplace(key_of(corners[k], corners[next]), mesh.node(index(nodes.node[4 + k])));
+        }
+        if (shared && nodes.count == 9)
+            centres_.try_emplace(key_of(corners), mesh.node(index(nodes.node[8])));
+    }
+}
+
+std::optional<Vec3> SharedMiddles::centre(const std::array<Vec3, 4>& corners) const
+{
+    const auto found = centres_.find(key_of(corners));
+    return found == centres_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::size_t SharedMiddles::Hash::operator()(const Key& key) const
+{
+    std::uint64_t hash = 0;
+    for (const double x : key) {
+        // Zeros of both signs are one place. Weyl's multiplier, which spreads low bits.
+        hash = (hash ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9E3779B97F4A7C15U;
+        hash ^= hash >> 29U;
+    }
+    return static_cast<std::size_t>(hash);
+}
+
+SharedMiddles::Key SharedMiddles::key_of(const Vec3& a, const Vec3& b)
+{
+    const Vec3 &low = before(b, a) ? b : a, &high = before(b, a) ? a : b;
+    return {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
+}
+
+/// The least corner and the one opposite.
+SharedMiddles::Key SharedMiddles::key_of(const std::array<Vec3, 4>& corners)
+{
+    const auto least = std::min_element(corners.begin(), corners.end(), before);
+    const auto at = static_cast<std::size_t>(least - corners.begin());
+    return key_of(corners[at], corners[(at + 2) % 4]);
+}
+
+std::optional<Vec3> SharedMiddles::find(const Places& places, const Vec3& a, const Vec3& b)
+{
+    const auto found = places.find(key_of(a, b));
+    return found == places.end() ? std::nullopt : std::optional(found->second);
+}
+
+bool SharedMiddles::agree(const Places& a, const Places& b)
+{
+    if (a.size() > b.size()) return agree(b, a);
+    return std::all_of(a.begin(), a.end(), [&](const auto& own) {
+        const auto other = b.find(own.first);
+        return other == b.end() || other->second == own.second;
+    });
+}
+
+} // namespace lacuna::sweep
