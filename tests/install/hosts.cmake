@@ -1,5 +1,5 @@
-# Install all but the kernel, then build and run each host against what is installed, moved to another place first:
-# nothing of the build may be needed.
+# Install all but the kernel, then build and run each host against what is installed, moved to another place
+# first: nothing of the build may be needed.
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 file(REMOVE_RECURSE "${WORK_DIR}")
 foreach(component IN ITEMS library library_dev program lua)
@@ -63,8 +63,9 @@ if(LUA AND NOT CXX_FLAGS MATCHES "sanitize")
   run("the module" "${LUA}" -e "print(require('lacuna').synthetic.prism {}:describe())")
 endif()
 run("the program" "${prefix}/bin/lacuna" --help)
-foreach(file IN ITEMS share/man/man1/lacuna.1 share/bash-completion/completions/lacuna share/lacuna/lacuna.d.lua
-    share/zsh/vendor-completions/_lacuna share/fish/vendor_completions.d/lacuna.fish)
+foreach(file IN ITEMS share/man/man1/lacuna.1 share/lacuna/lacuna.d.lua
+    share/bash-completion/completions/lacuna share/zsh/vendor-completions/_lacuna
+    share/fish/vendor_completions.d/lacuna.fish)
   if(NOT EXISTS "${prefix}/${file}")
     message(FATAL_ERROR "${file} is not installed")
   endif()
