@@ -1,0 +1,51 @@
+# Debian packages: cpack -G DEB in the build folder, configured with -DCMAKE_INSTALL_PREFIX=/usr.
+#
+#   lacuna          the program, its manual page, completions, the stub
+#   lacuna-cad      the program that reads and writes CAD; GPL, and the only one that needs Gmsh
+#   lua-lacuna      the module for a stock lua5.4
+#   liblacuna0.1    recipes inside a host
+#   liblacuna-dev   headers and static libraries of the kernel, headers of liblacuna
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME lacuna)
+set(CPACK_PACKAGE_VERSION "${PROJECT_VERSION}")
+set(CPACK_PACKAGE_CONTACT "The Lacuna developers <lacuna@example.org>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX "${CMAKE_INSTALL_PREFIX}")
+set(CPACK_PACKAGE_DIRECTORY "${PROJECT_BINARY_DIR}/packages")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}")
+set(CPACK_COMPONENTS_ALL kernel cad program lua library library_dev)
+
+set(so_package "liblacuna${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME lacuna)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS lacuna-cad)
+set(CPACK_DEBIAN_CAD_PACKAGE_NAME lacuna-cad)
+set(CPACK_DEBIAN_LUA_PACKAGE_NAME lua-lacuna)
+set(CPACK_DEBIAN_LUA_PACKAGE_RECOMMENDS "lacuna-cad, lua5.4")
+set(CPACK_DEBIAN_LUA_PACKAGE_SECTION interpreters)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME "${so_package}")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS lacuna-cad)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${CMAKE_CURRENT_LIST_DIR}/debian/triggers")
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME liblacuna-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "${so_package} (= ${PROJECT_VERSION}), libeigen3-dev, zlib1g-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
+
+include(CPack)
+foreach(component IN ITEMS program cad lua library)
+  cpack_add_component(${component} GROUP ${component})
+endforeach()
+foreach(component IN ITEMS kernel library_dev)
+  cpack_add_component(${component} GROUP dev)
+endforeach()
+cpack_add_component_group(program DESCRIPTION "The program: runs recipes, lists faces, checks meshes.")
+cpack_add_component_group(cad DESCRIPTION "Reads and writes CAD for Lacuna, in a process of its own.")
+cpack_add_component_group(lua DESCRIPTION "Lacuna as a module for Lua 5.4.")
+cpack_add_component_group(library DESCRIPTION "Lacuna's recipes inside a program in C, C++ or Python.")
+cpack_add_component_group(dev DESCRIPTION "Headers and static libraries of Lacuna.")
