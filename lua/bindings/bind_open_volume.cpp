@@ -3,7 +3,7 @@
 // class.
 #include "bindings/faces.h"
 
-#include <lacuna/topology/auto_roles.h>
+#include <lacuna/closure/readings.h>
 #include <lacuna/topology/auto_walls.h>
 
 #include <cctype>
@@ -30,6 +30,7 @@ struct RoleArguments {
     bool auto_walls = false;
     bool roles_named = false;
     bool faces_named = false;
+    int reading = 0; ///< the number of the reading to take; 0: there must be one
     std::optional<VolumeClass> override_class;
     std::string name, material;
 };
@@ -54,6 +55,11 @@ void read_volume_faces(lua_State* L, int index, const Where& where, RoleArgument
 {
     read_faces(L, index, where, *arguments.model, arguments.faces);
     arguments.faces_named = true;
+}
+
+void read_reading(lua_State* L, int index, const Where& where, RoleArguments& arguments)
+{
+    arguments.reading = read_whole(L, index, where, 1);
 }
 
 void read_class(lua_State* L, int index, const Where& where, RoleArguments& arguments)
@@ -93,6 +99,7 @@ const Option<RoleArguments> kRoleOptions[] = {
     {"target", read_role<&topology::Roles::target>},
     {"walls", read_walls},
     {"faces", read_volume_faces},
+    {"reading", read_reading},
     {"class", read_class},
     {"name", read_name},
     {"material", read_material},
@@ -125,22 +132,31 @@ VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, 
     if (!arguments.roles_named) {
         if (!arguments.faces_named)
             for (std::size_t f = 0; f < model.faces.size(); ++f) arguments.faces.emplace_back(f);
-        topology::RoleCandidate found = topology::find_roles(model, arguments.faces, context);
-        arguments.roles = std::move(found.roles);
-        state.role_reasons = std::move(found.reasons);
-    } else if (arguments.auto_walls) {
-        state.role_reasons = find_walls(model, arguments.roles, context);
+        closure::Reading found = closure::find_reading(model, arguments.faces, arguments.reading, context);
+        state.volume = std::move(found.volume);
+        state.role_reasons = std::move(found.roles.reasons);
+        state.classification = std::move(found.classification);
+        state.closure = std::move(found.closure);
+    } else {
+        if (arguments.auto_walls) state.role_reasons = find_walls(model, arguments.roles, context);
+        state.volume = topology::open_volume(model, arguments.roles, context);
     }
-    state.volume = topology::open_volume(model, arguments.roles, context);
-    state.volume.override_class = arguments.override_class;
-    state.classification = topology::classify(state.volume);
+    if (state.closure && arguments.override_class && *arguments.override_class != state.classification.value)
+        throw InvalidInput("lua.class_of_found_roles",
+                           "open_volume: these faces are swept between ends that closing makes, as class " +
+                               std::string(topology::to_string(state.classification.value)) +
+                               "; to override the class, name the roles");
+    if (!state.closure) {
+        state.volume.override_class = arguments.override_class;
+        state.classification = topology::classify(state.volume);
+    }
     state.name = arguments.name;
     state.material = arguments.material;
     return state;
 }
 
 /// volume = model:open_volume { source=, target=, walls= [, class=] [, name=] [, material=] }
-/// volume = model:open_volume { faces= }, or of all faces: their roles are found
+/// volume = model:open_volume { faces= [, reading=] }, or of all faces: their roles are found
 int open_volume(lua_State* L)
 {
     lua_settop(L, 2);
@@ -152,6 +168,9 @@ int open_volume(lua_State* L)
     if (arguments.roles_named && arguments.faces_named)
         fail(L, "open_volume: name either the roles (source, target, walls) or 'faces', whose roles are then "
                 "found; not both");
+    if (arguments.roles_named && arguments.reading > 0)
+        fail(L, "open_volume: 'reading' is the number of one that was found; with roles named there is none "
+                "to choose");
     RunContext& context = push_context(L);
     auto& box = new_box<VolumeState>(L);
     guard(L, [&] {

@@ -13,25 +13,38 @@ namespace lacuna::topology {
 struct RoleCandidate {
     Roles roles;
     VolumeClass value = VolumeClass::closed;
-    double cost = 0; ///< 0: flat parallel ends, square to their walls; the higher the less likely
+    double cost = 0;    ///< 0: flat parallel ends, square to their walls; the higher the less likely
+    long irregular = 0; ///< nodes of the source's quads with other than four neighbours, at least
     std::vector<std::string> reasons; ///< in words
 };
 
-/// Every way to read some faces of `model` as source, target and walls, most likely first.
+/// How far role_candidates() looks.
+struct RoleOptions {
+    /// A reading has to cost less than the next by this much to be taken without asking. A choice, not a
+    /// measurement.
+    double margin = 0.15;
+    std::size_t most = 1000; ///< readings that are looked at closely, the cheapest first
+};
+
+/// The ways to read some faces of `model` as source, target and walls that cost less than the cheapest and
+/// the margin, cheapest first.
 ///
 /// Faces that meet smoothly are one patch; an end is a patch. Two ends (classes I–III, closed) need as many
 /// loops on both, no vertex in common, and walls that join one loop of each. One end (IV) needs walls on
 /// its whole rim that lead to a free loop each. No end (V) needs walls in tubes with a loop at either side.
-/// What passes is ranked by how flat the ends are, how square to the walls, how alike, and how far apart.
+/// Where nothing is missing, an end may also be all flat patches that face one way, at several heights, the
+/// other being one patch. What passes is ranked by how flat the ends are, how square to the walls, how alike,
+/// how far apart, and how many sharp edges of walls do not lead from end to end.
+///
+/// The irregular nodes of a face with quads at its corners are 4 (2 − rims) less its rims' quarter turns
+/// (Gauss and Bonnet), at least.
 /// @return empty where no reading passes.
 /// @throw InvalidInput  faces that cannot be oriented. Cancelled.
-/// @note  O(facets + patches² · edges between patches).
+/// @note  O(facets + patches² + most · edges between patches).
 std::vector<RoleCandidate> role_candidates(const Model& model, const std::vector<FaceId>& faces,
-                                           const RunContext& context = {});
+                                           const RoleOptions& options = {}, const RunContext& context = {});
 
-/// The most likely reading. Only readings about as likely as the best are looked at closely.
-/// @throw InvalidInput  none, or several that are about as likely; names the candidates' faces. Cancelled.
-RoleCandidate find_roles(const Model& model, const std::vector<FaceId>& faces,
-                         const RunContext& context = {});
+/// A reading as a recipe would name it: its class and the tags of its faces, the first of long lists.
+std::string in_words(const Model& model, const Roles& roles, VolumeClass value);
 
 } // namespace lacuna::topology

@@ -14,10 +14,6 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Faces that meet at less than this are one patch: a skin cut in pieces, not an end and a wall [degrees].
-/// A choice, not a measurement: a chamfer of 45° still parts two patches.
-constexpr double kSmooth = 30;
-
 /// The facets beside the segments of edges: one for each face at a segment.
 class FacetsAtEdges {
 public:
@@ -113,18 +109,57 @@ void measure(const Model& model, SmoothPatch& patch)
                         static_cast<long>(patch.edges.size());
 }
 
+/// Quarter turns that the quads at a rim's vertex take, by the angle inside: one at a right angle, none where
+/// the rim runs straight on, less than none where it bends outward.
+long quarter_turns(double angle)
+{
+    return std::clamp(std::lround(2 - angle / (std::numbers::pi / 2)), -2L, 1L);
+}
+
+/// Sums over a patch's facets: how their normals are spread, and the turns of its rims.
+void measure_facets(const Model& model, SmoothPatch& patch)
+{
+    std::unordered_map<Index, double> inside; // of the rims' vertices, by their points
+    for (const Rim& rim : patch.rims)
+        for (const EdgeUse& use : rim.uses) inside.emplace(model[use_from(model, use)].point, 0);
+    for (const FaceId face : patch.faces) {
+        for (const Triangle& t : model[face].triangles) {
+            const Vec3 twice = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+            const double length = twice.norm();
+            if (length > 0) patch.spread += twice * twice.transpose() / (2 * length);
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto found = inside.find(t[i]);
+                if (found == inside.end()) continue;
+                const Vec3 a = model.at(t[(i + 1) % 3]) - model.at(t[i]);
+                const Vec3 b = model.at(t[(i + 2) % 3]) - model.at(t[i]);
+                found->second += std::atan2(a.cross(b).norm(), a.dot(b));
+            }
+        }
+    }
+    for (const auto& [point, angle] : inside) patch.corners += quarter_turns(angle);
+}
+
 } // namespace
 
-std::vector<SmoothPatch> smooth_patches(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
-                                        const RunContext& context)
+std::vector<double> angles_across(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
+                                  const RunContext& context)
 {
     const FacetsAtEdges facets(model, context);
     std::vector<double> angle(uses.size(), 0);
-    geometry::UnionFind smooth(model.faces.size());
     for (std::size_t e = 0; e < uses.size(); ++e) {
         if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
         check_cancelled(context);
         angle[e] = facets.angle_across(EdgeId(e), uses[e]);
+    }
+    return angle;
+}
+
+std::vector<SmoothPatch> smooth_patches(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
+                                        const std::vector<double>& angle, const RunContext& context)
+{
+    geometry::UnionFind smooth(model.faces.size());
+    for (std::size_t e = 0; e < uses.size(); ++e) {
+        if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
         if (angle[e] < kSmooth) smooth.unite_least(uses[e][0].face.index(), uses[e][1].face.index());
     }
     std::map<std::size_t, SmoothPatch> by_root;
@@ -133,6 +168,7 @@ std::vector<SmoothPatch> smooth_patches(const Model& model, const std::vector<st
     for (auto& [root, patch] : by_root) {
         check_cancelled(context);
         measure(model, patch);
+        measure_facets(model, patch);
         double sum = 0, length = 0;
         for (const Rim& rim : patch.rims) {
             for (const EdgeUse& use : rim.uses) {

@@ -1,0 +1,455 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/readings.h>
+
+#include <lacuna/closure/steps.h>
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/facet_tree.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// As many readings of the given faces are sealed. A choice: some tenths of a second for 10,000 facets.
+constexpr std::size_t kMostSealed = 24;
+/// Volumes that differ by less than this share of the larger are as large: what chords leave out of round
+/// faces, and more.
+constexpr double kSameVolume = 5e-3;
+/// And skins lie on each other where they are no further apart than this share of the cube root of what they
+/// enclose. A choice, not a measurement.
+constexpr double kSameSkin = 0.02;
+/// A loop is flat where no point of it is further than this share of its length from its plane.
+constexpr double kFlatLoop = 1e-6;
+/// And as many are tried where none of the likeliest seals. A choice as well.
+constexpr std::size_t kMostTried = 50;
+/// What void faces cost that are bent by a half turn: of two ways to close, the one with flat faces is
+/// likelier. A choice, not a measurement.
+constexpr double kBentVoid = 0.5;
+/// As many readings are listed: what a person reads in a message.
+constexpr std::size_t kMostListed = 8;
+
+/// A reading of the given faces, sealed.
+struct Sealed {
+    OpenVolume volume;
+    Closure closure;
+    double enclosed = 0;
+};
+
+/// One void, and the readings that enclose it.
+struct Void {
+    double cost = 0;                 ///< of its likeliest reading, and of what closing bends
+    Sealed sealed;                   ///< as its likeliest reading seals it
+    std::vector<RoleCandidate> ways; ///< the likeliest first
+    bool fills_flat_loops = false;   ///< all that is missing
+};
+
+std::vector<FaceId> all_faces(const Model& model)
+{
+    std::vector<FaceId> faces;
+    for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
+    return faces;
+}
+
+bool is_flat(const Model& model, const Rim& rim)
+{
+    Vec3 mean = Vec3::Zero(), area = Vec3::Zero();
+    std::vector<Vec3> points;
+    double length = 0;
+    for (const EdgeUse& use : rim.uses) {
+        const std::vector<Index> chain = use_points(model, use);
+        for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+            points.push_back(model.at(chain[i]));
+            length += (model.at(chain[i + 1]) - model.at(chain[i])).norm();
+        }
+    }
+    for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+        area += (points[i] - mean).cross(points[(i + 1) % points.size()] - mean);
+    const Vec3 normal = area.stableNormalized();
+    return std::all_of(points.begin(), points.end(),
+                       [&](const Vec3& p) { return std::abs((p - mean).dot(normal)) <= kFlatLoop * length; });
+}
+
+/// Whether what is missing is one face for each of the free loops: nothing needs a void edge, and no face has
+/// several loops.
+bool fills_each_loop(const OpenVolume& open, std::size_t loops)
+{
+    const Classification found = classify(open);
+    switch (found.value) {
+    case VolumeClass::closed:
+        return true;
+    case VolumeClass::III: // every vertex of both ends is on a wall, which leads to the other
+        return found.wall_free_source.empty() && found.wall_free_target.empty();
+    case VolumeClass::IV:
+        return loops == 1;
+    case VolumeClass::V:
+        return loops == 2;
+    default:
+        return false;
+    }
+}
+
+std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunContext& context)
+{
+    try {
+        Sealed sealed{open_volume(model, roles, context), {}};
+        matching::Match match;
+        if (!roles.source.empty() && !roles.target.empty())
+            match = matching::match(sealed.volume, {}, context);
+        sealed.closure = close(sealed.volume, match, {}, context);
+        sealed.enclosed = enclosed_volume(sealed.volume);
+        return sealed;
+    } catch (const InvalidInput&) {
+        return std::nullopt;
+    } catch (const NotClosed&) {
+        return std::nullopt;
+    }
+}
+
+/// The void faces of a volume.
+geometry::FacetTree void_facets(const Sealed& sealed)
+{
+    std::vector<Triangle> facets;
+    for (const FaceId face : sealed.closure.void_faces) {
+        const std::vector<Triangle>& own = sealed.volume.model[face].triangles;
+        facets.insert(facets.end(), own.begin(), own.end());
+    }
+    return {sealed.volume.model.points, facets};
+}
+
+/// Whether the corners and the middles of one volume's void facets lie near those of another.
+bool lies_on(const Sealed& sealed, const geometry::FacetTree& other, double near)
+{
+    const Model& model = sealed.volume.model;
+    const auto on = [&](const Vec3& p) { return other.closest(p, near * near).triangle >= 0; };
+    for (const FaceId face : sealed.closure.void_faces) {
+        for (const Triangle& t : model[face].triangles) {
+            if (!on((model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3)) return false;
+            for (const Index p : t)
+                if (!on(model.at(p))) return false;
+        }
+    }
+    return true;
+}
+
+bool enclose_the_same(const Sealed& a, const Sealed& b)
+{
+    const double larger = std::max(a.enclosed, b.enclosed);
+    if (std::abs(a.enclosed - b.enclosed) > kSameVolume * larger) return false;
+    const double near = kSameSkin * std::cbrt(larger);
+    return lies_on(a, void_facets(b), near) && lies_on(b, void_facets(a), near);
+}
+
+/// Whether a reading only fills flat free loops, which any other that does fills alike.
+bool fills_flat_loops(const Model& model, const Roles& roles, const RunContext& context)
+{
+    try {
+        const OpenVolume open = open_volume(model, roles, context);
+        const std::vector<Rim> loops = free_loops(open);
+        return fills_each_loop(open, loops.size()) &&
+               std::all_of(loops.begin(), loops.end(),
+                           [&](const Rim& rim) { return is_flat(open.model, rim); });
+    } catch (const InvalidInput&) {
+        return false; // sealing it says no as well
+    }
+}
+
+/// How unlikely a void is: by its ends, and by how far its void faces are from flat.
+double cost_of(const RoleCandidate& candidate, const Sealed& sealed)
+{
+    const Model& model = sealed.volume.model;
+    double bent = 0, whole = 0;
+    for (const FaceId face : sealed.closure.void_faces) {
+        const double area = face_area(model, face);
+        // As ends are judged: four times, so that 90° costs 0.4 of what a half turn does.
+        bent += std::min(area, 4 * (area - face_area_vector(model, face).norm()));
+        whole += area;
+    }
+    return candidate.cost + (whole > 0 ? kBentVoid * bent / whole : 0);
+}
+
+/// Readings of the given faces, sealed and sorted by what they enclose.
+std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& candidates,
+                        const RunContext& context)
+{
+    std::vector<Void> found;
+    std::size_t sealed = 0;
+    for (const RoleCandidate& candidate : candidates) {
+        check_cancelled(context);
+        const bool flat = fills_flat_loops(model, candidate.roles, context);
+        const auto filled = std::find_if(found.begin(), found.end(),
+                                         [&](const Void& v) { return flat && v.fills_flat_loops; });
+        if (filled != found.end()) {
+            filled->ways.push_back(candidate);
+            continue;
+        }
+        if (sealed == kMostSealed) break;
+        std::optional<Sealed> now = seal(model, candidate.roles, context);
+        if (!now) continue;
+        ++sealed;
+        auto same = std::find_if(found.begin(), found.end(),
+                                 [&](const Void& v) { return enclose_the_same(v.sealed, *now); });
+        if (same == found.end())
+            same = found.insert(found.end(), Void{cost_of(candidate, *now), std::move(*now), {}, false});
+        same->ways.push_back(candidate);
+
+        same->fills_flat_loops = same->fills_flat_loops || flat;
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Void& a, const Void& b) { return a.cost < b.cost; });
+    std::erase_if(found, [&, least = found.empty() ? 0 : found.front().cost](const Void& v) {
+        return v.cost > least + RoleOptions{}.margin;
+    });
+    return found;
+}
+
+/// Whether a way over a closed skin can be swept in pieces, where an end lies at several heights.
+bool can_be_cut(const Model& skin, const Roles& roles, const RunContext& context)
+{
+    OpenVolume volume{skin, std::vector<Role>(skin.faces.size(), Role::wall), {}, false};
+    for (const FaceId f : roles.source) volume.role[f.index()] = Role::source;
+    for (const FaceId f : roles.target) volume.role[f.index()] = Role::target;
+    try {
+        if (has_steps(volume)) cut_steps(volume, context);
+        return true;
+    } catch (const NotSweepable&) {
+        return false;
+    }
+}
+
+/// The ways to sweep a closed skin about as likely as the likeliest that have the fewest irregular nodes; of
+/// those the ones with the most even cells come first.
+std::vector<RoleCandidate> best_sweeps(const Model& skin, const RunContext& context)
+{
+    std::vector<RoleCandidate> all = role_candidates(skin, all_faces(skin), {}, context);
+    std::erase_if(all, [&](const RoleCandidate& way) {
+        const bool several = way.roles.source.size() + way.roles.target.size() > 2;
+        return several && !can_be_cut(skin, way.roles, context);
+    });
+    long fewest = std::numeric_limits<long>::max();
+    for (const RoleCandidate& way : all) fewest = std::min(fewest, way.irregular);
+    std::erase_if(all, [&](const RoleCandidate& way) { return way.irregular > fewest; });
+    return all;
+}
+
+/// The faces of a sealed volume that were given, as the model knows them, and whether there are others.
+struct GivenPart {
+    std::vector<FaceId> faces; ///< rising
+    bool all = true;
+};
+
+GivenPart given_part(const std::vector<FaceId>& faces, const std::vector<FaceId>& as_named)
+{
+    GivenPart part;
+    for (const FaceId face : faces) {
+        if (face.index() < as_named.size())
+            part.faces.push_back(as_named[face.index()]);
+        else
+            part.all = false;
+    }
+    std::sort(part.faces.begin(), part.faces.end());
+    return part;
+}
+
+/// The ends of a way over a sealed skin, as the model knows them.
+struct Ends {
+    GivenPart source, target;
+};
+
+std::vector<FaceId> rising(std::vector<FaceId> faces)
+{
+    std::sort(faces.begin(), faces.end());
+    return faces;
+}
+
+std::string plain(double value)
+{
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.4g", value);
+    return text.data();
+}
+
+std::string ways_in_words(const Reading& reading)
+{
+    if (reading.ways == 1) return {};
+    return std::to_string(reading.ways) + " readings enclose the same volume, " + plain(reading.enclosed) +
+           "; of the likely ones this is swept with the fewest irregular nodes, " +
+           std::to_string(reading.roles.irregular) + " on its source at least, and the most even cells";
+}
+
+/// The class by which the given faces alone go, with their roles on a sealed skin.
+Classification class_as_given(const Model& model, const Roles& roles)
+{
+    OpenVolume open;
+    std::vector<FaceId> faces;
+    for (const auto& [list, role] : {std::pair{&roles.source, Role::source},
+                                     {&roles.target, Role::target},
+                                     {&roles.walls, Role::wall}}) {
+        faces.insert(faces.end(), list->begin(), list->end());
+        open.role.insert(open.role.end(), list->size(), role);
+    }
+    open.model = extract(model, faces);
+    orient_consistently(open.model);
+    Classification found = classify(open);
+    return found;
+}
+
+/// Open a volume by roles of the model's faces.
+void take_open(const Model& model, RoleCandidate roles, Reading& reading, const RunContext& context)
+{
+    reading.volume = open_volume(model, roles.roles, context);
+    reading.classification = classify(reading.volume);
+    reading.roles = std::move(roles);
+}
+
+/// Whether a reading of the given faces has these ends, whichever is the source.
+bool has_ends(const RoleCandidate& way, const Ends& ends)
+{
+    for (const GivenPart* end : {&ends.source, &ends.target})
+        if (!end->all && !end->faces.empty()) return false; // given faces and others in one end
+    const std::vector<FaceId> s = rising(way.roles.source), t = rising(way.roles.target);
+    return (s == ends.source.faces && t == ends.target.faces) ||
+           (t == ends.source.faces && s == ends.target.faces);
+}
+
+/// Of sweeps as good as each other that with open ends first, both or one: what is missing is how one gets
+/// into a bore or a pocket. Then those whose ends were given, then those between faces that closing makes.
+std::size_t openness(const Ends& ends, const std::vector<RoleCandidate>& ways)
+{
+    const auto same = std::find_if(ways.begin(), ways.end(),
+                                   [&](const RoleCandidate& way) { return has_ends(way, ends); });
+    if (same == ways.end()) return 3;
+    return same->value == VolumeClass::V ? 0 : same->value == VolumeClass::IV ? 1 : 2;
+}
+
+/// A void, to be swept the best way. Nothing where a likelier void is what these ends enclose.
+std::optional<Reading> read(const Model& model, const std::vector<Void>& likelier, Void& found,
+                            const RunContext& context)
+{
+    Reading reading;
+    reading.enclosed = found.sealed.enclosed;
+    reading.ways = found.ways.size();
+    const RoleCandidate& first = found.ways.front();
+    std::vector<FaceId> as_named = first.roles.source; // in the order open_volume() takes them
+    as_named.insert(as_named.end(), first.roles.target.begin(), first.roles.target.end());
+    as_named.insert(as_named.end(), first.roles.walls.begin(), first.roles.walls.end());
+    std::vector<RoleCandidate> sweeps;
+    // Two ends alone were given as such.
+    if (first.value != VolumeClass::I) sweeps = best_sweeps(found.sealed.volume.model, context);
+    if (sweeps.empty()) {
+        take_open(model, first, reading, context);
+        return reading;
+    }
+    const auto ends_of = [&](const RoleCandidate& way) {
+        return Ends{given_part(way.roles.source, as_named), given_part(way.roles.target, as_named)};
+    };
+    const auto best = std::min_element(
+        sweeps.begin(), sweeps.end(), [&](const RoleCandidate& a, const RoleCandidate& b) {
+            return openness(ends_of(a), found.ways) < openness(ends_of(b), found.ways);
+        });
+    auto [source, target] = ends_of(*best);
+    if (source.faces.empty() && !target.faces.empty()) {
+        std::swap(source, target);
+        std::swap(best->roles.source, best->roles.target);
+    }
+    const auto is_same = [&](const RoleCandidate& way) { return has_ends(way, {source, target}); };
+    for (const Void* other = likelier.data(); other != &found; ++other) {
+        if (std::any_of(other->ways.begin(), other->ways.end(), is_same)) return std::nullopt;
+    }
+    const auto same = std::find_if(found.ways.begin(), found.ways.end(), is_same);
+    const long irregular = best->irregular;
+    if (same != found.ways.end()) {
+        take_open(model, *same, reading, context);
+        reading.roles.irregular = irregular;
+    } else if (found.sealed.closure.void_faces.empty()) {
+        for (std::vector<FaceId>* list : {&best->roles.source, &best->roles.target, &best->roles.walls})
+            *list = given_part(*list, as_named).faces;
+        take_open(model, std::move(*best), reading, context);
+    } else {
+        reading.volume = std::move(found.sealed.volume);
+        reading.closure = std::move(found.sealed.closure);
+        std::fill(reading.volume.role.begin(), reading.volume.role.end(), Role::wall);
+        for (const FaceId f : best->roles.source) reading.volume.role[f.index()] = Role::source;
+        for (const FaceId f : best->roles.target) reading.volume.role[f.index()] = Role::target;
+        reading.volume.turned_round = false;
+        reading.roles = std::move(*best);
+        reading.roles.roles = {source.faces, target.faces,
+                               given_part(reading.roles.roles.walls, as_named).faces};
+        reading.classification = class_as_given(model, reading.roles.roles);
+        reading.roles.value = reading.classification.value;
+        reading.roles.reasons.push_back("sealed as " + in_words(model, first.roles, first.value) +
+                                        ", and swept between faces that closing made");
+    }
+    if (reading.ways > 1) reading.roles.reasons.push_back(ways_in_words(reading));
+    return reading;
+}
+
+} // namespace
+
+std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>& faces,
+                                   const RunContext& context)
+{
+    const RoleOptions near;
+    std::vector<Void> found = voids(model, role_candidates(model, faces, near, context), context);
+    if (found.empty()) { // the likeliest do not seal; what comes after them may
+        RoleOptions far;
+        far.margin = std::numeric_limits<double>::infinity();
+        far.most = kMostTried;
+        std::vector<RoleCandidate> all = role_candidates(model, faces, far, context);
+        const auto seals = std::find_if(all.begin(), all.end(), [&](const RoleCandidate& candidate) {
+            return seal(model, candidate.roles, context).has_value();
+        });
+        const auto end = std::find_if(seals, all.end(), [&](const RoleCandidate& candidate) {
+            return candidate.cost > seals->cost + near.margin;
+        });
+        found = voids(model, {seals, end}, context);
+    }
+    std::vector<Reading> readings;
+    for (Void& now : found) {
+        if (auto reading = read(model, found, now, context)) readings.push_back(std::move(*reading));
+    }
+    return readings;
+}
+
+Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int number,
+                     const RunContext& context)
+{
+    std::vector<Reading> readings = find_readings(model, faces, context);
+    if (readings.empty()) {
+        std::string tags;
+        for (const FaceId face : faces) tags += (tags.empty() ? "" : ", ") + std::to_string(model[face].tag);
+        throw InvalidInput("topology.no_roles",
+                           "no reading of the faces " + tags +
+                               " as source, target and walls of one sweep was found; name the roles: "
+                               "open_volume{ source = …, target = …, walls = … }");
+    }
+    if (number == 0 && readings.size() == 1) return std::move(readings.front());
+    const auto place = static_cast<std::size_t>(number);
+    if (number >= 1 && place <= readings.size()) return std::move(readings[place - 1]);
+    std::string text;
+    for (std::size_t i = 0; i < std::min(readings.size(), kMostListed); ++i) {
+        text += "\n  " + std::to_string(i + 1) + ": volume " + plain(readings[i].enclosed) + ", " +
+                in_words(model, readings[i].roles.roles, readings[i].roles.value);
+    }
+    if (readings.size() > kMostListed) text += "\n  … (" + std::to_string(readings.size()) + " in all)";
+    if (number == 0) {
+        throw InvalidInput("topology.roles_ambiguous",
+                           "the faces enclose different volumes by readings about as likely; take one of "
+                           "them by open_volume{ faces = …, reading = 1 }, or name its roles:" +
+                               text);
+    }
+    throw InvalidInput("topology.no_such_reading", "there is no reading " + std::to_string(number) +
+                                                       " of the faces; those about as "
+                                                       "likely are:" +
+                                                       text);
+}
+
+} // namespace lacuna::closure

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/closure/close.h>
+#include <lacuna/core/run_context.h>
+#include <lacuna/topology/auto_roles.h>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace lacuna::closure {
+
+/// A void that some faces can be read as, ready to be swept the best way.
+struct Reading {
+    topology::RoleCandidate roles; ///< in faces of the model
+    topology::OpenVolume volume;   ///< with those roles
+    topology::Classification classification;
+    /// Set where an end is a face that only closing makes: `volume` is sealed then.
+    std::optional<Closure> closure;
+    double enclosed = 0;  ///< [model length³]
+    std::size_t ways = 1; ///< how many readings of the faces enclose it
+};
+
+/// The voids that some faces of `model` can be read as without being told roles, the likeliest first; all are
+/// about as likely.
+///
+/// Readings as topology::role_candidates() has them are sealed, each by itself; those that do not seal drop
+/// out. Two readings are one void where their volumes agree and no point of the void faces of one lies further
+/// than a small share of its size from the other's: given faces are the same in both. A void is then read
+/// anew, as the closed skin it is, and swept the best way: of those about as likely as the likeliest the one
+/// with the fewest irregular nodes to expect, and of these the one with the most even cells. That way is kept
+/// open where a reading of the given faces says the same.
+/// @return  empty where no reading passes.
+/// @throw InvalidInput  faces that cannot be oriented. Cancelled.
+/// @note  O(facets log facets) for each reading that is sealed; no more than 24 are. Readings that only fill
+///        flat free loops enclose the same, and of those one is sealed.
+std::vector<Reading> find_readings(const topology::Model& model, const std::vector<FaceId>& faces,
+                                   const RunContext& context = {});
+
+/// The one void that some faces are, or the one that is asked for by its number.
+/// @param number  from 1, as the message counts them; 0: there must be one only.
+/// @throw InvalidInput "topology.no_roles", "topology.roles_ambiguous" (lists what each would enclose),
+///        "topology.no_such_reading". Cancelled.
+Reading find_reading(const topology::Model& model, const std::vector<FaceId>& faces, int number = 0,
+                     const RunContext& context = {});
+
+} // namespace lacuna::closure
