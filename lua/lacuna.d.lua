@@ -76,6 +76,19 @@
 ---@field bias? number last over first layer height (geometric), middle over end (bell), end over middle (both_ends)
 ---@field mode? "geometric"|"bell"|"both_ends" default "geometric"
 
+---@class lacuna.BoundaryLayer
+---@field walls lacuna.FaceRefs walls and ends; "walls": all walls, "void:<n>": a void face
+---@field first number thickness of the cells at the face, square to it [model length]
+---@field growth? number thickness of each row over the one before; default 1
+---@field count? integer rows; default 1
+
+--- What, how many sides, and the last length over the first (default 1). What: an edge's tag, the tags of
+--- two vertices, a wall by Face, name or selector, or "sweep" for the layers.
+---@class lacuna.Interval
+---@field [1] integer|{ [1]: integer, [2]: integer }|lacuna.FaceRefs|"sweep"
+---@field [2] integer
+---@field [3]? number
+
 ---@class lacuna.SweepOptions
 ---@field layers? integer|number[]|lacuna.Layers a count, rising heights in (0, 1] or a spacing; default as the
 ---walls' own meshes have rows, else about as high as the quads are wide
@@ -87,6 +100,8 @@
 ---@field wedges? boolean triangles that an end came with stay, with wedges on them; default false: quads among triangles are an error
 ---@field rows? integer rows of quads from every loop of the source that stay as they are laid; default: what the paver finds good
 ---@field row_height? number|fun(x: number, y: number, z: number): number of those rows (one at least); default: the size
+---@field boundary_layers? lacuna.BoundaryLayer|lacuna.BoundaryLayer[] thin rows of cells along walls and ends
+---@field intervals? lacuna.Interval[] numbers of sides on edges, walls and along the sweep
 ---@field order? 1|2 of the cells: hex8, or hex27 with middle nodes on curves and surfaces; default 1
 ---@field serendipity? boolean with order 2: hex20 instead of hex27; default false
 ---@field min_scaled_jacobian? number below it the mesh is refused; default 0

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "bindings/classes.h"
+#include "bindings/faces.h"
 #include "bindings/io_paths.h"
 #include "bindings/options.h"
 
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <string_view>
 #include <thread>
 
 namespace lacuna::lua {
@@ -25,6 +27,7 @@ struct SweepArguments {
     int threads = 0;
     int size_function = 0; ///< stack index of a Lua function, 0 for none
     int row_height_function = 0;
+    const VolumeState* volume = nullptr; ///< that selectors choose the faces of
 };
 
 // --- layers ---------------------------------------------------------------------------------------------
@@ -102,6 +105,170 @@ void read_row_height(lua_State* L, int index, const Where& where, SweepArguments
 void read_rows(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
     arguments.options.rows = read_whole(L, index, where, 1);
+}
+
+// --- boundary layers and intervals ----------------------------------------------------------------------
+
+/// A Face, a tag, a name or a selector of faces of the volume.
+void read_face_name(lua_State* L, int index, const Where& where, const VolumeState& volume,
+                    surface::FaceNames& names)
+{
+    if (const Box<FaceHandle>* handle = test_box<FaceHandle>(L, index)) {
+        if (!*handle) fail_option(L, where, "is a face that was closed");
+        guard(L, [&] { names.tags.push_back((*handle)->model->model[face_of(**handle)].tag); });
+        return;
+    }
+    switch (lua_type(L, index)) {
+    case LUA_TNUMBER: {
+        const int tag = read_whole(L, index, where, 0);
+        guard(L, [&] { names.tags.push_back(tag); });
+        return;
+    }
+    case LUA_TSTRING: {
+        const char* name = read_string(L, index, where);
+        guard(L, [&] { names.names.emplace_back(name); });
+        return;
+    }
+    case LUA_TTABLE:
+        break;
+    default:
+        fail_value(L, where, "a Face, a tag, a name, a selector or an array of those", index);
+    }
+    auto& wanted = temporary<Selector>(L);
+    read_selector(L, index, where.call, wanted);
+    bool any = false;
+    guard(L, [&] {
+        for (const FaceId face : select(volume.volume.model, wanted)) {
+            if (volume.volume.model[face].origin != topology::Origin::given) continue;
+            names.tags.push_back(volume.volume.model[face].tag);
+            any = true;
+        }
+    });
+    if (!any) fail_option(L, where, "selects no face of the volume");
+}
+
+void read_face_names(lua_State* L, int index, const Where& where, const VolumeState& volume,
+                     surface::FaceNames& names)
+{
+    if (lua_type(L, index) == LUA_TTABLE && lua_rawlen(L, index) > 0) {
+        read_array(L, index, where, "",
+                   [&](int element, const Where& at) { read_face_name(L, element, at, volume, names); });
+        return;
+    }
+    read_face_name(L, index, where, volume, names);
+}
+
+struct LayerArguments {
+    surface::BoundaryLayer layer;
+    const VolumeState* volume = nullptr;
+};
+
+void read_layer_walls(lua_State* L, int index, const Where& where, LayerArguments& arguments)
+{
+    read_face_names(L, index, where, *arguments.volume, arguments.layer.walls);
+}
+
+void read_first(lua_State* L, int index, const Where& where, LayerArguments& arguments)
+{
+    arguments.layer.first = read_positive(L, index, where);
+}
+
+void read_growth(lua_State* L, int index, const Where& where, LayerArguments& arguments)
+{
+    arguments.layer.growth = read_positive(L, index, where);
+}
+
+void read_count(lua_State* L, int index, const Where& where, LayerArguments& arguments)
+{
+    arguments.layer.count = read_whole(L, index, where, 1);
+}
+
+const Option<LayerArguments> kBoundaryLayerOptions[] = {
+    {"walls", read_layer_walls},
+    {"first", read_first},
+    {"growth", read_growth},
+    {"count", read_count},
+};
+
+void read_boundary_layer(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    if (lua_type(L, index) != LUA_TTABLE)
+        fail_value(L, where, "a table { walls =, first =, growth =, count = } or an array of those", index);
+    auto& one = temporary<LayerArguments>(L);
+    one.volume = arguments.volume;
+    read_options(L, index, "sweep: boundary_layers", kBoundaryLayerOptions, one);
+    if (one.layer.walls.tags.empty() && one.layer.walls.names.empty())
+        fail_option(L, where, "has no 'walls': { walls =, first =, growth =, count = }");
+    if (one.layer.first == 0) fail_option(L, where, "has no 'first', the thickness of the first row");
+    guard(L, [&] { arguments.options.boundary_layers.push_back(one.layer); });
+}
+
+void read_boundary_layers(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    if (lua_type(L, index) == LUA_TTABLE && lua_rawlen(L, index) > 0) {
+        read_array(L, index, where, "",
+                   [&](int element, const Where& at) { read_boundary_layer(L, element, at, arguments); });
+        return;
+    }
+    read_boundary_layer(L, index, where, arguments);
+}
+
+/// Whether the value is { vertex, vertex }.
+bool is_pair_of_tags(lua_State* L, int index)
+{
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2) return false;
+    bool numbers = true;
+    for (int i = 1; i <= 2; ++i) {
+        numbers = lua_rawgeti(L, index, i) == LUA_TNUMBER && numbers;
+        lua_pop(L, 1);
+    }
+    return numbers;
+}
+
+/// { edge or { vertex, vertex } or wall or "sweep", count [, bias] }
+void read_interval(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    using Of = surface::Interval::Of;
+    const char* const expected =
+        "a table { edge tag, { vertex, vertex }, wall or \"sweep\"; count [, bias] }";
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) < 1) fail_value(L, where, expected, index);
+    auto& interval = temporary<surface::Interval>(L);
+    const int top = lua_gettop(L);
+    const auto read_either = [&](int place, const char* key) {
+        if (lua_rawgeti(L, index, place) != LUA_TNIL) return true;
+        lua_pop(L, 1);
+        return lua_getfield(L, index, key) != LUA_TNIL;
+    };
+    if (!read_either(2, "count")) fail_option(L, where, "has no count: { …, count [, bias] }");
+    interval.count = read_whole(L, lua_gettop(L), where, 1);
+    lua_settop(L, top);
+    if (read_either(3, "bias")) interval.bias = read_positive(L, lua_gettop(L), where);
+    lua_settop(L, top);
+    lua_rawgeti(L, index, 1);
+    const int what = lua_gettop(L);
+    if (lua_type(L, what) == LUA_TNUMBER) {
+        interval.of = Of::edge;
+        interval.edge = read_whole(L, what, where, 0);
+    } else if (is_pair_of_tags(L, what)) {
+        interval.of = Of::vertices;
+        for (int i = 0; i < 2; ++i) {
+            lua_rawgeti(L, what, i + 1);
+            interval.vertices[static_cast<std::size_t>(i)] = read_whole(L, lua_gettop(L), where, 0);
+            lua_pop(L, 1);
+        }
+    } else if (lua_type(L, what) == LUA_TSTRING && std::string_view(lua_tostring(L, what)) == "sweep") {
+        interval.of = Of::sweep;
+    } else {
+        interval.of = Of::wall;
+        read_face_names(L, what, where, *arguments.volume, interval.walls);
+    }
+    guard(L, [&] { arguments.options.intervals.push_back(interval); });
+}
+
+void read_intervals(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    read_array(L, index, where, "an array of { edge, { vertex, vertex }, wall or \"sweep\"; count [, bias] }",
+               [&](int element, const Where& at) { read_interval(L, element, at, arguments); });
 }
 
 /// Calls back a recipe's function. The kernel samples sizes on the thread that called it; were it ever to ask
@@ -217,6 +384,8 @@ const Option<SweepArguments> kSweepOptions[] = {
     {"wedges", read_wedges},
     {"rows", read_rows},
     {"row_height", read_row_height},
+    {"boundary_layers", read_boundary_layers},
+    {"intervals", read_intervals},
     {"order", read_order},
     {"serendipity", read_serendipity},
     {"min_scaled_jacobian", read_min_scaled_jacobian},
@@ -235,9 +404,10 @@ void push_field(lua_State* L, int index, const char* option, int function, surfa
 }
 
 /// Read the options at `index`; leaves what they need on the stack.
-SweepArguments& push_arguments(lua_State* L, int index, const char* call)
+SweepArguments& push_arguments(lua_State* L, int index, const char* call, const VolumeState& volume)
 {
     auto& arguments = temporary<SweepArguments>(L);
+    arguments.volume = &volume;
     read_options(L, index, call, kSweepOptions, arguments);
     push_field(L, index, "size", arguments.size_function, arguments.options.size);
     push_field(L, index, "row_height", arguments.row_height_function, arguments.options.row_height);
@@ -289,6 +459,21 @@ void add_members(std::vector<Box<VolumeState>>& volumes, std::vector<const Sweep
     }
 }
 
+/// Options for many volumes name faces that one alone has: leave out those that this one has not.
+void keep_known_faces(sweep::AssemblyMember& member)
+{
+    const auto drop = [&](surface::FaceNames& names) {
+        std::erase_if(names.tags, [&](int tag) { return !surface::has_face(*member.volume, tag); });
+        std::erase_if(names.names,
+                      [&](const auto& name) { return !surface::has_face(*member.volume, name); });
+        return names.tags.empty() && names.names.empty();
+    };
+    std::erase_if(member.options.boundary_layers, [&](auto& layer) { return drop(layer.walls); });
+    std::erase_if(member.options.intervals, [&](auto& interval) {
+        return interval.of == surface::Interval::Of::wall && drop(interval.walls);
+    });
+}
+
 /// Layers asked for are those of the pieces that go from end to end.
 std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<Box<VolumeState>>& volumes,
                                                  const std::vector<const SweepArguments*>& options,
@@ -304,6 +489,7 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<Box<VolumeSta
         mesh->regions.push_back(state.name.empty() ? "volume_" + std::to_string(m + 1) : state.name);
         mesh->materials.push_back(state.material);
         members.push_back({&state.volume, options[m]->options, mesh->regions.back()});
+        keep_known_faces(members.back());
         if (state.level > 0) members.back().options.layers = {};
     }
     mesh->swept = sweep::sweep_assembly(members, context);
@@ -332,7 +518,7 @@ int sweep_volume(lua_State* L)
     lua_settop(L, 2);
     const Box<VolumeState>& volume = hold_box<VolumeState>(L, 1);
     VolumeState& state = *volume;
-    SweepArguments& arguments = push_arguments(L, 2, "sweep");
+    SweepArguments& arguments = push_arguments(L, 2, "sweep", state);
     RunContext& context = push_context(L);
     context.threads = arguments.threads;
     bool steps = false;
@@ -359,9 +545,9 @@ int sweep_volume(lua_State* L)
 int sweep_to(lua_State* L)
 {
     lua_settop(L, 3);
-    check<VolumeState>(L, 1);
+    const VolumeState& state = *hold_box<VolumeState>(L, 1);
     push_output_path(L, 2, "sweep_to");
-    push_arguments(L, 3, "sweep_to");
+    push_arguments(L, 3, "sweep_to", state);
     fail(L, "sweep_to is not available yet; use volume:sweep(options):write(path)");
 }
 
@@ -420,7 +606,7 @@ int sweep_assembly(lua_State* L)
     for (const Box<VolumeState>& volume : assembly.volumes) {
         luaL_checkstack(L, 16, "too many volumes");
         push_options_of(L, 2, volume);
-        const SweepArguments& own = push_arguments(L, lua_gettop(L), "sweep");
+        const SweepArguments& own = push_arguments(L, lua_gettop(L), "sweep", *volume);
         guard(L, [&] { arguments.push_back(&own); });
     }
     RunContext& context = push_context(L);

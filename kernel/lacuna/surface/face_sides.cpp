@@ -22,7 +22,23 @@ constexpr double kReversal = 225;
 /// unlike. A choice, not a measurement.
 constexpr double kUnlike = 3;
 
-/// Inner angle of a face where use i of its loop starts [degrees].
+std::vector<EdgeId> side_edges(const Loop& loop, const std::vector<std::size_t>& corners, std::size_t side)
+{
+    std::vector<EdgeId> edges;
+    const std::size_t n = loop.uses.size();
+    for (std::size_t i = corners[side]; i != corners[(side + 1) % 4]; i = (i + 1) % n)
+        edges.push_back(loop.uses[i].edge);
+    return edges;
+}
+
+double length_of(const Model& model, const std::vector<EdgeId>& edges)
+{
+    return std::accumulate(edges.begin(), edges.end(), 0.0,
+                           [&](double sum, EdgeId e) { return sum + edge_length(model, e); });
+}
+
+} // namespace
+
 double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_t i)
 {
     const std::vector<Index> before = use_points(model,
@@ -45,23 +61,6 @@ double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_
                          std::numbers::pi;
     return angle < 0 ? angle + 360 : angle;
 }
-
-std::vector<EdgeId> side_edges(const Loop& loop, const std::vector<std::size_t>& corners, std::size_t side)
-{
-    std::vector<EdgeId> edges;
-    const std::size_t n = loop.uses.size();
-    for (std::size_t i = corners[side]; i != corners[(side + 1) % 4]; i = (i + 1) % n)
-        edges.push_back(loop.uses[i].edge);
-    return edges;
-}
-
-double length_of(const Model& model, const std::vector<EdgeId>& edges)
-{
-    return std::accumulate(edges.begin(), edges.end(), 0.0,
-                           [&](double sum, EdgeId e) { return sum + edge_length(model, e); });
-}
-
-} // namespace
 
 std::optional<std::vector<std::size_t>> four_corners(const Model& model, FaceId face)
 {

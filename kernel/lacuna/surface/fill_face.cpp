@@ -50,6 +50,14 @@ std::span<const Vec2> inside_of(const quads::PlanarQuads& filling, std::size_t r
     return std::span(filling.points).subspan(rim);
 }
 
+/// The region filled, with rows where they are asked for.
+quads::RowsFilling filled(const quads::PlanarRegion& region, const quads::PlanarQuadMesher& mesher,
+                          const quads::BoundaryRows* rows, const RunContext& context)
+{
+    if (rows == nullptr) return {mesher(region, context), {}};
+    return quads::fill_with_rows(region, *rows, mesher, context);
+}
+
 FaceQuads lifted(quads::PlanarQuads filling, std::span<const RimNode> rim, const std::vector<Vec3>& inside)
 {
     FaceQuads result;
@@ -62,7 +70,7 @@ FaceQuads lifted(quads::PlanarQuads filling, std::span<const RimNode> rim, const
 
 FaceQuads fill_plane(const geometry::Plane& plane, std::span<const RimNode> rim, const Loops& loops,
                      const SizeFields& sizes, const quads::PlanarQuadMesher& mesher,
-                     const RunContext& context)
+                     const quads::BoundaryRows* rows, const RunContext& context)
 {
     std::vector<Vec2> flat;
     for (const RimNode& node : rim) flat.push_back(geometry::to_plane(plane, node.point));
@@ -79,8 +87,9 @@ FaceQuads fill_plane(const geometry::Plane& plane, std::span<const RimNode> rim,
             return field(geometry::from_plane(plane, within));
         };
     };
-    quads::PlanarQuads filling = mesher(
-        region_of(std::move(flat), loops, there(sizes.edge), there(sizes.row)), context);
+    auto [filling, finding] = filled(region_of(std::move(flat), loops, there(sizes.edge), there(sizes.row)),
+                                     mesher, rows, context);
+    if (finding) return {{}, {}, {}, finding};
     std::vector<Vec3> inside;
     for (const Vec2& p : inside_of(filling, rim.size())) inside.push_back(geometry::from_plane(plane, p));
     return lifted(std::move(filling), rim, inside);
@@ -243,7 +252,8 @@ void meet_tips(quads::PlanarQuads& filling, std::size_t rim, const std::vector<V
 } // namespace
 
 FaceQuads fill_face(const Model& model, FaceId face, std::span<const RimNode> rim, const Loops& loops,
-                    const SizeFields& sizes, const quads::PlanarQuadMesher& mesher, const RunContext& context)
+                    const SizeFields& sizes, const quads::PlanarQuadMesher& mesher,
+                    const quads::BoundaryRows* rows, const RunContext& context)
 {
     const Vec3 normal = face_area_vector(model, face).stableNormalized();
     const Vec3 origin = face_centroid(model, face);
@@ -252,14 +262,20 @@ FaceQuads fill_face(const Model& model, FaceId face, std::span<const RimNode> ri
         for (const Index p : t) bulge = std::max(bulge, std::abs((model.at(p) - origin).dot(normal)));
     }
     if (bulge <= model.tolerance)
-        return fill_plane(geometry::plane_across(origin, normal), rim, loops, sizes, mesher, context);
+        return fill_plane(geometry::plane_across(origin, normal), rim, loops, sizes, mesher, rows, context);
     const FlatFace flat(model, face, sizes.edge);
     const auto there = [&](const SizeField& field) -> std::function<double(const Vec2&)> {
         if (!field) return {};
         return [&](const Vec2& p) { return flat.size_at(p, field); };
     };
-    quads::PlanarQuads filling = mesher(region_of(flat.lay(rim), loops, there(sizes.edge), there(sizes.row)),
-                                        context);
+    std::optional<quads::BoundaryRows> scaled;
+    if (rows != nullptr) {
+        scaled = *rows;
+        scaled->scale = [&](const Vec2& p) { return flat.size_at(p, [](const Vec3&) { return 1.0; }); };
+    }
+    auto [filling, finding] = filled(region_of(flat.lay(rim), loops, there(sizes.edge), there(sizes.row)),
+                                     mesher, scaled ? &*scaled : nullptr, context);
+    if (finding) return {{}, {}, {}, finding};
     meet_tips(filling, rim.size(), flat.tips());
     const std::vector<Vec3> inside = flat.lift(inside_of(filling, rim.size()));
     return lifted(std::move(filling), rim, inside);

@@ -33,10 +33,21 @@ constexpr int kSizeSamples = 32;
 /// seen.
 constexpr double kSameSize = 1e-3;
 
+/// Sides wanted from a piece's start to a fraction of its edge, where they change along it.
+double wanted_at(const SeedPiece& piece, double fraction)
+{
+    const auto steps = static_cast<double>(piece.wanted.size() - 1);
+    const double at = std::clamp((fraction - piece.from) / (piece.to - piece.from), 0.0, 1.0) * steps;
+    const auto step = std::min(static_cast<std::size_t>(at), piece.wanted.size() - 2);
+    return piece.wanted[step] +
+           (at - static_cast<double>(step)) * (piece.wanted[step + 1] - piece.wanted[step]);
+}
+
 class Seeder {
 public:
     Seeder(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
-           QuadStyle style, const ShapeSizing& sizing, const std::map<EdgeId, double>& lengths, bool wedges)
+           QuadStyle style, const ShapeSizing& sizing, const std::map<EdgeId, double>& lengths, bool wedges,
+           const EdgeDemands& demands)
         : volume_(volume),
           model_(volume.model),
           size_(size),
@@ -78,6 +89,9 @@ public:
         for (const auto& [edge, faces] : users_) {
             if (model_[edge].keeps_nodes && !rim_.contains(edge)) keep_nodes(*faces.begin(), edge);
         }
+        seeds_.rows = demands.rows;
+        for (const auto& [at, end] : demands.rows.ends) end_rows(at.first, at.second, end);
+        for (const SidesAsked& asked : demands.sides) set_sides(asked);
     }
 
     Seeds run()
@@ -241,6 +255,179 @@ private:
         piece.count = std::max({1, static_cast<int>(std::lround(sides)), bends});
     }
 
+    /// Nodes on an edge at the heights of rows that end at one of its ends.
+    void end_rows(EdgeId edge, bool at_end, const RimRows::End& end)
+    {
+        std::vector<SeedPiece>& pieces = seeds_.pieces.at(edge);
+        SeedPiece& piece = at_end ? pieces.back() : pieces.front();
+        if (piece.fixed) return; // whether its nodes will do shows when the rows are placed
+        const std::vector<double>& heights = seeds_.rows.heights[static_cast<std::size_t>(end.table)];
+        const std::vector<Vec3> line = edge_line(model_, edge);
+        const std::vector<double> arc = geometry::arc_lengths(line);
+        const Vec3& corner = model_.at(model_[end.corner].point);
+        std::vector<double> places;
+        const std::size_t sides = line.size() - 1;
+        double below = 0;
+        for (std::size_t k = 0; k < sides && places.size() < heights.size(); ++k) {
+            const std::size_t from = at_end ? sides - k : k, to = at_end ? from - 1 : from + 1;
+            const double above = (line[to] - corner).dot(end.inward);
+            while (places.size() < heights.size() && above >= heights[places.size()] && above > below) {
+                const double share = (heights[places.size()] - below) / (above - below);
+                places.push_back((arc[from] + share * (arc[to] - arc[from])) / arc.back());
+            }
+            below = above;
+        }
+        if (at_end) std::reverse(places.begin(), places.end());
+        std::vector<double>& own = at_end ? piece.high : piece.low;
+        own = std::move(places);
+        const double low = piece.low.empty() ? piece.from : piece.low.back();
+        const double high = piece.high.empty() ? piece.to : piece.high.front();
+        if (own.size() < heights.size() || !(low < high)) {
+            throw NotSweepable("surface.layers_room",
+                               "the boundary layers of " + name_of(model_, end.wall) + ", " +
+                                   in_short(heights.back()) + " high, end on " + name_of(model_, edge) +
+                                   " at " + name_of(model_, end.corner) + ", where there is room for " +
+                                   in_short(room_on(piece, edge, at_end, end)) +
+                                   ((at_end ? piece.low : piece.high).empty()
+                                        ? ""
+                                        : " beside the rows that end at its other end") +
+                                   "; ask for fewer or thinner rows");
+        }
+        const double share = (high - low) / (piece.to - piece.from);
+        const double sides_between = piece.wanted.empty() ? share * piece.count
+                                                          : wanted_at(piece, high) - wanted_at(piece, low);
+        piece.count = std::max(1, static_cast<int>(std::lround(sides_between))) +
+                      static_cast<int>(piece.low.size() + piece.high.size());
+    }
+
+    /// Height over the side that rows run along, up to which an edge has room for them.
+    [[nodiscard]] double room_on(const SeedPiece& piece, EdgeId edge, bool at_end,
+                                 const RimRows::End& end) const
+    {
+        const std::vector<double>& other = at_end ? piece.low : piece.high;
+        const double far = at_end ? (other.empty() ? piece.from : other.back())
+                                  : (other.empty() ? piece.to : other.front());
+        const double at[] = {far};
+        return (edge_points(model_, edge, at).front() - model_.at(model_[end.corner].point)).dot(end.inward);
+    }
+
+    static std::string in_short(double x)
+    {
+        char words[32];
+        std::snprintf(words, sizeof words, "%.4g", x);
+        return words;
+    }
+
+    /// A number of sides that a person asks for: its nodes, for good.
+    void set_sides(const SidesAsked& asked)
+    {
+        const std::string who = asked.name + " asks for " + std::to_string(asked.count) + " sides";
+        std::vector<SeedPiece*> pieces;
+        std::vector<bool> reversed;
+        std::vector<std::string> names;
+        for (const SidesAsked::Part& part : asked.parts) {
+            std::vector<std::size_t> within;
+            std::vector<SeedPiece>& all = seeds_.pieces.at(part.edge);
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                const double middle = (all[i].from + all[i].to) / 2;
+                if (middle > part.from && middle < part.to) within.push_back(i);
+            }
+            if (part.reversed) std::reverse(within.begin(), within.end());
+            for (const std::size_t i : within) {
+                pieces.push_back(&all[i]);
+                reversed.push_back(part.reversed);
+                names.push_back(name_of(model_, part.edge));
+            }
+        }
+        if (static_cast<std::size_t>(asked.count) < pieces.size()) {
+            refuse_sides(who + " where corners of both ends leave at least " + std::to_string(pieces.size()));
+        }
+        std::vector<double> ends{0}; // running lengths
+        for (const SeedPiece* piece : pieces) ends.push_back(ends.back() + piece->length);
+        const std::vector<int> node = nodes_at(ends, asked);
+        for (std::size_t p = 0; p < pieces.size(); ++p) {
+            SeedPiece own = *pieces[p];
+            own.fixed = own.asked = true;
+            own.count = node[p + 1] - node[p];
+            own.kept.clear();
+            const double from = index_at(ends[p] / ends.back(), asked),
+                         to = index_at(ends[p + 1] / ends.back(), asked);
+            for (int i = 1; i < own.count; ++i) {
+                const double at = from + (to - from) * i / own.count;
+                double share = (length_at(at, asked) * ends.back() - ends[p]) / (ends[p + 1] - ends[p]);
+                if (reversed[p]) share = 1 - share;
+                own.kept.push_back(own.from + share * (own.to - own.from));
+            }
+            std::sort(own.kept.begin(), own.kept.end());
+            settle(*pieces[p], own, who + " on " + names[p], asked);
+        }
+    }
+
+    /// Put what is asked of a piece in its place.
+    void settle(SeedPiece& piece, const SeedPiece& own, const std::string& who, const SidesAsked& asked)
+    {
+        const auto before = askers_.find(&piece);
+        if (piece.fixed) {
+            const std::string other = before != askers_.end() ? before->second : "the mesh given there";
+            if (piece.count != own.count)
+                refuse_sides(who + " (" + std::to_string(own.count) + " of them on this part), and " + other +
+                             " has " + std::to_string(piece.count));
+            for (std::size_t i = 0; i < own.kept.size() && before != askers_.end(); ++i) {
+                if (std::abs(own.kept[i] - piece.kept[i]) * piece.length > model_.tolerance)
+                    refuse_sides(who + ", and " + other + ", with other lengths");
+            }
+            return;
+        }
+        if (!piece.low.empty() || !piece.high.empty()) {
+            const auto rows = static_cast<int>(piece.low.size() + piece.high.size());
+            if (own.count <= rows)
+                refuse_sides(who + ", where boundary layers end that have " + std::to_string(rows) +
+                             " of their own: ask for " + std::to_string(rows + 1) + " or more");
+            if (asked.bias != 1)
+                refuse_sides(who + " with a bias, where boundary layers end: these set the lengths");
+            piece.count = own.count;
+            const std::vector<double> at = piece.fractions();
+            piece.kept.assign(at.begin() + 1, at.end());
+            piece.fixed = piece.asked = true;
+        } else {
+            piece = own;
+        }
+        askers_[&piece] = who;
+    }
+
+    [[noreturn]] static void refuse_sides(const std::string& what)
+    {
+        throw NotSweepable("surface.sides_asked", "intervals: " + what);
+    }
+
+    /// Number of sides up to a share of the length, by the bias.
+    static double index_at(double share, const SidesAsked& asked)
+    {
+        if (asked.count < 2 || asked.bias == 1) return share * asked.count;
+        const double growth = std::log(asked.bias) / (asked.count - 1);
+        return std::log1p(share * std::expm1(growth * asked.count)) / growth;
+    }
+    static double length_at(double index, const SidesAsked& asked)
+    {
+        if (asked.count < 2 || asked.bias == 1) return index / asked.count;
+        const double growth = std::log(asked.bias) / (asked.count - 1);
+        return std::expm1(growth * index) / std::expm1(growth * asked.count);
+    }
+
+    /// The nodes at the ends of pieces: those nearest by the bias, one side at least each.
+    static std::vector<int> nodes_at(const std::vector<double>& ends, const SidesAsked& asked)
+    {
+        std::vector<int> node{0};
+        const auto pieces = static_cast<int>(ends.size()) - 1;
+        for (int p = 1; p < pieces; ++p) {
+            const double at = index_at(ends[static_cast<std::size_t>(p)] / ends.back(), asked);
+            node.push_back(
+                std::clamp(static_cast<int>(std::lround(at)), node.back() + 1, asked.count - (pieces - p)));
+        }
+        node.push_back(asked.count);
+        return node;
+    }
+
     void choose(FaceId face)
     {
         if (style_ == QuadStyle::free || seeds_.kept.contains(face)) return;
@@ -322,9 +509,10 @@ private:
                 if (stuck && style_ == QuadStyle::mapped) {
                     throw NotSweepable("surface.kept_side",
                                        name_of(model_, it->first) +
-                                           " is to be mapped, and a side of it has fewer given nodes than "
-                                           "the one opposite; use "
-                                           "quads = \"auto\"");
+                                           " is to be mapped, and sides opposite to each other have " +
+                                           unlike_counts(it->second) +
+                                           ", given or asked for; use quads = \"auto\", or give both as "
+                                           "many");
                 }
                 if (stuck || (raised && round > most)) {
                     seeds_.corners.erase(it->first);
@@ -336,6 +524,24 @@ private:
             }
             if (!changed) return;
         }
+    }
+
+    /// "5 (edge 1) and 7 (edge 3)" of sides whose counts differ.
+    [[nodiscard]] std::string unlike_counts(const std::vector<SidePair>& pairs) const
+    {
+        std::string words;
+        for (const SidePair& sides : pairs) {
+            if (total(sides[0]) == total(sides[1])) continue;
+            for (std::size_t k = 0; k < 2; ++k) {
+                words += words.empty() ? "" : " and ";
+                words += std::to_string(total(sides[k])) + " (";
+                for (std::size_t i = 0; i < sides[k].size(); ++i)
+                    words += (i > 0 ? ", " : "") + name_of(model_, sides[k][i]);
+                words += ")";
+            }
+            break;
+        }
+        return words;
     }
 
     [[nodiscard]] bool odd(FaceId face) const
@@ -446,7 +652,7 @@ private:
                 const std::set<FaceId>& users = users_.at(edge);
                 if (!users.contains(face) || users.size() > 1) continue;
                 for (SeedPiece& piece : seeds_.pieces[edge]) {
-                    if (longest != nullptr && piece.length <= longest->length) continue;
+                    if (piece.asked || (longest != nullptr && piece.length <= longest->length)) continue;
                     longest = &piece;
                     at = edge;
                 }
@@ -471,6 +677,20 @@ private:
     {
         for (const FaceId face : volume_.faces(Role::source)) {
             if (!is_free(face) || !odd(face) || odd_.contains(face)) continue;
+            std::string counts;
+            for (const EdgeId edge : edges_of(face)) {
+                const std::vector<SeedPiece>& pieces = seeds_.pieces.at(edge);
+                if (std::none_of(pieces.begin(), pieces.end(), [](const SeedPiece& p) { return p.asked; }))
+                    continue;
+                counts += (counts.empty() ? "" : ", ") + name_of(model_, edge) + " " +
+                          std::to_string(seeds_.count(edge));
+            }
+            if (!counts.empty()) {
+                refuse_sides("the loops of " + name_of(model_, face) +
+                             " have an odd number of sides in all, which no quads fill, and no edge is free "
+                             "to take one more; asked for: " +
+                             counts + ". Change one of them by one");
+            }
             throw NotSweepable(
                 "surface.odd_loop",
                 "the loops of " + name_of(model_, face) +
@@ -488,7 +708,8 @@ private:
     Seeds seeds_;
     std::map<FaceId, std::vector<SidePair>> opposite_; ///< of mapped and submapped faces
     std::set<EdgeId> rim_;
-    std::set<FaceId> odd_; ///< faces that get a triangle
+    std::set<FaceId> odd_;                           ///< faces that get a triangle
+    std::map<const SeedPiece*, std::string> askers_; ///< who asked for the sides of a piece
     std::map<EdgeId, std::set<FaceId>> users_;
 };
 
@@ -519,25 +740,33 @@ std::vector<double> SeedPiece::fractions() const
         result.insert(result.end(), kept.begin(), kept.end());
         return result;
     }
+    result.insert(result.end(), low.begin(), low.end());
+    const double first = result.back(), last = high.empty() ? to : high.front();
+    const double before = wanted.empty() ? 0 : wanted_at(*this, first);
+    const double sides = wanted.empty() ? 0 : wanted_at(*this, last) - before;
     std::size_t step = 0;
-    for (int i = 1; i < count; ++i) {
-        double along = static_cast<double>(i) / count;
-        if (!wanted.empty()) {
-            const double sides = along * wanted.back();
-            while (step + 2 < wanted.size() && wanted[step + 1] < sides) ++step;
-            along = (static_cast<double>(step) + (sides - wanted[step]) / (wanted[step + 1] - wanted[step])) /
-                    static_cast<double>(wanted.size() - 1);
+    for (int i = 1; i < between(); ++i) {
+        const double share = static_cast<double>(i) / between();
+        if (wanted.empty()) {
+            result.push_back(first + (last - first) * share);
+            continue;
         }
+        const double at = before + share * sides;
+        while (step + 2 < wanted.size() && wanted[step + 1] < at) ++step;
+        const double along = (static_cast<double>(step) +
+                              (at - wanted[step]) / (wanted[step + 1] - wanted[step])) /
+                             static_cast<double>(wanted.size() - 1);
         result.push_back(from + (to - from) * along);
     }
+    result.insert(result.end(), high.begin(), high.end());
     return result;
 }
 
 Seeds seed_source(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
                   QuadStyle style, const ShapeSizing& sizing, const std::map<EdgeId, double>& lengths,
-                  bool wedges)
+                  bool wedges, const EdgeDemands& demands)
 {
-    return Seeder(volume, links, size, style, sizing, lengths, wedges).run();
+    return Seeder(volume, links, size, style, sizing, lengths, wedges, demands).run();
 }
 
 double rim_spacing(const OpenVolume& volume)

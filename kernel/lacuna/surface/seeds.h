@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/surface/boundary_layers.h>
 #include <lacuna/surface/linking_surface.h>
 #include <lacuna/surface/shape_size.h>
 #include <lacuna/surface/size_field.h>
@@ -33,10 +34,34 @@ struct SeedPiece {
     /// How much the rim it is swept to turns along it, at even steps from the start [radian]. Empty: unknown.
     std::vector<double> opposite{};
     std::vector<double> kept{}; ///< nodes inside that were given, as fractions of the edge; with `fixed`
-    bool fixed = false;         ///< the nodes of a given mesh: none more, none less
+    bool fixed = false;         ///< the nodes of a given mesh, or asked for: none more, none less
+    bool asked = false;         ///< with `fixed`: by a person
+    /// Nodes near the start and the end on which rows of boundary layers end, as fractions of the edge.
+    std::vector<double> low{}, high{};
 
+    /// Sides that rows leave between `low` and `high` or the ends.
+    [[nodiscard]] int between() const { return count - static_cast<int>(low.size() + high.size()); }
     /// Fractions of the edge at the piece's nodes, its start included, its end not.
     [[nodiscard]] std::vector<double> fractions() const;
+};
+
+/// A number of sides for parts of the source's rim that follow each other.
+struct SidesAsked {
+    struct Part {
+        EdgeId edge;
+        double from = 0, to = 1; ///< fractions of its length, as it runs
+        bool reversed = false;   ///< the parts' walk runs against the edge
+    };
+    std::vector<Part> parts;
+    int count = 1;    ///< over all parts, >= one each
+    double bias = 1;  ///< last over first side, > 0 [-]
+    std::string name; ///< who asks, for messages
+};
+
+/// What a person asks of the source's edges besides a size.
+struct EdgeDemands {
+    RimRows rows;
+    std::vector<SidesAsked> sides;
 };
 
 /// Numbers of sides on every edge of the source faces, made to agree (interval assignment): equal on opposite
@@ -47,6 +72,7 @@ struct Seeds {
     std::map<FaceId, std::vector<std::size_t>> corners;
     std::set<FaceId> submapped;     ///< faces whose counts are those of a grid of right angles
     std::set<FaceId> kept;          ///< faces whose own quads are the mesh
+    RimRows rows;                   ///< of boundary layers, along the rim
     std::vector<std::string> notes; ///< a line for each given mesh that could not stay
     [[nodiscard]] int count(EdgeId edge) const;
     /// Fractions of the edge's nodes, both ends included.
@@ -67,6 +93,11 @@ struct Seeds {
 /// @param lengths  of what an edge is swept to, where that is known [model length]: one that is longer there
 ///                 gets the sides it needs there.
 /// @param wedges   triangles are a mesh as quads are, and a rim of an odd number of given sides stays.
+/// @param demands  rows of boundary layers, whose heights become nodes of the edges they end on; and numbers
+///                 of sides, which are kept to.
+/// @throw NotSweepable "surface.layers_room"  an edge too short for the rows that end on it.
+///        "surface.sides_asked"  numbers of sides that contradict each other, a given mesh or rows, or that
+///        make a face's total odd; names both with their counts.
 /// @throw NotSweepable "surface.given_triangles"  a face that came with quads and triangles, without
 ///                      `wedges`; counts both.
 /// @throw NotSweepable  a face to be kept that has not quads all over, or whose rim has no node where the
@@ -74,7 +105,8 @@ struct Seeds {
 ///                      angles alone; a face whose total cannot be made even; names them.
 Seeds seed_source(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                   const SizeField& size, QuadStyle style, const ShapeSizing& sizing = {},
-                  const std::map<EdgeId, double>& lengths = {}, bool wedges = false);
+                  const std::map<EdgeId, double>& lengths = {}, bool wedges = false,
+                  const EdgeDemands& demands = {});
 
 /// Mean length of the facets' sides on the source's rim: the size where none is asked for [model length].
 double rim_spacing(const topology::OpenVolume& volume);

@@ -3,10 +3,12 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/transfinite.h>
+#include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/fill_face.h>
 #include <lacuna/surface/projector.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 #include <unordered_map>
 
@@ -233,6 +235,80 @@ private:
         }
     }
 
+    /// The rows along a face's rim, whose nodes are in the order of `border_loops()`.
+    [[nodiscard]] quads::BoundaryRows rows_along(FaceId face, const std::vector<RimNode>& rim) const
+    {
+        quads::BoundaryRows rows;
+        rows.heights = seeds_.rows.heights;
+        rows.turn.assign(rim.size(), quads::RowTurn::smooth);
+        rows.table.assign(rim.size(), -1);
+        if (seeds_.rows.empty()) return rows;
+        std::size_t next = 0;
+        for (const Loop& loop : border_loops(model_, face)) {
+            for (std::size_t u = 0; u < loop.uses.size(); ++u) {
+                const EdgeUse use = loop.uses[u];
+                const double angle = loop.uses.size() > 1 ? inner_angle(model_, face, loop, u) : 180;
+                if (angle < kRowsEnd) rows.turn[next] = quads::RowTurn::inner;
+                if (angle > kRowsBreak) rows.turn[next] = quads::RowTurn::outer;
+                std::vector<double> at = seeds_.fractions(use.edge);
+                if (use.reversed) std::reverse(at.begin(), at.end());
+                for (std::size_t i = 0; i + 1 < at.size(); ++i, ++next) {
+                    const RimRows::Part* part = seeds_.rows.part_at(use.edge, (at[i] + at[i + 1]) / 2);
+                    if (part != nullptr) rows.table[next] = part->table;
+                }
+            }
+        }
+        return rows;
+    }
+
+    /// Rows that do not fit, by the wall they are for and the edge they are along.
+    [[noreturn]] void refuse_rows(FaceId face, const std::vector<RimNode>& rim,
+                                  const quads::RowsFinding& finding) const
+    {
+        using Why = quads::RowsFinding::Why;
+        const auto number = [](double x) {
+            char words[32];
+            std::snprintf(words, sizeof words, "%.4g", x);
+            return std::string(words);
+        };
+        const RimNode& node = rim[static_cast<std::size_t>(finding.node)];
+        std::string wall = "a wall";
+        for (const auto& [edge, parts] : seeds_.rows.parts) {
+            for (const RimRows::Part& part : parts) {
+                if (part.table == finding.table && (edge == node.edge || wall == "a wall"))
+                    wall = name_of(model_, part.wall);
+            }
+        }
+        const std::string who = "the boundary layers of " + wall + " along " + name_of(model_, node.edge) +
+                                " of " + name_of(model_, face);
+        const std::string where = " near (" + number(node.point.x()) + ", " + number(node.point.y()) + ", " +
+                                  number(node.point.z()) + ")";
+        switch (finding.why) {
+        case Why::no_room:
+            throw NotSweepable("surface.layers_room", who + " are " + number(finding.asked) +
+                                                          " high in all, and " + number(finding.found) +
+                                                          where +
+                                                          " is all the room to what lies opposite, its own "
+                                                          "rows included; ask for fewer or thinner rows");
+        case Why::sharp_bend:
+            throw NotSweepable("surface.layers_bend", who + " fold" + where + " at the height " +
+                                                          number(finding.asked) + "; there is room for " +
+                                                          number(finding.found) +
+                                                          " there: ask for fewer or thinner rows, or for a "
+                                                          "smaller size");
+        case Why::off_height:
+            throw NotSweepable("surface.layers_ends",
+                               who + " end" + where + " on nodes that stand at " + number(finding.found) +
+                                   " instead of " + number(finding.asked) +
+                                   "; these were given, or the edge there is too short for the rows");
+        case Why::unlike:
+            break;
+        }
+        throw NotSweepable("surface.layers_meet",
+                           who + " go on into those of the next wall" + where +
+                               " without a corner, and the two are unlike; give both walls one table");
+    }
+
     /// Free: by the planar mesher. A seam is inside the face, and a pole a point like others.
     void fill(FaceId face)
     {
@@ -258,7 +334,11 @@ private:
                 }
             }
         }
-        const FaceQuads filling = fill_face(model_, face, rim, loops, sizes_, mesher_, context_);
+        const quads::BoundaryRows rows = rows_along(face, rim);
+        const bool any = std::any_of(rows.table.begin(), rows.table.end(), [](int t) { return t >= 0; });
+        const FaceQuads filling = fill_face(model_, face, rim, loops, sizes_, mesher_, any ? &rows : nullptr,
+                                            context_);
+        if (filling.finding) refuse_rows(face, rim, *filling.finding);
         how_ = filling.how.empty() ? "free" : filling.how;
         std::vector<Index> node = std::move(boundary);
         for (std::size_t p = rim.size(); p < filling.points.size(); ++p)

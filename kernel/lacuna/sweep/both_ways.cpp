@@ -69,7 +69,8 @@ std::string how_it_was(const Outcome& outcome)
 bool can_lie_between(const OpenVolume& volume, const SweepOptions& options)
 {
     return (options.quads == Quads::automatic || options.quads == Quads::paved) && options.rows == 0 &&
-           volume.faces(Role::source).size() == 1 && volume.faces(Role::target).size() == 1;
+           options.boundary_layers.empty() && volume.faces(Role::source).size() == 1 &&
+           volume.faces(Role::target).size() == 1;
 }
 
 /// The end a volume is swept from, as the person named it.

@@ -25,11 +25,12 @@ std::array<Vec3, 8> corners_of(const std::vector<Vec3>& places, const Hex& hex)
 
 std::vector<char> locked_nodes(const mesh::HexMesh& mesh, const Sliding& sliding)
 {
-    std::vector<char> locked(mesh.nodes.size(), 0);
+    std::vector<char> locked = sliding.held;
+    locked.resize(mesh.nodes.size(), 0);
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         for (const Index n : mesh::skin_quad(mesh, i).nodes) {
             const auto node = static_cast<std::size_t>(n);
-            locked[node] = sliding.surface.empty() || sliding.surface[node] < 0 ? 1 : 0;
+            if (sliding.surface.empty() || sliding.surface[node] < 0) locked[node] = 1;
         }
     }
     return locked;

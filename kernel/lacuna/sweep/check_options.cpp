@@ -48,6 +48,33 @@ void check_heights(const LayerSpec& spec)
     }
 }
 
+void check(const surface::BoundaryLayer& layer)
+{
+    const auto fail = [](const std::string& member, const std::string& must, const std::string& found) {
+        throw InvalidInput("sweep.boundary_layers", "sweep: option 'boundary_layers': " + member +
+                                                        " must be " + must + ", found " + found);
+    };
+    if (layer.walls.tags.empty() && layer.walls.names.empty()) fail("walls", "faces of the volume", "none");
+    if (!(layer.first > 0) || !std::isfinite(layer.first))
+        fail("first", "a positive length", in_full(layer.first));
+    if (!(layer.growth > 0) || !std::isfinite(layer.growth))
+        fail("growth", "a positive number", in_full(layer.growth));
+    if (layer.count < 1) fail("count", "a positive whole number", std::to_string(layer.count));
+}
+
+void check(const surface::Interval& interval)
+{
+    const auto fail = [](const std::string& what) {
+        throw InvalidInput("sweep.intervals", "sweep: option 'intervals': " + what);
+    };
+    if (interval.count < 1)
+        fail("a count must be a positive whole number, found " + std::to_string(interval.count));
+    if (!(interval.bias > 0) || !std::isfinite(interval.bias))
+        fail("a bias must be a finite number above 0, found " + in_full(interval.bias));
+    if (interval.of == surface::Interval::Of::wall && interval.bias != 1)
+        fail("a bias needs a direction, which a wall has none of; name its edge, or { from, to }");
+}
+
 } // namespace
 
 void check(const LayerSpec& spec)
@@ -104,6 +131,12 @@ void check(const SweepOptions& options, const RunContext& context)
         throw InvalidInput("sweep.rows", "sweep: 'rows' and 'row_height' are the paver's; use them with "
                                          "quads = \"auto\" or \"paved\"");
     }
+    for (const surface::BoundaryLayer& layer : options.boundary_layers) check(layer);
+    for (const surface::Interval& interval : options.intervals) check(interval);
+    if (options.rows > 0 && !options.boundary_layers.empty())
+        throw InvalidInput("sweep.boundary_layers",
+                           "sweep: 'boundary_layers' and 'rows' both lay rows along the source's loops; use "
+                           "one of them");
     if (context.threads < 0 || context.threads > kMostThreads) {
         refuse("threads", "a whole number from 0 (all cores) to " + std::to_string(kMostThreads),
                std::to_string(context.threads));

@@ -28,6 +28,7 @@ void check(const ImproveOptions& options);
 struct Sliding {
     std::vector<Index> surface; ///< of each node of the mesh; -1: inside, or locked. Empty: nothing slides
     std::function<void(Index surface, std::span<Vec3> points)> project; ///< onto that surface
+    std::vector<char> held{}; ///< of each node of the mesh: it stays, inside too; empty: none
 };
 
 struct Improved {

@@ -72,8 +72,8 @@ std::string in_words(const Improved& improved)
 } // namespace
 
 quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
-                                const std::set<FaceId>& kept, const SweepOptions& options,
-                                const RunContext& context)
+                                const std::set<FaceId>& kept, std::vector<char> held,
+                                const SweepOptions& options, const RunContext& context)
 {
     ImproveOptions improving = options.improving;
     improving.good_enough = std::max(improving.good_enough, options.min_scaled_jacobian);
@@ -83,7 +83,8 @@ quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, cons
     if (!options.improve || !poor) return proof;
     FaceProjectors projectors(model, faces, context);
     const Sliding sliding{sliding_nodes(swept.mesh, faces, kept),
-                          [&](Index patch, std::span<Vec3> points) { projectors.project(patch, points); }};
+                          [&](Index patch, std::span<Vec3> points) { projectors.project(patch, points); },
+                          std::move(held)};
     const Improved improved = improve(swept.mesh, improving, sliding, context);
     if (improved.won || improved.unfinished) swept.report.push_back(in_words(improved));
     proof = quality::prove(swept.mesh, options.min_scaled_jacobian, context);

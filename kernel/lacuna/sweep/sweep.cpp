@@ -14,9 +14,11 @@
 #include <lacuna/surface/wall_breaks.h>
 #include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/given_meshes.h>
+#include <lacuna/sweep/detail/keep_thickness.h>
 #include <lacuna/sweep/detail/mean_outline.h>
 #include <lacuna/sweep/detail/morph_ends.h>
 #include <lacuna/sweep/detail/normals.h>
+#include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/sweep/layers.h>
@@ -38,11 +40,12 @@ using namespace topology;
 
 namespace {
 
-surface::QuadStyle style_of(const SweepOptions& options)
+surface::QuadStyle style_of(const SweepOptions& options, bool rows_along_walls)
 {
     switch (options.quads) {
     case Quads::automatic:
-        return options.rows > 0 ? surface::QuadStyle::free : surface::QuadStyle::automatic;
+        return options.rows > 0 || rows_along_walls ? surface::QuadStyle::free
+                                                    : surface::QuadStyle::automatic;
     case Quads::mapped:
         return surface::QuadStyle::mapped;
     case Quads::gmsh:
@@ -316,6 +319,21 @@ bool came_with_mesh(const OpenVolume& volume, Role end, bool wedges)
     });
 }
 
+/// Given quads do not move, and leave no place for rows of other heights.
+void refuse_kept_source(const OpenVolume& volume, const surface::RimRows& rows, const SweepOptions& options)
+{
+    if (rows.empty() || options.quads != Quads::automatic) return;
+    for (const FaceId face : volume.faces(Role::source)) {
+        if (!volume.model[face].keeps_nodes || !has_cells_to_keep(volume.model[face], options.wedges))
+            continue;
+        throw NotSweepable("sweep.layers_given",
+                           name_of(volume.model, face) +
+                               " came with quads, which stay, and walls at its rim are to have boundary "
+                               "layers; quads = \"paved\" meshes it anew, as does loading with keep_mesh = "
+                               "false");
+    }
+}
+
 /// The inner edges of the target on the source; nothing where it has none, or where both ends came with
 /// meshes that may be the same graph.
 std::optional<surface::Imprint> imprint_of(const OpenVolume& volume,
@@ -346,14 +364,17 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     std::vector<surface::LinkingSurface>& links = imprint ? imprint->links : given_links;
     const int least_layers = surface::set_wall_breaks(split, size, links);
     GivenMeshes given = given_meshes(split, links, asked, options);
-    const std::vector<double> heights = given.heights.empty()
-                                            ? default_heights(links, size, options.layers, least_layers)
-                                            : given.heights;
+    const surface::LayerTables tables = surface::layer_tables(volume, options.boundary_layers);
+    const std::vector<double> heights = plan_heights(split, links, tables, given.heights, size, options,
+                                                     least_layers);
+    surface::EdgeDemands demands{surface::rim_rows(split, links, tables),
+                                 surface::find_intervals(split, links, options.intervals).sides};
+    refuse_kept_source(split, demands.rows, options);
     for (std::string& note : given.notes) result.report.push_back("given: " + note);
     report_progress(context, "quads of the source");
     const surface::Seeds seeds = surface::seed_source(
-        split, links, size, style_of(options), {options.curvature, options.gap},
-        imprint ? surface::image_lengths(*imprint) : std::map<EdgeId, double>{}, options.wedges);
+        split, links, size, style_of(options, !demands.rows.empty()), {options.curvature, options.gap},
+        imprint ? surface::image_lengths(*imprint) : std::map<EdgeId, double>{}, options.wedges, demands);
     for (const std::string& note : seeds.notes) result.report.push_back("given: " + note);
     surface::SourceMesh source = surface::mesh_source(split, links, seeds, size_fields(size, options),
                                                       mesher_for_all(options), context);
@@ -392,6 +413,10 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     placement.heights = heights;
     LayerNodes layers = best_layers(source, morphed, columns, placement, options, context);
     result.report.push_back(layers.report);
+    const SweptParts parts{
+        split, links, source, walls, ends, columns.layers, !seeds.kept.empty(), given_target.has_value()};
+    KeptThickness kept = keep_thickness(parts, tables, layers.nodes, context);
+    for (std::string& note : kept.report) result.report.push_back(std::move(note));
 
     mesh::HexMesh& mesh = result.mesh;
     mesh.nodes_per_layer = static_cast<Index>(source.quads.nodes.size());
@@ -411,7 +436,8 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     report_progress(context, "proof of every cell");
     std::set<FaceId> still = given_faces(volume, seeds.kept, options.wedges);
     if (options.beside.settle) still.merge(options.beside.settle(mesh, faces));
-    quality::Proof proof = prove_or_improve(result, volume.model, faces, still, options, context);
+    quality::Proof proof = prove_or_improve(result, volume.model, faces, still, std::move(kept.held), options,
+                                            context);
     const quality::Quality& quality = proof.quality;
     result.min_scaled_jacobian = quality.min_scaled_jacobian;
     const std::string wedges = quality.wedges > 0
@@ -591,16 +617,40 @@ Swept sweep_as_asked(const OpenVolume& volume, const SweepOptions& options, cons
     return std::move(*best);
 }
 
+/// The options, with the layers that intervals ask for.
+SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options)
+{
+    if (options.intervals.empty()) return options;
+    const auto links = surface::linking_surfaces(volume);
+    const auto layers = surface::find_intervals(volume, links, options.intervals).layers;
+    if (!layers) return options;
+    LayerSpec& spec = options.layers;
+    if (spec.count > 0 || !spec.heights.empty()) {
+        throw NotSweepable("surface.sides_asked",
+                           "intervals: " + layers->name + " asks for " + std::to_string(layers->count) +
+                               " layers, and option 'layers' for " +
+                               std::to_string(std::max<std::size_t>(spec.heights.size(),
+                                                                    static_cast<std::size_t>(spec.count))) +
+                               "; leave out one of them");
+    }
+    spec.count = layers->count;
+    // An edge runs from the end that is swept from, the sweep itself from the source the person named.
+    const bool turn = volume.turned_round && !layers->from_named_source;
+    spec.bias = turn ? 1 / layers->bias : layers->bias;
+    return options;
+}
+
 } // namespace
 
-Swept sweep(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
+Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {
     check_cancelled(context);
-    check(options, context);
+    check(asked, context);
     if (!closure::is_watertight(volume)) {
         throw NotSweepable("sweep.not_closed",
                            "the volume is not sealed; close it first with volume:close()");
     }
+    const SweepOptions options = with_layer_intervals(volume, asked);
     Swept best = sweep_as_asked(volume, options, context);
     for (SweepOptions rest = options; loses_volume(best.fidelity, options);) {
         rest.curvature = sides_for_volume(options.volume_share, rest.curvature);

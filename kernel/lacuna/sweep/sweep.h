@@ -4,6 +4,8 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/quads/region.h>
+#include <lacuna/surface/boundary_layers.h>
+#include <lacuna/surface/intervals.h>
 #include <lacuna/surface/size_field.h>
 #include <lacuna/sweep/fidelity.h>
 #include <lacuna/sweep/improve.h>
@@ -23,7 +25,7 @@ enum class Spacing { geometric, bell, both_ends };
 
 struct LayerSpec {
     /// Hexes along the sweep, >= 1; 0 with `heights`, or for as many as the walls' own meshes have rows, else
-    /// as the length of the sweep asks for at the size.
+    /// as the length of the sweep asks for at the size, which they follow where it changes along the sweep.
     int count = 0;
     /// Ratio of layer heights, > 0 [-]: last / first (geometric), middle / end (bell), end / middle
     /// (both_ends).
@@ -78,8 +80,11 @@ struct SweepOptions {
     /// divided.
     bool wedges = false;
     int rows = 0; ///< exact rows along every loop of the source, >= 0; needs quads automatic or paved
-    surface::SizeField row_height;       ///< of those rows; null: the size
-    quads::PlanarQuadMesher quad_mesher; ///< what `Quads::gmsh` calls for
+    surface::SizeField row_height; ///< of those rows; null: the size
+    /// Thin rows of cells along walls and ends; a face is in one at most.
+    std::vector<surface::BoundaryLayer> boundary_layers;
+    std::vector<surface::Interval> intervals; ///< numbers of sides
+    quads::PlanarQuadMesher quad_mesher;      ///< what `Quads::gmsh` calls for
     Interior interior = Interior::automatic;
     int order = 1;                   ///< of the cells: 1, or 2 for hex27
     SecondOrderOptions second_order; ///< of order 2
@@ -93,7 +98,8 @@ struct SweepOptions {
 /// @throw InvalidInput  names the option, what it must be and what was found: layers, improving,
 ///                      min_scaled_jacobian, curvature, volume_share, gap, max_deviation; rows below
 ///                      0 or of quads that are not paved, a row height
-///                      without rows; threads of the context below 0 or above 1024.
+///                      without rows; boundary layers and intervals that are no lengths or counts, or go
+///                      with rows; threads of the context below 0 or above 1024.
 void check(const SweepOptions& options, const RunContext& context = {});
 
 /// Hexahedra and how they came about.
@@ -120,7 +126,9 @@ struct Swept {
 /// end it started at.
 /// @throw InvalidInput   what `check()` refuses; a size that is no positive length, or too many cells to
 ///                       number.
-/// @throw NotSweepable   names the face, wall or cells, what was expected and found, and what to try.
+/// @throw NotSweepable   names the face, wall or cells, what was expected and found, and what to try. With
+///                       boundary layers what `surface::rim_rows()`, `seed_source()` and `mesh_source()`
+///                       throw, and "sweep.layers_thickness": rows that could not have their thickness.
 /// @post  the mesh is proved: conformal, skin closed, every Jacobian certified positive, its skin on the
 ///        sealed skin as far as `max_deviation` says.
 Swept sweep(const topology::OpenVolume& volume, const SweepOptions& options, const RunContext& context = {});

@@ -13,6 +13,9 @@ namespace lacuna::surface {
 /// The edges of two sides of a face that a grid over it runs between: both have as many sides of quads.
 using SidePair = std::array<std::vector<EdgeId>, 2>;
 
+/// Inner angle of a face where use i of its loop starts [degrees].
+double inner_angle(const topology::Model& model, FaceId face, const topology::Loop& loop, std::size_t i);
+
 /// The uses that start the four sides of a face; nothing when it has not four.
 std::optional<std::vector<std::size_t>> four_corners(const topology::Model& model, FaceId face);
 

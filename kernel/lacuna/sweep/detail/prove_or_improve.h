@@ -14,8 +14,9 @@ namespace lacuna::sweep {
 ///
 /// @param faces  of each patch of the skin.
 /// @param kept   faces whose own quads are the mesh: their nodes stay.
+/// @param held   of each node, whether it stays; empty: none does for that.
 quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
-                                const std::set<FaceId>& kept, const SweepOptions& options,
-                                const RunContext& context);
+                                const std::set<FaceId>& kept, std::vector<char> held,
+                                const SweepOptions& options, const RunContext& context);
 
 } // namespace lacuna::sweep

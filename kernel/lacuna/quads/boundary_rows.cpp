@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/boundary_rows.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/quads/detail/pave_gaps.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lacuna::quads {
+
+namespace {
+
+using namespace paving;
+
+/// A quad of a row with a flatter corner (6°) counts as folded, as in the paver's own rows.
+constexpr double kLeastSine = 0.1;
+/// A node may miss the height of the row that ends on it by this share. Nodes are placed along curves, and
+/// heights are measured square to the side. A choice, not a measurement.
+constexpr double kOffHeight = 0.05;
+
+/// A loop while rows are placed along it.
+struct Front {
+    Cycle nodes;
+    std::vector<int> table; ///< of the side from each node to the next
+};
+
+/// Sides of one table in a row, between places of a front where rows begin and end.
+struct Run {
+    std::size_t first = 0, sides = 0; ///< of the front; as many sides as the front has: all round
+    bool closed = false;
+};
+
+class RowLayer {
+public:
+    RowLayer(const PlanarRegion& region, const BoundaryRows& rows)
+        : rows_(rows),
+          partial_{region.points, {}, region.points.size(), {}},
+          given_(region.loops),
+          turn_(rows.turn),
+          is_cut_(region.points.size(), false)
+    {
+        for (const auto& loop : region.loops) {
+            Front front{loop, {}};
+            for (const Index p : loop) front.table.push_back(rows.table[static_cast<std::size_t>(p)]);
+            fronts_.push_back(std::move(front));
+        }
+    }
+
+    /// Lay the rows of all sides. @return false with a finding where they do not fit
+    bool lay()
+    {
+        for (std::size_t f = 0; f < fronts_.size(); ++f) {
+            while (const std::optional<Run> run = next_run(fronts_[f])) {
+                if (!lay_run(fronts_[f], *run)) return false;
+            }
+        }
+        return true;
+    }
+
+    /// What is left inside the rows, and the nodes of the whole that its nodes are.
+    [[nodiscard]] PlanarRegion core(const PlanarRegion& region, std::vector<Index>& own) const
+    {
+        PlanarRegion inside{{}, {}, region.size, {}};
+        for (const Front& front : fronts_) {
+            inside.loops.emplace_back();
+            for (const Index p : front.nodes) {
+                inside.loops.back().push_back(static_cast<Index>(own.size()));
+                inside.points.push_back(partial_.at(p));
+                own.push_back(p);
+            }
+        }
+        return inside;
+    }
+
+    /// The boundary node with rows that has the least room for them.
+    [[nodiscard]] RowsFinding least_room() const
+    {
+        const PartialMesh given{
+            {partial_.points.begin(), partial_.points.begin() + static_cast<std::ptrdiff_t>(partial_.fixed)},
+            {},
+            partial_.fixed,
+            {}};
+        const GapFinder gaps(given, given_);
+        double least = std::numeric_limits<double>::infinity();
+        RowsFinding finding;
+        for (const Cycle& loop : given_) {
+            for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
+                const int table = rows_.table[static_cast<std::size_t>(loop[i])];
+                if (table < 0) continue;
+                const Index before = loop[(i + n - 1) % n], after = loop[(i + 1) % n];
+                const Vec2 along = (given.at(after) - given.at(loop[i])).normalized();
+                const double scale = scale_at(given.at(loop[i]));
+                const double room =
+                    gaps.ahead(before, loop[i], after, {-along.y(), along.x()}, gaps.diagonal()) / scale;
+                const double asked = heights_of(table).back();
+                if (room / asked >= least) continue;
+                least = room / asked;
+                finding = RowsFinding{RowsFinding::Why::no_room, loop[i], table, asked, room};
+            }
+        }
+        return finding;
+    }
+
+    PartialMesh& partial() { return partial_; }
+    [[nodiscard]] const std::optional<RowsFinding>& finding() const { return finding_; }
+
+private:
+    [[nodiscard]] const std::vector<double>& heights_of(int table) const
+    {
+        return rows_.heights[static_cast<std::size_t>(table)];
+    }
+
+    [[nodiscard]] double scale_at(const Vec2& p) const { return rows_.scale ? rows_.scale(p) : 1; }
+
+    /// The boundary node a row's node was laid over, for messages.
+    [[nodiscard]] Index foot_of(Index node) const
+    {
+        return partial_.is_fixed(node) ? node : foot_[static_cast<std::size_t>(node) - partial_.fixed];
+    }
+
+    /// How the front turns at a place. Where it has gone over rows, its angle says that.
+    [[nodiscard]] RowTurn turn_at(const Front& front, std::size_t i) const
+    {
+        const Index node = front.nodes[i];
+        if (partial_.is_fixed(node) && !is_cut_[index(node)]) return turn_[index(node)];
+        return inner_angle(partial_, front.nodes, i) > kBentAbove ? RowTurn::outer : RowTurn::smooth;
+    }
+
+    /// Whether rows go on past a place of the front.
+    [[nodiscard]] bool goes_on(const Front& front, std::size_t i) const
+    {
+        const std::size_t n = front.nodes.size();
+        return front.table[i] == front.table[(i + n - 1) % n] && turn_at(front, i) == RowTurn::smooth;
+    }
+
+    [[nodiscard]] std::optional<Run> next_run(const Front& front) const
+    {
+        const std::size_t n = front.nodes.size();
+        std::size_t any = n;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (front.table[i] < 0) continue;
+            any = i;
+            if (goes_on(front, i)) continue;
+            Run run{i, 1, false};
+            while (run.sides < n && goes_on(front, (i + run.sides) % n)) ++run.sides;
+            return run;
+        }
+        if (any == n) return std::nullopt;
+        return Run{0, n, true};
+    }
+
+    bool refuse(RowsFinding::Why why, Index node, int table, double asked, double found)
+    {
+        finding_ = RowsFinding{why, foot_of(node), table, asked, found};
+        return false;
+    }
+
+    /// How the rows of a run end at one of its ends.
+    struct RunEnd {
+        std::vector<Index> nodes; ///< that rows end on, from the lowest; made when rows end on a side of
+                                  ///< their own
+        std::vector<double> lean; ///< of each row's node, along the run from its end [length]
+        double block = 0;         ///< length from the end within which rows of the side beyond cross these
+        bool own = false;         ///< on a side of its own
+    };
+
+    /// The run's nodes with unit normals inward at each, so long that the height is that over both sides.
+    struct Base {
+        std::vector<Index> nodes;
+        std::vector<Vec2> normal, along;
+        std::vector<double> at; ///< running length
+    };
+
+    [[nodiscard]] Base base_of(const Front& front, const Run& run) const
+    {
+        const std::size_t n = front.nodes.size();
+        Base base;
+        const std::size_t count = run.closed ? run.sides : run.sides + 1;
+        for (std::size_t k = 0; k < count; ++k) base.nodes.push_back(front.nodes[(run.first + k) % n]);
+        const auto unit = [&](std::size_t k) {
+            return Vec2((partial_.at(front.nodes[(run.first + k + 1) % n]) -
+                         partial_.at(front.nodes[(run.first + k) % n]))
+                            .normalized());
+        };
+        double length = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            const bool first = !run.closed && k == 0, last = !run.closed && k + 1 == count;
+            const Vec2 before = first ? unit(0) : unit(k + n - 1), after = last ? unit(k + n - 1) : unit(k);
+            const Vec2 a(-before.y(), before.x()), b(-after.y(), after.x());
+            base.normal.emplace_back((a + b) / (1 + a.dot(b)));
+            base.along.emplace_back((before + after).normalized());
+            base.at.push_back(length);
+            if (k + 1 < count) length += (partial_.at(base.nodes[k + 1]) - partial_.at(base.nodes[k])).norm();
+        }
+        return base;
+    }
+
+    /// The nodes beyond an end of the run, as many as there are rows; where rows end on their own, new ones.
+    bool make_end(const Front& front, const Run& run, const Base& base, int table, bool last, RunEnd& end)
+    {
+        const std::size_t n = front.nodes.size(), k = last ? base.nodes.size() - 1 : 0;
+        const std::vector<double>& heights = heights_of(table);
+        const Index corner = base.nodes[k];
+        const Vec2 at = partial_.at(corner), normal = base.normal[k],
+                   inward = last ? Vec2(-base.along[k]) : base.along[k];
+        const double scale = scale_at(at);
+        const std::size_t place = (run.first + (last ? run.sides : 0)) % n;
+        const int beyond = front.table[last ? place : (place + n - 1) % n];
+        const RowTurn turn = turn_at(front, place);
+        if (turn == RowTurn::smooth && beyond >= 0 && beyond != table)
+            return refuse(RowsFinding::Why::unlike, corner, table, heights.front(), 0);
+        end.own = turn != RowTurn::inner;
+        // An own end that rows of the side beyond go on along lies in line with that side.
+        Vec2 way = normal;
+        if (turn == RowTurn::outer && beyond >= 0) {
+            const Vec2 line = (at - partial_.at(front.nodes[(place + (last ? 1 : n - 1)) % n])).normalized();
+            constexpr double kUpright = 0.5; // of the sine of its angle to the side; else square: a choice
+            if (line.dot(normal) >= kUpright) way = line;
+        }
+        for (std::size_t r = 0; r < heights.size(); ++r) {
+            const double height = heights[r] * scale;
+            if (end.own) {
+                const Vec2 off = way * (height / way.dot(normal));
+                end.nodes.push_back(add(at + off, corner));
+                end.lean.push_back(off.dot(inward));
+                continue;
+            }
+            if (r + 1 + base.nodes.size() >= n)
+                return refuse(RowsFinding::Why::off_height, corner, table, heights[r], 0);
+            const Index node = front.nodes[(place + (last ? r + 1 : n - r - 1)) % n];
+            const Vec2 off = partial_.at(node) - at;
+            if (std::abs(off.dot(normal) - height) > kOffHeight * height)
+                return refuse(RowsFinding::Why::off_height, corner, table, heights[r],
+                              off.dot(normal) / scale);
+            end.nodes.push_back(node);
+            end.lean.push_back(off.dot(inward));
+        }
+        if (!end.own && beyond >= 0) {
+            const std::size_t rows = std::min(heights_of(beyond).size(), base.at.size() - 1);
+            end.block = last ? base.at.back() - base.at[base.at.size() - 1 - rows] : base.at[rows];
+        }
+        return true;
+    }
+
+    Index add(const Vec2& p, Index foot)
+    {
+        foot_.push_back(foot_of(foot));
+        return partial_.add(p);
+    }
+
+    /// How much of an end's lean a node that far from it has: all within the block, then less and less, so
+    /// slowly that nodes keep their order.
+    static double share_of(const RunEnd& end, double most, double distance, double length)
+    {
+        constexpr double kSlowly = 3; // of the lean: nodes come no closer than a third; a choice
+        if (distance <= end.block) return 1;
+        const double over = std::max(length - 2 * end.block, 0.0);
+        const double reach = std::min(kSlowly * most, over);
+        return reach > 0 ? std::max(0.0, 1 - (distance - end.block) / reach) : 0;
+    }
+
+    static double most_of(const std::vector<double>& lean)
+    {
+        double most = 0;
+        for (const double x : lean) most = std::max(most, std::abs(x));
+        return most;
+    }
+
+    bool lay_run(Front& front, const Run& run)
+    {
+        const int table = front.table[run.first];
+        const std::vector<double>& heights = heights_of(table);
+        const std::size_t rows = heights.size(), n = front.nodes.size();
+        const Base base = base_of(front, run);
+        RunEnd start, end;
+        if (!run.closed && (!make_end(front, run, base, table, false, start) ||
+                            !make_end(front, run, base, table, true, end)))
+            return false;
+        const double start_most = most_of(start.lean), end_most = most_of(end.lean);
+        std::vector<std::vector<Index>> level{base.nodes};
+        for (std::size_t r = 0; r < rows; ++r) {
+            std::vector<Index>& row = level.emplace_back();
+            for (std::size_t k = 0; k < base.nodes.size(); ++k) {
+                if (!run.closed && k == 0) {
+                    row.push_back(start.nodes[r]);
+                    continue;
+                }
+                if (!run.closed && k + 1 == base.nodes.size()) {
+                    row.push_back(end.nodes[r]);
+                    continue;
+                }
+                const Vec2& foot = partial_.at(base.nodes[k]);
+                Vec2 p = foot + base.normal[k] * (heights[r] * scale_at(foot));
+                if (!run.closed) {
+                    const double length = base.at.back(), here = base.at[k];
+                    p += base.along[k] * (start.lean[r] * share_of(start, start_most, here, length) -
+                                          end.lean[r] * share_of(end, end_most, length - here, length));
+                }
+                row.push_back(add(p, base.nodes[k]));
+            }
+        }
+        for (std::size_t r = 0; r < rows; ++r) {
+            const std::size_t count = base.nodes.size();
+            for (std::size_t k = 0; k < run.sides; ++k) {
+                const std::size_t next = (k + 1) % count;
+                const Quad quad{level[r][k], level[r][next], level[r + 1][next], level[r + 1][k]};
+                if (!(least_sine(partial_, quad) > kLeastSine))
+                    return refuse(RowsFinding::Why::sharp_bend, base.nodes[k], table, heights[r],
+                                  r > 0 ? heights[r - 1] : 0);
+                partial_.quads.push_back(quad);
+            }
+        }
+        replace(front, run, level, start, end, n);
+        return true;
+    }
+
+    /// Rows end at a node on a side of their own: what they leave of its angle tells how the front turns.
+    void mark_cut(Index node)
+    {
+        if (partial_.is_fixed(node)) is_cut_[index(node)] = true;
+    }
+
+    /// Rows end on a node, which is now the corner where those of its own side end on the rows.
+    void mark_inner(Index node)
+    {
+        if (partial_.is_fixed(node)) turn_[index(node)] = RowTurn::inner;
+    }
+
+    /// The front goes over the rows now.
+    void replace(Front& front, const Run& run, const std::vector<std::vector<Index>>& level,
+                 const RunEnd& start, const RunEnd& end, std::size_t n)
+    {
+        Front next;
+        const std::vector<Index>& top = level.back();
+        if (run.closed) {
+            next.nodes = top;
+            next.table.assign(top.size(), -1);
+            front = std::move(next);
+            return;
+        }
+        const std::size_t rows = level.size() - 1;
+        const std::size_t after = run.first + run.sides; // the place of the last node
+        const int before_table = front.table[(run.first + n - 1) % n], after_table = front.table[after % n];
+        // What is not covered: from the last node, or from that where the rows end, on round to the first.
+        std::size_t from = after, left = n - run.sides;
+        if (end.own) {
+            // The rows' own end is a side for the rows of the side beyond.
+            for (std::size_t r = rows; r > 0; --r) {
+                next.nodes.push_back(level[r].back());
+                next.table.push_back(after_table);
+            }
+            mark_cut(front.nodes[after % n]);
+        } else {
+            from += rows;
+            left -= rows;
+            mark_inner(front.nodes[from % n]);
+        }
+        if (start.own) {
+            mark_cut(front.nodes[run.first]);
+        } else {
+            left -= rows;
+            mark_inner(front.nodes[(run.first + n - rows) % n]);
+        }
+        for (std::size_t k = 0; k <= left; ++k) {
+            next.nodes.push_back(front.nodes[(from + k) % n]);
+            next.table.push_back(k < left ? front.table[(from + k) % n] : -1);
+        }
+        if (start.own) {
+            next.table.back() = before_table;
+            for (std::size_t r = 1; r <= rows; ++r) {
+                next.nodes.push_back(level[r].front());
+                next.table.push_back(r < rows ? before_table : -1);
+            }
+        }
+        for (std::size_t k = 1; k + 1 < top.size(); ++k) {
+            next.nodes.push_back(top[k]);
+            next.table.push_back(-1);
+        }
+        front = std::move(next);
+    }
+
+    const BoundaryRows& rows_;
+    PartialMesh partial_;
+    std::vector<Cycle> given_;
+    std::vector<RowTurn> turn_;
+    std::vector<bool> is_cut_; ///< boundary nodes at which rows that end there have taken a part of the angle
+    std::vector<Front> fronts_;
+    std::vector<Index> foot_; ///< of each node added
+    std::optional<RowsFinding> finding_;
+};
+
+} // namespace
+
+RowsFilling fill_with_rows(const PlanarRegion& region, const BoundaryRows& rows, const PlanarQuadMesher& core,
+                           const RunContext& context)
+{
+    check(region);
+    RowLayer layer(region, rows);
+    if (!layer.lay()) return {{}, layer.finding()};
+    std::vector<Index> own;
+    const PlanarRegion inside = layer.core(region, own);
+    try {
+        check(inside);
+    } catch (const InvalidInput&) { // rows that meet what lies opposite leave no region
+        return {{}, layer.least_room()};
+    }
+    const PlanarQuads filling = core(inside, context);
+    PartialMesh& laid = layer.partial();
+    RowsFilling result;
+    result.mesh = {std::move(laid.points), std::move(laid.quads), filling.how + " inside rows"};
+    for (std::size_t p = own.size(); p < filling.points.size(); ++p) {
+        own.push_back(static_cast<Index>(result.mesh.points.size()));
+        result.mesh.points.push_back(filling.points[p]);
+    }
+    for (Quad quad : filling.quads) {
+        for (Index& p : quad) p = own[static_cast<std::size_t>(p)];
+        result.mesh.quads.push_back(quad);
+    }
+    return result;
+}
+
+} // namespace lacuna::quads

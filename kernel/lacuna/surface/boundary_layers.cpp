@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/boundary_layers.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/surface/detail/face_sides.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+std::string void_name(const Face& face) { return "void:" + std::to_string(face.tag); }
+
+bool is_tagged(const Face& face, int tag) { return face.origin == Origin::given && face.tag == tag; }
+
+bool is_named(const OpenVolume& volume, FaceId id, const std::string& name)
+{
+    const Face& face = volume.model[id];
+    if (name == "walls") return volume.role[id.index()] == Role::wall;
+    if (face.origin == Origin::made_void) return name == void_name(face);
+    return face.name == name || std::find(face.groups.begin(), face.groups.end(), name) != face.groups.end();
+}
+
+/// The part of [from, to) on an edge as it runs, of a segment of the rim that uses it.
+RimRows::Part part_of(const LinkingSurface& link, const RimSegment& segment)
+{
+    const EdgeUse use = link.source.uses()[segment.use];
+    const double start = link.source.start(segment.use);
+    const double length = link.source.start(segment.use + 1) - start;
+    RimRows::Part part;
+    part.from = (segment.source_from - start) / length;
+    part.to = (segment.source_to - start) / length;
+    if (use.reversed) {
+        std::swap(part.from, part.to);
+        part.from = 1 - part.from;
+        part.to = 1 - part.to;
+    }
+    return part;
+}
+
+class RimReader {
+public:
+    RimReader(const OpenVolume& volume, const LayerTables& tables)
+        : volume_(volume), model_(volume.model), tables_(tables), uses_(edge_uses(volume.model))
+    {
+        rows_.heights = tables.heights;
+    }
+
+    RimRows read(std::span<const LinkingSurface> links)
+    {
+        std::set<FaceId> reached;
+        for (const LinkingSurface& link : links) {
+            for (const RimSegment& segment : link.segments) {
+                const double middle = (segment.target_from + segment.target_to) / 2;
+                const double whole = link.target.length();
+                const EdgeUse low = link.source.uses()[segment.use];
+                const EdgeUse high =
+                    link.target.uses()[link.target.position(middle >= whole ? middle - whole : middle).use];
+                RimRows::Part part = part_of(link, segment);
+                part.wall = wall_on(low.edge);
+                if (tables_.at(part.wall) < 0 && tables_.at(wall_on(high.edge)) >= 0)
+                    part.wall = wall_on(high.edge);
+                part.table = tables_.at(part.wall);
+                reached.insert({wall_on(low.edge), wall_on(high.edge)});
+                rows_.parts[low.edge].push_back(part);
+            }
+        }
+        for (const auto& [wall, table] : tables_.of) {
+            if (volume_.role[wall.index()] != Role::wall || reached.contains(wall)) continue;
+            throw NotSweepable("surface.layers_unreached",
+                               name_of(model_, wall) +
+                                   " is to have boundary layers and stands on neither end; name the wall "
+                                   "below or above it");
+        }
+        for (const FaceId face : volume_.faces(Role::source)) find_ends(face);
+        return std::move(rows_);
+    }
+
+private:
+    [[nodiscard]] FaceId wall_on(EdgeId edge) const
+    {
+        for (const FaceUse& use : uses_[edge.index()]) {
+            if (volume_.role[use.face.index()] == Role::wall) return use.face;
+        }
+        return {};
+    }
+
+    /// The part of an edge at the start or the end of a use of it.
+    [[nodiscard]] const RimRows::Part* part_at(EdgeUse use, bool last) const
+    {
+        return rows_.part_at(use.edge, (use.reversed ? !last : last) ? 1.0 : 0.0);
+    }
+
+    void find_ends(FaceId face)
+    {
+        for (const Loop& loop : border_loops(model_, face)) {
+            const std::size_t n = loop.uses.size();
+            for (std::size_t i = 0; i < n && n > 1; ++i) {
+                const EdgeUse before = loop.uses[(i + n - 1) % n], after = loop.uses[i];
+                const double angle = inner_angle(model_, face, loop, i);
+                if (angle >= kRowsEnd) continue;
+                add_end(face, before, after, true);
+                add_end(face, after, before, false);
+            }
+        }
+    }
+
+    /// Rows along `with` end on `on`: behind it, or before it.
+    void add_end(FaceId face, EdgeUse with, EdgeUse on, bool behind)
+    {
+        const RimRows::Part* part = part_at(with, behind);
+        if (part == nullptr || part->table < 0) return;
+        const std::vector<Index> points = use_points(model_, with);
+        const Vec3 along = behind ? model_.at(points.back()) - model_.at(points[points.size() - 2])
+                                  : model_.at(points[1]) - model_.at(points[0]);
+        RimRows::End end;
+        end.table = part->table;
+        end.wall = part->wall;
+        end.along = with.edge;
+        end.corner = behind ? use_to(model_, with) : use_from(model_, with);
+        end.inward = normal_at(face, model_[end.corner].point).cross(along).normalized();
+        const bool at_end = behind ? on.reversed : !on.reversed;
+        const auto [found, fresh] = rows_.ends.try_emplace({on.edge, at_end}, end);
+        if (fresh || found->second.table == end.table) return;
+        throw NotSweepable("surface.layers_meet",
+                           "boundary layers of " + name_of(model_, found->second.wall) + " and of " +
+                               name_of(model_, end.wall) + " are unlike and both end on " +
+                               name_of(model_, on.edge) + " at " + name_of(model_, end.corner) +
+                               "; give both walls one table");
+    }
+
+    [[nodiscard]] Vec3 normal_at(FaceId face, Index point) const
+    {
+        Vec3 normal = Vec3::Zero();
+        for (const Triangle& t : model_[face].triangles) {
+            if (std::find(t.begin(), t.end(), point) == t.end()) continue;
+            normal += (model_.at(t[1]) - model_.at(t[0])).cross(model_.at(t[2]) - model_.at(t[0]));
+        }
+        return normal.stableNormalized();
+    }
+
+    const OpenVolume& volume_;
+    const Model& model_;
+    const LayerTables& tables_;
+    std::vector<std::vector<FaceUse>> uses_;
+    RimRows rows_;
+};
+
+} // namespace
+
+std::vector<double> row_heights(const BoundaryLayer& layer)
+{
+    std::vector<double> heights;
+    double thickness = layer.first, height = 0;
+    for (int i = 0; i < layer.count; ++i, thickness *= layer.growth) heights.push_back(height += thickness);
+    return heights;
+}
+
+bool has_face(const OpenVolume& volume, int tag)
+{
+    return std::any_of(volume.model.faces.begin(), volume.model.faces.end(),
+                       [&](const Face& face) { return is_tagged(face, tag); });
+}
+
+bool has_face(const OpenVolume& volume, const std::string& name)
+{
+    for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
+        if (is_named(volume, FaceId(f), name)) return true;
+    }
+    return false;
+}
+
+std::vector<FaceId> faces_named(const OpenVolume& volume, const FaceNames& names, const std::string& option)
+{
+    std::set<FaceId> found;
+    const auto add = [&](const std::string& what, const auto& is_it) {
+        bool any = false;
+        for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
+            if (!is_it(FaceId(f))) continue;
+            found.insert(FaceId(f));
+            any = true;
+        }
+        if (any) return;
+        std::string known;
+        for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
+            const Face& face = volume.model.faces[f];
+            known += (f > 0 ? ", " : "") +
+                     (face.origin == Origin::made_void ? void_name(face) : name_of(volume.model, FaceId(f)));
+        }
+        throw InvalidInput("surface.no_such_face",
+                           "sweep: option '" + option + "' names " + what + ", and the volume has " + known);
+    };
+    for (const int tag : names.tags) {
+        add("face " + std::to_string(tag), [&](FaceId f) { return is_tagged(volume.model[f], tag); });
+    }
+    for (const std::string& name : names.names)
+        add("\"" + name + "\"", [&](FaceId f) { return is_named(volume, f, name); });
+    return {found.begin(), found.end()};
+}
+
+LayerTables layer_tables(const OpenVolume& volume, std::span<const BoundaryLayer> layers)
+{
+    LayerTables tables;
+    for (const BoundaryLayer& layer : layers) {
+        for (const FaceId face : faces_named(volume, layer.walls, "boundary_layers")) {
+            if (tables.of.try_emplace(face, static_cast<int>(tables.heights.size())).second) continue;
+            throw InvalidInput("surface.two_layers", "sweep: option 'boundary_layers' gives " +
+                                                         name_of(volume.model, face) + " two tables");
+        }
+        tables.heights.push_back(row_heights(layer));
+    }
+    return tables;
+}
+
+const RimRows::Part* RimRows::part_at(EdgeId edge, double fraction) const
+{
+    const auto found = parts.find(edge);
+    if (found == parts.end()) return nullptr;
+    for (const Part& part : found->second) {
+        if (fraction >= part.from && fraction <= part.to) return &part;
+    }
+    // Parts meet but for rounding.
+    return &*std::min_element(found->second.begin(), found->second.end(), [&](const Part& a, const Part& b) {
+        const auto off = [&](const Part& p) { return std::max(p.from - fraction, fraction - p.to); };
+        return off(a) < off(b);
+    });
+}
+
+RimRows rim_rows(const OpenVolume& volume, std::span<const LinkingSurface> links, const LayerTables& tables)
+{
+    const bool any = std::any_of(tables.of.begin(), tables.of.end(), [&](const auto& entry) {
+        return volume.role[entry.first.index()] == Role::wall;
+    });
+    return any ? RimReader(volume, tables).read(links) : RimRows{};
+}
+
+} // namespace lacuna::surface

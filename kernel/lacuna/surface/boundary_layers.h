@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/surface/linking_surface.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// Faces as a person names them. All of them count, each by any of the three.
+struct FaceNames {
+    std::vector<int> tags;          ///< of given faces
+    std::vector<std::string> names; ///< of given faces; "void:<n>": the void face n; "walls": all walls
+};
+
+/// Rows of cells along chosen faces, thin at the face.
+struct BoundaryLayer {
+    FaceNames walls;   ///< walls, and ends too
+    double first = 0;  ///< thickness of the cells at the face, square to it, > 0 [model length]
+    double growth = 1; ///< of each row over the one before, > 0 [-]
+    int count = 1;     ///< rows, >= 1
+};
+
+/// Heights of the rows over the face, rising [model length].
+std::vector<double> row_heights(const BoundaryLayer& layer);
+
+/// Faces of a volume that are named.
+/// @throw InvalidInput "surface.no_such_face"  a tag or a name that no face of the volume has.
+std::vector<FaceId> faces_named(const topology::OpenVolume& volume, const FaceNames& names,
+                                const std::string& option);
+
+/// Whether a face of the volume has a tag, or a name as in `FaceNames`.
+bool has_face(const topology::OpenVolume& volume, int tag);
+bool has_face(const topology::OpenVolume& volume, const std::string& name);
+
+/// Boundary layers as they lie on the faces of one volume.
+struct LayerTables {
+    std::vector<std::vector<double>> heights; ///< of each table
+    std::map<FaceId, int> of;                 ///< table of each face that has one
+
+    [[nodiscard]] int at(FaceId face) const
+    {
+        const auto found = of.find(face);
+        return found == of.end() ? -1 : found->second;
+    }
+};
+
+/// @throw InvalidInput "surface.two_layers"  a face in two tables; names it.
+LayerTables layer_tables(const topology::OpenVolume& volume, std::span<const BoundaryLayer> layers);
+
+/// Rows along the rims of the source: those of the walls that stand on them.
+struct RimRows {
+    std::vector<std::vector<double>> heights; ///< of each table [model length]
+    /// Of each edge of the source's rim: parts of its length, as it runs, and their tables.
+    struct Part {
+        double from = 0, to = 1; ///< fractions of its length
+        int table = -1;
+        FaceId wall; ///< whose table it is
+    };
+    std::map<EdgeId, std::vector<Part>> parts;
+    /// Of a face's loop: what an edge's end is at, for rows on the edge beyond it.
+    struct End {
+        int table = -1;
+        FaceId wall;
+        EdgeId along; ///< the edge that the rows run along
+        Vec3 inward;  ///< square to it, in the face
+        VertexId corner;
+    };
+    /// Rows that end on an edge: at its start, and at its end.
+    std::map<std::pair<EdgeId, bool>, End> ends;
+
+    [[nodiscard]] bool empty() const { return heights.empty(); }
+    /// Table of an edge at a fraction of its length.
+    [[nodiscard]] const Part* part_at(EdgeId edge, double fraction) const;
+};
+
+/// Inner angle in degrees below which rows end on the side beyond, and above which on a side of their own.
+inline constexpr double kRowsEnd = 135, kRowsBreak = 225;
+
+/// Read off the linking surfaces which parts of the source's rim get rows, and where those end.
+///
+/// A wall that stands on the target's rim alone counts by what of the source's rim is swept there.
+/// @throw NotSweepable "surface.layers_unreached"  a wall with a table that stands on neither end.
+///        "surface.layers_meet"  an edge on which rows of two tables end at one corner.
+RimRows rim_rows(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
+                 const LayerTables& tables);
+
+} // namespace lacuna::surface

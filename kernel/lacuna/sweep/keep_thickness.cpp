@@ -1,0 +1,785 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/keep_thickness.h>
+
+#include <lacuna/core/edge_key.h>
+#include <lacuna/core/error.h>
+#include <lacuna/surface/projector.h>
+#include <lacuna/sweep/detail/harmonic_spread.h>
+#include <lacuna/sweep/detail/words.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <unordered_map>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+/// Rounds of moving; each leaves what the bends within a cell make of the last. More were never needed on
+/// tapered, twisted and bulging walls; a bound on the work.
+constexpr int kRounds = 8;
+/// A row is met when it is off its thickness by less than this share: a tenth of what is allowed.
+constexpr double kMet = kThicknessOff / 10;
+
+/// A side of the rim with rows on it.
+struct RowSide {
+    std::size_t link, side; ///< from node `side` of the linking surface to the next
+    int table;
+    std::vector<Index> before, after; ///< source nodes of the rows over its ends, from the lowest
+};
+
+/// A column of row nodes over a node of the rim.
+struct RowColumn {
+    std::size_t link, node;
+    bool before = false, after = false; ///< over the sides before and after the node
+    int table = -1;
+    std::vector<Index> nodes;
+};
+
+/// A node of rows, with what holds it: one wall, or two where rows cross.
+struct RowNode {
+    struct Hold {
+        std::size_t column;
+        double height;
+    };
+    std::vector<Hold> holds;
+};
+
+class ThicknessKeeper {
+public:
+    ThicknessKeeper(const SweptParts& parts, const surface::LayerTables& tables, std::vector<Vec3>& nodes,
+                    const RunContext& context)
+        : parts_(parts),
+          model_(parts.volume.model),
+          tables_(tables),
+          nodes_(nodes),
+          context_(context),
+          count_(parts.source.quads.nodes.size()),
+          layers_(static_cast<std::size_t>(parts.layers))
+    {
+        link_of_.assign(count_, -1);
+        for (std::size_t b = 0; b < parts.links.size(); ++b) {
+            for (std::size_t i = 0; i < size_of(b); ++i) link_of_[rim_node(b, i)] = static_cast<int>(b);
+        }
+        find_rows();
+        find_ends();
+        find_still();
+    }
+
+    KeptThickness run()
+    {
+        KeptThickness kept;
+        kept.held.assign(nodes_.size(), 0);
+        if (columns_.empty() && end_table_[0] < 0 && end_table_[1] < 0) return kept;
+        quads_at_ = mesh::quads_at_nodes(quads(), count_);
+        for (int round = 0; round < kRounds && furthest_off() > kMet; ++round) {
+            check_cancelled(context_);
+            move_layers();
+            move_rows();
+        }
+        for (std::size_t t = 0; t < tables_.heights.size(); ++t) report(static_cast<int>(t), kept.report);
+        for (const auto& [node, row] : row_nodes_) {
+            for (std::size_t k = 0; k <= layers_; ++k) kept.held[k * count_ + index(node)] = 1;
+        }
+        for (std::size_t end = 0; end < 2; ++end) {
+            if (end_table_[end] < 0) continue;
+            const std::size_t rows = heights_of(end_table_[end]).size();
+            for (std::size_t k = 0; k <= rows; ++k) {
+                const std::size_t layer = end == 0 ? k : layers_ - k;
+                std::fill_n(kept.held.begin() + static_cast<std::ptrdiff_t>(layer * count_), count_, char{1});
+            }
+        }
+        return kept;
+    }
+
+private:
+    [[nodiscard]] const std::vector<Quad>& quads() const { return parts_.source.quads.quads; }
+    [[nodiscard]] std::size_t size_of(std::size_t link) const
+    {
+        return parts_.source.links[link].source_at.size();
+    }
+    [[nodiscard]] std::size_t rim_node(std::size_t link, std::size_t i) const
+    {
+        return index(parts_.source.first[link]) + i % size_of(link);
+    }
+    [[nodiscard]] FaceId wall_at(std::size_t link, std::size_t layer, std::size_t side) const
+    {
+        return parts_.walls[link].face[layer * size_of(link) + side % size_of(link)];
+    }
+    [[nodiscard]] Vec3& at(std::size_t layer, std::size_t node) { return nodes_[layer * count_ + node]; }
+    [[nodiscard]] const Vec3& at(std::size_t layer, std::size_t node) const
+    {
+        return nodes_[layer * count_ + node];
+    }
+    [[nodiscard]] const std::vector<double>& heights_of(int table) const
+    {
+        return tables_.heights[static_cast<std::size_t>(table)];
+    }
+
+    // --- what there is ------------------------------------------------------------------------------
+
+    /// The table of a side of the rim: that of the wall at either end.
+    [[nodiscard]] int table_at(std::size_t link, std::size_t side) const
+    {
+        const int low = tables_.at(wall_at(link, 0, side));
+        return low >= 0 ? low : tables_.at(wall_at(link, layers_ - 1, side));
+    }
+
+    void find_rows()
+    {
+        std::unordered_map<std::uint64_t, std::size_t> side_of;
+        for (std::size_t q = 0; q < quads().size(); ++q) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Quad& quad = quads()[q];
+                if (mesh::is_side(quad, k))
+                    side_of.try_emplace(edge_key(quad[k], quad[(k + 1) % 4]), 4 * q + k);
+            }
+        }
+        const std::vector<Index> partner = mesh::opposite_sides(quads(), static_cast<Index>(count_));
+        for (std::size_t b = 0; b < parts_.links.size(); ++b) {
+            std::vector<std::optional<RowSide>> sides(size_of(b));
+            for (std::size_t i = 0; i < size_of(b); ++i) {
+                const int table = table_at(b, i);
+                if (table < 0) continue;
+                const auto from = static_cast<Index>(rim_node(b, i)),
+                           to = static_cast<Index>(rim_node(b, i + 1));
+                sides[i] = walk({b, i, table, {}, {}}, side_of.at(edge_key(from, to)), from, partner);
+            }
+            add_columns(b, sides);
+        }
+        for (std::size_t c = 0; c < columns_.size(); ++c) {
+            const std::vector<double>& heights = heights_of(columns_[c].table);
+            for (std::size_t j = 0; j < heights.size(); ++j)
+                row_nodes_[columns_[c].nodes[j]].holds.push_back({c, heights[j]});
+        }
+    }
+
+    /// The rows over a side of the rim.
+    RowSide walk(RowSide row, std::size_t side, Index from, const std::vector<Index>& partner) const
+    {
+        for (std::size_t r = 0; r < heights_of(row.table).size(); ++r) {
+            const Quad& quad = quads()[side / 4];
+            const std::size_t k = side % 4;
+            if (mesh::is_triangle(quad)) refuse_rows(row);
+            const bool along = quad[k] == from;
+            row.before.push_back(along ? quad[(k + 3) % 4] : quad[(k + 2) % 4]);
+            row.after.push_back(along ? quad[(k + 2) % 4] : quad[(k + 3) % 4]);
+            from = row.before.back();
+            const Index next = partner[side / 4 * 4 + (k + 2) % 4];
+            if (r + 1 == heights_of(row.table).size()) break;
+            if (next < 0) refuse_rows(row);
+            side = static_cast<std::size_t>(next);
+        }
+        return row;
+    }
+
+    [[noreturn]] void refuse_rows(const RowSide& row) const
+    {
+        throw NotSweepable("sweep.layers_rows",
+                           "the quads of the source make fewer rows along " +
+                               name_of(model_, wall_at(row.link, 0, row.side)) + " than the " +
+                               std::to_string(heights_of(row.table).size()) +
+                               " of its boundary layers; mesh it anew (quads = \"paved\")");
+    }
+
+    void add_columns(std::size_t b, const std::vector<std::optional<RowSide>>& sides)
+    {
+        const std::size_t n = sides.size();
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto &before = sides[(i + n - 1) % n], &after = sides[i];
+            if (before && after && before->table == after->table && before->after == after->before) {
+                columns_.push_back({b, i, true, true, after->table, after->before});
+                continue;
+            }
+            if (before) columns_.push_back({b, i, true, false, before->table, before->after});
+            if (after) columns_.push_back({b, i, false, true, after->table, after->before});
+        }
+    }
+
+    void find_ends()
+    {
+        for (const auto& [face, table] : tables_.of) {
+            const Role role = parts_.volume.role[face.index()];
+            if (role == Role::wall) continue;
+            int& own = end_table_[role == Role::source ? 0 : 1];
+            if (own >= 0 && own != table)
+                throw NotSweepable("surface.layers_meet",
+                                   "the boundary layers of " + name_of(model_, face) +
+                                       " and of another face of its end are unlike; give both one table");
+            own = table;
+        }
+    }
+
+    /// Columns and rows that stay where they are: on corners, on edges between walls, on given meshes.
+    void find_still()
+    {
+        for (std::size_t b = 0; b < parts_.links.size(); ++b) {
+            const std::size_t n = size_of(b);
+            std::vector<char>& still = still_column_.emplace_back(n, 0);
+            const auto& nodes = parts_.source.links[b];
+            for (const surface::RimSegment& segment : parts_.links[b].segments) {
+                const auto found = std::lower_bound(nodes.source_at.begin(), nodes.source_at.end(),
+                                                    segment.source_from);
+                if (found != nodes.source_at.end())
+                    still[static_cast<std::size_t>(found - nodes.source_at.begin())] = 1;
+            }
+            for (const std::size_t i : nodes.line) still[i] = 1;
+            for (std::size_t i = 0; i < n; ++i) {
+                for (std::size_t k = 0; k < layers_; ++k) {
+                    const FaceId left = wall_at(b, k, i + n - 1), right = wall_at(b, k, i);
+                    if (left != right || has_mesh(left)) still[i] = 1;
+                    if (k > 0 && wall_at(b, k - 1, i) != right) still_layers_.insert(k);
+                    if (has_mesh(right)) {
+                        still_layers_.insert(k);
+                        still_layers_.insert(k + 1);
+                    }
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] bool has_mesh(FaceId face) const
+    {
+        return model_[face].keeps_nodes && !model_[face].given_quads.empty();
+    }
+
+    [[nodiscard]] bool stays(std::size_t layer) const
+    {
+        return (layer == 0 && parts_.source_stays) || (layer == layers_ && parts_.target_stays);
+    }
+
+    // --- normals ------------------------------------------------------------------------------------
+
+    /// Inward normal of the wall over a side of the rim, at one of its ends.
+    [[nodiscard]] Vec3 side_normal(std::size_t b, std::size_t side, std::size_t node, std::size_t layer) const
+    {
+        const Vec3 along = at(layer, rim_node(b, side + 1)) - at(layer, rim_node(b, side));
+        const std::size_t foot = rim_node(b, node);
+        Vec3 normal = Vec3::Zero();
+        if (layer < layers_) normal += along.cross(at(layer + 1, foot) - at(layer, foot)).stableNormalized();
+        if (layer > 0) normal += along.cross(at(layer, foot) - at(layer - 1, foot)).stableNormalized();
+        return normal.stableNormalized();
+    }
+
+    /// Of the walls under a column: the mean of their unit normals, so that a height along it is the mean of
+    /// the heights over them.
+    [[nodiscard]] Vec3 normal_of(const RowColumn& column, std::size_t layer) const
+    {
+        const std::size_t n = size_of(column.link);
+        Vec3 normal = Vec3::Zero();
+        if (column.before) normal += side_normal(column.link, (column.node + n - 1) % n, column.node, layer);
+        if (column.after) normal += side_normal(column.link, column.node, column.node, layer);
+        return column.before && column.after ? Vec3(normal / 2) : normal;
+    }
+
+    /// Of a layer's quads at a node.
+    [[nodiscard]] Vec3 layer_normal(std::size_t node, std::size_t layer) const
+    {
+        Vec3 normal = Vec3::Zero();
+        for (const Index q : quads_at_.of(node)) {
+            const Quad& quad = quads()[index(q)];
+            normal += (at(layer, index(quad[2])) - at(layer, index(quad[0])))
+                          .cross(at(layer, index(quad[3])) - at(layer, index(quad[1])));
+        }
+        return normal.stableNormalized();
+    }
+
+    // --- how far off --------------------------------------------------------------------------------
+
+    /// Thickness of row j over a column.
+    [[nodiscard]] double thickness(const RowColumn& column, std::size_t j, std::size_t layer) const
+    {
+        const std::size_t below = j > 0 ? index(column.nodes[j - 1]) : rim_node(column.link, column.node);
+        return (at(layer, index(column.nodes[j])) - at(layer, below)).dot(normal_of(column, layer));
+    }
+
+    [[nodiscard]] double end_thickness(std::size_t end, std::size_t j, std::size_t node) const
+    {
+        const std::size_t foot = end == 0 ? 0 : layers_, from = end == 0 ? j : layers_ - j,
+                          to = end == 0 ? j + 1 : layers_ - j - 1;
+        const Vec3 normal = layer_normal(node, foot) * (end == 0 ? 1 : -1);
+        return (at(to, node) - at(from, node)).dot(normal);
+    }
+
+    struct Reached {
+        double asked = 0, least = std::numeric_limits<double>::infinity(), most = 0;
+        double off = 0; ///< largest share by which a row misses its thickness
+        double off_asked = 0, off_found = 0;
+        Vec3 where = Vec3::Zero();
+        FaceId face;
+
+        void add(double wanted, double found, const Vec3& place, FaceId on, bool first)
+        {
+            if (first) {
+                asked = wanted;
+                least = std::min(least, found);
+                most = std::max(most, found);
+            }
+            const double share = std::abs(found - wanted) / wanted;
+            if (!(share <= off)) {
+                off = share;
+                off_asked = wanted;
+                off_found = found;
+                where = place;
+                face = on;
+            }
+        }
+    };
+
+    [[nodiscard]] Reached reached(int table) const
+    {
+        Reached reached;
+        const std::vector<double>& heights = heights_of(table);
+        const auto wanted = [&](std::size_t j) { return heights[j] - (j > 0 ? heights[j - 1] : 0); };
+        for (const RowColumn& column : columns_) {
+            if (column.table != table) continue;
+            const std::size_t n = size_of(column.link);
+            const std::size_t side = column.after ? column.node : (column.node + n - 1) % n;
+            for (std::size_t k = 0; k <= layers_; ++k) {
+                for (std::size_t j = 0; j < heights.size(); ++j)
+                    reached.add(wanted(j), thickness(column, j, k), at(k, rim_node(column.link, column.node)),
+                                wall_at(column.link, std::min(k, layers_ - 1), side), j == 0);
+            }
+        }
+        for (std::size_t end = 0; end < 2; ++end) {
+            if (end_table_[end] != table) continue;
+            const FaceId face = (end == 0 ? parts_.ends.source : parts_.ends.target).front();
+            for (std::size_t node = 0; node < count_; ++node) {
+                for (std::size_t j = 0; j < heights.size(); ++j)
+                    reached.add(wanted(j), end_thickness(end, j, node), at(end == 0 ? 0 : layers_, node),
+                                face, j == 0);
+            }
+        }
+        return reached;
+    }
+
+    [[nodiscard]] double furthest_off() const
+    {
+        double off = 0;
+        for (std::size_t t = 0; t < tables_.heights.size(); ++t)
+            off = std::max(off, reached(static_cast<int>(t)).off);
+        return off;
+    }
+
+    void report(int table, std::vector<std::string>& lines) const
+    {
+        const Reached found = reached(table);
+        if (!found.face.valid() && found.asked == 0) return;
+        std::string faces;
+        for (const auto& [face, own] : tables_.of) {
+            if (own == table) faces += (faces.empty() ? "" : ", ") + name_of(model_, face);
+        }
+        const std::vector<double>& heights = heights_of(table);
+        if (found.off > kThicknessOff) {
+            throw NotSweepable(
+                "sweep.layers_thickness",
+                "the boundary layers of " + name_of(model_, found.face) + " come out " +
+                    in_short(found.off_found) + " thick instead of " + in_short(found.off_asked) + " near " +
+                    place_in_short(found.where) +
+                    ": there is no room to move their nodes, or these were given; ask for fewer or thinner "
+                    "rows, or for a smaller size");
+        }
+        lines.push_back("boundary layers of " + faces + ": " + std::to_string(heights.size()) +
+                        (heights.size() == 1 ? " row" : " rows") + ", the first " + in_short(found.least) +
+                        " to " + in_short(found.most) + " thick (" + in_short(found.asked) +
+                        " asked), each within " + in_short(100 * found.off) + " % of its thickness, " +
+                        in_short(heights.back()) + " in all");
+    }
+
+    // --- moving rows along walls --------------------------------------------------------------------
+
+    void move_rows()
+    {
+        if (columns_.empty()) return;
+        std::vector<Vec3> before = nodes_;
+        slide_on_walls();
+        std::vector<Index> fixed;
+        for (std::size_t i = 0; i < count_; ++i) {
+            const auto node = static_cast<Index>(i);
+            if (link_of_[i] >= 0 || row_nodes_.contains(node) || on_inner_edge(node)) fixed.push_back(node);
+        }
+        for (std::size_t k = 0; k <= layers_; ++k) {
+            if (stays(k)) continue;
+            for (const auto& [node, row] : row_nodes_) {
+                if (link_of_[index(node)] < 0 && !((k == 0 || k == layers_) && on_inner_edge(node)))
+                    move_inside(index(node), row, k, before);
+            }
+        }
+        if (!spread_) {
+            const NodeGraph graph = node_graph(quads(), count_);
+            spread_.emplace(graph, side_weights(graph, quads(), parts_.source.quads.nodes), fixed);
+        }
+        std::vector<Vec3> moves;
+        for (std::size_t k = 0; k <= layers_; ++k) {
+            for (const Index node : fixed)
+                moves.push_back(at(k, index(node)) - before[k * count_ + index(node)]);
+        }
+        spread_->add(moves, layers_ + 1, nodes_.data(), count_, context_);
+        put_on_ends();
+    }
+
+    [[nodiscard]] bool on_inner_edge(Index node)
+    {
+        if (!inner_) {
+            inner_.emplace();
+            for (const auto& [edge, chain] : parts_.source.on_edge) {
+                for (const Index n : chain) {
+                    if (link_of_[index(n)] < 0) inner_->insert(n);
+                }
+            }
+        }
+        return inner_->contains(node);
+    }
+
+    /// Move a node with its foot, and within its layer to the heights it is held at.
+    void move_inside(std::size_t node, const RowNode& row, std::size_t layer, const std::vector<Vec3>& before)
+    {
+        const RowColumn& own = columns_[row.holds.front().column];
+        const std::size_t foot = rim_node(own.link, own.node);
+        at(layer, node) += at(layer, foot) - before[layer * count_ + foot];
+        const Vec3 up = layer_normal(node, layer);
+        std::array<Vec3, 2> normal, within;
+        std::array<double, 2> off{};
+        const std::size_t holds = std::min<std::size_t>(row.holds.size(), 2);
+        for (std::size_t h = 0; h < holds; ++h) {
+            const RowColumn& column = columns_[row.holds[h].column];
+            normal[h] = normal_of(column, layer);
+            within[h] = normal[h] - up * up.dot(normal[h]);
+            off[h] = row.holds[h].height -
+                     (at(layer, node) - at(layer, rim_node(column.link, column.node))).dot(normal[h]);
+        }
+        const double a = normal[0].dot(within[0]);
+        if (!(a > 0)) return;
+        if (holds == 1) {
+            at(layer, node) += within[0] * (off[0] / a);
+            return;
+        }
+        const double b = normal[0].dot(within[1]), c = normal[1].dot(within[0]), d = normal[1].dot(within[1]);
+        const double det = a * d - b * c;
+        constexpr double kSameWay = 1e-3; // walls that all but go on into each other; a choice
+        if (!(det > kSameWay * a * d)) return;
+        at(layer, node) += within[0] * ((d * off[0] - b * off[1]) / det) +
+                           within[1] * ((a * off[1] - c * off[0]) / det);
+    }
+
+    /// Rows that end on other walls: their nodes there go along the layer's rim to their heights, and the
+    /// nodes beyond follow.
+    void slide_on_walls()
+    {
+        for (std::size_t b = 0; b < parts_.links.size(); ++b) {
+            const std::size_t n = size_of(b);
+            std::vector<std::size_t> corners;
+            for (std::size_t i = 0; i < n; ++i) {
+                if (still_column_[b][i] != 0) corners.push_back(i);
+            }
+            for (std::size_t c = 0; c < corners.size(); ++c) {
+                const std::size_t first = corners[c];
+                const std::size_t last = c + 1 < corners.size() ? corners[c + 1] : corners.front() + n;
+                slide_between(b, first, last);
+            }
+        }
+    }
+
+    /// A column over a corner of the rim whose nodes lie on the rim, on one side of it.
+    [[nodiscard]] const RowColumn* column_along(std::size_t b, std::size_t corner, std::size_t next) const
+    {
+        const auto node = static_cast<Index>(rim_node(b, next));
+        for (const RowColumn& column : columns_) {
+            if (column.link == b && column.node == corner % size_of(b) && column.nodes.front() == node)
+                return &column;
+        }
+        return nullptr;
+    }
+
+    void slide_between(std::size_t b, std::size_t first, std::size_t last)
+    {
+        const RowColumn* low = column_along(b, first, first + 1);
+        const RowColumn* high = column_along(b, last, last - 1);
+        if ((low == nullptr && high == nullptr) || last < first + 2) return;
+        for (std::size_t k = 0; k <= layers_; ++k) {
+            if (!stays(k)) slide_row(b, first, last, k, low, high);
+        }
+    }
+
+    /// Running place, in sides of the polyline, where it is at a height over its start along a normal.
+    static std::optional<double> place_at(const std::vector<Vec3>& line, const Vec3& normal, double height)
+    {
+        double below = 0;
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            const double above = (line[i] - line.front()).dot(normal);
+            if (above >= height && above > below)
+                return static_cast<double>(i) - 1 + (height - below) / (above - below);
+            below = above;
+        }
+        return std::nullopt;
+    }
+
+    void slide_row(std::size_t b, std::size_t first, std::size_t last, std::size_t layer,
+                   const RowColumn* low, const RowColumn* high)
+    {
+        const std::size_t sides = last - first;
+        std::vector<Vec3> line;
+        for (std::size_t i = first; i <= last; ++i) line.push_back(at(layer, rim_node(b, i)));
+        std::map<std::size_t, double> place{{0, 0.0}, {sides, static_cast<double>(sides)}};
+        const auto put = [&](const RowColumn& column, bool from_end) {
+            std::vector<Vec3> walk = line;
+            if (from_end) std::reverse(walk.begin(), walk.end());
+            const std::vector<double>& heights = heights_of(column.table);
+            const Vec3 normal = normal_of(column, layer);
+            for (std::size_t j = 0; j < heights.size() && j + 1 < sides; ++j) {
+                const std::optional<double> at = place_at(walk, normal, heights[j]);
+                if (!at) return; // no room: what is reached tells
+                if (from_end)
+                    place[sides - 1 - j] = static_cast<double>(sides) - *at;
+                else
+                    place[j + 1] = *at;
+            }
+        };
+        if (low != nullptr) put(*low, false);
+        if (high != nullptr) put(*high, true);
+        for (auto p = place.begin(); std::next(p) != place.end(); ++p) {
+            if (!(p->second < std::next(p)->second)) return; // likewise
+        }
+        move_along(b, first, layer, line, place);
+    }
+
+    /// Move the nodes between corners of the rim to new places along it: those given, others between them.
+    void move_along(std::size_t b, std::size_t first, std::size_t layer, const std::vector<Vec3>& line,
+                    const std::map<std::size_t, double>& place)
+    {
+        const std::size_t sides = line.size() - 1;
+        std::vector<double> lengths{0};
+        for (std::size_t i = 0; i < sides; ++i)
+            lengths.push_back(lengths.back() + (line[i + 1] - line[i]).norm());
+        const auto length_at = [&](double x) {
+            const auto i = std::min(static_cast<std::size_t>(x), sides - 1);
+            return lengths[i] + (x - static_cast<double>(i)) * (lengths[i + 1] - lengths[i]);
+        };
+        std::vector<std::pair<std::size_t, double>> moved; // node, place in sides
+        for (std::size_t i = 1; i < sides; ++i) {
+            const auto above = place.lower_bound(i);
+            if (above->first == i) {
+                moved.emplace_back(i, above->second);
+                continue;
+            }
+            const auto below = std::prev(above);
+            // As far between the two as it was.
+            const double share = (lengths[i] - lengths[below->first]) /
+                                 (lengths[above->first] - lengths[below->first]);
+            const double length = length_at(below->second) +
+                                  share * (length_at(above->second) - length_at(below->second));
+            const auto up = std::upper_bound(lengths.begin(), lengths.end(), length);
+            const auto at = static_cast<std::size_t>(up - lengths.begin()) - 1;
+            const std::size_t side = std::min(at, sides - 1);
+            moved.emplace_back(i, static_cast<double>(side) +
+                                      (length - lengths[side]) / (lengths[side + 1] - lengths[side]));
+        }
+        if (layer == 0 || layer == layers_) return move_on_rim(b, first, layer, moved, sides);
+        std::map<FaceId, std::vector<std::size_t>> on_face;
+        for (const auto& [i, x] : moved) {
+            const auto side = std::min(static_cast<std::size_t>(x), sides - 1);
+            const double share = x - static_cast<double>(side);
+            const std::size_t node = rim_node(b, first + i);
+            at(layer, node) = (1 - share) * line[side] + share * line[side + 1];
+            const FaceId wall = wall_at(b, layer, first + side);
+            if (model_[wall].origin == Origin::given && model_[wall].kind != "plane")
+                on_face[wall].push_back(node);
+        }
+        for (const auto& [face, nodes] : on_face) project(face, nodes, layer);
+    }
+
+    /// The same on an end's rim, where nodes lie on exact edges.
+    void move_on_rim(std::size_t b, std::size_t first, std::size_t layer,
+                     const std::vector<std::pair<std::size_t, double>>& moved, std::size_t sides)
+    {
+        const bool target = layer != 0;
+        const std::size_t n = size_of(b);
+        const surface::Chain& chain = target ? parts_.links[b].target : parts_.links[b].source;
+        const auto [found, fresh] = places_.try_emplace({b, target});
+        std::vector<double>& own = found->second; // running length of each node
+        if (fresh) own = target ? parts_.source.links[b].target_at : parts_.source.links[b].source_at;
+        std::vector<double> lengths;
+        for (const auto& [i, x] : moved) {
+            const auto side = std::min(static_cast<std::size_t>(x), sides - 1);
+            const double from = own[(first + side) % n];
+            double to = own[(first + side + 1) % n];
+            if (to <= from) to += chain.length();
+            const double length = from + (x - static_cast<double>(side)) * (to - from);
+            lengths.push_back(length >= chain.length() ? length - chain.length() : length);
+        }
+        const std::vector<Vec3> points = chain.points(lengths);
+        for (std::size_t m = 0; m < moved.size(); ++m) {
+            own[(first + moved[m].first) % n] = lengths[m];
+            at(layer, rim_node(b, first + moved[m].first)) = points[m];
+        }
+    }
+
+    void project(FaceId face, const std::vector<std::size_t>& nodes, std::size_t layer)
+    {
+        std::vector<Vec3> points;
+        for (const std::size_t node : nodes) points.push_back(at(layer, node));
+        projectors_.try_emplace(face, model_, std::vector<FaceId>{face})
+            .first->second.project(points, context_);
+        for (std::size_t i = 0; i < nodes.size(); ++i) at(layer, nodes[i]) = points[i];
+    }
+
+    /// Nodes of both ends that lie within one face, back on it.
+    void put_on_ends()
+    {
+        for (const std::size_t end : {0, 1}) {
+            const std::size_t layer = end == 0 ? 0 : layers_;
+            if (stays(layer)) continue;
+            const std::vector<FaceId>& faces = end == 0 ? parts_.ends.source : parts_.ends.target;
+            std::map<FaceId, std::vector<std::size_t>> on_face;
+            for (std::size_t node = 0; node < count_; ++node) {
+                if (link_of_[node] >= 0 || on_inner_edge(static_cast<Index>(node))) continue;
+                const auto around = quads_at_.of(node);
+                if (around.empty()) continue;
+                const FaceId face = faces[index(around.front())];
+                const bool one = std::all_of(around.begin(), around.end(),
+                                             [&](Index q) { return faces[index(q)] == face; });
+                if (one && model_[face].kind != "plane") on_face[face].push_back(node);
+            }
+            for (const auto& [face, nodes] : on_face) project(face, nodes, layer);
+        }
+    }
+
+    // --- moving layers along ends -------------------------------------------------------------------
+
+    void move_layers()
+    {
+        if (end_table_[0] < 0 && end_table_[1] < 0) return;
+        std::vector<Vec3> before = nodes_;
+        for (std::size_t node = 0; node < count_; ++node) {
+            std::vector<Vec3> line;
+            for (std::size_t k = 0; k <= layers_; ++k) line.push_back(before[k * count_ + node]);
+            const std::optional<std::vector<double>> place = layer_places(node, line);
+            if (!place) continue;
+            for (std::size_t k = 1; k < layers_; ++k) {
+                const auto side = std::min(static_cast<std::size_t>((*place)[k]), layers_ - 1);
+                const double share = (*place)[k] - static_cast<double>(side);
+                at(k, node) = (1 - share) * line[side] + share * line[side + 1];
+            }
+        }
+        put_on_walls();
+    }
+
+    /// New places of a column's layers, in sides of its polyline; nothing where there is no room.
+    [[nodiscard]] std::optional<std::vector<double>> layer_places(std::size_t node,
+                                                                  const std::vector<Vec3>& line) const
+    {
+        std::map<std::size_t, double> place{{0, 0.0}, {layers_, static_cast<double>(layers_)}};
+        for (const std::size_t still : still_layers_) place[still] = static_cast<double>(still);
+        for (const std::size_t end : {0, 1}) {
+            if (end_table_[end] < 0) continue;
+            std::vector<Vec3> walk = line;
+            if (end == 1) std::reverse(walk.begin(), walk.end());
+            const std::vector<double>& heights = heights_of(end_table_[end]);
+            const Vec3 normal = layer_normal(node, end == 0 ? 0 : layers_) * (end == 0 ? 1 : -1);
+            for (std::size_t j = 0; j < heights.size() && j + 1 < layers_; ++j) {
+                const std::optional<double> at = place_at(walk, normal, heights[j]);
+                if (!at) return std::nullopt;
+                const std::size_t layer = end == 0 ? j + 1 : layers_ - 1 - j;
+                if (still_layers_.contains(layer)) continue;
+                place[layer] = end == 0 ? *at : static_cast<double>(layers_) - *at;
+            }
+        }
+        std::vector<double> result(layers_ + 1);
+        for (auto p = place.begin(); std::next(p) != place.end(); ++p) {
+            const auto q = std::next(p);
+            if (!(p->second < q->second)) return std::nullopt;
+            for (std::size_t k = p->first; k <= q->first; ++k) {
+                const double share = static_cast<double>(k - p->first) /
+                                     static_cast<double>(q->first - p->first);
+                result[k] = p->second + share * (q->second - p->second);
+            }
+        }
+        return result;
+    }
+
+    /// Nodes on walls that were moved along their columns, back on the walls and on the edges between them.
+    void put_on_walls()
+    {
+        for (std::size_t b = 0; b < parts_.links.size(); ++b) {
+            const surface::LinkingSurface& link = parts_.links[b];
+            const std::vector<std::size_t>& lines = parts_.source.links[b].line;
+            for (std::size_t i = 0; i < size_of(b); ++i) {
+                const auto line = std::find(lines.begin(), lines.end(), i);
+                std::optional<surface::Chain> chain;
+                if (line != lines.end())
+                    chain.emplace(model_,
+                                  link.lines[static_cast<std::size_t>(line - lines.begin())].line.uses);
+                for (std::size_t k = 1; k < layers_; ++k) {
+                    if (still_layers_.contains(k)) continue;
+                    const std::size_t node = rim_node(b, i);
+                    const FaceId wall = wall_at(b, k, i);
+                    if (chain)
+                        at(k, node) = nearest_on(*chain, at(k, node));
+                    else if (model_[wall].origin == Origin::given && model_[wall].kind != "plane")
+                        on_wall_[{wall, k}].push_back(node);
+                }
+            }
+        }
+        for (const auto& [where, nodes] : on_wall_) project(where.first, nodes, where.second);
+        on_wall_.clear();
+    }
+
+    /// The place on a chain nearest to a point: on its polyline, then on the exact curve there.
+    [[nodiscard]] Vec3 nearest_on(const surface::Chain& chain, const Vec3& p) const
+    {
+        double best = std::numeric_limits<double>::infinity(), length = 0;
+        for (std::size_t u = 0; u < chain.uses().size(); ++u) {
+            const std::vector<Index> points = use_points(model_, chain.uses()[u]);
+            double arc = chain.start(u);
+            for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+                const Vec3 &a = model_.at(points[i]), side = model_.at(points[i + 1]) - a;
+                const double squared = side.squaredNorm();
+                const double share = squared > 0 ? std::clamp((p - a).dot(side) / squared, 0.0, 1.0) : 0;
+                const double off = (a + share * side - p).squaredNorm();
+                if (off < best) {
+                    best = off;
+                    length = arc + share * std::sqrt(squared);
+                }
+                arc += std::sqrt(squared);
+            }
+        }
+        const double lengths[] = {std::min(length, chain.length())};
+        return chain.points(lengths).front();
+    }
+
+    const SweptParts& parts_;
+    const Model& model_;
+    const surface::LayerTables& tables_;
+    std::vector<Vec3>& nodes_;
+    const RunContext& context_;
+    std::size_t count_, layers_;
+    std::vector<int> link_of_; ///< of each source node; -1: inside
+    std::vector<RowColumn> columns_;
+    std::map<Index, RowNode> row_nodes_;
+    std::array<int, 2> end_table_{-1, -1};
+    std::vector<std::vector<char>> still_column_;
+    std::set<std::size_t> still_layers_;
+    mesh::Incidence quads_at_;
+    std::optional<HarmonicSpread> spread_;
+    std::optional<std::set<Index>> inner_;
+    std::map<std::pair<std::size_t, bool>, std::vector<double>> places_;
+    std::map<std::pair<FaceId, std::size_t>, std::vector<std::size_t>> on_wall_;
+    std::map<FaceId, surface::Projector> projectors_;
+};
+
+} // namespace
+
+KeptThickness keep_thickness(const SweptParts& parts, const surface::LayerTables& tables,
+                             std::vector<Vec3>& nodes, const RunContext& context)
+{
+    return ThicknessKeeper(parts, tables, nodes, context).run();
+}
+
+} // namespace lacuna::sweep

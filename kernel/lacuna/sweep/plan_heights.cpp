@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/plan_heights.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/sweep/detail/given_meshes.h>
+#include <lacuna/sweep/detail/words.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+/// Places along each column at which the size is asked: a choice, not a measurement.
+constexpr int kSamples = 32;
+/// Sizes along the sweep that differ by a smaller share are one, and layers are even: less than can be seen.
+constexpr double kSameSize = 1e-3;
+
+/// What is known of the columns between both rims, in the mean.
+struct Columns {
+    double length = 0;
+    /// Sides the size asks for from the source to each of some even steps; empty: it is one along the sweep.
+    std::vector<double> wanted;
+};
+
+/// Points at even steps along a column: a line up the walls, or a straight one between the rims.
+std::vector<std::vector<Vec3>> sampled_columns(const OpenVolume& volume,
+                                               const std::vector<surface::LinkingSurface>& links)
+{
+    std::vector<std::vector<Vec3>> columns;
+    const auto sample = [&](const auto& point_at) {
+        std::vector<Vec3>& points = columns.emplace_back();
+        for (int i = 0; i <= kSamples; ++i) points.push_back(point_at(static_cast<double>(i) / kSamples));
+    };
+    for (const surface::LinkingSurface& link : links) {
+        for (const surface::LinkingLine& line : link.lines) {
+            const surface::Chain chain(volume.model, line.line.uses);
+            sample([&](double t) {
+                const double at[] = {t * chain.length()};
+                return chain.points(at).front();
+            });
+        }
+        for (const surface::RimSegment& segment : link.segments) {
+            if (!link.lines.empty()) break;
+            const double end = link.target.length();
+            const double low[] = {segment.source_from},
+                         high[] = {segment.target_from >= end ? segment.target_from - end
+                                                              : segment.target_from};
+            const Vec3 from = link.source.points(low).front(), to = link.target.points(high).front();
+            sample([&](double t) { return Vec3((1 - t) * from + t * to); });
+        }
+    }
+    return columns;
+}
+
+Columns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
+                   const surface::SizeField& size)
+{
+    Columns mean;
+    mean.wanted.assign(kSamples + 1, 0.0);
+    const auto columns = sampled_columns(volume, links);
+    const auto share = 1 / static_cast<double>(std::max<std::size_t>(columns.size(), 1));
+    for (const std::vector<Vec3>& points : columns) {
+        double sides = 0;
+        for (std::size_t i = 1; i < points.size(); ++i) {
+            const double step = (points[i] - points[i - 1]).norm();
+            mean.length += share * step;
+            if (size) sides += step / size((points[i] + points[i - 1]) / 2);
+            mean.wanted[i] += share * sides;
+        }
+    }
+    double least = mean.wanted.back(), most = 0;
+    for (std::size_t i = 1; i < mean.wanted.size(); ++i) {
+        least = std::min(least, mean.wanted[i] - mean.wanted[i - 1]);
+        most = std::max(most, mean.wanted[i] - mean.wanted[i - 1]);
+    }
+    if (!(most > least * (1 + kSameSize))) mean.wanted.clear();
+    return mean;
+}
+
+/// Sides wanted up to a share of the columns.
+double wanted_at(const Columns& columns, double share)
+{
+    const double at = share * kSamples;
+    const auto i = std::min(static_cast<std::size_t>(at), columns.wanted.size() - 2);
+    return columns.wanted[i] + (at - static_cast<double>(i)) * (columns.wanted[i + 1] - columns.wanted[i]);
+}
+
+/// Heights between two shares of the columns that follow the size.
+std::vector<double> following_heights(const Columns& columns, double from, double to, int least)
+{
+    const double low = wanted_at(columns, from), high = wanted_at(columns, to);
+    const int count = std::max({1, least, static_cast<int>(std::lround(high - low))});
+    std::vector<double> heights{from};
+    std::size_t i = 0;
+    for (int k = 1; k < count; ++k) {
+        const double sides = low + (high - low) * k / count;
+        while (i + 2 < columns.wanted.size() && columns.wanted[i + 1] < sides) ++i;
+        heights.push_back((static_cast<double>(i) +
+                           (sides - columns.wanted[i]) / (columns.wanted[i + 1] - columns.wanted[i])) /
+                          kSamples);
+    }
+    heights.push_back(to);
+    return heights;
+}
+
+/// Table of an end, or null.
+const std::vector<double>* end_table(const OpenVolume& volume, const surface::LayerTables& tables, Role end)
+{
+    for (const auto& [face, table] : tables.of) {
+        if (volume.role[face.index()] == end) return &tables.heights[static_cast<std::size_t>(table)];
+    }
+    return nullptr;
+}
+
+/// The layers between those of the ends, over the whole of what these leave: from 0 to 1.
+std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions& options, int taken)
+{
+    LayerSpec spec = options.layers;
+    if (!spec.heights.empty()) {
+        throw InvalidInput("sweep.layers",
+                           "sweep: option 'layers' gives heights, and boundary layers of an end give others; "
+                           "leave out one of them");
+    }
+    if (spec.count <= taken) {
+        throw InvalidInput("sweep.layers", "sweep: option 'layers' asks for " + std::to_string(spec.count) +
+                                               ", and boundary layers of the ends take " +
+                                               std::to_string(taken) + " of them; ask for " +
+                                               std::to_string(taken + 1) + " or more, or leave it out");
+    }
+    spec.count -= taken;
+    std::vector<double> heights = layer_heights(spec);
+    if (volume.turned_round) {
+        std::reverse(heights.begin(), heights.end());
+        for (double& h : heights) h = 1 - h;
+    }
+    return heights;
+}
+
+} // namespace
+
+std::vector<double> plan_heights(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
+                                 const surface::LayerTables& tables, const std::vector<double>& asked,
+                                 const surface::SizeField& size, const SweepOptions& options, int least)
+{
+    const std::vector<double>* const low = end_table(volume, tables, Role::source);
+    const std::vector<double>* const high = end_table(volume, tables, Role::target);
+    if (low == nullptr && high == nullptr && (!asked.empty() || !options.size))
+        return asked.empty() ? default_heights(links, size, options.layers, least) : asked;
+    const Columns columns = columns_of(volume, links, options.size);
+    if (low == nullptr && high == nullptr) {
+        if (columns.wanted.empty()) return default_heights(links, size, options.layers, least);
+        return following_heights(columns, 0, 1, least);
+    }
+    const double below = low != nullptr ? low->back() : 0, above = high != nullptr ? high->back() : 0;
+    if (!(below + above < columns.length)) {
+        throw NotSweepable("sweep.layers_room",
+                           "the boundary layers of the ends are " + in_short(below + above) +
+                               " high in all, and source and target " + in_short(columns.length) +
+                               " apart; ask for fewer or thinner ones");
+    }
+    const double from = below / columns.length, to = 1 - above / columns.length;
+    const int taken = static_cast<int>((low != nullptr ? low->size() : 0) +
+                                       (high != nullptr ? high->size() : 0));
+    std::vector<double> between;
+    if (!asked.empty()) {
+        between = layers_between(volume, options, taken);
+    } else if (columns.wanted.empty()) {
+        LayerSpec spec = options.layers;
+        const std::size_t all = default_heights(links, size, spec, 1).size() - 1;
+        spec.count = std::max(
+            {1, least - taken, static_cast<int>(std::lround((to - from) * static_cast<double>(all)))});
+        between = layer_heights(spec);
+    } else {
+        between = following_heights(columns, from, to, least - taken);
+        for (double& h : between) h = (h - from) / (to - from);
+    }
+    std::vector<double> heights{0};
+    for (std::size_t j = 0; low != nullptr && j + 1 < low->size(); ++j)
+        heights.push_back((*low)[j] / columns.length);
+    for (std::size_t k = low != nullptr ? 0 : 1; k < between.size(); ++k)
+        heights.push_back(from + between[k] * (to - from));
+    for (std::size_t j = high != nullptr ? high->size() - 1 : 0; j-- > 0;)
+        heights.push_back(1 - (*high)[j] / columns.length);
+    if (high != nullptr) heights.push_back(1);
+    return heights;
+}
+
+} // namespace lacuna::sweep
