@@ -32,10 +32,12 @@ local function fields_of(name)
   return all
 end
 
--- --- what the program takes ----------------------------------------------------------------------------------
+-- --- what the program takes --------------------------------------------------------------------------------
 
 local function prism() return lacuna.synthetic.prism() end
-local function volume() return prism():open_volume { source = "source", target = "target", walls = "auto" } end
+local function volume()
+  return prism():open_volume { source = "source", target = "target", walls = "auto" }
+end
 local mesh = volume():sweep { layers = 1, size = 1 }
 local both = lacuna.assembly({ volume() }):sweep { layers = 1, size = 1 }
 local calls = {
@@ -85,7 +87,8 @@ for _, call in ipairs(calls) do
         found = found or line:find(default, 1, true)
       end
     end
-    check.that(found, call[1] .. "." .. field .. ": no row of the reference has the default " .. tostring(default))
+    check.that(found,
+        ("%s.%s: no row of the reference has the default %s"):format(call[1], field, default))
   end
 end
 
