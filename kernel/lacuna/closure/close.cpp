@@ -405,6 +405,21 @@ private:
     OpenVolume sealed_;
 };
 
+/// Whether side lines lead up along open rims: walls that end at different heights beside each other. Their
+/// open rim is no loop to match then, and the side lines say what goes with what.
+bool climbs_open_rims(const OpenVolume& volume, const matching::Match& match)
+{
+    const std::vector<EdgeId> free = free_edges(volume);
+    const auto is_free = [&](const EdgeUse& use) {
+        return std::find(free.begin(), free.end(), use.edge) != free.end();
+    };
+    const std::vector<Gap> gaps = find_gaps(volume, match);
+    return std::any_of(gaps.begin(), gaps.end(), [&](const Gap& gap) {
+        return std::any_of(gap.below.begin(), gap.below.end(), is_free) ||
+               std::any_of(gap.above.begin(), gap.above.end(), is_free);
+    });
+}
+
 /// Seal a volume as one of a class, and prove it.
 Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value, const CloseOptions& options,
              const RunContext& context)
@@ -444,7 +459,7 @@ Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptio
     if (!has_two_ends(whole)) return seal(volume, match, whole, options, context);
     OpenVolume lent = volume;
     const std::vector<FaceId> stubs = lend_stubs_to_ends(lent);
-    if (stubs.empty()) return seal(volume, match, whole, options, context);
+    if (stubs.empty() || climbs_open_rims(volume, match)) return seal(volume, match, whole, options, context);
 
     // Part of a stack is missing: what is open lies between the stubs, and is matched there.
     lent.override_class.reset();

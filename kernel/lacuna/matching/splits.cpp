@@ -79,15 +79,22 @@ void apply_splits(OpenVolume& volume, Match& match)
     for (const Split& split : splits) {
         const double wanted = split.fraction * length[split.edge];
         const bool on_wall = uses[split.edge.index()].size() != 1;
-        const bool at_end = std::min(wanted, length[split.edge] - wanted) <= model.tolerance;
-        if (on_wall || at_end) {
-            match.notes.push_back(
-                name_of(model, split.vertex) + " has no partner: its place is on " +
-                name_of(model, split.edge) +
-                (on_wall ? ", which has a wall" : ", at an end of it that has another partner"));
+        // An edge that keeps its nodes is split at one of them: what is in front may end below this.
+        const double in_front = edge_length(model, split.edge);
+        const bool at_end = std::min(wanted, in_front - wanted) <= model.tolerance;
+        const bool no_node = model[split.edge].points.size() == 2 &&
+                             std::ranges::any_of(uses[split.edge.index()], [&](const FaceUse& use) {
+                                 return !model[use.face].given_quads.empty();
+                             });
+        if (on_wall || at_end || no_node) {
+            match.notes.push_back(name_of(model, split.vertex) + " has no partner: its place is on " +
+                                  name_of(model, split.edge) +
+                                  (on_wall  ? ", which has a wall"
+                                   : at_end ? ", at an end of it that has another partner"
+                                            : ", one side of a quad that the face came with"));
             continue;
         }
-        const EdgeSplit made = split_edge(model, split.edge, wanted / edge_length(model, split.edge));
+        const EdgeSplit made = split_edge(model, split.edge, wanted / in_front);
         go_on(split.on_target ? match.target_loops : match.source_loops, split.edge, made.behind);
         match.vertices.emplace_back(split.on_target ? split.vertex : made.vertex,
                                     split.on_target ? made.vertex : split.vertex);

@@ -59,17 +59,17 @@ private:
     std::unordered_map<std::uint64_t, std::array<Index, 2>> beside_;
 };
 
-/// The target's quads, all faces together.
-struct TargetQuads {
+/// The quads of an end, all faces together.
+struct EndQuads {
     std::vector<Quad> quads;
     std::vector<FaceId> face;
 };
 
-std::optional<TargetQuads> quads_of_target(const OpenVolume& volume, std::string& why, bool wedges)
+std::optional<EndQuads> quads_of(const OpenVolume& volume, Role end, std::string& why, bool wedges)
 {
-    TargetQuads target;
+    EndQuads target;
     std::string without;
-    for (const FaceId id : volume.faces(Role::target)) {
+    for (const FaceId id : volume.faces(end)) {
         const Face& face = volume.model[id];
         if (!face.keeps_nodes || !has_cells_to_keep(face, wedges)) without = name_of(volume.model, id);
         target.quads.insert(target.quads.end(), face.given_quads.begin(), face.given_quads.end());
@@ -106,6 +106,72 @@ private:
     double slack_, length_;
 };
 
+/// Pair the quads of two meshes as graphs, over their sides, from some on.
+/// @param image  of nodes of `from`, those of the sides at least; out: of all.
+/// @return  the twin of each quad; nothing where they are laid out otherwise, or not all are reached.
+std::optional<std::vector<Index>> paired_quads(std::span<const Quad> all_from, std::span<const Quad> all_to,
+                                               std::vector<Index>& image, std::span<const Segment> sides)
+{
+    const QuadsBySide from(all_from), to(all_to);
+    std::vector<Index> twin(all_from.size(), -1);
+    std::vector<char> taken(all_to.size(), 0);
+    struct Step {
+        Index a, b, source, target; ///< a side, and the quads it is left from
+    };
+    std::vector<Step> steps;
+    for (const Segment& side : sides) steps.push_back({side[0], side[1], -1, -1});
+    std::size_t paired = 0;
+    while (!steps.empty()) {
+        const Step step = steps.back();
+        steps.pop_back();
+        const Index q = from.beside(step.a, step.b, step.source);
+        const Index t = to.beside(image[index(step.a)], image[index(step.b)], step.target);
+        if (q < 0 && t < 0) continue;
+        bool same = q >= 0 && t >= 0 && (twin[index(q)] == t || (twin[index(q)] < 0 && taken[index(t)] == 0));
+        if (same && twin[index(q)] == t) continue;
+        if (!same || from.is_triangle(q) != to.is_triangle(t)) return std::nullopt;
+        const Quad corners = from.from(q, step.a, step.b);
+        const Quad images = to.from(t, image[index(step.a)], image[index(step.b)]);
+        for (std::size_t k = 2; k < 4; ++k) {
+            Index& known = image[index(corners[k])];
+            if (known < 0) known = images[k];
+            if (known != images[k]) return std::nullopt;
+        }
+        twin[index(q)] = t;
+        taken[index(t)] = 1;
+        ++paired;
+        for (std::size_t k = 1; k < 4; ++k) {
+            if (mesh::is_side(corners, k)) steps.push_back({corners[k], corners[(k + 1) % 4], q, t});
+        }
+    }
+    if (paired != all_from.size()) return std::nullopt;
+    return twin;
+}
+
+/// Numbers of nodes on both chains of which one is above the other: at a column, or at a side line; -1 where
+/// none is.
+std::pair<Index, Index> first_pair(const Model& model, const LinkingSurface& link,
+                                   const GivenColumns& columns)
+{
+    double source_at = 0, target_at = 0;
+    if (columns.rows > 0) {
+        source_at = columns.source_at.front();
+        target_at = columns.target_at.front();
+    } else {
+        source_at = link.lines.front().source_at;
+        target_at = link.lines.front().target_at;
+    }
+    const auto number = [&](const Chain& chain, double at) {
+        const std::vector<ChainNode> nodes = chain_nodes(model, chain);
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            if (std::abs(nodes[i].at - at) <= kSamePlace * chain.length()) return static_cast<Index>(i);
+        }
+        return Index(-1);
+    };
+    const Index low = number(link.source, source_at), high = number(link.target, target_at);
+    return high < 0 ? std::pair{high, high} : std::pair{low, high};
+}
+
 } // namespace
 
 std::optional<GivenTarget> given_target(const OpenVolume& volume, std::span<const LinkingSurface> links,
@@ -113,7 +179,7 @@ std::optional<GivenTarget> given_target(const OpenVolume& volume, std::span<cons
 {
     const Model& model = volume.model;
     why.clear();
-    const std::optional<TargetQuads> target = quads_of_target(volume, why, wedges);
+    const std::optional<EndQuads> target = quads_of(volume, Role::target, why, wedges);
     if (!target) return std::nullopt;
     const std::vector<Quad>& quads = source.quads.quads;
     if (quads.size() != target->quads.size()) {
@@ -121,6 +187,7 @@ std::optional<GivenTarget> given_target(const OpenVolume& volume, std::span<cons
         return std::nullopt;
     }
     std::vector<Index> image(source.quads.nodes.size(), -1);
+    std::vector<Segment> sides;
     for (std::size_t b = 0; b < links.size(); ++b) {
         const TargetPoints points(model, links[b].target);
         const std::vector<double>& at = source.links[b].target_at;
@@ -132,59 +199,64 @@ std::optional<GivenTarget> given_target(const OpenVolume& volume, std::span<cons
                 return std::nullopt;
             }
         }
+        const auto n = static_cast<Index>(at.size());
+        for (Index i = 0; i < n; ++i) sides.push_back({source.first[b] + i, source.first[b] + (i + 1) % n});
     }
-
-    const QuadsBySide from(quads), to(target->quads);
-    std::vector<Index> twin(quads.size(), -1);
-    std::vector<char> taken(target->quads.size(), 0);
-    struct Step {
-        Index a, b, source, target; ///< a side, and the quads it is left from
-    };
-    std::vector<Step> steps;
-    for (std::size_t b = 0; b < links.size(); ++b) {
-        const auto n = static_cast<Index>(source.links[b].target_at.size());
-        for (Index i = 0; i < n; ++i)
-            steps.push_back({source.first[b] + i, source.first[b] + (i + 1) % n, -1, -1});
-    }
-    std::size_t paired = 0;
-    while (!steps.empty()) {
-        const Step step = steps.back();
-        steps.pop_back();
-        const Index q = from.beside(step.a, step.b, step.source);
-        const Index t = to.beside(image[index(step.a)], image[index(step.b)], step.target);
-        if (q < 0 && t < 0) continue;
-        bool same = q >= 0 && t >= 0 && (twin[index(q)] == t || (twin[index(q)] < 0 && taken[index(t)] == 0));
-        if (same && twin[index(q)] == t) continue;
-        same = same && from.is_triangle(q) == to.is_triangle(t);
-        Quad corners{}, images{};
-        if (same) {
-            corners = from.from(q, step.a, step.b);
-            images = to.from(t, image[index(step.a)], image[index(step.b)]);
-            for (std::size_t k = 2; k < 4; ++k) {
-                Index& known = image[index(corners[k])];
-                if (known < 0) known = images[k];
-                same = same && known == images[k];
-            }
-        }
-        if (!same) {
-            why = "its quads are laid out otherwise than the source's";
-            return std::nullopt;
-        }
-        twin[index(q)] = t;
-        taken[index(t)] = 1;
-        ++paired;
-        for (std::size_t k = 1; k < 4; ++k) {
-            if (mesh::is_side(corners, k)) steps.push_back({corners[k], corners[(k + 1) % 4], q, t});
-        }
-    }
-    if (paired != quads.size()) {
+    const std::optional<std::vector<Index>> twin = paired_quads(quads, target->quads, image, sides);
+    if (!twin) {
         why = "its quads are laid out otherwise than the source's";
         return std::nullopt;
     }
     GivenTarget result;
     for (const Index point : image) result.nodes.push_back(model.at(point));
-    for (const Index t : twin) result.face.push_back(target->face[index(t)]);
+    for (const Index t : *twin) result.face.push_back(target->face[index(t)]);
     return result;
+}
+
+void align_alike_ends(const OpenVolume& volume, std::span<const GivenColumns> columns,
+                      std::vector<LinkingSurface>& links, bool wedges)
+{
+    // Columns and side lines say how a loop turns; round loops without are to turn as the others do.
+    std::vector<std::size_t> unsure;
+    const LinkingSurface* sure = nullptr;
+    for (std::size_t b = 0; b < links.size(); ++b) {
+        if (links[b].lines.empty() && columns[b].rows == 0)
+            unsure.push_back(b);
+        else if (sure == nullptr)
+            sure = &links[b];
+    }
+    std::string why;
+    if (sure == nullptr || unsure.empty()) return;
+    const std::optional<EndQuads> source = quads_of(volume, Role::source, why, wedges);
+    const std::optional<EndQuads> target = quads_of(volume, Role::target, why, wedges);
+    if (!source || !target || source->quads.size() != target->quads.size()) return;
+
+    const Model& model = volume.model;
+    const auto [low, high] = first_pair(model, *sure, columns[static_cast<std::size_t>(sure - links.data())]);
+    const std::vector<ChainNode> below = chain_nodes(model, sure->source),
+                                 above = chain_nodes(model, sure->target);
+    if (low < 0 || below.size() != above.size()) return;
+    std::vector<Index> image(model.points.size(), -1);
+    std::vector<Segment> sides;
+    const std::size_t n = below.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const ChainNode& a = below[(static_cast<std::size_t>(low) + i) % n];
+        image[index(a.point)] = above[(static_cast<std::size_t>(high) + i) % n].point;
+        sides.push_back({a.point, below[(static_cast<std::size_t>(low) + i + 1) % n].point});
+    }
+    if (!paired_quads(source->quads, target->quads, image, sides)) return;
+    for (const std::size_t b : unsure) {
+        LinkingSurface& link = links[b];
+        const Index start = image[index(chain_nodes(model, link.source).front().point)];
+        for (const ChainNode& node : chain_nodes(model, link.target)) {
+            if (node.point != start) continue;
+            const double move = node.at - link.segments.front().target_from;
+            for (RimSegment& segment : link.segments) {
+                segment.target_from += move;
+                segment.target_to += move;
+            }
+        }
+    }
 }
 
 } // namespace lacuna::surface

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/surface/given_nodes.h>
 #include <lacuna/surface/source_mesh.h>
 
 #include <optional>
@@ -24,5 +25,12 @@ struct GivenTarget {
 std::optional<GivenTarget> given_target(const topology::OpenVolume& volume,
                                         std::span<const LinkingSurface> links, const SourceMesh& source,
                                         std::string& why, bool wedges = false);
+
+/// Where both ends came with quads of the same graph: turn the loops whose walls do not say how they turn
+/// (round, without columns or side lines) as the graph leads to them from one whose walls do.
+/// @param columns  of each linking surface.
+/// @note  O(quads of the ends); nothing is done where no loop needs it.
+void align_alike_ends(const topology::OpenVolume& volume, std::span<const GivenColumns> columns,
+                      std::vector<LinkingSurface>& links, bool wedges = false);
 
 } // namespace lacuna::surface

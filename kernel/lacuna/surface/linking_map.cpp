@@ -91,6 +91,14 @@ Eigen::MatrixXd natural_coordinate(const Model& model, const LinkingFacets& face
     return geometry::solve_harmonic(problem);
 }
 
+/// Whether an edge was made, between faces that were made.
+bool is_void(const Model& model, EdgeId edge, const std::vector<FaceUse>& beside)
+{
+    return model[edge].origin == Origin::made_void && std::ranges::all_of(beside, [&](const FaceUse& user) {
+               return model[user.face].origin == Origin::made_void;
+           });
+}
+
 } // namespace
 
 double unguided_target_start(const OpenVolume& volume, const LinkingSurface& link)
@@ -125,7 +133,7 @@ double target_coordinate(const LinkingSurface& link, double target_at)
     return 1;
 }
 
-LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link)
+LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, bool void_edges)
 {
     const Model& model = volume.model;
     const LinkingFacets facets = facets_of(model, link.walls);
@@ -171,7 +179,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link)
     }
     problem.corner_turns = geometry::turns_along(facets.triangles, cut);
     problem.period = Eigen::RowVector2d(1, 0);
-    const Eigen::MatrixXd strip = geometry::solve_harmonic(problem);
+    strip_ = geometry::solve_harmonic(problem);
 
     // The strip's own proportions, so that the closest facet to a place off the strip by rounding is the
     // right one.
@@ -187,7 +195,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link)
         double least = std::numeric_limits<double>::infinity(), most = -least;
         for (std::size_t i = 0; i < 3; ++i) {
             const Index p = facets.triangles[t][i];
-            corners[t][i] = Vec2(strip(p, 0) + problem.corner_turns[t][i], strip(p, 1));
+            corners[t][i] = Vec2(strip_(p, 0) + problem.corner_turns[t][i], strip_(p, 1));
             least = std::min(least, corners[t][i].x());
             most = std::max(most, corners[t][i].x());
         }
@@ -203,7 +211,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link)
     face_of_ = facets.face;
     triangle_of_ = facets.number;
     if (link.lines.empty()) measure_heights(model);
-    find_rings(volume, link, corners);
+    find_rings(volume, link, corners, void_edges);
 }
 
 void LinkingMap::measure_heights(const Model& model)
@@ -248,7 +256,7 @@ WallPosition LinkingMap::locate(double s, double t) const
 }
 
 void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link,
-                            const std::vector<std::array<Vec2, 3>>& corners)
+                            const std::vector<std::array<Vec2, 3>>& corners, bool void_edges)
 {
     const Model& model = volume.model;
     const LinkingFacets facets = facets_of(model, link.walls);
@@ -266,7 +274,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
                 if (!taken.insert(use.edge).second) continue;
                 const std::vector<FaceUse>& beside = uses[use.edge.index()];
                 const bool seam = beside.size() == 2 && beside[0].face == beside[1].face;
-                if (seam) continue;
+                if (seam || (!void_edges && is_void(model, use.edge, beside))) continue;
                 Ring piece;
                 double along = 0, up = 0;
                 const std::vector<Index> points = use_points(model, use);
@@ -288,16 +296,12 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
                     along += std::abs(b.x() - a.x()) * width_;
                     up += b.y() - a.y();
                 }
-                // An edge that leaves a rim between quads that stay is sides of them, and so of the mesh.
-                constexpr double kOnRim = 1e-6;
-                const bool steep = piece.pieces.empty() || std::abs(up) * height_ > along;
-                const auto on_rim = [&](double height) { return height < kOnRim || height > 1 - kOnRim; };
-                const bool leaves = steep || on_rim(piece.pieces.front().a.y()) ||
-                                    on_rim(piece.pieces.back().b.y());
-                const bool stays = std::ranges::all_of(beside, [&](const FaceUse& user) {
+                // Quads that stay have nodes of the mesh all along their edges.
+                const bool stays = std::ranges::any_of(beside, [&](const FaceUse& user) {
                     return model[user.face].keeps_nodes && has_quads_all_over(model[user.face]);
                 });
-                if (leaves && stays) continue;
+                if (stays) continue;
+                const bool steep = piece.pieces.empty() || std::abs(up) * height_ > along;
                 if (steep) {
                     uprights_.push_back({use.edge, std::move(piece.pieces)});
                     continue;

@@ -190,8 +190,8 @@ private:
     {
         const std::vector<double> arc = geometry::arc_lengths(edge_line(model_, edge));
         for (SeedPiece& piece : seeds_.pieces[edge]) {
-            if (piece.fixed) continue;
             const double slack = model_.tolerance / arc.back();
+            const std::size_t sides = piece.kept.size();
             piece.kept.clear();
             bool from = false, to = false;
             for (const double length : arc) {
@@ -200,7 +200,8 @@ private:
                 to = to || std::abs(f - piece.to) <= slack;
                 if (f > piece.from + slack && f < piece.to - slack) piece.kept.push_back(f);
             }
-            if (!from || !to) {
+            // A piece that is one side already has no node inside.
+            if (!from || !to || (piece.fixed && piece.kept.size() != sides)) {
                 throw NotSweepable("surface.kept_rim", name_of(model_, edge) + " of " +
                                                            name_of(model_, face) +
                                                            ", whose quads are to be kept, has no node where "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/wall_breaks.h>
 
+#include <lacuna/core/error.h>
 #include <lacuna/surface/detail/wall_net.h>
 
 #include <algorithm>
@@ -47,8 +48,8 @@ bool has_net(const Model& model, const LinkingSurface& link)
 
 class Breaker {
 public:
-    Breaker(const OpenVolume& volume, const SizeField& size, LinkingSurface& link)
-        : size_(size), link_(link), map_(volume, link), net_(wall_net(volume.model, link, map_))
+    Breaker(const OpenVolume& volume, const SizeField& size, LinkingSurface& link, bool void_edges)
+        : size_(size), link_(link), map_(volume, link, void_edges), net_(wall_net(volume.model, link, map_))
     {
     }
 
@@ -113,6 +114,7 @@ private:
         for (std::size_t i = 0; i < link_.segments.size(); ++i) {
             RimSegment& low = link_.segments[i];
             if (at < low.source_from + slack || at > low.source_to - slack) continue;
+            if (low.given) return; // one side of a quad: the column takes a node of it
             RimSegment high = low;
             const double f = (at - low.source_from) / (low.source_to - low.source_from);
             high.source_from = low.source_to = at;
@@ -135,7 +137,17 @@ int set_wall_breaks(const OpenVolume& volume, const SizeField& size, std::vector
 {
     int layers = 1;
     for (LinkingSurface& link : links) {
-        if (has_net(volume.model, link)) layers = std::max(layers, Breaker(volume, size, link).run());
+        if (!has_net(volume.model, link)) continue;
+        const bool has_given = std::any_of(link.walls.begin(), link.walls.end(), [&](FaceId wall) {
+            return volume.model[wall].keeps_nodes && has_quads_all_over(volume.model[wall]);
+        });
+        try {
+            layers = std::max(layers, Breaker(volume, size, link, true).run());
+        } catch (const NotSweepable& error) {
+            // Where given nodes lead, void edges need not.
+            if (!has_given || error.code() != "surface.wall_edge") throw;
+            layers = std::max(layers, Breaker(volume, size, link, false).run());
+        }
     }
     return layers;
 }

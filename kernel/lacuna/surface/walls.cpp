@@ -81,17 +81,44 @@ public:
           context_(context),
           count_(nodes.source_at.size()),
           layers_(heights.size() - 1),
-          given_node_(count_, 0),
-          given_side_(count_, 0),
+          given_node_(count_ * (layers_ + 1), kNotGiven),
+          given_side_(count_ * layers_, 0),
           line_of_(count_, -1)
     {
         mesh_.points.resize(count_ * (layers_ + 1));
         mesh_.face.resize(count_ * layers_);
         for (std::size_t i = 0; i < nodes.line.size(); ++i) line_of_[nodes.line[i]] = static_cast<int>(i);
-        set_columns(columns);
+        take_columns(columns);
     }
 
     WallMesh run()
+    {
+        const bool has_given = std::any_of(given_side_.begin(), given_side_.end(),
+                                           [](char given) { return given != 0; });
+        if (!has_given) return mesh(true);
+        const WallMesh before = mesh_;
+        try {
+            return mesh(true);
+        } catch (const NotSweepable& error) {
+            if (error.code() != "surface.wall_edge") throw;
+        }
+        // Given nodes leave no column for an edge between void faces: these are not followed.
+        mesh_ = before;
+        map_.reset();
+        followed_.clear();
+        net_ = {};
+        level_layer_.clear();
+        on_edge_.clear();
+        WallMesh result = mesh(false);
+        result.notes.emplace_back("edges between void faces are no columns and layers of the mesh, because "
+                                  "the nodes that the walls came with leave none for them");
+        return result;
+    }
+
+    [[nodiscard]] const std::vector<FollowedPanel>& followed() const { return followed_; }
+
+private:
+    WallMesh mesh(bool void_edges)
     {
         set_row(0, link_.source.points(nodes_.source_at));
         set_row(layers_, link_.target.points(wrapped(nodes_.target_at, link_.target.length())));
@@ -102,7 +129,7 @@ public:
                             std::all_of(panels.begin(), panels.end(),
                                         [&](const auto& faces) { return is_simple(faces); });
         if (!simple) {
-            map_ = std::make_unique<LinkingMap>(volume_, link_);
+            map_ = std::make_unique<LinkingMap>(volume_, link_, void_edges);
             net_ = wall_net(model_, link_, *map_);
             plan_levels();
         }
@@ -112,7 +139,7 @@ public:
         for (std::size_t i = 0; i < panels.size(); ++i) {
             const std::size_t first = nodes_.line[i];
             const std::size_t last = i + 1 < panels.size() ? nodes_.line[i + 1] : count_;
-            if (is_given(first, last)) continue;
+            if (are_given(first, last)) continue;
             if (follows(panels[i])) {
                 followed_.push_back({0, first, last});
                 set_faces(panels[i].front(), first, last);
@@ -129,57 +156,108 @@ public:
         return std::move(mesh_);
     }
 
-    [[nodiscard]] const std::vector<FollowedPanel>& followed() const { return followed_; }
-
-private:
     static std::vector<double> wrapped(std::vector<double> at, double length)
     {
         for (double& x : at) x = x >= length ? x - length : x;
         return at;
     }
 
-    /// Take the nodes of columns as they are.
-    void set_columns(const GivenColumns& columns)
+    /// Given nodes that start at one node of the rim and lead away from it.
+    struct GivenWay {
+        std::size_t node;
+        const std::vector<Index>* points;
+        const std::vector<FaceId>* faces;
+    };
+
+    /// Take the nodes of columns and stubs as they are.
+    void take_columns(const GivenColumns& columns)
     {
-        const double slack = kSamePlace * link_.source.length();
-        std::size_t c = 0;
-        for (std::size_t i = 0; i < count_ && columns.rows == static_cast<int>(layers_); ++i) {
-            while (c < columns.source_at.size() && columns.source_at[c] < nodes_.source_at[i] - slack) ++c;
-            if (c == columns.source_at.size() || columns.source_at[c] > nodes_.source_at[i] + slack) continue;
-            given_node_[i] = 1;
-            for (std::size_t k = 0; k <= layers_; ++k) point(k, i) = model_.at(columns.points[c][k]);
-            if (columns.faces[c].empty()) continue;
-            const bool last = c + 1 == columns.source_at.size();
-            const double next = last ? link_.source.length() : columns.source_at[c + 1];
-            set_given_sides(i, next - slack, columns.points[last ? 0 : c + 1], columns.faces[c]);
+        std::vector<GivenWay> up, from_source, from_target;
+        if (columns.rows == static_cast<int>(layers_)) {
+            for (std::size_t c = 0; c < columns.source_at.size(); ++c)
+                add_way(columns.source_at[c], false, columns.points[c], columns.faces[c], up);
+        }
+        for (const GivenStub& stub : columns.stubs) {
+            std::vector<GivenWay>& ways = stub.from_target ? from_target : from_source;
+            const bool beside = !ways.empty() && !ways.back().faces->empty();
+            const std::size_t before = ways.empty() ? 0 : ways.back().node;
+            if (!add_way(stub.at, stub.from_target, stub.points, stub.faces, ways)) refuse_stub(stub);
+            // An odd rim has one node more on a side. Others are the opposite end's.
+            if (beside && (ways.back().node + count_ - before) % count_ > 2) refuse_stub(stub);
+        }
+        take_ways(up, false);
+        take_ways(from_source, false);
+        take_ways(from_target, true);
+    }
+
+    /// @return  false where the rim has no node there.
+    bool add_way(double at, bool from_target, const std::vector<Index>& points,
+                 const std::vector<FaceId>& faces, std::vector<GivenWay>& ways) const
+    {
+        const double length = from_target ? link_.target.length() : link_.source.length();
+        const std::vector<double>& nodes = from_target ? nodes_.target_at : nodes_.source_at;
+        const double slack = kSamePlace * length;
+        const auto off = [&](double node) { return std::abs(std::remainder(node - at, length)); };
+        // Nodes rise from the first; the target's may run past its end.
+        const double start = nodes.front(), from = at + (at < start - slack ? length : 0);
+        auto found = std::lower_bound(nodes.begin(), nodes.end(), from - slack);
+        if (found == nodes.end()) found = nodes.begin();
+        if (off(*found) > slack) return false;
+        ways.push_back({static_cast<std::size_t>(found - nodes.begin()), &points, &faces});
+        return true;
+    }
+
+    [[noreturn]] void refuse_stub(const GivenStub& stub) const
+    {
+        const std::string rim = stub.from_target ? "target" : "source";
+        throw NotSweepable("surface.wall_rows",
+                           name_of(model_, stub.wall) + " came with quads on the " + rim +
+                               "'s rim, and the other rim came with other nodes between the same corners; "
+                               "mesh both alike, or load one with keep_mesh = false");
+    }
+
+    void take_ways(const std::vector<GivenWay>& ways, bool from_target)
+    {
+        const auto layer = [&](std::size_t k) { return from_target ? layers_ - k : k; };
+        for (std::size_t w = 0; w < ways.size(); ++w) {
+            const GivenWay &way = ways[w], &next = ways[(w + 1) % ways.size()];
+            for (std::size_t k = 0; k < way.points->size(); ++k) {
+                given_node_[layer(k) * count_ + way.node] = (*way.points)[k];
+                point(layer(k), way.node) = model_.at((*way.points)[k]);
+            }
+            const std::size_t end = next.node > way.node ? next.node : next.node + count_;
+            for (std::size_t i = way.node; i < end && !way.faces->empty(); ++i) {
+                // Nodes between divide the quads: an odd rim was given one more.
+                const double share = static_cast<double>(i - way.node) / static_cast<double>(end - way.node);
+                for (std::size_t k = 0; k < way.faces->size(); ++k) {
+                    const std::size_t low = std::min(layer(k), layer(k + 1));
+                    mesh_.face[low * count_ + i % count_] = (*way.faces)[k];
+                    given_side_[low * count_ + i % count_] = 1;
+                }
+                for (std::size_t k = 0; k <= way.faces->size() && i > way.node; ++k) {
+                    given_node_[layer(k) * count_ + i % count_] = kBetweenGiven;
+                    point(layer(k), i) = (1 - share) * model_.at((*way.points)[k]) +
+                                         share * model_.at((*next.points)[k]);
+                }
+            }
         }
     }
 
-    /// The quads from node `first` to the column before running length `end`. Nodes between divide them: an
-    /// odd rim was given one more.
-    void set_given_sides(std::size_t first, double end, const std::vector<Index>& next,
-                         const std::vector<FaceId>& faces)
+    [[nodiscard]] bool is_given(std::size_t layer, std::size_t node) const
     {
-        std::size_t last = first;
-        while (last + 1 < count_ && nodes_.source_at[last + 1] < end) ++last;
-        const auto sides = static_cast<double>(last - first + 1);
-        for (std::size_t i = first; i <= last; ++i) {
-            given_side_[i] = 1;
-            for (std::size_t k = 0; k < layers_; ++k) mesh_.face[k * count_ + i] = faces[k];
-            if (i == first) continue;
-            given_node_[i] = 1;
-            const double share = static_cast<double>(i - first) / sides;
-            for (std::size_t k = 0; k <= layers_; ++k)
-                point(k, i) = (1 - share) * point(k, first) + share * model_.at(next[k]);
-        }
+        return given_node_[layer * count_ + node % count_] != kNotGiven;
     }
 
-    /// Whether all sides from a node to another are given quads.
-    [[nodiscard]] bool is_given(std::size_t first, std::size_t last) const
+    /// Whether all quads between two nodes of the rim are given.
+    [[nodiscard]] bool are_given(std::size_t first, std::size_t last) const
     {
-        return std::all_of(given_side_.begin() + static_cast<std::ptrdiff_t>(first),
-                           given_side_.begin() + static_cast<std::ptrdiff_t>(last),
-                           [](char given) { return given != 0; });
+        for (std::size_t k = 0; k < layers_; ++k) {
+            const auto row = given_side_.begin() + static_cast<std::ptrdiff_t>(k * count_);
+            if (!std::all_of(row + static_cast<std::ptrdiff_t>(first),
+                             row + static_cast<std::ptrdiff_t>(last), [](char given) { return given != 0; }))
+                return false;
+        }
+        return true;
     }
 
     [[nodiscard]] Vec3& point(std::size_t layer, std::size_t node)
@@ -347,7 +425,9 @@ private:
             }
             for (std::size_t k = 0; k <= layers_; ++k) place_[k * count_ + i] = Vec2(s, at[k]);
         }
-        if (!net_.stops.empty()) follow_net();
+        const bool given = std::any_of(given_side_.begin(), given_side_.end(),
+                                       [](char side) { return side != 0; });
+        if (map_ != nullptr && (given || !net_.stops.empty())) follow_net();
     }
 
     // --- the net -------------------------------------------------------------------------------------
@@ -489,13 +569,55 @@ private:
         }
         move_grid();
         for (std::size_t i = 0; i < count_; ++i) {
-            for (std::size_t k = 0; k < layers_; ++k) {
-                if (place_[(k + 1) * count_ + i].y() > place_[k * count_ + i].y()) continue;
-                refuse_wall_edge(model_,
-                                 net_.levels.empty() ? net_.columns.front().edge : net_.levels.front().edge,
-                                 "draws the layers over each other; ask for more layers");
-            }
+            if (!rises(i)) spread_evenly(i);
+            if (!rises(i)) refuse_overlap();
         }
+    }
+
+    /// Whether the nodes of a column lie one above the other in the strip, but for those that are given.
+    [[nodiscard]] bool rises(std::size_t node) const
+    {
+        for (std::size_t k = 0; k < layers_; ++k) {
+            if (place_[(k + 1) * count_ + node].y() > place_[k * count_ + node].y()) continue;
+            if (!is_given(k, node) || !is_given(k + 1, node)) return false;
+        }
+        return true;
+    }
+
+    /// Put the free nodes of a column between those that are given or on an edge, as the heights are.
+    void spread_evenly(std::size_t node)
+    {
+        const auto is_free = [&](std::size_t k) {
+            return k > 0 && k < layers_ && !is_given(k, node) && !on_edge_.contains(k * count_ + node);
+        };
+        std::size_t low = 0;
+        for (std::size_t k = 1; k <= layers_; ++k) {
+            if (is_free(k)) continue;
+            const double from = place_[low * count_ + node].y(), to = place_[k * count_ + node].y();
+            for (std::size_t j = low + 1; j < k; ++j) {
+                const double f = (heights_[j] - heights_[low]) / (heights_[k] - heights_[low]);
+                place_[j * count_ + node].y() = from + f * (to - from);
+            }
+            low = k;
+        }
+    }
+
+    [[noreturn]] void refuse_overlap() const
+    {
+        const std::string why = "draws the layers over each other; ask for more layers";
+        if (!net_.levels.empty()) refuse_wall_edge(model_, net_.levels.front().edge, why);
+        if (!net_.columns.empty()) refuse_wall_edge(model_, net_.columns.front().edge, why);
+        const auto given = std::find(given_side_.begin(), given_side_.end(), 1) - given_side_.begin();
+        throw NotSweepable("surface.wall_rows",
+                           "the mesh that " + name_of(model_, mesh_.face[static_cast<std::size_t>(given)]) +
+                               " came with " + why);
+    }
+
+    /// How far a node is from where it belongs in the strip.
+    [[nodiscard]] double off_place(const Vec2& to, std::size_t node, Eigen::Index axis) const
+    {
+        const double off = to[axis] - place_[node][axis];
+        return axis == 0 ? off - std::round(off) : off;
     }
 
     void move_grid()
@@ -524,15 +646,16 @@ private:
             std::map<Index, double> fixed;
             for (std::size_t i = 0; i < count_; ++i) {
                 for (std::size_t k = 0; k <= layers_; ++k) {
-                    const bool still = k == 0 || k == layers_ || given_node_[i] != 0 ||
-                                       (axis == 0 && line_of_[i] >= 0);
-                    if (still) fixed[at(k, i)] = 0;
+                    const bool still = k == 0 || k == layers_ || (axis == 0 && line_of_[i] >= 0);
+                    const Index point = given_node_[k * count_ + i];
+                    if (still)
+                        fixed[at(k, i)] = 0;
+                    else if (point >= 0)
+                        fixed[at(k, i)] = off_place(map_->place_of(point), k * count_ + i, axis);
                 }
             }
             for (const auto& [node, pinned] : on_edge_) {
-                double off = pinned.place[axis] - place_[node][axis];
-                if (axis == 0) off -= std::round(off);
-                fixed.try_emplace(static_cast<Index>(node), off);
+                fixed.try_emplace(static_cast<Index>(node), off_place(pinned.place, node, axis));
             }
             geometry::HarmonicProblem problem;
             problem.points = points;
@@ -563,14 +686,14 @@ private:
     {
         for (std::size_t i = 0; i < link_.lines.size(); ++i) {
             const std::size_t node = nodes_.line[i];
-            if (given_node_[node] != 0) continue;
             const Chain chain(model_, link_.lines[i].line.uses);
             std::vector<double> at;
             for (std::size_t k = 0; k <= layers_; ++k)
                 at.push_back(place_[k * count_ + node].y() * chain.length());
             const std::vector<Vec3> points = chain.points(at);
-            for (std::size_t k = 1; k < layers_; ++k)
-                point(k, node) = pinned_point(k, node).value_or(points[k]);
+            for (std::size_t k = 1; k < layers_; ++k) {
+                if (!is_given(k, node)) point(k, node) = pinned_point(k, node).value_or(points[k]);
+            }
         }
     }
 
@@ -636,8 +759,8 @@ private:
     {
         std::map<FaceId, std::pair<std::vector<FacetPosition>, std::vector<std::size_t>>> on_face;
         for (std::size_t i = first; i < last; ++i) {
-            const bool settled = line_of_[i] >= 0 || given_node_[i] != 0;
-            for (std::size_t k = 1; k < layers_ && !settled; ++k) {
+            for (std::size_t k = 1; k < layers_ && line_of_[i] < 0; ++k) {
+                if (is_given(k, i)) continue;
                 if (const std::optional<Vec3> pinned = pinned_point(k, i)) {
                     point(k, i) = *pinned;
                     continue;
@@ -647,7 +770,8 @@ private:
                 on_face[place.face].first.push_back(place.at);
                 on_face[place.face].second.push_back(k * count_ + i);
             }
-            for (std::size_t k = 0; k < layers_ && given_side_[i] == 0; ++k) {
+            for (std::size_t k = 0; k < layers_; ++k) {
+                if (given_side_[k * count_ + i] != 0) continue;
                 Vec2 next = place_[k * count_ + (i + 1) % count_] +
                             place_[(k + 1) * count_ + (i + 1) % count_];
                 if (i + 1 == count_) next.x() += 2;
@@ -680,9 +804,11 @@ private:
     };
     std::map<std::size_t, Pinned> on_edge_; ///< nodes that lie on an edge, by layer · nodes + node
     std::vector<Vec2> place_;               ///< of each node in the strip
-    std::vector<char> given_node_;          ///< nodes that are a column's
-    std::vector<char> given_side_;          ///< sides of the rim that given quads stand on
-    std::vector<int> line_of_;              ///< side line of each node of the rim; -1: none
+    static constexpr Index kNotGiven = -1, kBetweenGiven = -2;
+    std::vector<Index>
+        given_node_; ///< model point that a node is, by layer · nodes + node, or one of the two
+    std::vector<char> given_side_; ///< given quads, by layer · nodes + node
+    std::vector<int> line_of_;     ///< side line of each node of the rim; -1: none
 };
 
 /// The rows of the walls that are there, as a section each.

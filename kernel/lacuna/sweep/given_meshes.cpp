@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/given_meshes.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/surface/given_target.h>
 #include <lacuna/sweep/detail/place_order.h>
 #include <lacuna/sweep/detail/words.h>
 
@@ -36,7 +37,8 @@ std::set<Index> nodes_to_keep(const Model& model, const Face& face, bool whole)
 } // namespace
 
 GivenMeshes given_meshes(const OpenVolume& volume, std::vector<surface::LinkingSurface>& links,
-                         const std::vector<double>& asked, const SweepOptions& options)
+                         const std::vector<double>& asked, const surface::SizeField& size,
+                         const SweepOptions& options)
 {
     GivenMeshes given;
     given.heights = asked;
@@ -55,7 +57,12 @@ GivenMeshes given_meshes(const OpenVolume& volume, std::vector<surface::LinkingS
         const std::vector<double> heights = surface::given_heights(volume.model, given.columns);
         if (!heights.empty()) given.heights = heights;
     }
+    surface::align_alike_ends(volume, given.columns, links, options.wedges);
     surface::keep_given_nodes(volume, given.columns, links, given.notes, options.wedges);
+    const std::vector<double> stubs = surface::stub_heights(
+        volume.model, links, given.columns, size, std::max(0, static_cast<int>(given.heights.size()) - 1));
+    const bool by_columns = asked.empty() && !given.heights.empty();
+    if (!stubs.empty() && !by_columns && options.layers.heights.empty()) given.heights = stubs;
     return given;
 }
 

@@ -362,8 +362,8 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     std::optional<surface::Imprint> imprint = imprint_of(volume, given_links, size, options.wedges);
     const OpenVolume& split = imprint ? *imprint->volume : volume;
     std::vector<surface::LinkingSurface>& links = imprint ? imprint->links : given_links;
+    GivenMeshes given = given_meshes(split, links, asked, size, options);
     const int least_layers = surface::set_wall_breaks(split, size, links);
-    GivenMeshes given = given_meshes(split, links, asked, options);
     const surface::LayerTables tables = surface::layer_tables(volume, options.boundary_layers);
     const std::vector<double> heights = plan_heights(split, links, tables, given.heights, size, options,
                                                      least_layers);

@@ -23,9 +23,13 @@ struct WallPosition {
 /// stacked, in rows, with seams that do not line up.
 class LinkingMap {
 public:
-    LinkingMap(const topology::OpenVolume& volume, const LinkingSurface& link);
+    /// @param void_edges  edges between void faces are among the rings and uprights.
+    LinkingMap(const topology::OpenVolume& volume, const LinkingSurface& link, bool void_edges = true);
 
     [[nodiscard]] WallPosition locate(double s, double t) const;
+
+    /// Where a model point of the walls lies; s but for whole turns.
+    [[nodiscard]] Vec2 place_of(Index point) const { return strip_.row(point).transpose(); }
 
     /// t at a share of the walls' length from source to target, in the mean over the columns. Where there are
     /// side lines t is that share already; without them a harmonic t rises faster where the walls are narrow.
@@ -70,8 +74,9 @@ public:
 private:
     void measure_heights(const topology::Model& model);
     void find_rings(const topology::OpenVolume& volume, const LinkingSurface& link,
-                    const std::vector<std::array<Vec2, 3>>& corners);
+                    const std::vector<std::array<Vec2, 3>>& corners, bool void_edges);
 
+    Eigen::MatrixXd strip_; ///< (s, t) of every model point
     std::vector<FaceId> face_of_;
     std::vector<Index> triangle_of_;
     std::vector<Index> original_; ///< triangle of the linking surface behind each triangle of the tree

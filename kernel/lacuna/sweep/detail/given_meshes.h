@@ -19,10 +19,12 @@ struct GivenMeshes {
 
 /// Read the meshes of walls and rims; the segments of `links` are broken at given nodes.
 /// @param asked  heights that the options give; empty: none.
+/// @param size   what walls that end half way leave open is divided by it.
 /// @throw NotSweepable "sweep.given_rows"  rows of quads on walls that are not as many as the layers asked
 ///                     for; what `surface::given_columns()` throws.
 GivenMeshes given_meshes(const topology::OpenVolume& volume, std::vector<surface::LinkingSurface>& links,
-                         const std::vector<double>& asked, const SweepOptions& options);
+                         const std::vector<double>& asked, const surface::SizeField& size,
+                         const SweepOptions& options);
 
 /// Layers about as high as the quads are wide: the mean distance of places on the rims that go together, over
 /// the size between them, and `least` at least. @throw InvalidInput  more than can be numbered.

@@ -1,0 +1,586 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/core/edge_key.h>
+#include <lacuna/core/error.h>
+#include <lacuna/surface/detail/chain_nodes.h>
+#include <lacuna/surface/detail/kept_edges.h>
+#include <lacuna/surface/given_nodes.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <unordered_map>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+std::string place_of(const Model& model, const Quad& quad)
+{
+    Vec3 sum = Vec3::Zero();
+    for (const Index n : quad) sum += model.at(n);
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), "(%.6g, %.6g, %.6g)", sum.x() / 4, sum.y() / 4, sum.z() / 4);
+    return text.data();
+}
+
+[[noreturn]] void refuse_rows(const std::string& wall, int rows, const std::string& other, int other_rows)
+{
+    throw NotSweepable("surface.wall_rows",
+                       wall + " came with " + std::to_string(rows) +
+                           " rows of quads between source and target, and " + other + " with " +
+                           std::to_string(other_rows) +
+                           "; a sweep has as many layers everywhere: mesh them alike, or load with "
+                           "keep_mesh = false");
+}
+
+[[noreturn]] void refuse_stub_rows(const std::string& stub, std::size_t rows, const std::string& whole,
+                                   std::size_t whole_rows)
+{
+    throw NotSweepable("surface.wall_rows",
+                       stub + " came with " + std::to_string(rows) +
+                           " rows of quads that end before the opposite end, and " + whole + " with " +
+                           std::to_string(whole_rows) +
+                           " from source to target, which leaves none for the rest of the way: mesh them "
+                           "alike, or load with keep_mesh = false");
+}
+
+/// The quads of a linking surface's walls, walked from rim to rim.
+class ColumnWalker {
+public:
+    ColumnWalker(const OpenVolume& volume, const LinkingSurface& link) : model_(volume.model), link_(link)
+    {
+        for (const FaceId wall : link.walls) {
+            if (!model_[wall].keeps_nodes || !has_quads_all_over(model_[wall])) continue;
+            for (const Quad& quad : model_[wall].given_quads) {
+                for (std::size_t k = 0; k < 4; ++k)
+                    beside_[edge_key(quad[k], quad[(k + 1) % 4])].push_back(quads_.size());
+                quads_.push_back({quad, wall, false});
+            }
+        }
+    }
+
+    GivenColumns run()
+    {
+        GivenColumns columns;
+        if (quads_.empty()) return columns;
+        const std::vector<ChainNode> source = chain_nodes(model_, link_.source);
+        const std::vector<ChainNode> target = chain_nodes(model_, link_.target);
+        for (const ChainNode& node : target) target_at_.emplace(node.point, node.at);
+        find_sides(source, target);
+
+        std::vector<Strip> whole, stubs = strips_from(source);
+        const auto first_stub = std::stable_partition(stubs.begin(), stubs.end(),
+                                                      [](const Strip& strip) { return strip.whole; });
+        std::move(stubs.begin(), first_stub, std::back_inserter(whole));
+        stubs.erase(stubs.begin(), first_stub);
+        check_rows(whole);
+        const Ring columns_at = joined(whole, source.size());
+        if (crossed_) refuse_no_rows(quads_[*crossed_]);
+        const Ring low = joined(stubs, source.size());
+        check_stubs(stubs, columns_at, source.size());
+        // What leads all the way down has been walked.
+        std::vector<Strip> hanging = strips_from(target);
+        if (crossed_) refuse_no_rows(quads_[*crossed_]);
+        check_stubs(hanging, {}, target.size());
+        const Ring high = joined(hanging, target.size());
+        check_all_walked();
+
+        columns.rows = rows_;
+        columns.quads = rows_ > 0;
+        for (const auto& [i, column] : columns_at) {
+            columns.source_at.push_back(source[i].at);
+            columns.target_at.push_back(target_at_.at(column.points.back()));
+            columns.points.push_back(column.points);
+            columns.faces.push_back(column.faces);
+        }
+        for (const auto& [i, column] : low)
+            columns.stubs.push_back({false, source[i].at, column.wall, column.points, column.faces});
+        for (const auto& [i, column] : high)
+            columns.stubs.push_back({true, target[i].at, column.wall, column.points, column.faces});
+        return columns;
+    }
+
+private:
+    struct WallQuad {
+        Quad corners;
+        FaceId wall;
+        bool walked = false;
+    };
+    struct Strip {
+        std::vector<Index> left, right;
+        std::vector<std::size_t> quads;
+        std::vector<FaceId> faces;
+        bool whole = false;
+        std::size_t first = 0; ///< number of the rim's node on its left
+    };
+    struct Column {
+        std::vector<Index> points;
+        std::vector<FaceId> faces;
+        FaceId wall;
+    };
+    using Ring = std::map<std::size_t, Column>; ///< by number of the rim's node
+
+    void find_sides(const std::vector<ChainNode>& source, const std::vector<ChainNode>& target)
+    {
+        for (std::size_t i = 0; i < target.size(); ++i)
+            target_sides_.insert(edge_key(target[i].point, target[(i + 1) % target.size()].point));
+        for (std::size_t i = 0; i < source.size(); ++i)
+            no_end_.insert(edge_key(source[i].point, source[(i + 1) % source.size()].point));
+        for (const LinkingLine& line : link_.lines) {
+            for (const EdgeUse& use : line.line.uses) {
+                const std::vector<Index>& points = model_[use.edge].points;
+                for (std::size_t i = 0; i + 1 < points.size(); ++i)
+                    no_end_.insert(edge_key(points[i], points[i + 1]));
+            }
+        }
+    }
+
+    /// The strips of quads that start at the sides of a rim and that none has walked.
+    std::vector<Strip> strips_from(const std::vector<ChainNode>& rim)
+    {
+        std::vector<Strip> strips;
+        for (std::size_t i = 0; i < rim.size(); ++i) {
+            Strip strip = walk(rim[i].point, rim[(i + 1) % rim.size()].point);
+            if (strip.quads.empty()) continue;
+            strip.first = i;
+            strips.push_back(std::move(strip));
+        }
+        return strips;
+    }
+
+    /// Over opposite sides from a side of a rim, as far as quads go; nothing where the first was walked.
+    Strip walk(Index a, Index b)
+    {
+        Strip strip{{a}, {b}, {}, {}, false, 0};
+        std::size_t last = quads_.size();
+        for (;;) {
+            const auto found = beside_.find(edge_key(a, b));
+            if (found == beside_.end()) break;
+            const auto next = std::find_if(found->second.begin(), found->second.end(),
+                                           [&](std::size_t q) { return q != last; });
+            if (next == found->second.end()) break;
+            last = *next;
+            WallQuad& quad = quads_[last];
+            if (quad.walked) {
+                if (!strip.quads.empty() && !crossed_) crossed_ = last;
+                break;
+            }
+            quad.walked = true;
+            const std::size_t at = position(quad.corners, a);
+            const bool onwards = quad.corners[(at + 1) % 4] == b;
+            a = quad.corners[(at + (onwards ? 3 : 1)) % 4];
+            b = quad.corners[(at + 2) % 4];
+            strip.left.push_back(a);
+            strip.right.push_back(b);
+            strip.quads.push_back(last);
+            strip.faces.push_back(quad.wall);
+            if (target_sides_.contains(edge_key(a, b))) {
+                strip.whole = true;
+                break;
+            }
+        }
+        return strip;
+    }
+
+    static std::size_t position(const Quad& quad, Index point)
+    {
+        return static_cast<std::size_t>(std::find(quad.begin(), quad.end(), point) - quad.begin());
+    }
+
+    /// The columns between strips. Beside each other they have the same points as far as both go.
+    Ring joined(const std::vector<Strip>& strips, std::size_t rim) const
+    {
+        Ring ring;
+        for (const Strip& strip : strips) {
+            for (const auto& [i, points] :
+                 {std::pair{strip.first, &strip.left}, {(strip.first + 1) % rim, &strip.right}}) {
+                join(ring, i, *points);
+                ring[i].wall = strip.faces.front();
+            }
+            ring[strip.first].faces = strip.faces;
+        }
+        return ring;
+    }
+
+    void join(Ring& ring, std::size_t i, const std::vector<Index>& points) const
+    {
+        std::vector<Index>& there = ring[i].points;
+        const std::size_t both = std::min(there.size(), points.size());
+        if (!std::equal(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(both), there.begin())) {
+            throw NotSweepable("surface.wall_not_rows", "the quads that " + walls() +
+                                                            " came with are no rows: beside the node at " +
+                                                            place(points.front()) + " their columns part");
+        }
+        if (points.size() > there.size()) there = points;
+    }
+
+    /// As many rows in all strips. Within one wall another number means that its quads are no rows; from wall
+    /// to wall, that they were meshed unlike.
+    void check_rows(const std::vector<Strip>& strips)
+    {
+        std::map<FaceId, std::size_t> rows_of;
+        for (const Strip& strip : strips) {
+            const std::size_t rows = strip.faces.size();
+            const FaceId wall = strip.faces.front();
+            const std::size_t first = rows_of.try_emplace(wall, rows).first->second;
+            if (first == rows) continue;
+            throw NotSweepable("surface.wall_not_rows",
+                               "the quads that " + name_of(model_, wall) +
+                                   " came with are no rows: " + std::to_string(first) +
+                                   " of them lead from the source's rim to the target's in one column, and " +
+                                   std::to_string(rows) + " in the one that starts with the quad at " +
+                                   place_of(model_, quads_[strip.quads.front()].corners) +
+                                   "; mesh the wall in rows, or load with keep_mesh = false");
+        }
+        for (const auto& [wall, rows] : rows_of) {
+            const auto& [first_wall, first_rows] = *rows_of.begin();
+            if (rows == first_rows) continue;
+            refuse_rows(name_of(model_, first_wall), static_cast<int>(first_rows), name_of(model_, wall),
+                        static_cast<int>(rows));
+        }
+        rows_ = strips.empty() ? 0 : static_cast<int>(strips.front().faces.size());
+    }
+
+    /// A stub ends inside the walls, below the opposite rim, and runs along the columns beside it.
+    void check_stubs(const std::vector<Strip>& stubs, const Ring& columns, std::size_t rim) const
+    {
+        for (const Strip& stub : stubs) {
+            if (no_end_.contains(edge_key(stub.left.back(), stub.right.back())) ||
+                target_sides_.contains(edge_key(stub.left.back(), stub.right.back())))
+                refuse_no_rows(quads_[stub.quads.back()]);
+            for (const auto& [i, points] :
+                 {std::pair{stub.first, &stub.left}, {(stub.first + 1) % rim, &stub.right}}) {
+                const auto whole = columns.find(i);
+                if (whole == columns.end()) continue;
+                Ring beside{*whole};
+                join(beside, i, *points);
+            }
+        }
+    }
+
+    void check_all_walked() const
+    {
+        for (const WallQuad& quad : quads_) {
+            if (!quad.walked) refuse_no_rows(quad);
+        }
+    }
+
+    [[noreturn]] void refuse_no_rows(const WallQuad& quad) const
+    {
+        throw NotSweepable("surface.wall_not_rows",
+                           "the quads that " + name_of(model_, quad.wall) +
+                               " came with are no rows from source to target: the first that is in none "
+                               "is the one at " +
+                               place_of(model_, quad.corners) +
+                               "; mesh the wall in rows, or load with keep_mesh = false");
+    }
+
+    [[nodiscard]] std::string walls() const
+    {
+        std::set<FaceId> faces;
+        for (const WallQuad& quad : quads_) faces.insert(quad.wall);
+        std::string text;
+        for (const FaceId face : faces) text += (text.empty() ? "" : ", ") + name_of(model_, face);
+        return text;
+    }
+
+    [[nodiscard]] std::string place(Index point) const
+    {
+        return place_of(model_, {point, point, point, point});
+    }
+
+    const Model& model_;
+    const LinkingSurface& link_;
+    std::vector<WallQuad> quads_;
+    std::unordered_map<std::uint64_t, std::vector<std::size_t>> beside_; ///< quads at each side
+    std::unordered_map<Index, double> target_at_;
+    std::set<std::uint64_t> target_sides_;
+    std::set<std::uint64_t> no_end_;     ///< sides where no stub may end: the source's rim and side lines
+    std::optional<std::size_t> crossed_; ///< a quad that two strips go through
+    int rows_ = 0;
+};
+
+FaceId first_wall(const GivenColumns& columns)
+{
+    for (const std::vector<FaceId>& faces : columns.faces) {
+        if (!faces.empty()) return faces.front();
+    }
+    return {};
+}
+
+/// Sides of a side line that is all edges of kept faces; 0 for others.
+int line_rows(const Model& model, const LinkingLine& line, const std::set<EdgeId>& kept)
+{
+    int rows = 0;
+    for (const EdgeUse& use : line.line.uses) {
+        if (!kept.contains(use.edge)) return 0;
+        rows += static_cast<int>(model[use.edge].points.size()) - 1;
+    }
+    return rows;
+}
+
+/// The number of sides that all kept side lines have; 0 where they differ or there are none.
+int common_line_rows(const Model& model, std::span<const LinkingSurface> links, const std::set<EdgeId>& kept)
+{
+    int rows = 0;
+    for (const LinkingSurface& link : links) {
+        for (const LinkingLine& line : link.lines) {
+            const int own = line_rows(model, line, kept);
+            if (own == 0) continue;
+            if (rows != 0 && rows != own) return 0;
+            rows = own;
+        }
+    }
+    return rows;
+}
+
+bool has_column(const GivenColumns& columns, const LinkingSurface& link, double source_at)
+{
+    const double slack = kSamePlace * link.source.length();
+    return std::any_of(columns.source_at.begin(), columns.source_at.end(),
+                       [&](double at) { return std::abs(at - source_at) <= slack; });
+}
+
+/// Make a side line a column of its own.
+void add_column(const Model& model, const LinkingLine& line, GivenColumns& columns, int rows)
+{
+    std::vector<Index> points;
+    for (const EdgeUse& use : line.line.uses) {
+        const std::vector<Index> more = use_points(model, use);
+        points.insert(points.end(), more.begin() + (points.empty() ? 0 : 1), more.end());
+    }
+    const auto after = std::upper_bound(columns.source_at.begin(), columns.source_at.end(), line.source_at);
+    const auto at = after - columns.source_at.begin();
+    columns.rows = rows;
+    columns.source_at.insert(after, line.source_at);
+    columns.target_at.insert(columns.target_at.begin() + at, line.target_at);
+    columns.points.insert(columns.points.begin() + at, std::move(points));
+    columns.faces.insert(columns.faces.begin() + at, std::vector<FaceId>{});
+}
+
+/// The stub that starts at a running length of its chain, if one does.
+const GivenStub* stub_at(const GivenColumns& columns, bool from_target, double at, double length)
+{
+    for (const GivenStub& stub : columns.stubs) {
+        if (stub.from_target == from_target &&
+            std::abs(std::remainder(stub.at - at, length)) <= kSamePlace * length)
+            return &stub;
+    }
+    return nullptr;
+}
+
+int tallest_stub(std::span<const GivenColumns> columns)
+{
+    std::size_t rows = 0;
+    for (const GivenColumns& own : columns) {
+        for (const GivenStub& stub : own.stubs) rows = std::max(rows, stub.points.size() - 1);
+    }
+    return static_cast<int>(rows);
+}
+
+/// Stubs of one column, and what they leave open.
+struct StubColumn {
+    const GivenStub *low, *high; ///< either may be missing
+    Vec3 open_from, open_to;
+    std::size_t shared = 0; ///< rows that both have: walls that stand side by side
+    bool is_open = true;    ///< they do not meet
+
+    [[nodiscard]] std::size_t rows() const
+    {
+        return (low != nullptr ? low->points.size() - 1 : 0) +
+               (high != nullptr ? high->points.size() - 1 : 0) - shared;
+    }
+};
+
+/// Whether and how far the nodes of both stubs are the same.
+void meet(StubColumn& column)
+{
+    if (column.low == nullptr || column.high == nullptr) return;
+    const std::vector<Index>&low = column.low->points, &high = column.high->points;
+    const auto found = std::find(high.begin(), high.end(), low.back());
+    if (found == high.end()) return;
+    const auto rows = static_cast<std::size_t>(high.end() - found) - 1;
+    if (rows >= low.size()) return;
+    if (!std::equal(found, high.end(), low.rbegin())) return;
+    column.shared = rows;
+    column.is_open = false;
+}
+
+/// Running length of the target's chain above a place of the source's, or the other way round.
+double opposite(const LinkingSurface& link, double at, bool from_target)
+{
+    const double end = from_target ? link.target.length() : link.source.length();
+    for (const RimSegment& segment : link.segments) {
+        double a0 = segment.source_from, a1 = segment.source_to;
+        double b0 = segment.target_from, b1 = segment.target_to;
+        if (from_target) {
+            std::swap(a0, b0);
+            std::swap(a1, b1);
+        }
+        const double slack = kSamePlace * end;
+        for (const double place : {at, at + end}) {
+            if (place < a0 - slack || place > a1 + slack) continue;
+            const double found = b0 + (place - a0) / (a1 - a0) * (b1 - b0);
+            const double length = from_target ? link.source.length() : link.target.length();
+            return found >= length ? found - length : std::max(found, 0.0);
+        }
+    }
+    return 0;
+}
+
+std::vector<StubColumn> stub_columns(const Model& model, const LinkingSurface& link,
+                                     const GivenColumns& columns)
+{
+    std::vector<StubColumn> result;
+    for (const GivenStub& stub : columns.stubs) {
+        const double above = opposite(link, stub.at, stub.from_target);
+        const Chain& other = stub.from_target ? link.source : link.target;
+        const GivenStub* facing = stub_at(columns, !stub.from_target, above, other.length());
+        if (stub.from_target && facing != nullptr) continue; // counted from below
+        const std::array<double, 1> place{above};
+        const Vec3 end = facing != nullptr ? model.at(facing->points.back()) : other.points(place).front();
+        StubColumn column{&stub, facing, model.at(stub.points.back()), end};
+        if (stub.from_target) {
+            std::swap(column.low, column.high);
+            std::swap(column.open_from, column.open_to);
+        }
+        meet(column);
+        result.push_back(column);
+    }
+    return result;
+}
+
+/// Shares of the way up of a column's nodes.
+std::vector<double> heights_of(const Model& model, const StubColumn& column, std::size_t layers)
+{
+    const auto step = [&](const GivenStub& stub, std::size_t k) {
+        return (model.at(stub.points[k]) - model.at(stub.points[k - 1])).norm();
+    };
+    std::vector<double> heights{0};
+    for (std::size_t k = 1; column.low != nullptr && k < column.low->points.size(); ++k)
+        heights.push_back(heights.back() + step(*column.low, k));
+    const std::size_t open = layers - column.rows();
+    for (std::size_t k = 0; k < open; ++k) {
+        const double rest = (column.open_to - column.open_from).norm();
+        heights.push_back(heights.back() + rest / static_cast<double>(open));
+    }
+    for (std::size_t k = column.high != nullptr ? column.high->points.size() - column.shared : 1; k-- > 1;)
+        heights.push_back(heights.back() + step(*column.high, k));
+    for (double& height : heights) height /= heights.back();
+    return heights;
+}
+
+void check_stub(const Model& model, const StubColumn& column, std::size_t layers)
+{
+    const std::size_t rows = column.rows(), least = column.is_open ? rows + 1 : rows;
+    if (column.is_open ? least <= layers : least == layers) return;
+    std::string text;
+    for (const GivenStub* stub : {column.low, column.high}) {
+        if (stub == nullptr) continue;
+        text += (text.empty() ? "" : " and ") + name_of(model, stub->wall) + " with " +
+                std::to_string(stub->points.size() - 1);
+    }
+    throw NotSweepable("surface.stub_rows",
+                       "walls came with rows of quads that end between source and target, " + text +
+                           ", and there are " + std::to_string(layers) + " layers: these take " +
+                           std::to_string(least) + (column.is_open ? " or more" : "") +
+                           "; ask for so many, or load with keep_mesh = false");
+}
+
+} // namespace
+
+std::vector<GivenColumns> given_columns(const OpenVolume& volume, std::span<const LinkingSurface> links,
+                                        int layers, std::vector<std::string>& notes)
+{
+    std::vector<GivenColumns> columns;
+    const GivenColumns* first = nullptr;
+    for (const LinkingSurface& link : links) columns.push_back(ColumnWalker(volume, link).run());
+    for (const GivenColumns& own : columns) {
+        if (own.rows == 0) continue;
+        if (first == nullptr) first = &own;
+        if (first->rows == own.rows) continue;
+        refuse_rows(name_of(volume.model, first_wall(*first)), first->rows,
+                    name_of(volume.model, first_wall(own)), own.rows);
+    }
+    for (const GivenColumns& own : columns) {
+        for (const GivenStub& stub : own.stubs) {
+            if (first == nullptr || stub.faces.size() < static_cast<std::size_t>(first->rows)) continue;
+            refuse_stub_rows(name_of(volume.model, stub.faces.front()), stub.faces.size(),
+                             name_of(volume.model, first_wall(*first)),
+                             static_cast<std::size_t>(first->rows));
+        }
+    }
+    const std::set<EdgeId> kept = kept_edges(volume.model);
+    const int rows = first != nullptr ? first->rows : common_line_rows(volume.model, links, kept);
+    if (rows <= tallest_stub(columns)) return columns; // side lines alone give way to quads
+    for (std::size_t b = 0; b < links.size(); ++b) {
+        for (const LinkingLine& line : links[b].lines) {
+            const int own = line_rows(volume.model, line, kept);
+            if (own == 0 || has_column(columns[b], links[b], line.source_at)) continue;
+            if (own == rows && (layers == 0 || layers == rows)) {
+                add_column(volume.model, line, columns[b], rows);
+            } else {
+                notes.push_back(name_of(volume.model, line.line.uses.front().edge) + " came with " +
+                                std::to_string(own) + " sides from source to target, of which " +
+                                std::to_string(layers > 0 ? layers : rows) + " layers keep the ends alone");
+            }
+        }
+    }
+    return columns;
+}
+
+std::vector<double> given_heights(const Model& model, std::span<const GivenColumns> columns)
+{
+    std::vector<double> sum;
+    for (const GivenColumns& own : columns) {
+        for (const std::vector<Index>& points : own.points) {
+            std::vector<double> arc{0};
+            for (std::size_t i = 1; i < points.size(); ++i)
+                arc.push_back(arc.back() + (model.at(points[i]) - model.at(points[i - 1])).norm());
+            sum.resize(arc.size(), 0);
+            for (std::size_t i = 0; i < arc.size(); ++i) sum[i] += arc[i] / arc.back();
+        }
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] /= sum.back();
+    return sum;
+}
+
+std::vector<double> stub_heights(const Model& model, std::span<const LinkingSurface> links,
+                                 std::span<const GivenColumns> columns, const SizeField& size, int layers)
+{
+    std::vector<StubColumn> all;
+    for (std::size_t b = 0; b < links.size(); ++b) {
+        const std::vector<StubColumn> more = stub_columns(model, links[b], columns[b]);
+        all.insert(all.end(), more.begin(), more.end());
+    }
+    auto count = static_cast<std::size_t>(layers);
+    for (const StubColumn& column : all) {
+        if (layers > 0) break;
+        const double open = column.is_open ? (column.open_to - column.open_from).norm() : 0;
+        const double steps = std::round(open / size((column.open_from + column.open_to) / 2));
+        if (!(steps < std::numeric_limits<Index>::max() / 16.0)) {
+            throw InvalidInput("sweep.too_many",
+                               "more layers would be needed at the size than can be numbered; give 'layers'");
+        }
+        count = std::max(count, column.rows() +
+                                    static_cast<std::size_t>(column.is_open ? std::max(steps, 1.0) : 0.0));
+    }
+    for (const StubColumn& column : all) check_stub(model, column, count);
+    std::vector<double> sum(all.empty() ? 0 : count + 1, 0.0);
+    for (const StubColumn& column : all) {
+        const std::vector<double> own = heights_of(model, column, count);
+        for (std::size_t k = 0; k <= count; ++k) sum[k] += own[k];
+    }
+    for (double& height : sum) height /= sum.back();
+    return sum;
+}
+
+} // namespace lacuna::surface
