@@ -19,7 +19,7 @@ local void = lacuna.synthetic.annulus { inner = 0.5, outer = 1, height = 1 }:ope
 for nodes, serendipity in pairs { [20] = true, [27] = false } do
   local mesh = void:sweep { layers = 2, size = 0.4, curvature = 8, order = 2, serendipity = serendipity }
   print(nodes, mesh.hexes, mesh.nodes, ("%.17g"):format(mesh:quality().volume))
-  for _, ending in ipairs { "msh", "vtu", "vtk", "inp", "bdf", "unv" } do
+  for _, ending in ipairs { "msh", "vtu", "vtk", "inp", "bdf", "unv", "exo" } do
     if nodes == 20 or ending:find "^[mv]" then mesh:write(nodes .. "." .. ending) end
   end
   mesh:write(nodes .. "_22.msh", { version = 2.2 })
@@ -71,10 +71,15 @@ def read_gmsh(path):
 
 def read_vtk(path):
     import vtk
-    reader = vtk.vtkXMLUnstructuredGridReader() if path.suffix == ".vtu" else vtk.vtkUnstructuredGridReader()
+    reader = (vtk.vtkExodusIIReader() if path.suffix == ".exo" else
+              vtk.vtkXMLUnstructuredGridReader() if path.suffix == ".vtu" else vtk.vtkUnstructuredGridReader())
     reader.SetFileName(str(path))
     reader.Update()
     grid = reader.GetOutput()
+    if path.suffix == ".exo":
+        blocks = grid.NewIterator()
+        blocks.InitTraversal()
+        grid = blocks.GetCurrentDataObject()
     volume, hexes = 0, 0
     for i in range(grid.GetNumberOfCells()):
         cell = grid.GetCell(i)
@@ -150,7 +155,7 @@ def main():
     readers = [(read, endings) for name, read, endings in
                [("gmsh", read_gmsh, {".msh", ".unv"}),
                 ("meshio", read_meshio, {".msh", ".vtu", ".vtk", ".inp", ".bdf"}),
-                ("vtk", read_vtk, {".vtu", ".vtk"})] if installed(name)]
+                ("vtk", read_vtk, {".vtu", ".vtk", ".exo"})] if installed(name)]
     if not readers:
         return 77
     with tempfile.TemporaryDirectory() as folder:

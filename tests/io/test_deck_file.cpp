@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "folder.h"
 
+#include <lacuna/core/error.h>
 #include <lacuna/io/deck_file.h>
 
 #include <doctest/doctest.h>
@@ -283,5 +284,48 @@ TEST_CASE("groups and entities of an MSH file keep their tags, lines stay, a cel
         const Deck other = written(deck, target);
         CHECK(other.element_count() == 4);
         CHECK(std::ranges::none_of(other.sets, [](const io::DeckSet& set) { return set.name == "rim"; }));
+    }
+}
+
+TEST_CASE("an Exodus file comes back to the bit, with numbers, nodes in order, blocks and sets of every kind")
+{
+    using enum DeckShape;
+    constexpr DeckShape shapes[] = {tri3,     tri6,      quad4,  quad8,   quad9, tet4,  tet10,
+                                    pyramid5, pyramid13, wedge6, wedge15, hex8,  hex20, hex27};
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+        CAPTURE(seed);
+        Deck deck = deck_of_shapes(shapes, seed);
+        io::DeckSet nodes{.kind = io::DeckSet::Kind::nodes, .name = "ends", .members = {7, 13, 40}};
+        io::DeckSet cells{.kind = io::DeckSet::Kind::elements, .name = "some"};
+        io::DeckSet sides{.kind = io::DeckSet::Kind::sides, .name = "skin"};
+        for (const io::DeckBlock& block : deck.blocks) {
+            cells.members.push_back(block.tags[0]);
+            const bool shell = io::shape_info(block.shape).dimension == 2;
+            const int last = shell ? io::shape_info(block.shape).corners
+                                   : static_cast<int>(io::face_corners(block.shape).size());
+            for (int side = shell ? -1 : 1; side <= last; ++side)
+                sides.sides.push_back({block.tags[0], side});
+        }
+        deck.sets = {nodes, cells, sides};
+        const Folder folder;
+        for (const char* name : {"a.exo", "a.e"}) {
+            io::write_deck(deck, DeckFormat::exodus, folder.file(name));
+            const Deck again = io::read_deck(folder.file(name));
+            check_same(deck, again, 0);
+            REQUIRE(again.sets.size() == 3);
+            for (const io::DeckSet& set : deck.sets) {
+                const auto same = std::ranges::find(again.sets, set.name, &io::DeckSet::name);
+                REQUIRE(same != again.sets.end());
+                CHECK(same->kind == set.kind);
+                CHECK(same->members == set.members);
+                CHECK(same->sides == set.sides);
+            }
+        }
+    }
+    try {
+        io::read_deck("a.exo", std::string("\x89HDF\r\n\x1a\n", 8));
+        CHECK(false);
+    } catch (const InvalidInput& error) {
+        CHECK(std::string(error.what()).find("nccopy") != std::string::npos);
     }
 }

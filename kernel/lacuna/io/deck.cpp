@@ -40,19 +40,13 @@ constexpr Quad kHexFaces[] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
 struct Beginning {
     std::string_view text, ending;
 };
-constexpr Beginning kBeginnings[] = {{"# vtk datafile", ".vtk"},
-                                     {"<?xml", ".vtu"},
-                                     {"<vtkfile", ".vtu"},
-                                     {"$meshformat", ".msh"},
-                                     {"$comments", ".msh"},
-                                     {"solid ", ".stl"},
-                                     {"meshversion", ".mesh"},
-                                     {"iso-10303-21", ".step"},
-                                     {"cascade topology", ".brep"},
-                                     {"dbrep_drawable", ".brep"},
-                                     {"*heading", ".inp"},
-                                     {"*node", ".inp"},
-                                     {"*part", ".inp"}};
+constexpr Beginning kBeginnings[] = {
+    {"# vtk datafile", ".vtk"},  {"<?xml", ".vtu"},         {"<vtkfile", ".vtu"},
+    {"$meshformat", ".msh"},     {"$comments", ".msh"},     {"solid ", ".stl"},
+    {"meshversion", ".mesh"},    {"iso-10303-21", ".step"}, {"cascade topology", ".brep"},
+    {"dbrep_drawable", ".brep"}, {"*heading", ".inp"},      {"*node", ".inp"},
+    {"*part", ".inp"},           {"cdf\x01", ".exo"},       {"cdf\x02", ".exo"},
+    {"cdf\x05", ".exo"}};
 
 /// The ending of what a file begins like; empty where its beginning says nothing.
 std::string_view ending_by_content(std::string_view bytes)
@@ -75,6 +69,7 @@ void check_content(const std::string& name, const DeckFileFormat& format, std::s
     const std::string_view found = ending_by_content(bytes);
     if (found.empty() || found == format.ending) return;
     const DeckFileFormat* other = deck_file_format(found);
+    if (other != nullptr && other->read == format.read) return; // several endings mean the same
     throw InvalidInput("io.unreadable",
                        "cannot read " + name + ", line 1: expected " + std::string(format.name) + ", found " +
                            (other != nullptr ? std::string(other->name)
@@ -194,7 +189,9 @@ std::span<const DeckFileFormat> deck_file_formats()
         {".inp", "an Abaqus deck", DeckFormat::abaqus, read_abaqus},
         {".vtk", "a legacy VTK file", DeckFormat::vtk, read_vtk},
         {".vtu", "a VTU file", DeckFormat::vtu, read_vtu},
-        {".mesh", "a Medit file", DeckFormat::medit, read_medit}};
+        {".mesh", "a Medit file", DeckFormat::medit, read_medit},
+        {".exo", "an Exodus file", DeckFormat::exodus, read_exodus},
+        {".e", "an Exodus file", DeckFormat::exodus, read_exodus}};
     return kFormats;
 }
 

@@ -19,10 +19,10 @@ enum class DeckFormat { nastran, abaqus, unv, msh, vtk, vtu, medit, stl, obj, ex
 
 /// What an element is, by its dimension and nodes.
 ///
-/// Nodes are in the order of VTK, which is Abaqus's and Exodus's too: the corners, as in `mesh::Hex`, then
-/// the middles of the sides in the order of `side_corners()`, those of the faces and that of the whole.
-/// Nastran and UNV put the middles of upright sides before those of the top, Gmsh has an order of its own:
-/// readers and writers turn one into the other.
+/// Nodes are in the order of VTK, which is Abaqus's too: the corners, as in `mesh::Hex`, then the middles of
+/// the sides in the order of `side_corners()`, those of the faces and that of the whole. Nastran, UNV and
+/// Exodus put the middles of upright sides before those of the top, Gmsh has an order of its own: readers and
+/// writers turn one into the other.
 enum class DeckShape : std::uint8_t {
     line2,
     line3,
@@ -176,7 +176,7 @@ struct NodesAt {
 NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double tolerance, double scale = 1);
 
 /// Read the mesh of a file: .bdf .nas .dat (Nastran), .inp (Abaqus, CalculiX), .unv, .msh, .vtk, .vtu, .mesh,
-/// .stl, .obj; the ending says which, in any case, and the content must agree.
+/// .exo, .e, .stl, .obj; the ending says which, in any case, and the content must agree.
 /// @throw InvalidInput  as read_facets().
 Deck read_deck(const std::string& path);
 /// The same of bytes in memory. @param name  stands for the path: its ending, its folder, in messages.

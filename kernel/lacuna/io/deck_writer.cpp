@@ -304,13 +304,9 @@ DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& opt
 
 bool find_deck_format(std::string_view ending, DeckFormat& format)
 {
-    if (ending == ".exo" || ending == ".e") { // written alone
-        format = DeckFormat::exodus;
-        return true;
-    }
     const DeckFileFormat* found = deck_file_format(ending);
     using enum DeckFormat;
-    constexpr DeckFormat kWritten[] = {nastran, abaqus, unv, msh, vtk, vtu};
+    constexpr DeckFormat kWritten[] = {nastran, abaqus, unv, msh, vtk, vtu, exodus};
     if (found == nullptr || std::ranges::find(kWritten, found->format) == std::end(kWritten)) return false;
     format = found->format;
     return true;

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
-//
-// Exodus II: dimensions and arrays by agreed names in a netCDF file of the classic format with offsets of 64
-// bits (https://docs.unidata.ucar.edu/nug/current/file_format_specifications.html). Written here: the library
-// of Debian 12 (exodusii 6.02) needs fifty others, HDF5 and curl among them, and writes to paths alone.
 #include <lacuna/core/error.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_writer.h>
+#include <lacuna/io/detail/exodus.h>
 #include <lacuna/io/detail/vtk_file.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -223,14 +221,15 @@ const char* exodus_type(DeckShape shape)
     }
 }
 
-/// Abaqus has the faces below and above first, Exodus has them last; tetrahedra have one below.
-int exodus_side(DeckShape shape, int side)
+/// Numbers of an element's nodes in Exodus's order.
+char* put_nodes(DeckShape shape, std::span<const Index> nodes, char* out)
 {
-    const DeckShapeInfo& info = shape_info(shape);
-    if (info.dimension == 2) return side == 0 ? 1 : side == -1 ? 2 : side + 2;
-    const int ends = info.corners == 4 || info.corners == 5 ? 1 : 2;
-    const int faces = static_cast<int>(face_corners(shape).size());
-    return side <= ends ? faces - ends + side : side - ends;
+    std::array<Index, 27> ordered{};
+    const auto places = exodus_places(shape);
+    for (std::size_t k = 0; k < nodes.size(); ++k) ordered[places.empty() ? k : places[k]] = nodes[k];
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+        out = io::put_big(out, static_cast<std::int32_t>(ordered[k]) + 1);
+    return out;
 }
 
 /// Elements of one region and shape.
@@ -396,9 +395,7 @@ private:
             const int columns = nc_.dimension("num_nod_per_el" + number, nodes);
             nc_.array("connect" + number, NcType::whole, {rows, columns}, nodes,
                       each([block, &of](std::size_t i, char* out) {
-                          for (const Index node : of.element(block->elements[i]))
-                              out = io::put_big(out, static_cast<std::int32_t>(node) + 1);
-                          return out;
+                          return put_nodes(of.shape, of.element(block->elements[i]), out);
                       }),
                       {text_attribute("elem_type", exodus_type(of.shape))});
         }

@@ -42,6 +42,7 @@ struct FacetFile {
 /// | .vtk | legacy 1 to 5.1, text and binary: polygons, strips, cells | all one |
 /// | .vtu | text, base64 and appended, compressed by zlib where Lacuna was built with it | all one |
 /// | .mesh | Medit, text | a reference number |
+/// | .exo .e | Exodus: netCDF's classic formats | a block; a set |
 ///
 /// A label is what shells of one region in the same sets are, or sides of solids between the same regions in
 /// the same surfaces. Higher-order elements give their corners. Nothing is guessed: what is not understood is

@@ -95,6 +95,7 @@ void read_abaqus(Cursor& cursor, DeckBuilder& into);
 void read_vtk(Cursor& cursor, DeckBuilder& into);
 void read_vtu(Cursor& cursor, DeckBuilder& into);
 void read_medit(Cursor& cursor, DeckBuilder& into);
+void read_exodus(Cursor& cursor, DeckBuilder& into);
 /// Whether bytes are a binary STL file of one solid, to the byte.
 bool is_binary_stl(std::string_view bytes);
 

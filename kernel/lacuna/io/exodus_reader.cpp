@@ -1,0 +1,467 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/deck_builder.h>
+#include <lacuna/io/detail/exodus.h>
+#include <lacuna/io/detail/large_pages.h>
+#include <lacuna/io/detail/vtk_cells.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+
+namespace lacuna::io {
+namespace {
+
+/// An array of a netCDF file.
+struct NcArray {
+    std::vector<std::size_t> lengths; ///< of its dimensions
+    std::string element_type{};       ///< its attribute of that name
+    const VtkType* type = nullptr;
+    std::uint64_t begin = 0;
+    bool records = false; ///< one of each time step
+};
+
+/// The head of a netCDF file of the classic formats: with offsets of 32 or 64 bits, or all counts of 64.
+class NcHead {
+public:
+    NcHead(Cursor& cursor) : cursor_(cursor)
+    {
+        cursor_.has_bytes = true;
+        if (cursor_.rest().starts_with("\x89HDF"))
+            cursor_.fail("this is netCDF-4, which is HDF5; expected the classic format: "
+                         "nccopy -k 64-bit-offset in.exo out.exo writes it");
+        const std::string_view magic = cursor_.bytes(4);
+        const char version = magic[3];
+        if (!magic.starts_with("CDF") || (version != 1 && version != 2 && version != 5))
+            cursor_.fail("expected a netCDF file, which begins with CDF");
+        cursor_.coding = Coding::big;
+        wide_ = version == 5;
+        wide_offsets_ = version != 1;
+        count(); // time steps
+        read_dimensions();
+        skip_attributes(nullptr);
+        read_arrays();
+    }
+
+    [[nodiscard]] const NcArray* find(const std::string& name) const
+    {
+        const auto found = arrays_.find(name);
+        return found == arrays_.end() ? nullptr : &found->second;
+    }
+    [[nodiscard]] std::size_t dimension(const std::string& name) const
+    {
+        const auto found = lengths_.find(name);
+        return found == lengths_.end() ? 0 : found->second;
+    }
+
+    /// The bytes of an array. @param values  how many it must have.
+    [[nodiscard]] std::string_view bytes(const NcArray& array, const std::string& name,
+                                         std::size_t values) const
+    {
+        if (array.records) cursor_.fail("expected " + name + " once, found it for each time step");
+        std::size_t all = 1;
+        const std::string_view file = whole_.rest();
+        for (const std::size_t length : array.lengths) {
+            if (length > file.size()) all = file.size() + 1;
+            if (length == 0) all = 0;
+            all = all > file.size() ? file.size() + 1 : all * length;
+        }
+        if (array.type == nullptr) cursor_.fail("expected numbers or text as " + name);
+        if (all != values)
+            cursor_.fail("expected " + std::to_string(values) + " values of " + name + ", found " +
+                         (all > file.size() ? "more than the file holds" : std::to_string(all)));
+        if (array.begin > file.size() || values > (file.size() - array.begin) / array.type->bytes)
+            cursor_.fail("the file is cut off: expected " + std::to_string(values) + " values of " + name);
+        taken_ += values * array.type->bytes;
+        if (taken_ > kMostTimes * file.size()) cursor_.fail("its arrays lie in each other");
+        return file.substr(array.begin, values * array.type->bytes);
+    }
+
+    [[nodiscard]] std::vector<std::int64_t> wholes(const NcArray& array, const std::string& name,
+                                                   std::size_t values) const
+    {
+        const std::string_view raw = bytes(array, name, values);
+        if (array.type->wholes == nullptr) cursor_.fail("expected whole numbers as " + name);
+        std::vector<std::int64_t> all(values);
+        array.type->wholes(raw.data(), true, values, all.data());
+        return all;
+    }
+
+private:
+    std::uint64_t count()
+    {
+        if (!wide_) return static_cast<std::uint32_t>(cursor_.integer());
+        return cursor_.size();
+    }
+
+    std::string name()
+    {
+        const std::uint64_t length = count();
+        const std::string_view text = cursor_.bytes(length);
+        cursor_.bytes((4 - length % 4) % 4);
+        return std::string(text);
+    }
+
+    /// How many dimensions, attributes or arrays follow.
+    std::uint64_t list(int tag)
+    {
+        const int found = cursor_.integer();
+        const std::uint64_t length = count();
+        if (found != tag && (found != 0 || length != 0))
+            cursor_.fail("expected a list of kind " + std::to_string(tag) + ", found " +
+                         std::to_string(found));
+        return cursor_.plausible(length, 8, 1);
+    }
+
+    void read_dimensions()
+    {
+        const std::uint64_t all = list(10);
+        for (std::uint64_t d = 0; d < all; ++d) {
+            const std::string of = name();
+            const std::uint64_t length = count();
+            dimensions_.push_back(length);
+            lengths_[of] = length;
+        }
+    }
+
+    /// @param element_type  takes the text of the attribute `elem_type`; may be null.
+    void skip_attributes(std::string* element_type)
+    {
+        const std::uint64_t all = list(12);
+        for (std::uint64_t a = 0; a < all; ++a) {
+            const std::string of = name();
+            const VtkType* type = type_of(cursor_.integer());
+            const std::uint64_t length = count();
+            if (type == nullptr) cursor_.fail("expected a type of numbers in the attribute " + shown(of));
+            const std::uint64_t size = cursor_.plausible(length, type->bytes, 1) * type->bytes;
+            const std::string_view text = cursor_.bytes(size);
+            cursor_.bytes((4 - size % 4) % 4);
+            if (element_type != nullptr && of == "elem_type") *element_type = text.substr(0, text.find('\0'));
+        }
+    }
+
+    void read_arrays()
+    {
+        const std::uint64_t all = list(11);
+        for (std::uint64_t v = 0; v < all; ++v) {
+            const std::string of = name();
+            NcArray array;
+            const std::uint64_t rank = cursor_.plausible(count(), 4, 1);
+            for (std::uint64_t d = 0; d < rank; ++d) {
+                const std::uint64_t dimension = count();
+                if (dimension >= dimensions_.size())
+                    cursor_.fail("expected a dimension of " + std::to_string(dimensions_.size()) + " for " +
+                                 shown(of) + ", found number " + std::to_string(dimension));
+                array.lengths.push_back(dimensions_[dimension]);
+                array.records = array.records || (d == 0 && array.lengths.back() == 0);
+            }
+            skip_attributes(&array.element_type);
+            array.type = type_of(cursor_.integer());
+            count(); // bytes, which its dimensions say too
+            array.begin = wide_offsets_ ? cursor_.size() : static_cast<std::uint32_t>(cursor_.integer());
+            arrays_.insert_or_assign(of, std::move(array));
+        }
+    }
+
+    static const VtkType* type_of(int number)
+    {
+        constexpr std::string_view kNames[] = {"",        "Int8",  "UInt8",  "Int16",  "Int32", "Float32",
+                                               "Float64", "UInt8", "UInt16", "UInt32", "Int64", "UInt64"};
+        return number < 1 || number > 11 ? nullptr : vtk_type(kNames[number]);
+    }
+
+    static constexpr std::uint64_t kMostTimes = 3; // an array is looked at twice at most
+
+    Cursor& cursor_;
+    mutable std::uint64_t taken_ = 0; ///< bytes so far, for files that say the same bytes are many arrays
+    Cursor whole_ = cursor_;          ///< at the beginning of the file
+    bool wide_ = false, wide_offsets_ = false;
+    std::vector<std::size_t> dimensions_;
+    std::map<std::string, std::size_t> lengths_;
+    std::map<std::string, NcArray> arrays_;
+};
+
+class ExodusReader {
+public:
+    ExodusReader(Cursor& cursor, DeckBuilder& into) : cursor_(cursor), into_(into), head_(cursor) {}
+
+    void read()
+    {
+        read_points();
+        read_blocks();
+        const TagPlaces places(numbers_, [&](Index, Index at) {
+            cursor_.fail("element " + std::to_string(numbers_[index(at)]) + " has the number of one before");
+        });
+        read_sets("ns", "node_ns", "num_nod_ns", DeckSet::Kind::nodes);
+        read_sets("els", "elem_els", "num_ele_els", DeckSet::Kind::elements);
+        read_sets("ss", "elem_ss", "num_side_ss", DeckSet::Kind::sides);
+    }
+
+private:
+    const NcArray& needed(const std::string& name) const
+    {
+        const NcArray* array = head_.find(name);
+        if (array == nullptr) cursor_.fail("expected the array " + name + ", found none");
+        return *array;
+    }
+
+    /// Numbers of nodes or elements: of a map, else counted.
+    std::vector<DeckTag> numbers(const char* map, const char* older, std::size_t count) const
+    {
+        for (const char* name : {map, older})
+            if (const NcArray* array = head_.find(name)) {
+                std::vector<DeckTag> all = head_.wholes(*array, name, count);
+                for (const DeckTag tag : all)
+                    if (tag < 0) cursor_.fail(std::string(name) + " has the number " + std::to_string(tag));
+                return all;
+            }
+        std::vector<DeckTag> all(count);
+        for (std::size_t i = 0; i < count; ++i) all[i] = static_cast<DeckTag>(i) + 1;
+        return all;
+    }
+
+    void read_points()
+    {
+        const std::size_t count = head_.dimension("num_nodes");
+        const std::size_t axes = head_.dimension("num_dim");
+        if (axes < 2 || axes > 3) cursor_.fail("expected 2 or 3 as num_dim, found " + std::to_string(axes));
+        if (count > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
+            cursor_.fail("too many nodes");
+        const NcArray* together = head_.find("coord");
+        std::string_view all;
+        if (together != nullptr) all = head_.bytes(*together, "coord", axes * count);
+        std::vector<Vec3>& points = into_.points();
+        for (std::size_t axis = 0; axis < axes; ++axis) {
+            const std::string name = std::string("coord") + "xyz"[axis];
+            const NcArray& array = together != nullptr ? *together : needed(name);
+            const std::string_view raw = together != nullptr ? all.substr(axis * count * array.type->bytes)
+                                                             : head_.bytes(array, name, count);
+            if (axis == 0) {
+                reserve_large(points, count);
+                points.resize(count, Vec3::Zero());
+            }
+            for (std::size_t p = 0; p < count; ++p) {
+                const double value = array.type->real(raw.data() + p * array.type->bytes, true);
+                if (!std::isfinite(value)) cursor_.fail("expected finite coordinates in " + name);
+                points[p][static_cast<Index>(axis)] = value;
+            }
+        }
+        std::vector<DeckTag> tags = numbers("node_num_map", "node_map", count);
+        const TagPlaces unique(tags, [&](Index, Index at) {
+            cursor_.fail("node " + std::to_string(tags[index(at)]) + " has the number of one before");
+        });
+        into_.deck().point_tags = std::move(tags);
+    }
+
+    /// Names of so many blocks or sets; "what_id" where they have none.
+    std::vector<std::string> names(const std::string& array, const std::string& what,
+                                   const std::vector<std::int64_t>& ids) const
+    {
+        std::vector<std::string> all;
+        for (const std::int64_t id : ids) all.push_back(what + "_" + std::to_string(id));
+        const NcArray* named = head_.find(array);
+        if (named == nullptr || named->lengths.size() != 2 || named->lengths[1] > kLongestName) return all;
+        const std::size_t length = named->lengths[1];
+        const std::string_view text = head_.bytes(*named, array, ids.size() * length);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const std::string_view own = text.substr(i * length, length);
+            if (const auto name = trimmed(own.substr(0, own.find('\0'))); !name.empty()) all[i] = name;
+        }
+        return all;
+    }
+
+    std::vector<std::int64_t> ids(const std::string& array, std::size_t count) const
+    {
+        if (const NcArray* known = head_.find(array)) return head_.wholes(*known, array, count);
+        cursor_.plausible(count, 4, 1);
+        std::vector<std::int64_t> all;
+        for (std::size_t i = 1; i <= count; ++i) all.push_back(static_cast<std::int64_t>(i));
+        return all;
+    }
+
+    void read_blocks()
+    {
+        const std::size_t count = head_.dimension("num_el_blk");
+        cursor_.plausible(count, 4, 1);
+        const std::vector<std::int64_t> id = ids("eb_prop1", count);
+        const std::vector<std::string> name = names("eb_names", "block", id);
+        numbers_ = numbers("elem_num_map", "elem_map", elements_of(count));
+        shapes_.resize(numbers_.size());
+        std::size_t first = 0;
+        for (std::size_t b = 0; b < count; ++b)
+            first += read_block("connect" + std::to_string(b + 1), name[b],
+                                static_cast<int>(std::clamp<std::int64_t>(id[b], 0, kMostTag)), first);
+    }
+
+    std::size_t elements_of(std::size_t blocks) const
+    {
+        std::size_t all = 0;
+        for (std::size_t b = 1; b <= blocks; ++b)
+            if (const NcArray* array = head_.find("connect" + std::to_string(b));
+                array != nullptr && array->lengths.size() == 2 && array->lengths[1] > 0)
+                all +=
+                    head_.bytes(*array, "connect" + std::to_string(b), array->lengths[0] * array->lengths[1])
+                        .size() /
+                    array->type->bytes / array->lengths[1];
+        return all;
+    }
+
+    /// @return  how many elements it has
+    std::size_t read_block(const std::string& array, const std::string& name, int id, std::size_t first)
+    {
+        const NcArray* connect = head_.find(array);
+        if (connect == nullptr || connect->lengths.size() != 2 || connect->lengths[1] == 0) return 0;
+        const auto [count, nodes] = std::pair(connect->lengths[0], connect->lengths[1]);
+        const std::vector<std::int64_t> all = head_.wholes(*connect, array, count * nodes);
+        const std::optional<DeckShape> shape = shape_of(connect->element_type, nodes, name);
+        if (!shape) {
+            into_.pass_over("elements " + connect->element_type, count);
+            return count;
+        }
+        const std::size_t block = into_.block_of(*shape, connect->element_type);
+        const DeckBuilder::Room room = into_.add_elements(block, count, into_.add_region(id, name));
+        const auto places = exodus_places(*shape);
+        const auto last = static_cast<std::int64_t>(into_.points().size());
+        const auto kept = static_cast<std::size_t>(shape_info(*shape).nodes);
+        for (std::size_t e = 0; e < count; ++e) {
+            room.tags[e] = numbers_[first + e];
+            shapes_[first + e] = shape;
+            for (std::size_t k = 0; k < kept; ++k) {
+                const std::int64_t node = all[e * nodes + (places.empty() ? k : places[k])];
+                if (node < 1 || node > last)
+                    cursor_.fail(array + " names node " + std::to_string(node) + " of " +
+                                 std::to_string(last));
+                room.nodes[e * kept + k] = static_cast<Index>(node - 1);
+            }
+        }
+        return count;
+    }
+
+    /// By the beginning of the word and the number of nodes; none for points, which are passed over.
+    std::optional<DeckShape> shape_of(const std::string& type, std::size_t nodes,
+                                      const std::string& name) const
+    {
+        struct Family {
+            std::string_view word;
+            int dimension, corners;
+        };
+        constexpr Family kFamilies[] = {{"HEX", 3, 8},    {"TET", 3, 4},    {"WEDGE", 3, 6}, {"PYRA", 3, 5},
+                                        {"QUAD", 2, 4},   {"TRI", 2, 3},    {"SHELL", 2, 4}, {"BEAM", 1, 2},
+                                        {"TRUSS", 1, 2},  {"BAR", 1, 2},    {"EDGE", 1, 2},  {"ROD", 1, 2},
+                                        {"SPHERE", 0, 1}, {"CIRCLE", 0, 1}, {"POINT", 0, 1}};
+        for (const Family& family : kFamilies) {
+            if (!same_word(std::string_view(type).substr(0, family.word.size()), family.word)) continue;
+            if (family.dimension == 0) return {};
+            const bool triangle = family.word == "SHELL" && (nodes == 3 || nodes == 6);
+            DeckShape shape{};
+            if (find_shape(family.dimension, triangle ? 3 : family.corners, static_cast<int>(nodes), shape))
+                return shape;
+        }
+        cursor_.fail("block " + shown(name) + ": elements " + shown(type) + " of " + std::to_string(nodes) +
+                     " nodes are not known");
+    }
+
+    void read_sets(const std::string& kind, const std::string& list, const std::string& length,
+                   DeckSet::Kind of)
+    {
+        const std::size_t count = cursor_.plausible(
+            head_.dimension(of == DeckSet::Kind::nodes   ? "num_node_sets"
+                            : of == DeckSet::Kind::sides ? "num_side_sets"
+                                                         : "num_elem_sets"),
+            4, 1);
+        const std::vector<std::int64_t> id = ids(kind + "_prop1", count);
+        const std::vector<std::string> name = names(kind + "_names", kind, id);
+        for (std::size_t s = 0; s < count; ++s) {
+            const std::string number = std::to_string(s + 1);
+            const NcArray* members = head_.find(list + number);
+            if (members == nullptr) continue; // an empty one
+            DeckSet set{.kind = of,
+                        .tag = static_cast<int>(std::clamp<std::int64_t>(id[s], 0, kMostTag)),
+                        .name = name[s]};
+            const std::size_t many = head_.dimension(length + number);
+            const std::vector<std::int64_t> all = head_.wholes(*members, list + number, many);
+            std::vector<std::int64_t> sides;
+            if (of == DeckSet::Kind::sides)
+                sides = head_.wholes(needed("side_ss" + number), "side_ss" + number, many);
+            const std::vector<DeckTag>& tags = of == DeckSet::Kind::nodes ? into_.deck().point_tags
+                                                                          : numbers_;
+            for (std::size_t i = 0; i < many; ++i) {
+                if (all[i] < 1 || all[i] > static_cast<std::int64_t>(tags.size()))
+                    cursor_.fail(list + number + " names " + std::to_string(all[i]) + " of " +
+                                 std::to_string(tags.size()));
+                const auto at = static_cast<std::size_t>(all[i] - 1);
+                if (of != DeckSet::Kind::sides)
+                    set.members.push_back(tags[at]);
+                else if (shapes_[at])
+                    set.sides.push_back({tags[at], side_of(*shapes_[at], sides[i], "side_ss" + number)});
+            }
+            const auto tidy = [](auto& values) {
+                std::ranges::sort(values);
+                values.erase(std::unique(values.begin(), values.end()), values.end());
+            };
+            tidy(set.members);
+            tidy(set.sides);
+            if (!set.members.empty() || !set.sides.empty()) into_.deck().sets.push_back(std::move(set));
+        }
+    }
+
+    int side_of(DeckShape shape, std::int64_t exodus, const std::string& array) const
+    {
+        int side = 0;
+        if (exodus < 1 || exodus > 6 || !abaqus_side(shape, static_cast<int>(exodus), side))
+            cursor_.fail(array + " names side " + std::to_string(exodus) + ", which the element has not");
+        return side;
+    }
+
+    static constexpr std::int64_t kMostTag = std::numeric_limits<int>::max() - 1;
+    static constexpr std::size_t kLongestName = 4096; // a name longer than this is none
+
+    Cursor& cursor_;
+    DeckBuilder& into_;
+    NcHead head_;
+    std::vector<DeckTag> numbers_;                 ///< of all elements, block after block
+    std::vector<std::optional<DeckShape>> shapes_; ///< of these; none where they are passed over
+};
+
+} // namespace
+
+std::span<const std::uint8_t> exodus_places(DeckShape shape)
+{
+    static constexpr std::uint8_t kWedge15[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11};
+    static constexpr std::uint8_t kHex27[] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 16, 17,
+                                              18, 19, 12, 13, 14, 15, 23, 24, 25, 26, 21, 22, 20};
+    switch (shape) {
+    case DeckShape::wedge15:
+        return kWedge15;
+    case DeckShape::hex20:
+        return std::span(kHex27).first(20);
+    case DeckShape::hex27:
+        return kHex27;
+    default:
+        return {};
+    }
+}
+
+int exodus_side(DeckShape shape, int side)
+{
+    const DeckShapeInfo& info = shape_info(shape);
+    if (info.dimension == 2) return side == 0 ? 1 : side == -1 ? 2 : side + 2;
+    const int ends = info.corners == 4 || info.corners == 5 ? 1 : 2;
+    const int faces = static_cast<int>(face_corners(shape).size());
+    return side <= ends ? faces - ends + side : side - ends;
+}
+
+bool abaqus_side(DeckShape shape, int exodus, int& side)
+{
+    const int sides = shape_info(shape).dimension == 2 ? shape_info(shape).corners
+                                                       : static_cast<int>(face_corners(shape).size());
+    for (side = shape_info(shape).dimension == 2 ? -1 : 1; side <= sides; ++side)
+        if (exodus_side(shape, side) == exodus) return true;
+    return false;
+}
+
+void read_exodus(Cursor& cursor, DeckBuilder& into) { ExodusReader(cursor, into).read(); }
+
+} // namespace lacuna::io
