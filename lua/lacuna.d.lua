@@ -232,8 +232,8 @@ function Volume:free_edges() end
 function Volume:tree() end
 ---@return string
 function Volume:describe() end
---- By a plane or a face: the pieces, which share what was cut. Without options: the pieces of a volume one of
---- whose ends lies at several heights; itself where none does.
+--- By a plane or a face: the pieces, which share what was cut. Without options: the pieces of a volume with
+--- branches, or one of whose ends lies at several heights; itself where it has neither.
 ---@param options? lacuna.CutOptions
 ---@return lacuna.Volume[]
 function Volume:cut(options) end
