@@ -287,8 +287,8 @@ function Volume:view(path, options) end
 ---@param path string .png
 ---@param options? lacuna.FacePictureOptions
 function Volume:picture(path, options) end
---- By a plane or a face: the pieces, which share what was cut. Without options: the pieces of a volume one of
---- whose ends lies at several heights; itself where none does.
+--- By a plane or a face: the pieces, which share what was cut. Without options: the pieces of a volume with
+--- branches, or one of whose ends lies at several heights; itself where it has neither.
 ---@param options? lacuna.CutOptions
 ---@return lacuna.Volume[]
 function Volume:cut(options) end

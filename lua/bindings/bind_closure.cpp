@@ -3,8 +3,8 @@
 #include "bindings/faces.h"
 #include "bindings/options.h"
 
+#include <lacuna/closure/branches.h>
 #include <lacuna/closure/cut.h>
-#include <lacuna/closure/steps.h>
 
 namespace lacuna::lua {
 
@@ -205,7 +205,7 @@ int cut(lua_State* L)
         else if (arguments.of)
             cut = closure::cut_by_face(state.volume, arguments.of->model, arguments.face, context);
         else
-            cut = closure::cut_steps(state.volume, context);
+            cut = closure::cut_into_pieces(state.volume, context);
         for (closure::StepPiece& piece : cut) {
             pieces.push_back(std::make_shared<VolumeState>());
             VolumeState& own = *pieces.back();

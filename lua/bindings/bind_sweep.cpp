@@ -5,7 +5,7 @@
 #include "bindings/options.h"
 
 #include <lacuna/cad/load.h>
-#include <lacuna/closure/steps.h>
+#include <lacuna/closure/branches.h>
 #include <lacuna/io/deck_middles.h>
 
 #include <algorithm>
@@ -438,18 +438,18 @@ std::vector<Vec3> given_middles(const VolumeState& state, std::span<const Vec3> 
     return found;
 }
 
-/// A volume of an assembly with its options, or the pieces of one with steps.
+/// A volume of an assembly with its options, or the pieces of one with branches or steps.
 void add_members(std::vector<Box<VolumeState>>& volumes, std::vector<const SweepArguments*>& options,
                  const Box<VolumeState>& volume, const std::string& name, const SweepArguments& arguments,
                  const RunContext& context)
 {
-    if (!closure::has_steps(volume->volume)) {
+    if (!closure::has_pieces(volume->volume)) {
         volumes.push_back(volume);
         options.push_back(&arguments);
         return;
     }
     int number = 0;
-    for (closure::StepPiece& piece : closure::cut_steps(volume->volume, context)) {
+    for (closure::StepPiece& piece : closure::cut_into_pieces(volume->volume, context)) {
         VolumeState& own = *volumes.emplace_back(std::make_shared<VolumeState>());
         own.volume = std::move(piece.volume);
         own.level = piece.level;
@@ -496,7 +496,7 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<Box<VolumeSta
     return mesh;
 }
 
-/// Sweep the pieces of a volume with steps as an assembly.
+/// Sweep the pieces of a volume with branches or steps as an assembly.
 int sweep_steps(lua_State* L, const Box<VolumeState>& volume, const SweepArguments& arguments,
                 const RunContext& context)
 {
@@ -522,7 +522,7 @@ int sweep_volume(lua_State* L)
     RunContext& context = push_context(L);
     context.threads = arguments.threads;
     bool steps = false;
-    guard(L, [&] { steps = closure::has_steps(state.volume); });
+    guard(L, [&] { steps = closure::has_pieces(state.volume); });
     if (steps) return sweep_steps(L, volume, arguments, context);
     lua_gc(L, LUA_GCCOLLECT); // to Lua a mesh is a few bytes: it would let old ones pile up
     auto& box = new_box<MeshState>(L);

@@ -3,6 +3,7 @@
 #include "support/dice.h"
 #include "support/refusal.h"
 
+#include <lacuna/closure/branches.h>
 #include <lacuna/closure/cut.h>
 
 #include <algorithm>
@@ -135,6 +136,19 @@ TEST_CASE("a plane cuts any prism into pieces that fill it, through nodes and ed
     for (const auto& [code, count] : refused) MESSAGE(code << ": " << count);
     CHECK(refused["closure.cut_touches"] <= 4);
     CHECK(cut >= 340);
+}
+
+TEST_CASE("no prism has branches, whatever it lacks")
+{
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        CAPTURE(seed);
+        test::Dice dice(seed);
+        PrismOptions options = random_prism(dice);
+        options.rows = dice.whole(1, 3);
+        const int gone = dice.whole(0, 9);
+        options.drop = [=](const test::Part& part) { return part.role == Role::wall && part.side == gone; };
+        CHECK(!closure::has_branches(test::prism(options).open()));
+    }
 }
 
 TEST_CASE("a volume without some of its walls is cut as it would be closed")

@@ -433,19 +433,13 @@ private:
     void add(VertexId from, VertexId to, const std::vector<Vec3>& between)
     {
         Model& model = volume_.model;
-        Edge edge;
-        edge.origin = Origin::made_void;
-        edge.tag = static_cast<int>(made_.size()) + 1;
-        edge.from = from;
-        edge.to = to;
-        edge.points.push_back(model[from].point);
+        std::vector<Index> points{model[from].point};
         for (const Vec3& place : between) {
-            edge.points.push_back(static_cast<Index>(model.points.size()));
+            points.push_back(static_cast<Index>(model.points.size()));
             model.points.push_back(place);
         }
-        edge.points.push_back(model[to].point);
-        made_.emplace_back(model.edges.size());
-        model.edges.push_back(std::move(edge));
+        points.push_back(model[to].point);
+        made_.push_back(add_void_edge(model, from, to, std::move(points)));
         add_edge(model, made_.back(), spacing_);
         pairs_.insert(std::minmax(from, to));
     }

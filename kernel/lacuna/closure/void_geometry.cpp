@@ -485,18 +485,12 @@ VoidFilling fill_as(const OpenVolume& volume, const std::vector<Loop>& loops,
 FaceId add_void_face(OpenVolume& volume, VoidFilling filling, Role role)
 {
     Model& model = volume.model;
-    Face face;
-    face.origin = Origin::made_void;
-    face.geometry = filling.geometry;
-    face.kind = "void";
-    face.tag = 1;
-    for (const Face& other : model.faces) face.tag += other.origin == Origin::made_void ? 1 : 0;
-    face.triangles = std::move(filling.triangles);
-    face.loops = std::move(filling.loops);
+    const FaceId id = topology::add_void_face(model, filling.geometry);
+    model[id].triangles = std::move(filling.triangles);
+    model[id].loops = std::move(filling.loops);
     model.points.insert(model.points.end(), filling.points.begin(), filling.points.end());
-    model.faces.push_back(std::move(face));
     volume.role.push_back(role);
-    return FaceId(model.faces.size() - 1);
+    return id;
 }
 
 } // namespace lacuna::closure

@@ -1,0 +1,667 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/branches.h>
+
+#include <lacuna/closure/cut.h>
+#include <lacuna/closure/detail/pieces.h>
+#include <lacuna/closure/void_geometry.h>
+#include <lacuna/core/edge_key.h>
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/union_find.h>
+#include <lacuna/topology/section.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <unordered_map>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// Walls turn inward at a mouth by more than this [degrees]: facets of a bent wall turn less. A choice.
+constexpr double kConcave = 15;
+/// The dip goes no deeper than this share of the way to the wall opposite: of tubes alike that is the axis.
+constexpr double kDeepest = 0.5;
+/// A branch leaves sideways where the main body's way has at least this share square to it. A choice.
+constexpr double kAlong = 0.1;
+/// Branches leave to one side where the ways they go differ by less than this cosine, of 30°. A choice.
+constexpr double kSameSide = 0.87;
+/// Chords of the dip. A choice.
+constexpr int kChords = 16;
+
+/// A closed line of concave edges.
+struct Mouth {
+    std::vector<EdgeId> edges;
+    std::size_t host = 0, branch = 0; ///< regions beside it
+};
+
+/// The skin's regions between mouths, and the ends of each.
+struct Branching {
+    std::vector<std::size_t> region;        ///< of each face
+    std::vector<std::vector<FaceId>> faces; ///< of each region
+    std::vector<std::vector<Vec3>> ends;    ///< centres of the ends of each region
+    std::vector<Mouth> mouths;
+};
+
+std::vector<Vec3> places(const Model& model, const std::vector<EdgeId>& edges)
+{
+    std::vector<Vec3> result;
+    for (const EdgeId edge : edges) {
+        const std::vector<Index>& points = model[edge].points;
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) result.push_back(model.at(points[i]));
+    }
+    return result;
+}
+
+Vec3 mean(const std::vector<Vec3>& places)
+{
+    return std::accumulate(places.begin(), places.end(), Vec3(Vec3::Zero())) /
+           static_cast<double>(places.size());
+}
+
+/// +1 where the facets face outward, -1 where inward, as their walls round the middle say.
+double facing(const Model& model)
+{
+    Vec3 centre = Vec3::Zero();
+    double area = 0;
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        const double own = face_area(model, FaceId(f));
+        centre += own * face_centroid(model, FaceId(f));
+        area += own;
+    }
+    centre /= area;
+    double sum = 0;
+    for (const Face& face : model.faces) {
+        for (const Triangle& t : face.triangles) {
+            const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
+            sum += ((a + b + c) / 3 - centre).dot((b - a).cross(c - a));
+        }
+    }
+    return sum < 0 ? -1 : 1;
+}
+
+/// By how much the skin turns inward over each edge between two walls, on average [radians].
+std::vector<double> concave_turns(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    const double outward = facing(model);
+    std::unordered_map<std::uint64_t, Vec3> normal; // of the wall facet at a directed side
+    std::set<std::uint64_t> sides;
+    for (const Edge& edge : model.edges) {
+        for (std::size_t i = 0; i + 1 < edge.points.size(); ++i)
+            sides.insert(edge_key(edge.points[i], edge.points[i + 1]));
+    }
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        if (volume.role[f] != Role::wall) continue;
+        for (const Triangle& t : model.faces[f].triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (!sides.contains(edge_key(t[k], t[(k + 1) % 3]))) continue;
+                normal.emplace(directed_key(t[k], t[(k + 1) % 3]),
+                               (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])));
+            }
+        }
+    }
+    std::vector<double> turns;
+    for (const Edge& edge : model.edges) {
+        double sum = 0, length = 0;
+        for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
+            const Index a = edge.points[i], b = edge.points[i + 1];
+            const auto left = normal.find(directed_key(a, b)), right = normal.find(directed_key(b, a));
+            if (left == normal.end() || right == normal.end()) continue;
+            const Vec3 way = model.at(b) - model.at(a);
+            const Vec3 turn = left->second.cross(right->second);
+            const double angle = std::atan2(turn.norm(), left->second.dot(right->second));
+            // From the facet that runs with the edge to the other, a convex skin turns about the edge's way.
+            sum += way.norm() * (turn.dot(way) > 0 ? -outward : outward) * angle;
+            length += way.norm();
+        }
+        turns.push_back(length > 0 ? sum / length : 0);
+    }
+    return turns;
+}
+
+class BranchFinder {
+public:
+    explicit BranchFinder(const OpenVolume& volume)
+        : volume_(volume), model_(volume.model), uses_(edge_uses(volume.model))
+    {
+    }
+
+    Branching run()
+    {
+        find_lines();
+        // A line that is no mouth parts nothing: what it lies in may be one side of another.
+        for (bool again = true; again;) {
+            find_regions();
+            again = std::erase_if(result_.mouths, [&](Mouth& mouth) { return !set_sides(mouth); }) > 0;
+        }
+        return std::move(result_);
+    }
+
+private:
+    void find_lines()
+    {
+        const std::vector<double> turns = concave_turns(volume_);
+        std::map<VertexId, std::vector<EdgeId>> at;
+        geometry::UnionFind sets(model_.edges.size());
+        std::vector<EdgeId> concave;
+        for (std::size_t e = 0; e < model_.edges.size(); ++e) {
+            if (uses_[e].size() != 2 || turns[e] < kConcave * std::numbers::pi / 180) continue;
+            concave.emplace_back(e);
+            for (const VertexId v : {model_.edges[e].from, model_.edges[e].to}) {
+                for (const EdgeId other : at[v]) sets.unite_least(other.index(), e);
+                at[v].emplace_back(e);
+            }
+        }
+        std::map<std::size_t, std::vector<EdgeId>> lines;
+        for (const EdgeId edge : concave) lines[sets.find(edge.index())].push_back(edge);
+        for (auto& [root, edges] : lines) {
+            const bool closed = std::ranges::all_of(edges, [&](EdgeId edge) {
+                return at.at(model_[edge].from).size() == 2 && at.at(model_[edge].to).size() == 2;
+            });
+            if (closed) result_.mouths.push_back({std::move(edges)});
+        }
+    }
+
+    void find_regions()
+    {
+        std::set<EdgeId> barred;
+        for (const Mouth& mouth : result_.mouths) barred.insert(mouth.edges.begin(), mouth.edges.end());
+        geometry::UnionFind sets(model_.faces.size());
+        for (std::size_t e = 0; e < uses_.size(); ++e) {
+            if (barred.contains(EdgeId(e))) continue;
+            for (const FaceUse& use : uses_[e])
+                sets.unite_least(uses_[e].front().face.index(), use.face.index());
+        }
+        std::map<std::size_t, std::size_t> number;
+        result_.region.clear();
+        result_.faces.clear();
+        for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+            const std::size_t own = number.try_emplace(sets.find(f), number.size()).first->second;
+            result_.region.push_back(own);
+            result_.faces.resize(number.size());
+            result_.faces[own].emplace_back(f);
+        }
+        result_.ends.assign(number.size(), {});
+        std::vector<FaceId> named = volume_.faces(Role::source);
+        const std::vector<FaceId> targets = volume_.faces(Role::target);
+        named.insert(named.end(), targets.begin(), targets.end());
+        for (const std::vector<FaceId>& end : connected_parts(model_, named)) {
+            Vec3 centre = Vec3::Zero();
+            double area = 0;
+            for (const FaceId face : end) {
+                centre += face_area(model_, face) * face_centroid(model_, face);
+                area += face_area(model_, face);
+            }
+            const std::size_t own = result_.region[end.front().index()];
+            result_.ends[own].emplace_back(centre / area);
+        }
+        for (const Rim& rim : free_loops(volume_)) {
+            std::vector<EdgeId> edges;
+            for (const EdgeUse& use : rim.uses) edges.push_back(use.edge);
+            const std::size_t own = result_.region[uses_[edges.front().index()].front().face.index()];
+            result_.ends[own].push_back(mean(places(model_, edges)));
+        }
+    }
+
+    /// Which side of a mouth is the main body; false where neither is.
+    bool set_sides(Mouth& mouth)
+    {
+        const std::vector<FaceUse>& users = uses_[mouth.edges.front().index()];
+        mouth.host = result_.region[users[0].face.index()];
+        mouth.branch = result_.region[users[1].face.index()];
+        if (mouth.host == mouth.branch) return false;
+        const auto worth = [&](std::size_t region) {
+            const bool source = std::ranges::any_of(result_.faces[region], [&](FaceId face) {
+                return volume_.role[face.index()] == Role::source;
+            });
+            return std::pair(std::min<std::size_t>(result_.ends[region].size(), 2), source);
+        };
+        if (worth(mouth.host) < worth(mouth.branch)) std::swap(mouth.host, mouth.branch);
+        if (result_.ends[mouth.host].size() < 2) return false;
+        if (!result_.ends[mouth.branch].empty()) return true;
+        // A dimple is a wall like any other.
+        const std::vector<Vec3> rim = places(model_, mouth.edges);
+        const Vec3 centre = mean(rim);
+        const Vec3 normal = geometry::newell_vector(rim).normalized();
+        double width = 0, depth = 0;
+        for (const Vec3& p : rim) width = std::max(width, (p - centre).norm());
+        for (const FaceId face : result_.faces[mouth.branch]) {
+            for (const Triangle& t : model_[face].triangles) {
+                for (const Index p : t)
+                    depth = std::max(depth, std::abs((model_.at(p) - centre).dot(normal)));
+            }
+        }
+        return depth > width / 2;
+    }
+
+    const OpenVolume& volume_;
+    const Model& model_;
+    std::vector<std::vector<FaceUse>> uses_;
+    Branching result_;
+};
+
+/// Where a mouth lies along a direction.
+struct Reach {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+};
+
+class BranchCutter {
+public:
+    BranchCutter(const OpenVolume& volume, Branching found, const RunContext& context)
+        : volume_(volume), found_(std::move(found)), context_(context)
+    {
+    }
+
+    std::vector<StepPiece> run()
+    {
+        const std::size_t host = found_.mouths.front().host;
+        std::vector<const Mouth*> mouths;
+        for (const Mouth& mouth : found_.mouths)
+            if (mouth.host == host) mouths.push_back(&mouth);
+        set_axis(*mouths.front());
+        std::ranges::sort(mouths, {}, [&](const Mouth* mouth) { return reach(*mouth).low; });
+        // Those that lie across from each other, or overlap along the way, meet in one place.
+        double high = reach(*mouths.front()).high;
+        std::size_t count = 1;
+        for (; count < mouths.size() && reach(*mouths[count]).low <= high + volume_.model.tolerance; ++count)
+            high = std::max(high, reach(*mouths[count]).high);
+        refuse_turning(mouths);
+        mouths.resize(count);
+        if (count == 1) {
+            const std::vector<double> heights = sides_across(*mouths.front());
+            if (!heights.empty()) return part_at(heights);
+        }
+        return fork(mouths);
+    }
+
+private:
+    [[noreturn]] void refuse(const Mouth& mouth, const std::string& why) const
+    {
+        const FaceId branch = wall_at(mouth, mouth.branch), host = wall_at(mouth, mouth.host);
+        std::array<char, 160> hint{};
+        const Reach own = reach(mouth);
+        const Vec3 before = centre_ + (own.low - centre_.dot(axis_)) * axis_,
+                   after = centre_ + (own.high - centre_.dot(axis_)) * axis_;
+        std::snprintf(hint.data(), hint.size(),
+                      "(%.4g, %.4g, %.4g) and (%.4g, %.4g, %.4g) with the normal {%.3g, %.3g, %.3g}",
+                      before.x(), before.y(), before.z(), after.x(), after.y(), after.z(), axis_.x(),
+                      axis_.y(), axis_.z());
+        throw NotSweepable("closure.branches",
+                           "the branch of " + name_of(volume_.model, branch) + " on " +
+                               name_of(volume_.model, host) + " is not cut by itself: " + why +
+                               "; to cut by hand, planes beyond its mouth, which lies between " +
+                               hint.data() + ", take what is not at the branch off");
+    }
+
+    [[nodiscard]] FaceId wall_at(const Mouth& mouth, std::size_t region) const
+    {
+        for (const FaceId face : found_.faces[region]) {
+            for (const Loop& loop : volume_.model[face].loops) {
+                for (const EdgeUse& use : loop.uses)
+                    if (std::ranges::find(mouth.edges, use.edge) != mouth.edges.end()) return face;
+            }
+        }
+        return found_.faces[region].front();
+    }
+
+    /// The way a branch leaves its mouth.
+    [[nodiscard]] Vec3 way_out(const Mouth& mouth) const
+    {
+        const std::vector<Vec3> rim = rim_places(mouth);
+        const Vec3 normal = geometry::newell_vector(rim).normalized();
+        Vec3 far = Vec3::Zero();
+        for (const FaceId face : found_.faces[mouth.branch]) far += face_centroid(volume_.model, face);
+        far /= static_cast<double>(found_.faces[mouth.branch].size());
+        return (far - mean(rim)).dot(normal) < 0 ? Vec3(-normal) : normal;
+    }
+
+    /// The way from end to end of the main body, square to the way the branch leaves it.
+    void set_axis(const Mouth& mouth)
+    {
+        centre_ = mean(rim_places(mouth));
+        const Vec3 outward = way_out(mouth);
+        const std::vector<Vec3>& ends = found_.ends[mouth.host];
+        const Vec3 way = ends.back() - ends.front();
+        const Vec3 square = way - way.dot(outward) * outward;
+        axis_ = square.norm() > 0 ? Vec3(square.normalized()) : Vec3(outward.unitOrthogonal());
+        if (ends.size() != 2)
+            refuse(mouth, "the main body has " + std::to_string(ends.size()) +
+                              " ends, so it is not told which way it goes");
+        if (square.norm() < kAlong * way.norm())
+            refuse(mouth, "it leaves the main body along the way between that one's ends");
+    }
+
+    /// The lines across mouths are in the mesh of the arms between them. An arm holds those of both its ends,
+    /// and hands none on: of three in a row, two that follow each other leave to the same side.
+    void refuse_turning(const std::vector<const Mouth*>& mouths) const
+    {
+        const auto turns = [&](std::size_t m) {
+            return way_out(*mouths[m]).dot(way_out(*mouths[m + 1])) < kSameSide;
+        };
+        for (std::size_t m = 0; m + 2 < mouths.size(); ++m) {
+            if (turns(m) && turns(m + 1))
+                refuse(*mouths[m + 1],
+                       "it leaves to another side than those before and after it, and no mesh "
+                       "of the arms between holds the lines across all three");
+        }
+    }
+
+    /// Points round a mouth, in order.
+    [[nodiscard]] std::vector<Vec3> rim_places(const Mouth& mouth) const
+    {
+        std::vector<Vec3> rim;
+        for (const EdgeUse& use :
+             walk_of(volume_.model, found_.faces[mouth.branch], {mouth.edges.begin(), mouth.edges.end()})) {
+            const std::vector<Index> points = use_points(volume_.model, use);
+            for (std::size_t i = 0; i + 1 < points.size(); ++i) rim.push_back(volume_.model.at(points[i]));
+        }
+        return rim;
+    }
+
+    /// The rim of some faces that runs along the edges named.
+    static std::vector<EdgeUse> walk_of(const Model& model, const std::vector<FaceId>& faces,
+                                        const std::set<EdgeId>& edges)
+    {
+        for (const Rim& rim : rims(model, faces))
+            if (edges.contains(rim.uses.front().edge)) return rim.uses;
+        return {};
+    }
+
+    [[nodiscard]] Reach reach(const Mouth& mouth) const
+    {
+        Reach result;
+        for (const Vec3& p : places(volume_.model, mouth.edges)) {
+            result.low = std::min(result.low, p.dot(axis_));
+            result.high = std::max(result.high, p.dot(axis_));
+        }
+        return result;
+    }
+
+    /// Planes along the sides of a mouth that run square to the axis, as of a square duct on a flat wall:
+    /// what lies between them is swept along the axis, the duct's sides being part of its ends.
+    [[nodiscard]] std::vector<double> sides_across(const Mouth& mouth) const
+    {
+        const Model& model = volume_.model;
+        const Reach own = reach(mouth);
+        std::vector<double> heights;
+        for (const double height : {own.low, own.high}) {
+            const bool any = std::ranges::any_of(found_.faces[mouth.branch], [&](FaceId face) {
+                const bool at_mouth = std::ranges::any_of(model[face].loops, [&](const Loop& loop) {
+                    return std::ranges::any_of(loop.uses, [&](const EdgeUse& use) {
+                        return std::ranges::find(mouth.edges, use.edge) != mouth.edges.end();
+                    });
+                });
+                return at_mouth && std::ranges::all_of(model[face].triangles, [&](const Triangle& t) {
+                           return std::ranges::all_of(t, [&](Index p) {
+                               return std::abs(model.at(p).dot(axis_) - height) <= model.tolerance;
+                           });
+                       });
+            });
+            if (any) heights.push_back(height);
+        }
+        return heights.size() == 2 ? heights : std::vector<double>{};
+    }
+
+    std::vector<StepPiece> part_at(const std::vector<double>& heights)
+    {
+        std::vector<StepPiece> pieces{{volume_, 0}};
+        for (const double height : heights) {
+            const Vec3 origin = centre_ + (height - centre_.dot(axis_)) * axis_;
+            std::vector<StepPiece> cut;
+            for (const StepPiece& piece : pieces) {
+                try {
+                    for (StepPiece& own :
+                         cut_by_plane(piece.volume, geometry::plane_across(origin, axis_), context_))
+                        cut.push_back(std::move(own));
+                } catch (const NotSweepable& error) {
+                    if (error.code() != "closure.cut_misses") throw;
+                    cut.push_back(piece);
+                }
+            }
+            pieces = std::move(cut);
+        }
+        return pieces;
+    }
+
+    [[nodiscard]] Vec2 place_of(const SectionPlace& place, const geometry::Plane& plane) const
+    {
+        const Vec3& a = volume_.model.at(place.a);
+        if (place.b < 0) return geometry::to_plane(plane, a);
+        const Vec3& b = volume_.model.at(place.b);
+        const double ha = geometry::height(plane, a), hb = geometry::height(plane, b);
+        return geometry::to_plane(plane, a + ha / (ha - hb) * (b - a));
+    }
+
+    /// Walks across the main body: those from mouth to mouth first, and the closed ones beside them.
+    [[nodiscard]] std::vector<SectionWalk> walks_across(const std::vector<const Mouth*>& mouths,
+                                                        const geometry::Plane& plane) const
+    {
+        const Mouth& mouth = *mouths.front();
+        std::vector<SectionWalk> walks = section_walks(volume_.model, found_.faces[mouth.host], plane,
+                                                       volume_.model.tolerance);
+        const auto rest = std::ranges::stable_partition(walks,
+                                                        [](const SectionWalk& walk) { return !walk.closed; });
+        const auto open = static_cast<std::size_t>(rest.begin() - walks.begin());
+        if (open != mouths.size())
+            refuse(mouth, open < mouths.size() ? "no wall of the main body lies across from it"
+                                               : "walls of the main body are missing across from it");
+        // Of the closed ones those in the region that the open ones bound.
+        std::vector<std::vector<Vec2>> loops(1);
+        for (std::size_t w = 0; w < walks.size(); ++w) {
+            if (w >= open) loops.emplace_back();
+            for (const SectionPlace& place : walks[w].places) loops.back().push_back(place_of(place, plane));
+        }
+        std::vector<SectionWalk> own(walks.begin(), rest.begin());
+        for (const std::vector<std::size_t>& region : regions_of(loops)) {
+            if (std::ranges::find(region, std::size_t{0}) == region.end()) continue;
+            for (const std::size_t l : region)
+                if (l != 0) own.push_back(walks[open + l - 1]);
+        }
+        return own;
+    }
+
+    /// Faces that meet in a line across each mouth: two from it to the halves of the mouth, and one between
+    /// the lines across the main body.
+    std::vector<StepPiece> fork(const std::vector<const Mouth*>& mouths)
+    {
+        check_cancelled(context_);
+        Vec3 centre = Vec3::Zero();
+        for (const Mouth* mouth : mouths)
+            centre += mean(rim_places(*mouth)) / static_cast<double>(mouths.size());
+        const geometry::Plane plane = geometry::plane_across(centre, axis_);
+        OpenVolume work = volume_;
+        Model& model = work.model;
+        const std::vector<SectionWalk> walks = walks_across(mouths, plane);
+        const WalkImprint made = imprint_walks(model, walks, plane, model.tolerance, context_);
+        for (std::size_t f = work.role.size(); f < made.parent.size(); ++f)
+            work.role.push_back(work.role[made.parent[f].index()]);
+        std::vector<FaceId> host;
+        for (std::size_t f = 0; f < model.faces.size(); ++f)
+            if (found_.region[made.parent[f].index()] == mouths.front()->host) host.emplace_back(f);
+
+        PartedModel parted;
+        Partition middle;
+        std::map<VertexId, EdgeUse> onward; // from the end of a walk across its mouth
+        for (const Mouth* mouth : mouths) {
+            std::vector<FaceId> branch;
+            for (std::size_t f = 0; f < model.faces.size(); ++f)
+                if (found_.region[made.parent[f].index()] == mouth->branch) branch.emplace_back(f);
+            std::array<std::vector<EdgeUse>, 2>
+                halves; // behind the plane and before it, as the branch uses them
+            for (const EdgeUse& use : mouth_walk(model, branch, host)) {
+                double sum = 0;
+                for (const Index p : model[use.edge].points) sum += geometry::height(plane, model.at(p));
+                halves[sum < 0 ? 0 : 1].push_back(use);
+            }
+            const EdgeId dip = add_dip(model, *mouth, plane, order(model, *mouth, halves));
+            onward[model[dip].from] = {dip, false};
+            onward[model[dip].to] = {dip, true};
+            for (const std::vector<EdgeUse>& half : halves) {
+                Partition partition;
+                for (const EdgeUse& use : half) partition.behind.push_back({use.edge, !use.reversed});
+                Loop loop{half};
+                loop.uses.push_back({dip, use_to(model, half.back()) != model[dip].from});
+                const std::string name = partition_name(model);
+                partition.face = closure::add_void_face(work, fill(work, {loop}, nullptr, name, context_),
+                                                        Role::wall);
+                model[partition.face].name = name;
+                parted.partitions.push_back(partition);
+            }
+        }
+        std::vector<std::vector<EdgeUse>> rings(1);
+        std::vector<char> seen(made.lines.size(), 0);
+        for (std::size_t w = 0; seen[w] == 0;) {
+            seen[w] = 1;
+            rings.front().insert(rings.front().end(), made.lines[w].begin(), made.lines[w].end());
+            const auto across = onward.find(use_to(model, made.lines[w].back()));
+            if (across == onward.end())
+                refuse(*mouths.front(), "walls of the main body are missing across from it");
+            rings.front().push_back(across->second);
+            const VertexId start = use_to(model, across->second);
+            for (std::size_t next = 0; next < mouths.size(); ++next)
+                if (use_from(model, made.lines[next].front()) == start) w = next;
+        }
+        for (std::size_t l = 0; l < made.lines.size(); ++l) {
+            if (l >= mouths.size()) rings.push_back(made.lines[l]);
+            middle.behind.insert(middle.behind.end(), made.lines[l].begin(), made.lines[l].end());
+        }
+        order_rings(model, plane, rings);
+        middle.face = add_partition(model, rings, plane, context_);
+        work.role.push_back(Role::wall);
+        parted.partitions.insert(parted.partitions.begin(), middle);
+        build_loops(model);
+        parted.model = std::move(model);
+        parted.role = std::move(work.role);
+        parted.turned_round = volume_.turned_round;
+        return pieces_of(parted,
+                         "the cut at the branch of " +
+                             name_of(volume_.model, wall_at(*mouths.front(), mouths.front()->branch)),
+                         context_);
+    }
+
+    /// The rim that the branch has in common with the main body.
+    static std::vector<EdgeUse> mouth_walk(const Model& model, const std::vector<FaceId>& branch,
+                                           const std::vector<FaceId>& host)
+    {
+        std::set<EdgeId> edges;
+        for (const Rim& rim : rims(model, host)) {
+            for (const EdgeUse& use : rim.uses) edges.insert(use.edge);
+        }
+        return walk_of(model, branch, edges);
+    }
+
+    /// The larger loop first.
+    static void order_rings(const Model& model, const geometry::Plane& plane,
+                            std::vector<std::vector<EdgeUse>>& rings)
+    {
+        std::ranges::stable_sort(rings, std::greater<>{}, [&](const std::vector<EdgeUse>& ring) {
+            Eigen::AlignedBox2d box;
+            for (const EdgeUse& use : ring) {
+                for (const Index p : model[use.edge].points)
+                    box.extend(geometry::to_plane(plane, model.at(p)));
+            }
+            return box.volume();
+        });
+    }
+
+    /// Put the halves of a mouth in walking order. @return  the vertices where the first begins and ends.
+    [[nodiscard]] std::pair<VertexId, VertexId> order(const Model& model, const Mouth& mouth,
+                                                      std::array<std::vector<EdgeUse>, 2>& halves) const
+    {
+        const auto is_chain = [&](const std::vector<EdgeUse>& half) {
+            for (std::size_t i = 0; i + 1 < half.size(); ++i)
+                if (use_to(model, half[i]) != use_from(model, half[i + 1])) return false;
+            return !half.empty();
+        };
+        for (std::vector<EdgeUse>& half : halves) {
+            for (std::size_t turn = 0; turn < half.size() && !is_chain(half); ++turn)
+                std::ranges::rotate(half, half.begin() + 1);
+        }
+        if (!is_chain(halves[0]) || !is_chain(halves[1]) ||
+            use_to(model, halves[0].back()) != use_from(model, halves[1].front()))
+            refuse(mouth, "the plane across the main body meets its mouth in other than two places");
+        return {use_from(model, halves[0].front()), use_to(model, halves[0].back())};
+    }
+
+    /// A parabola across the mouth that dips into the main body as deep as its mouth is wide along the axis.
+    EdgeId add_dip(Model& model, const Mouth& mouth, const geometry::Plane& plane,
+                   std::pair<VertexId, VertexId> ends)
+    {
+        const auto [from, to] = ends;
+        const Vec3 outward = way_out(mouth);
+        const Vec3 a = model.at(model[from].point), b = model.at(model[to].point);
+        double wide = 0, top = 0;
+        for (const Vec3& p : places(volume_.model, mouth.edges)) {
+            const double off = std::abs(geometry::height(plane, p));
+            if (off <= wide) continue;
+            wide = off;
+            top = p.dot(outward);
+        }
+        const double rim = ((a + b) / 2).dot(outward);
+        std::vector<Triangle> facets;
+        for (const FaceId face : found_.faces[mouth.host])
+            facets.insert(facets.end(), volume_.model[face].triangles.begin(),
+                          volume_.model[face].triangles.end());
+        const Vec3 start = (a + b) / 2 + (std::min(rim, top) - rim) * outward;
+        const double down = geometry::FacetTree(volume_.model.points, facets).first_along(start, -outward).t;
+        double lowest = top - wide;
+        if (std::isfinite(down))
+            lowest = std::max(lowest, top - kDeepest * (top - start.dot(outward) + down));
+        const double deep = std::max(0.0, rim - lowest);
+        std::vector<Index> points{model[from].point};
+        if (deep > kChords * model.tolerance) {
+            for (int i = 1; i < kChords; ++i) {
+                const double u = 2.0 * i / kChords - 1;
+                points.push_back(static_cast<Index>(model.points.size()));
+                model.points.emplace_back((a + b) / 2 + u * (b - a) / 2 - deep * (1 - u * u) * outward);
+            }
+        }
+        points.push_back(model[to].point);
+        return add_void_edge(model, from, to, std::move(points));
+    }
+
+    const OpenVolume& volume_;
+    Branching found_;
+    const RunContext& context_;
+    Vec3 centre_ = Vec3::Zero(), axis_ = Vec3::Zero(); ///< of the first mouth, and the way past it
+};
+
+} // namespace
+
+bool has_branches(const OpenVolume& volume) { return !BranchFinder(volume).run().mouths.empty(); }
+
+std::vector<StepPiece> cut_branches(const OpenVolume& volume, const RunContext& context)
+{
+    Branching found = BranchFinder(volume).run();
+    if (found.mouths.empty()) return {{volume, 0}};
+    std::vector<StepPiece> result;
+    for (const StepPiece& piece : BranchCutter(volume, std::move(found), context).run()) {
+        for (StepPiece& own : cut_branches(piece.volume, context)) result.push_back(std::move(own));
+    }
+    return result;
+}
+
+bool has_pieces(const OpenVolume& volume) { return has_steps(volume) || has_branches(volume); }
+
+std::vector<StepPiece> cut_into_pieces(const OpenVolume& volume, const RunContext& context)
+{
+    std::vector<StepPiece> result;
+    for (const StepPiece& arm : cut_branches(volume, context)) {
+        for (StepPiece& piece : cut_steps(arm.volume, context)) result.push_back(std::move(piece));
+    }
+    std::ranges::stable_sort(result, {}, &StepPiece::level);
+    return result;
+}
+
+} // namespace lacuna::closure

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/closure/steps.h>
+#include <lacuna/core/run_context.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <vector>
+
+namespace lacuna::closure {
+
+/// Whether a side branch leaves a wall of the volume: a closed line of concave edges between walls parts the
+/// skin into one side that has two ends, named or missing, and another that has an end too, or is deeper than
+/// half as wide.
+bool has_branches(const topology::OpenVolume& volume);
+
+/// Cut a volume at its side branches into arms that can be swept: a tee into three, a manifold into two more
+/// a branch and one more between two of them.
+///
+/// Where a branch joins, three void faces meet in one line across its mouth that dips into the main body: one
+/// across the main body, and two from that line to either half of the mouth. Each arm ends in two of them.
+/// So the junction of a tee of equal tubes is that of three half ellipses. Branches that follow each other,
+/// and those of branches, are parted by planes first.
+/// @return  pieces in the order of the cuts; the volume itself where it has no branches.
+/// @throw NotSweepable "closure.branches"  a main body whose walls are missing at the mouth, or of more than
+///         two ends; mouths side by side; a place between that could be cut by hand is named. Else as
+///         `cut_by_plane()`.
+/// @note  O(branches · facets log facets).
+std::vector<StepPiece> cut_branches(const topology::OpenVolume& volume, const RunContext& context = {});
+
+/// Whether a volume has to be cut to be swept, by its branches or steps.
+bool has_pieces(const topology::OpenVolume& volume);
+/// The pieces of a volume with branches or steps, or both; itself where it has neither.
+std::vector<StepPiece> cut_into_pieces(const topology::OpenVolume& volume, const RunContext& context = {});
+
+} // namespace lacuna::closure

@@ -1,0 +1,177 @@
+-- SPDX-License-Identifier: MIT
+-- Branches: ducts whose walls side ducts leave are cut into arms and meshed as one.
+local lacuna = require "lacuna"
+local folder = arg[0]:match "^(.*[/\\])" or ""
+local check = dofile(folder .. "check.lua")
+local params = lacuna.params { members = 60 }
+
+local sides = 24 -- corners of a round mouth
+
+--- A duct along x with a square section of side 2, and branches { at =, side = 1 … 4, radius =, length =,
+--- corners =, lean =, turn =, role = }. Faces: left, right, duct_1 … 4, branch_n, top_n.
+local function duct(length, branches)
+  local model = lacuna.model()
+  local function frame(side) -- a place along x, across the side's wall, and up from it
+    local c, s = math.cos((side - 1) * math.pi / 2), math.sin((side - 1) * math.pi / 2)
+    return function(x, across, up) return { x, across * c - (1 + up) * s, across * s + (1 + up) * c } end
+  end
+  for side = 1, 4 do
+    local place, points, cells = frame(side), {}, {}
+    local function add(x, y) points[#points + 1] = place(x, y, 0) return #points end
+    local function flat(a, b)
+      if b - a > 1e-9 then cells[#cells + 1] = { add(a, -1), add(b, -1), add(b, 1), add(a, 1) } end
+    end
+    local from = 0
+    for n, branch in ipairs(branches) do
+      if branch.side == side then
+        local at, r = branch.at, branch.radius
+        flat(from, at - 1)
+        from = at + 1
+        local rim, frame_points, count = {}, {}, branch.corners or sides
+        for i = 0, count - 1 do
+          local t = 2 * math.pi * (i + (branch.turn or 0)) / count
+          rim[i + 1] = { at + r * math.cos(t), r * math.sin(t) }
+        end
+        -- Between the mouth and the square round it: each side of the mouth sees a part of the square.
+        local square = {}
+        for i = 0, count - 1 do
+          local t = 2 * math.pi * (i + (branch.turn or 0)) / count
+          local far = 1 / math.max(math.abs(math.cos(t)), math.abs(math.sin(t)))
+          square[#square + 1] = { t = t, rim = i + 1, x = at + far * math.cos(t), y = far * math.sin(t) }
+        end
+        for k = 0, 3 do
+          local t = math.pi / 4 + k * math.pi / 2
+          if t < square[1].t then t = t + 2 * math.pi end
+          local exact
+          for _, p in ipairs(square) do exact = exact or math.abs(p.t - t) < 1e-9 end
+          if not exact then
+            local x, y = math.cos(t) > 0 and 1 or -1, math.sin(t) > 0 and 1 or -1
+            square[#square + 1] = { t = t, x = at + x, y = y }
+          end
+        end
+        table.sort(square, function(a, b) return a.t < b.t end)
+        local inner = {}
+        for i, p in ipairs(rim) do inner[i] = add(p[1], p[2]) end
+        for _, p in ipairs(square) do p.n = add(p.x, p.y) end
+        local last = 1
+        for i, p in ipairs(square) do
+          local q = square[i % #square + 1]
+          last = p.rim or last
+          cells[#cells + 1] = { inner[last], p.n, q.n }
+          if q.rim then cells[#cells + 1] = { inner[last], q.n, inner[q.rim] } end
+        end
+        local wall, walls, top = {}, {}, {}
+        for i, p in ipairs(rim) do
+          local lean = branch.lean or 0
+          wall[i] = place(p[1], p[2], 0)
+          wall[count + i] = place(p[1] + lean, p[2], branch.length)
+          top[i] = wall[count + i]
+          local j = i % count + 1
+          walls[i] = { i, j, count + j, count + i }
+        end
+        if branch.corners then
+          for i, cell in ipairs(walls) do
+            local own = {}
+            for k = 1, 4 do own[k] = wall[cell[k]] end
+            model:add_face { name = ("branch_%d_%d"):format(n, i), points = own, cells = { { 1, 2, 3, 4 } } }
+          end
+        else
+          model:add_face { name = "branch_" .. n, points = wall, cells = walls }
+        end
+        local fan = {}
+        for i = 2, count - 1 do fan[#fan + 1] = { 1, i, i + 1 } end
+        if branch.role ~= "missing" then model:add_face { name = "top_" .. n, points = top, cells = fan } end
+      end
+    end
+    flat(from, length)
+    model:add_face { name = "duct_" .. side, points = points, cells = cells }
+  end
+  for name, x in pairs { left = 0, right = length } do
+    local p = { { x, -1, -1 }, { x, 1, -1 }, { x, 1, 1 }, { x, -1, 1 } }
+    model:add_face { name = name, points = p, cells = { { 1, 2, 3, 4 } } }
+  end
+  return model
+end
+
+local function volume(length, branches)
+  local sum = 4 * length
+  for _, b in ipairs(branches) do
+    local n = b.corners or sides
+    sum = sum + n / 2 * b.radius ^ 2 * math.sin(2 * math.pi / n) * b.length
+  end
+  return sum
+end
+
+local function open(model, branches)
+  local target, walls = { "right" }, {}
+  for _, face in ipairs(model:faces()) do
+    local n = tonumber(face.name:match "^top_(%d+)$")
+    if n and branches[n].role == "target" then target[#target + 1] = face
+    elseif face.name ~= "left" and face.name ~= "right" then walls[#walls + 1] = face end
+  end
+  return model:open_volume { source = "left", target = target, walls = walls }
+end
+
+-- A round branch in the middle of a wall: three arms, which are as large as the whole.
+local one = { { at = 3, side = 1, radius = 0.5, length = 2, role = "target" } }
+local pieces = open(duct(6, one), one):cut()
+check.equal(#pieces, 3)
+for _, piece in ipairs(pieces) do check.equal(piece.class, "closed") end
+one[1].role = "missing"
+local classes = {}
+for _, piece in ipairs(open(duct(6, one), one):cut()) do classes[#classes + 1] = piece.class end
+check.equal(table.concat(classes, " "), "closed closed IV", "the branch's end is missing and stays so")
+one[1].role = "wall"
+check.equal(open(duct(6, one), one):cut()[3].class, "closed", "its end is found among walls")
+
+-- A square one is cut along its sides, as a T all along its middle.
+local square = { { at = 3, side = 1, radius = 0.5 * math.sqrt(2), length = 2, corners = 4, turn = 0.5,
+  role = "missing" } }
+local mesh = open(duct(6, square), square):sweep { size = 0.25 }
+check.equal(#mesh.regions, 3)
+check.near(mesh.fidelity.volume, 26, 1e-9)
+check.that(mesh:quality().min_scaled_jacobian > 0.7)
+
+-- A dimple is a wall like any other.
+local dimple = { { at = 3, side = 1, radius = 0.5, length = 0.1, role = "wall" } }
+check.equal(#open(duct(6, dimple), dimple):cut(), 1)
+
+-- A family: up to three branches on any side, round or with corners, upright or leaning.
+local state = 20261122
+local function random(low, high)
+  state = (state * 48271) % 2147483647
+  return low + (high - low) * state / 2147483647
+end
+local meshed, arms, refused, turning = 0, 0, 0, 0
+for member = 1, params.members do
+  local branches, count = {}, math.floor(random(1, 3.999))
+  for n = 1, count do
+    local b = { at = 3 * n - 1, side = math.floor(random(1, 4.999)), radius = random(0.3, 0.75),
+      length = random(1, 3), role = ({ "target", "wall", "missing" })[math.floor(random(1, 3.999))] }
+    if random(0, 1) < 0.2 then b.corners, b.turn = math.floor(random(5, 9.999)), random(0, 1) end
+    if random(0, 1) < 0.3 then b.lean = random(-0.5, 0.5) end
+    branches[n] = b
+  end
+  local length = 3 * count + 1
+  local whole = open(duct(length, branches), branches)
+  local ok, found = pcall(whole.sweep, whole, { size = 0.3 })
+  if ok then
+    meshed, arms = meshed + 1, arms + #found.regions
+    check.equal(#found.regions, 1 + 2 * count, "member " .. member)
+    check.equal(found:quality().certified, true)
+    local exact = volume(length, branches)
+    check.that(math.abs(found.fidelity.volume - exact) < 0.02 * exact,
+      ("member %d: volume %g for %g"):format(member, found.fidelity.volume, exact))
+  elseif tostring(found):find "closure.branches" then
+    -- Three in a row, the middle one to another side than both.
+    turning = turning + 1
+    check.that(count == 3 and branches[2].side ~= branches[1].side and branches[2].side ~= branches[3].side)
+  else
+    refused = refused + 1
+    check.that(tostring(found):find "%[[%a_]+%.[%a_]+%]", "refused by name: " .. tostring(found))
+  end
+end
+print(("%d meshed in %d arms, %d refused, %d of them turn from branch to branch"):format(meshed, arms,
+  refused + turning, turning))
+check.that(refused <= 0.1 * params.members)
+check.done()
