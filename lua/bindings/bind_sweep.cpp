@@ -134,6 +134,9 @@ void read_face_name(lua_State* L, int index, const Where& where, const VolumeSta
     default:
         fail_value(L, where, "a Face, a tag, a name, a selector or an array of those", index);
     }
+    lua_pushnil(L);
+    if (lua_next(L, index) == 0) fail_option(L, where, "names no face");
+    lua_pop(L, 2);
     auto& wanted = temporary<Selector>(L);
     read_selector(L, index, where.call, wanted);
     bool any = false;

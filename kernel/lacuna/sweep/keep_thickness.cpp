@@ -41,6 +41,7 @@ struct RowColumn {
     bool before = false, after = false; ///< over the sides before and after the node
     int table = -1;
     std::vector<Index> nodes;
+    std::vector<double> lean{}; ///< of each node from the foot along the rim, on the source [model length]
 };
 
 /// A node of rows, with what holds it: one wall, or two where rows cross.
@@ -153,6 +154,12 @@ private:
                 sides[i] = walk({b, i, table, {}, {}}, side_of.at(edge_key(from, to)), from, partner);
             }
             add_columns(b, sides);
+        }
+        for (RowColumn& column : columns_) {
+            const std::vector<Vec3>& places = parts_.source.quads.nodes;
+            const Vec3& foot = places[rim_node(column.link, column.node)];
+            for (const Index node : column.nodes)
+                column.lean.push_back((places[index(node)] - foot).dot(tangent_of(column, 0)));
         }
         for (std::size_t c = 0; c < columns_.size(); ++c) {
             const std::vector<double>& heights = heights_of(columns_[c].table);
@@ -279,6 +286,17 @@ private:
         return column.before && column.after ? Vec3(normal / 2) : normal;
     }
 
+    /// Along the rim at a column's foot, a unit long.
+    [[nodiscard]] Vec3 tangent_of(const RowColumn& column, std::size_t layer) const
+    {
+        const std::size_t n = size_of(column.link), i = column.node;
+        const Vec3& foot = at(layer, rim_node(column.link, i));
+        Vec3 along = Vec3::Zero();
+        if (column.before) along += (foot - at(layer, rim_node(column.link, i + n - 1))).normalized();
+        if (column.after) along += (at(layer, rim_node(column.link, i + 1)) - foot).normalized();
+        return along.stableNormalized();
+    }
+
     /// Of a layer's quads at a node.
     [[nodiscard]] Vec3 layer_normal(std::size_t node, std::size_t layer) const
     {
@@ -400,29 +418,80 @@ private:
         if (columns_.empty()) return;
         std::vector<Vec3> before = nodes_;
         slide_on_walls();
-        std::vector<Index> fixed;
-        for (std::size_t i = 0; i < count_; ++i) {
-            const auto node = static_cast<Index>(i);
-            if (link_of_[i] >= 0 || row_nodes_.contains(node) || on_inner_edge(node)) fixed.push_back(node);
-        }
+        slide_on_inner_edges();
         for (std::size_t k = 0; k <= layers_; ++k) {
             if (stays(k)) continue;
             for (const auto& [node, row] : row_nodes_) {
-                if (link_of_[index(node)] < 0 && !((k == 0 || k == layers_) && on_inner_edge(node)))
-                    move_inside(index(node), row, k, before);
+                if (link_of_[index(node)] < 0 && !(has_edges(k) && on_inner_edge(node)))
+                    move_inside(index(node), row, k);
             }
         }
-        if (!spread_) {
-            const NodeGraph graph = node_graph(quads(), count_);
-            spread_.emplace(graph, side_weights(graph, quads(), parts_.source.quads.nodes), fixed);
-        }
-        std::vector<Vec3> moves;
+        spread_moves(before, false);
+        spread_moves(before, true);
+        put_on_ends();
+    }
+
+    /// Whether the edges within the source are edges of a layer's face.
+    [[nodiscard]] bool has_edges(std::size_t layer) const
+    {
+        return layer == 0 || (layer == layers_ && !parts_.target_edges.empty());
+    }
+
+    /// Spread the moves of rims and rows over layers whose inner edges hold nodes, or over the others.
+    void spread_moves(const std::vector<Vec3>& before, bool with_edges)
+    {
+        std::vector<std::size_t> layers;
         for (std::size_t k = 0; k <= layers_; ++k) {
+            if (has_edges(k) == with_edges && !stays(k)) layers.push_back(k);
+        }
+        if (layers.empty()) return;
+        std::vector<Index> fixed;
+        for (std::size_t i = 0; i < count_; ++i) {
+            const auto node = static_cast<Index>(i);
+            if (link_of_[i] >= 0 || row_nodes_.contains(node) || (with_edges && on_inner_edge(node)))
+                fixed.push_back(node);
+        }
+        std::optional<HarmonicSpread>& spread = spread_[with_edges ? 1 : 0];
+        if (!spread) {
+            const NodeGraph graph = node_graph(quads(), count_);
+            spread.emplace(graph, side_weights(graph, quads(), parts_.source.quads.nodes), fixed);
+        }
+        std::vector<Vec3> moves, out(layers.size() * count_, Vec3::Zero());
+        for (const std::size_t k : layers) {
             for (const Index node : fixed)
                 moves.push_back(at(k, index(node)) - before[k * count_ + index(node)]);
         }
-        spread_->add(moves, layers_ + 1, nodes_.data(), count_, context_);
-        put_on_ends();
+        spread->add(moves, layers.size(), out.data(), count_, context_);
+        for (std::size_t l = 0; l < layers.size(); ++l) {
+            for (std::size_t i = 0; i < count_; ++i) at(layers[l], i) += out[l * count_ + i];
+        }
+    }
+
+    /// Rows that end on edges between faces of an end: their nodes go along these.
+    void slide_on_inner_edges()
+    {
+        for (const auto& [edge, chain] : parts_.source.on_edge) {
+            if (link_of_[index(chain[1 % chain.size()])] >= 0) continue;
+            const RowColumn* low = column_along(chain.front(), chain[1]);
+            const RowColumn* high = column_along(chain.back(), chain[chain.size() - 2]);
+            if ((low == nullptr && high == nullptr) || chain.size() < 3) continue;
+            for (const std::size_t layer : {std::size_t{0}, layers_}) {
+                if (!has_edges(layer) || stays(layer)) continue;
+                const auto image = parts_.target_edges.find(edge);
+                if (layer != 0 && image == parts_.target_edges.end()) continue;
+                std::vector<Vec3> line;
+                for (const Index node : chain) line.push_back(at(layer, index(node)));
+                const auto place = row_places(line, layer, low, high);
+                if (!place) continue;
+                const surface::Chain exact(model_, {{layer == 0 ? edge : image->second, false}});
+                for (const auto& [i, x] : places_along(line, *place)) {
+                    const auto side = std::min(static_cast<std::size_t>(x), line.size() - 2);
+                    const double share = x - static_cast<double>(side);
+                    at(layer, index(chain[i])) = nearest_on(exact, (1 - share) * line[side] +
+                                                                       share * line[side + 1]);
+                }
+            }
+        }
     }
 
     [[nodiscard]] bool on_inner_edge(Index node)
@@ -438,16 +507,29 @@ private:
         return inner_->contains(node);
     }
 
-    /// Move a node with its foot, and within its layer to the heights it is held at.
-    void move_inside(std::size_t node, const RowNode& row, std::size_t layer, const std::vector<Vec3>& before)
+    /// Put a node at the heights it is held at, within its layer: as far along the rim from its foot as on the
+    /// source, as far off the layer's plane there as it was. What the layers made of thin rows counts no more.
+    void move_inside(std::size_t node, const RowNode& row, std::size_t layer)
     {
-        const RowColumn& own = columns_[row.holds.front().column];
-        const std::size_t foot = rim_node(own.link, own.node);
-        at(layer, node) += at(layer, foot) - before[layer * count_ + foot];
-        const Vec3 up = layer_normal(node, layer);
-        std::array<Vec3, 2> normal, within;
-        std::array<double, 2> off{};
         const std::size_t holds = std::min<std::size_t>(row.holds.size(), 2);
+        const RowColumn& own = columns_[row.holds[0].column];
+        const Vec3& foot = at(layer, rim_node(own.link, own.node));
+        // The quads inside the rows are the larger ones, and tell how the layer lies.
+        const Vec3 up = layer_normal(index(own.nodes.back()), layer);
+        const Vec3 raised = up * up.dot(at(layer, node) - foot);
+        if (holds == 1) {
+            const auto number = std::find(own.nodes.begin(), own.nodes.end(), static_cast<Index>(node));
+            const Vec3 along = tangent_of(own, layer), normal = normal_of(own, layer);
+            const Vec3 inward = up.cross(along) * (up.cross(along).dot(normal) > 0 ? 1 : -1);
+            const double across = inward.dot(normal);
+            if (!(across > 0)) return;
+            const Vec3 lean = along * own.lean[static_cast<std::size_t>(number - own.nodes.begin())] + raised;
+            at(layer, node) = foot + lean + inward * ((row.holds[0].height - lean.dot(normal)) / across);
+            return;
+        }
+        // Where rows cross, the heights over both walls say where.
+        std::array<Vec3, 2> normal{Vec3::Zero(), Vec3::Zero()}, within = normal;
+        std::array<double, 2> off{};
         for (std::size_t h = 0; h < holds; ++h) {
             const RowColumn& column = columns_[row.holds[h].column];
             normal[h] = normal_of(column, layer);
@@ -455,16 +537,11 @@ private:
             off[h] = row.holds[h].height -
                      (at(layer, node) - at(layer, rim_node(column.link, column.node))).dot(normal[h]);
         }
-        const double a = normal[0].dot(within[0]);
-        if (!(a > 0)) return;
-        if (holds == 1) {
-            at(layer, node) += within[0] * (off[0] / a);
-            return;
-        }
-        const double b = normal[0].dot(within[1]), c = normal[1].dot(within[0]), d = normal[1].dot(within[1]);
+        const double a = normal[0].dot(within[0]), b = normal[0].dot(within[1]), c = normal[1].dot(within[0]),
+                     d = normal[1].dot(within[1]);
         const double det = a * d - b * c;
         constexpr double kSameWay = 1e-3; // walls that all but go on into each other; a choice
-        if (!(det > kSameWay * a * d)) return;
+        if (!(a > 0 && det > kSameWay * a * d)) return;
         at(layer, node) += within[0] * ((d * off[0] - b * off[1]) / det) +
                            within[1] * ((a * off[1] - c * off[0]) / det);
     }
@@ -487,12 +564,12 @@ private:
         }
     }
 
-    /// A column over a corner of the rim whose nodes lie on the rim, on one side of it.
-    [[nodiscard]] const RowColumn* column_along(std::size_t b, std::size_t corner, std::size_t next) const
+    /// The column over a rim node whose first node is another one's neighbour, or null.
+    [[nodiscard]] const RowColumn* column_along(Index foot, Index next) const
     {
-        const auto node = static_cast<Index>(rim_node(b, next));
         for (const RowColumn& column : columns_) {
-            if (column.link == b && column.node == corner % size_of(b) && column.nodes.front() == node)
+            if (column.nodes.front() == next &&
+                static_cast<Index>(rim_node(column.link, column.node)) == foot)
                 return &column;
         }
         return nullptr;
@@ -500,8 +577,9 @@ private:
 
     void slide_between(std::size_t b, std::size_t first, std::size_t last)
     {
-        const RowColumn* low = column_along(b, first, first + 1);
-        const RowColumn* high = column_along(b, last, last - 1);
+        const auto node = [&](std::size_t i) { return static_cast<Index>(rim_node(b, i)); };
+        const RowColumn* low = column_along(node(first), node(first + 1));
+        const RowColumn* high = column_along(node(last), node(last - 1));
         if ((low == nullptr && high == nullptr) || last < first + 2) return;
         for (std::size_t k = 0; k <= layers_; ++k) {
             if (!stays(k)) slide_row(b, first, last, k, low, high);
@@ -524,35 +602,46 @@ private:
     void slide_row(std::size_t b, std::size_t first, std::size_t last, std::size_t layer,
                    const RowColumn* low, const RowColumn* high)
     {
-        const std::size_t sides = last - first;
         std::vector<Vec3> line;
         for (std::size_t i = first; i <= last; ++i) line.push_back(at(layer, rim_node(b, i)));
+        const auto place = row_places(line, layer, low, high);
+        if (place) move_along(b, first, layer, line, places_along(line, *place));
+    }
+
+    /// Places on a line of nodes, in sides of it, of those that rows end on and of its ends; nothing where
+    /// there is no room, which what is reached tells.
+    [[nodiscard]] std::optional<std::map<std::size_t, double>> row_places(const std::vector<Vec3>& line,
+                                                                          std::size_t layer,
+                                                                          const RowColumn* low,
+                                                                          const RowColumn* high) const
+    {
+        const std::size_t sides = line.size() - 1;
         std::map<std::size_t, double> place{{0, 0.0}, {sides, static_cast<double>(sides)}};
-        const auto put = [&](const RowColumn& column, bool from_end) {
+        for (const bool from_end : {false, true}) {
+            const RowColumn* column = from_end ? high : low;
+            if (column == nullptr) continue;
             std::vector<Vec3> walk = line;
             if (from_end) std::reverse(walk.begin(), walk.end());
-            const std::vector<double>& heights = heights_of(column.table);
-            const Vec3 normal = normal_of(column, layer);
+            const std::vector<double>& heights = heights_of(column->table);
+            const Vec3 normal = normal_of(*column, layer);
             for (std::size_t j = 0; j < heights.size() && j + 1 < sides; ++j) {
                 const std::optional<double> at = place_at(walk, normal, heights[j]);
-                if (!at) return; // no room: what is reached tells
+                if (!at) return std::nullopt;
                 if (from_end)
                     place[sides - 1 - j] = static_cast<double>(sides) - *at;
                 else
                     place[j + 1] = *at;
             }
-        };
-        if (low != nullptr) put(*low, false);
-        if (high != nullptr) put(*high, true);
-        for (auto p = place.begin(); std::next(p) != place.end(); ++p) {
-            if (!(p->second < std::next(p)->second)) return; // likewise
         }
-        move_along(b, first, layer, line, place);
+        for (auto p = place.begin(); std::next(p) != place.end(); ++p) {
+            if (!(p->second < std::next(p)->second)) return std::nullopt;
+        }
+        return place;
     }
 
-    /// Move the nodes between corners of the rim to new places along it: those given, others between them.
-    void move_along(std::size_t b, std::size_t first, std::size_t layer, const std::vector<Vec3>& line,
-                    const std::map<std::size_t, double>& place)
+    /// New places of all nodes within a line, in sides of it: those given, others as far between as they were.
+    static std::vector<std::pair<std::size_t, double>> places_along(
+        const std::vector<Vec3>& line, const std::map<std::size_t, double>& place)
     {
         const std::size_t sides = line.size() - 1;
         std::vector<double> lengths{0};
@@ -562,7 +651,7 @@ private:
             const auto i = std::min(static_cast<std::size_t>(x), sides - 1);
             return lengths[i] + (x - static_cast<double>(i)) * (lengths[i + 1] - lengths[i]);
         };
-        std::vector<std::pair<std::size_t, double>> moved; // node, place in sides
+        std::vector<std::pair<std::size_t, double>> moved;
         for (std::size_t i = 1; i < sides; ++i) {
             const auto above = place.lower_bound(i);
             if (above->first == i) {
@@ -570,17 +659,23 @@ private:
                 continue;
             }
             const auto below = std::prev(above);
-            // As far between the two as it was.
             const double share = (lengths[i] - lengths[below->first]) /
                                  (lengths[above->first] - lengths[below->first]);
             const double length = length_at(below->second) +
                                   share * (length_at(above->second) - length_at(below->second));
             const auto up = std::upper_bound(lengths.begin(), lengths.end(), length);
-            const auto at = static_cast<std::size_t>(up - lengths.begin()) - 1;
-            const std::size_t side = std::min(at, sides - 1);
+            const std::size_t side = std::min(static_cast<std::size_t>(up - lengths.begin()) - 1, sides - 1);
             moved.emplace_back(i, static_cast<double>(side) +
                                       (length - lengths[side]) / (lengths[side + 1] - lengths[side]));
         }
+        return moved;
+    }
+
+    /// Move the nodes between corners of the rim to new places along it.
+    void move_along(std::size_t b, std::size_t first, std::size_t layer, const std::vector<Vec3>& line,
+                    const std::vector<std::pair<std::size_t, double>>& moved)
+    {
+        const std::size_t sides = line.size() - 1;
         if (layer == 0 || layer == layers_) return move_on_rim(b, first, layer, moved, sides);
         std::map<FaceId, std::vector<std::size_t>> on_face;
         for (const auto& [i, x] : moved) {
@@ -639,13 +734,17 @@ private:
             const std::vector<FaceId>& faces = end == 0 ? parts_.ends.source : parts_.ends.target;
             std::map<FaceId, std::vector<std::size_t>> on_face;
             for (std::size_t node = 0; node < count_; ++node) {
-                if (link_of_[node] >= 0 || on_inner_edge(static_cast<Index>(node))) continue;
+                if (link_of_[node] >= 0 || (has_edges(layer) && on_inner_edge(static_cast<Index>(node))))
+                    continue;
                 const auto around = quads_at_.of(node);
                 if (around.empty()) continue;
                 const FaceId face = faces[index(around.front())];
                 const bool one = std::all_of(around.begin(), around.end(),
                                              [&](Index q) { return faces[index(q)] == face; });
-                if (one && model_[face].kind != "plane") on_face[face].push_back(node);
+                // The facets of a void end leave out what lies between them and a rim that is curved.
+                const bool near_rim = model_[face].origin == Origin::made_void &&
+                                      row_nodes_.contains(static_cast<Index>(node));
+                if (one && !near_rim && model_[face].kind != "plane") on_face[face].push_back(node);
             }
             for (const auto& [face, nodes] : on_face) project(face, nodes, layer);
         }
@@ -750,8 +849,22 @@ private:
                 arc += std::sqrt(squared);
             }
         }
-        const double lengths[] = {std::min(length, chain.length())};
-        return chain.points(lengths).front();
+        // The exact curve runs a little unlike its polyline: where it is nearest takes a step or two more.
+        constexpr int kSteps = 4;
+        constexpr double kStep = 1e-5; // of the length, for the tangent
+        const double step = kStep * chain.length();
+        Vec3 point = p;
+        for (int i = 0; i < kSteps; ++i) {
+            length = std::clamp(length, 0.0, chain.length() - step);
+            const double lengths[] = {length, length + step};
+            const std::vector<Vec3> on = chain.points(lengths);
+            point = on[0];
+            const Vec3 tangent = (on[1] - on[0]) / step;
+            const double off = (p - on[0]).dot(tangent) / tangent.squaredNorm();
+            if (!(std::abs(off) > model_.tolerance)) break;
+            length += off;
+        }
+        return point;
     }
 
     const SweptParts& parts_;
@@ -767,7 +880,7 @@ private:
     std::vector<std::vector<char>> still_column_;
     std::set<std::size_t> still_layers_;
     mesh::Incidence quads_at_;
-    std::optional<HarmonicSpread> spread_;
+    std::array<std::optional<HarmonicSpread>, 2> spread_; ///< over layers without inner edges, and with
     std::optional<std::set<Index>> inner_;
     std::map<std::pair<std::size_t, bool>, std::vector<double>> places_;
     std::map<std::pair<FaceId, std::size_t>, std::vector<std::size_t>> on_wall_;

@@ -413,8 +413,11 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     placement.heights = heights;
     LayerNodes layers = best_layers(source, morphed, columns, placement, options, context);
     result.report.push_back(layers.report);
-    const SweptParts parts{
-        split, links, source, walls, ends, columns.layers, !seeds.kept.empty(), given_target.has_value()};
+    SweptParts parts{
+        split, links, source, walls, ends, columns.layers, {}, !seeds.kept.empty(), given_target.has_value()};
+    if (imprint) {
+        for (const auto& [edge, image] : imprint->images) parts.target_edges[edge] = image.target;
+    }
     KeptThickness kept = keep_thickness(parts, tables, layers.nodes, context);
     for (std::string& note : kept.report) result.report.push_back(std::move(note));
 

@@ -7,6 +7,7 @@
 #include <lacuna/surface/walls.h>
 #include <lacuna/sweep/detail/morph_ends.h>
 
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ struct SweptParts {
     std::span<const surface::WallMesh> walls;
     const EndFaces& ends;
     int layers = 1;
+    std::map<EdgeId, EdgeId>
+        target_edges; ///< what edges within the source are swept to, where that is an edge
     bool source_stays = false, target_stays = false; ///< their nodes were given
 };
 
