@@ -60,6 +60,14 @@ Exit report_stop(double seconds)
     return exit_code(reason == Stop::none ? Stop::interrupt : reason);
 }
 
+bool forget_interrupt()
+{
+    Stop reason = Stop::interrupt;
+    if (!g_reason.compare_exchange_strong(reason, Stop::none)) return false;
+    if (Interpreter* const interpreter = g_interpreter) interpreter->resume();
+    return true;
+}
+
 void report(const ScriptError& error)
 {
     std::fprintf(stderr, "lacuna: %s\n", error.what());

@@ -17,6 +17,9 @@ void watch_interrupts(Interpreter* interpreter);
 /// forgets the request.
 Exit report_stop(double seconds);
 
+/// Forget Ctrl-C where it came while nothing ran; false where it did not.
+bool forget_interrupt();
+
 /// Tell an error on standard error, with the traceback it may have.
 void report(const ScriptError& error);
 
