@@ -129,7 +129,20 @@ public:
     Lines(const Lines&) = delete;
     Lines& operator=(const Lines&) = delete;
 
-    [[nodiscard]] std::optional<std::string> next(const char* prompt) const
+    /// The next line; `given_up`: it was ended by Ctrl-C.
+    [[nodiscard]] std::optional<std::string> next(const char* prompt, bool& given_up) const
+    {
+        begin_idle();
+        std::optional<std::string> line = read(prompt);
+        given_up = end_idle();
+        if (!given_up) return line;
+        if (!line) std::puts("");
+        return std::nullopt;
+    }
+    [[nodiscard]] bool at_terminal() const { return edited_; }
+
+private:
+    [[nodiscard]] std::optional<std::string> read(const char* prompt) const
     {
 #ifdef LACUNA_WITH_EDITLINE
         if (edited_) {
@@ -150,9 +163,6 @@ public:
         }
         return text;
     }
-    [[nodiscard]] bool at_terminal() const { return edited_; }
-
-private:
     bool edited_;
     std::string history_;
 };
@@ -163,11 +173,9 @@ void run_statement(Interpreter& interpreter, std::string text, const Lines& line
     while (true) {
         const Value more = ask(interpreter, "run", {text});
         if (!std::holds_alternative<bool>(more) || !std::get<bool>(more)) return;
-        const std::optional<std::string> line = lines.next(">> ");
-        if (!line && forget_interrupt()) {
-            std::puts(""); // the statement is given up
-            return;
-        }
+        bool given_up = false;
+        const std::optional<std::string> line = lines.next(">> ", given_up);
+        if (given_up) return;
         if (!line) {
             ask(interpreter, "run", {text, "no more"});
             return;
@@ -194,12 +202,10 @@ void run_prompt(Interpreter& interpreter, const std::string& history, ProgressLi
     if (lines.at_terminal())
         std::printf("lacuna %s, %s; help says what there is, Ctrl-D leaves\n", LACUNA_VERSION, LUA_RELEASE);
     while (true) {
-        const std::optional<std::string> line = lines.next("> ");
-        if (!line) {
-            if (!forget_interrupt()) break;
-            std::puts(""); // Ctrl-C gives up the line
-            continue;
-        }
+        bool given_up = false;
+        const std::optional<std::string> line = lines.next("> ", given_up);
+        if (given_up) continue;
+        if (!line) break;
         try {
             run_statement(interpreter, *line, lines);
             progress.clear();

@@ -14,6 +14,7 @@ namespace {
 enum class Stop { none, interrupt, terminate, time };
 std::atomic<Stop> g_reason{Stop::none};
 std::atomic<Interpreter*> g_interpreter{nullptr};
+std::atomic<bool> g_idle{false};
 
 Exit exit_code(Stop reason)
 {
@@ -25,6 +26,11 @@ Exit exit_code(Stop reason)
 void on_signal(int signal)
 {
     const Stop reason = signal == SIGALRM ? Stop::time : signal == SIGINT ? Stop::interrupt : Stop::terminate;
+    if (g_idle) {
+        if (reason != Stop::interrupt) _exit(static_cast<int>(exit_code(reason)));
+        g_reason = reason;
+        return;
+    }
     Stop before = Stop::none;
     if (!g_reason.compare_exchange_strong(before, reason)) { // asked before, and nothing came of it
         constexpr char kOver[] = "lacuna: stopped: the time limit is over\n";
@@ -60,12 +66,12 @@ Exit report_stop(double seconds)
     return exit_code(reason == Stop::none ? Stop::interrupt : reason);
 }
 
-bool forget_interrupt()
+void begin_idle() { g_idle = true; }
+
+bool end_idle()
 {
-    Stop reason = Stop::interrupt;
-    if (!g_reason.compare_exchange_strong(reason, Stop::none)) return false;
-    if (Interpreter* const interpreter = g_interpreter) interpreter->resume();
-    return true;
+    g_idle = false;
+    return g_reason.exchange(Stop::none) == Stop::interrupt;
 }
 
 void report(const ScriptError& error)

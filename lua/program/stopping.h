@@ -17,8 +17,10 @@ void watch_interrupts(Interpreter* interpreter);
 /// forgets the request.
 Exit report_stop(double seconds);
 
-/// Forget Ctrl-C where it came while nothing ran; false where it did not.
-bool forget_interrupt();
+/// Nothing runs from here to end_idle(): Ctrl-C stops nothing, and the other signals end the process.
+void begin_idle();
+/// Whether Ctrl-C came meanwhile.
+bool end_idle();
 
 /// Tell an error on standard error, with the traceback it may have.
 void report(const ScriptError& error);
