@@ -232,7 +232,7 @@ function prompt.run(text, last)
   if not chunk then
     local message
     chunk, message = load(text, "=prompt", "t")
-    local unfinished = not chunk and (message .. lacks):find("<eof>", 1, true)
+    local unfinished = not chunk and (message:match("near <eof>$") or lacks:match("near <eof>$"))
     if unfinished and not last then return true end
     if not chunk then error(message, 0) end
   end

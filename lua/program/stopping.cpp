@@ -66,7 +66,13 @@ Exit report_stop(double seconds)
     return exit_code(reason == Stop::none ? Stop::interrupt : reason);
 }
 
-void begin_idle() { g_idle = true; }
+void begin_idle()
+{
+    g_idle = true;
+    Stop late = Stop::interrupt; // came when the last run was over
+    if (!g_reason.compare_exchange_strong(late, Stop::none)) return;
+    if (Interpreter* const interpreter = g_interpreter) interpreter->resume();
+}
 
 bool end_idle()
 {
