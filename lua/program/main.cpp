@@ -23,7 +23,7 @@ local lacuna = require "lacuna"
 print(("lacuna %s (%s, Gmsh %s)"):format(lacuna.version, _VERSION, lacuna.gmsh_version))
 )lua";
 
-void run_action(const CommandLine& line, lacuna::Interpreter& interpreter)
+void run_action(const CommandLine& line, lacuna::Interpreter& interpreter, ProgressLine& progress)
 {
     switch (line.action) {
     case Action::run:
@@ -33,7 +33,7 @@ void run_action(const CommandLine& line, lacuna::Interpreter& interpreter)
                          line.words.front().c_str(), line.file.c_str());
         break;
     case Action::prompt:
-        run_prompt(interpreter, line.history);
+        run_prompt(interpreter, line.history, progress);
         break;
     case Action::command: {
         lua_State* const L = push_chunk(interpreter, "commands");
@@ -80,7 +80,7 @@ Exit run(const CommandLine& line)
         ~Watched() { watch_interrupts(nullptr); }
     } const watched(&interpreter);
     try {
-        run_action(line, interpreter);
+        run_action(line, interpreter, progress);
         return Exit::done;
     } catch (const lacuna::Cancelled&) {
         progress.clear();

@@ -5,9 +5,11 @@
 #include "program/chunks.h"
 #include "program/stopping.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <optional>
 #include <unistd.h>
 #include <vector>
@@ -35,13 +37,40 @@ Value ask(Interpreter& interpreter, const char* function, std::initializer_list<
 
 Interpreter* g_completing = nullptr; // editline hands its callbacks nothing of ours
 
-/// What `text`, at the end of what was typed, may go on with: one a line of prompt.lua's answer.
+/// Files whose paths begin with `path`; folders with a slash behind.
+std::vector<std::string> files_from(const std::string& path)
+{
+    namespace fs = std::filesystem;
+    const std::size_t slash = path.rfind('/');
+    const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
+    std::vector<std::string> files;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const std::string whole = folder + entry->path().filename().string();
+        std::error_code unknown;
+        if (whole.starts_with(path)) files.push_back(whole + (entry->is_directory(unknown) ? "/" : ""));
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+/// What `text`, at the end of what was typed, may go on with: one a line of prompt.lua's answer, which is
+/// the place where a path begins instead.
 std::vector<std::string> words_for(const char* text)
 {
     std::vector<std::string> words;
     try {
-        const std::string_view typed(rl_line_buffer, static_cast<std::size_t>(rl_point));
+        const std::string typed(rl_line_buffer, static_cast<std::size_t>(rl_point));
         const Value found = ask(*g_completing, "complete", {typed, text});
+        if (const auto* quote = std::get_if<std::int64_t>(&found)) {
+            const auto begin = static_cast<std::size_t>(*quote);
+            const std::size_t there = typed.size() - begin -
+                                      std::min(std::strlen(text), typed.size() - begin);
+            for (const std::string& file : files_from(typed.substr(begin)))
+                words.push_back(file.substr(there));
+            return words;
+        }
         if (const auto* lines = std::get_if<std::string>(&found))
             for (std::size_t at = 0; at < lines->size();) {
                 const std::size_t end = std::min(lines->find('\n', at), lines->size());
@@ -62,20 +91,11 @@ char* complete(const char* text, int state)
                : nullptr;
 }
 
-/// Inside quotes names of files, words elsewhere.
-char** complete_words(const char* text, int start, int)
+char** complete_words(const char* text, int, int)
 {
     rl_completion_append_character = '\0';
-    char quote = '\0';
-    for (int i = 0; i < start; ++i) {
-        const char c = rl_line_buffer[i];
-        if (quote == '\0' && (c == '"' || c == '\''))
-            quote = c;
-        else if (c == quote)
-            quote = '\0';
-    }
-    rl_attempted_completion_over = quote == '\0' ? 1 : 0;
-    return quote == '\0' ? rl_completion_matches(text, complete) : nullptr;
+    rl_attempted_completion_over = 1;
+    return rl_completion_matches(text, complete);
 }
 
 #endif
@@ -109,7 +129,20 @@ public:
     Lines(const Lines&) = delete;
     Lines& operator=(const Lines&) = delete;
 
-    [[nodiscard]] std::optional<std::string> next(const char* prompt) const
+    /// The next line; `given_up`: it was ended by Ctrl-C.
+    [[nodiscard]] std::optional<std::string> next(const char* prompt, bool& given_up) const
+    {
+        begin_idle();
+        std::optional<std::string> line = read(prompt);
+        given_up = end_idle();
+        if (!given_up) return line;
+        if (!line) std::puts("");
+        return std::nullopt;
+    }
+    [[nodiscard]] bool at_terminal() const { return edited_; }
+
+private:
+    [[nodiscard]] std::optional<std::string> read(const char* prompt) const
     {
 #ifdef LACUNA_WITH_EDITLINE
         if (edited_) {
@@ -123,15 +156,13 @@ public:
 #endif
         if (isatty(STDIN_FILENO)) std::fputs(prompt, stdout), std::fflush(stdout);
         std::string text;
+        std::clearerr(stdin); // after Ctrl-C
         for (int c = std::getchar(); c != '\n'; c = std::getchar()) {
             if (c == EOF) return text.empty() ? std::nullopt : std::optional(text);
             text += static_cast<char>(c);
         }
         return text;
     }
-    [[nodiscard]] bool at_terminal() const { return edited_; }
-
-private:
     bool edited_;
     std::string history_;
 };
@@ -142,7 +173,9 @@ void run_statement(Interpreter& interpreter, std::string text, const Lines& line
     while (true) {
         const Value more = ask(interpreter, "run", {text});
         if (!std::holds_alternative<bool>(more) || !std::get<bool>(more)) return;
-        const std::optional<std::string> line = lines.next(">> ");
+        bool given_up = false;
+        const std::optional<std::string> line = lines.next(">> ", given_up);
+        if (given_up) return;
         if (!line) {
             ask(interpreter, "run", {text, "no more"});
             return;
@@ -153,7 +186,7 @@ void run_statement(Interpreter& interpreter, std::string text, const Lines& line
 
 } // namespace
 
-void run_prompt(Interpreter& interpreter, const std::string& history)
+void run_prompt(Interpreter& interpreter, const std::string& history, ProgressLine& progress)
 {
     lua_State* const L = push_chunk(interpreter, "prompt");
     const char* const stub = chunk_text("lacuna");
@@ -168,13 +201,20 @@ void run_prompt(Interpreter& interpreter, const std::string& history)
     const Lines lines(interpreter, !history.empty() ? history : named ? named : "");
     if (lines.at_terminal())
         std::printf("lacuna %s, %s; help says what there is, Ctrl-D leaves\n", LACUNA_VERSION, LUA_RELEASE);
-    while (const std::optional<std::string> line = lines.next("> ")) {
+    while (true) {
+        bool given_up = false;
+        const std::optional<std::string> line = lines.next("> ", given_up);
+        if (given_up) continue;
+        if (!line) break;
         try {
             run_statement(interpreter, *line, lines);
+            progress.clear();
         } catch (const ScriptError& error) {
+            progress.clear();
             std::fflush(stdout);
             report(error);
         } catch (const Cancelled&) {
+            progress.clear();
             std::fflush(stdout);
             // SIGTERM and SIGHUP end the prompt as they end a recipe.
             if (report_stop(0) != Exit::interrupted) throw Cancelled();

@@ -51,10 +51,18 @@ do
   end
 end
 
--- The class of options that a call takes, by its name; of several owners the first that has one.
+-- The class of options that a call takes, by its name; of several owners the first that has one. Some calls
+-- have theirs in place: { sides?: integer, radius?: number }.
 local function options_of(name)
   for _, call in ipairs(calls) do
     if call.name == name and call.options then return classes[call.options] end
+    for _, param in ipairs(call.name == name and call.params or {}) do
+      local fields = {}
+      for key, kind in param.text:gmatch("[{,]%s*([%a_][%w_]*)%??:%s*([^,}]+)") do
+        fields[#fields + 1] = { name = key, text = kind }
+      end
+      if #fields > 0 then return { fields = fields } end
+    end
   end
 end
 
@@ -220,11 +228,12 @@ end
 
 -- true: the statement only lacks its end, and `last` does not say that no more comes.
 function prompt.run(text, last)
-  local chunk = load("return " .. text, "=prompt", "t")
+  local chunk, lacks = load("return " .. text, "=prompt", "t")
   if not chunk then
     local message
     chunk, message = load(text, "=prompt", "t")
-    if not chunk and not last and message:find("<eof>", 1, true) then return true end
+    local unfinished = not chunk and (message:match("near <eof>$") or lacks:match("near <eof>$"))
+    if unfinished and not last then return true end
     if not chunk then error(message, 0) end
   end
   print_all(chunk())
@@ -252,18 +261,19 @@ local function names_in(value)
   return names
 end
 
--- The call whose table of options is open at the end of `typed`.
+-- The call whose table of options is open at the end of `typed`, and where the text in quotes begins that is.
 local function open_call(typed)
   local opened = {}
-  local quote
+  local quote, from
   for i = 1, #typed do
     local c = typed:sub(i, i)
     if quote then
       if c == quote then quote = nil end
-    elseif c == '"' or c == "'" then quote = c
+    elseif c == '"' or c == "'" then quote, from = c, i
     elseif c == "{" then opened[#opened + 1] = i
     elseif c == "}" then opened[#opened] = nil end
   end
+  if quote then return nil, from end
   if #opened == 0 then return nil end
   local before = typed:sub(1, opened[#opened] - 1)
   return before:match("([%w_]+)%s*%(?%s*$") or before:match("([%w_]+)%s*%([^()]*,%s*$")
@@ -272,11 +282,17 @@ end
 local keywords = { "and", "break", "do", "else", "elseif", "end", "false", "for", "function", "if", "in",
   "local", "nil", "not", "or", "repeat", "return", "then", "true", "until", "while" }
 
--- Words that `word`, the end of `typed`, may go on to, one a line.
+-- Words that `word`, the end of `typed`, may go on to, one a line; or where a path begins in `typed`.
 function prompt.complete(typed, word)
   local owner, start = word:match("^(.*[.:])([%w_]*)$")
   local found, names, tail = {}, nil, ""
-  if owner then
+  local _, quote = open_call(typed)
+  if quote and not typed:sub(1, quote - 1):match("help%s*%(?%s*$") then return quote end
+  if quote then
+    owner, start, names = "", word, {}
+    for _, call in ipairs(calls) do names[#names + 1] = call.name end
+    for name in pairs(classes) do names[#names + 1] = name:match("[^.]+$") end
+  elseif owner then
     names = names_in(value_at(owner))
   else
     owner, start = "", word
@@ -292,8 +308,10 @@ function prompt.complete(typed, word)
       table.move(keywords, 1, #keywords, #names + 1, names)
     end
   end
+  local known = {}
   for _, name in ipairs(names) do
-    if type(name) == "string" and name:sub(1, #start) == start then
+    if type(name) == "string" and name:sub(1, #start) == start and not known[name] then
+      known[name] = true
       found[#found + 1] = owner .. name .. tail
     end
   end

@@ -14,6 +14,7 @@ namespace {
 enum class Stop { none, interrupt, terminate, time };
 std::atomic<Stop> g_reason{Stop::none};
 std::atomic<Interpreter*> g_interpreter{nullptr};
+std::atomic<bool> g_idle{false};
 
 Exit exit_code(Stop reason)
 {
@@ -25,6 +26,11 @@ Exit exit_code(Stop reason)
 void on_signal(int signal)
 {
     const Stop reason = signal == SIGALRM ? Stop::time : signal == SIGINT ? Stop::interrupt : Stop::terminate;
+    if (g_idle) {
+        if (reason != Stop::interrupt) _exit(static_cast<int>(exit_code(reason)));
+        g_reason = reason;
+        return;
+    }
     Stop before = Stop::none;
     if (!g_reason.compare_exchange_strong(before, reason)) { // asked before, and nothing came of it
         constexpr char kOver[] = "lacuna: stopped: the time limit is over\n";
@@ -58,6 +64,20 @@ Exit report_stop(double seconds)
     else
         std::fprintf(stderr, "lacuna: %s\n", reason == Stop::terminate ? "terminated" : "interrupted");
     return exit_code(reason == Stop::none ? Stop::interrupt : reason);
+}
+
+void begin_idle()
+{
+    g_idle = true;
+    Stop late = Stop::interrupt; // came when the last run was over
+    if (!g_reason.compare_exchange_strong(late, Stop::none)) return;
+    if (Interpreter* const interpreter = g_interpreter) interpreter->resume();
+}
+
+bool end_idle()
+{
+    g_idle = false;
+    return g_reason.exchange(Stop::none) == Stop::interrupt;
 }
 
 void report(const ScriptError& error)

@@ -17,6 +17,11 @@ void watch_interrupts(Interpreter* interpreter);
 /// forgets the request.
 Exit report_stop(double seconds);
 
+/// Nothing runs from here to end_idle(): Ctrl-C stops nothing, and the other signals end the process.
+void begin_idle();
+/// Whether Ctrl-C came meanwhile.
+bool end_idle();
+
 /// Tell an error on standard error, with the traceback it may have.
 void report(const ScriptError& error);
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# bare_debian.sh PACKAGES ROOT: installs the .deb files of the folder PACKAGES on a bare Debian 12 and uses them.
+# bare_debian.sh PACKAGES ROOT: installs the .deb files of the folder PACKAGES on a bare Debian 12, uses them.
 #
 # ROOT is a folder that debootstrap fills, or has filled. Takes root, debootstrap and the network: not one of
 # ctest's tests. Make the packages first:
@@ -46,7 +46,8 @@ lacuna convert box.msh box.vtu
 [ -z "$(ls -A "$HOME")" ] || { echo "something was written to the home folder"; exit 1; }
 
 # The module and the library, and what a host is compiled with.
-apt-get -qq -y --no-install-recommends install /packages/*.deb lua5.4 gcc libc6-dev pkg-config python3 >/dev/null
+apt-get -qq -y --no-install-recommends install /packages/*.deb lua5.4 gcc libc6-dev pkg-config python3 \
+    >/dev/null
 lua5.4 -e 'print(require("lacuna").synthetic.prism { sides = 4 }:describe())'
 gcc hosts/host.c -o host_c $(pkg-config --cflags --libs lacuna)
 ./host_c

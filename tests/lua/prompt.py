@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""prompt.py LACUNA FOLDER: the prompt at a terminal: completion, several lines, Ctrl-C, history."""
+import os
+import pathlib
+import pty
+import select
+import signal
+import sys
+import time
+
+PATIENCE = 20  # [s] for an answer, on a machine that is busy with other things
+
+
+class Terminal:
+    def __init__(self, *words):
+        self.told = ""
+        self.process, self.terminal = pty.fork()
+        if self.process == 0:
+            os.execv(words[0], words)
+
+    def wait_for(self, text):
+        """Read until `text` is there, which is passed over."""
+        end = time.time() + PATIENCE
+        while text not in self.told:
+            if not select.select([self.terminal], [], [], max(0, end - time.time()))[0]:
+                sys.exit("'%s' did not come; there is: %r" % (text, self.told))
+            try:
+                self.told += os.read(self.terminal, 4096).decode(errors="replace")
+            except OSError:
+                sys.exit("'%s' did not come, and the program ended: %r" % (text, self.told))
+        self.told = self.told[self.told.index(text) + len(text):]
+
+    def type(self, text):
+        os.write(self.terminal, text.encode())
+
+    def interrupt(self, text):
+        """Ctrl-C until `text` is there: one that comes while no key is waited for gives up the line later."""
+        end = time.time() + PATIENCE
+        while text not in self.told and time.time() < end:
+            self.type("\x03")
+            if select.select([self.terminal], [], [], 0.3)[0]:
+                self.told += os.read(self.terminal, 4096).decode(errors="replace")
+        self.wait_for(text)
+        time.sleep(0.3)  # for the last one to be met before anything runs
+        self.told = ""
+
+    def close(self):
+        end = time.time() + PATIENCE
+        while time.time() < end:
+            done, status = os.waitpid(self.process, os.WNOHANG)
+            if done:
+                return os.waitstatus_to_exitcode(status)
+            time.sleep(0.05)
+        os.kill(self.process, signal.SIGKILL)
+        sys.exit("the program did not end")
+
+
+def main():
+    lacuna, folder = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2])
+    folder.mkdir(parents=True, exist_ok=True)
+    os.chdir(folder)
+    home, history = folder / "home", folder / "history"
+    home.mkdir(exist_ok=True)
+    history.unlink(missing_ok=True)
+    (folder / "only_one.stl").touch()
+    os.environ["HOME"], os.environ["TERM"] = str(home), "xterm"
+    os.environ.pop("LACUNA_HISTORY", None)
+
+    terminal = Terminal(lacuna, "--history", str(history), "-i")
+    terminal.wait_for("> ")
+    # Fields, calls, options of a call, files in quotes, words of help: each has one way to go on.
+    for typed, completed, rest, answer in (
+            ("lacuna.synthe\t", "tic", ".prism {} \r", "Model of 8 faces"),
+            ("lacuna.synthetic.pris\t", "m", " {} \r", "Model of 8 faces"),
+            ("lacuna.synthetic.prism { side\t", "s = ", "3 }\r", "Model of 5 faces"),
+            ("lacuna.load 'only\t", "_one.stl", "'\r", "is empty"),
+            ("help 'describ\t", "e", "'\r", "Model:describe")):
+        terminal.type(typed)
+        terminal.wait_for(completed)
+        terminal.type(rest)
+        terminal.wait_for(answer)
+        terminal.wait_for("> ")
+    # A statement that goes on, one that is given up, a line that is, and work that is stopped.
+    terminal.type("for i = 1, 2 do\r")
+    terminal.wait_for(">> ")
+    terminal.type("print('line ' .. i) end\r")
+    terminal.wait_for("line 2")
+    terminal.type("do\r")
+    terminal.wait_for(">> ")
+    terminal.interrupt("\n> ")
+    terminal.type("nonsense nonsense")
+    terminal.wait_for("nonsense nonsense")
+    terminal.interrupt("\n> ")
+    terminal.type("print('rea' .. 'dy') while true do end\r")
+    terminal.wait_for("ready")
+    terminal.type("\x03")
+    terminal.wait_for("interrupted")  # of one: a second would end the program
+    terminal.wait_for("> ")
+    terminal.type("'still ' .. 'here'\r")
+    terminal.wait_for("still here")
+    terminal.type("\x04")
+    if terminal.close() != 0:
+        sys.exit("Ctrl-D is no failure")
+    if "still" not in history.read_text():
+        sys.exit("the history was not kept")
+    if list(home.iterdir()):
+        sys.exit("something was written to the home folder")
+    print("all of it works")
+
+
+main()
