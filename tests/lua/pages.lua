@@ -37,6 +37,16 @@ check.fails(function() lacuna.view("x.msh", page, { show = "cell" }) end, 'did y
 check.equal(table.concat(check.files(folder)), "plate.html", "what fails leaves nothing behind")
 check.equal(read(page), text, "and nothing touched")
 
+-- --- Gmsh --------------------------------------------------------------------------------------------------
+
+mesh:write(folder .. "/plain.msh")
+check.that(not check.exists(folder .. "/plain.msh.opt"), "no file that nobody asked for")
+mesh:write(folder .. "/shown.msh", { gmsh_options = true })
+check.that(read(folder .. "/shown.msh.opt"):find("Mesh.ColorCarousel = 2;", 1, true))
+check.equal(read(folder .. "/shown.msh"), read(folder .. "/plain.msh"))
+check.fails(function() mesh:write(folder .. "/shown.vtu", { gmsh_options = true }) end, "'gmsh_options'")
+for _, name in ipairs { "plain.msh", "shown.msh", "shown.msh.opt" } do os.remove(folder .. "/" .. name) end
+
 if params.lacuna ~= "" then
   mesh:write(folder .. "/plate.msh")
   plate:open_volume({ source = "source", target = "target", walls = "auto" }):close()
