@@ -119,6 +119,7 @@
 ---@field first_node? integer of decks and with a model; default above all that are taken
 ---@field first_cell? integer likewise
 ---@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"
+---@field gmsh_options? boolean of .msh: a file beside it, .opt behind its name, with which Gmsh shows cells and groups; default false
 ---@field interfaces? boolean of an assembly: quads between its volumes are elements too; default false
 
 ---@class lacuna.ConvertOptions

@@ -267,7 +267,7 @@ bool is_deck(const std::string& ending)
 void view_file(const std::string& file, const io::OutputPath& path, ViewFile& options,
                const cad::Limits& limits, const RunContext& context)
 {
-    if (options.page.title.empty()) options.page.title = file;
+    if (options.page.title.empty()) options.page.title = file.substr(file.rfind('/') + 1);
     if (options.show == Show::cells || (options.show == Show::automatic && is_deck(io::ending_of(file)))) {
         const io::Deck deck = io::read_deck(file);
         if (options.show == Show::cells || shows_cells(deck))

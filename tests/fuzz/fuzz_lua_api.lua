@@ -249,7 +249,7 @@ local keys = {
     threads = function() return pick { 1, 2, 4, 100000 } end },
   write = { version = function() return pick { 4.1, 2.2 } end, binary = flag,
     quality = function() return pick { true, false, metric(), list_of(metric) } end, renumber = flag,
-    first_node = small, first_cell = small },
+    first_node = small, first_cell = small, gmsh_options = flag },
   write_facets = { binary = flag },
   view = { title = function() return pick(words) end,
     show = function() return pick { "auto", "faces", "cells" } end },

@@ -37,6 +37,16 @@ check.fails(function() lacuna.view("x.msh", page, { show = "cell" }) end, 'did y
 check.equal(table.concat(check.files(folder)), "plate.html", "what fails leaves nothing behind")
 check.equal(read(page), text, "and nothing touched")
 
+-- --- Gmsh --------------------------------------------------------------------------------------------------
+
+mesh:write(folder .. "/plain.msh")
+check.that(not check.exists(folder .. "/plain.msh.opt"), "no file that nobody asked for")
+mesh:write(folder .. "/shown.msh", { gmsh_options = true })
+check.that(read(folder .. "/shown.msh.opt"):find("Mesh.ColorCarousel = 2;", 1, true))
+check.equal(read(folder .. "/shown.msh"), read(folder .. "/plain.msh"))
+check.fails(function() mesh:write(folder .. "/shown.vtu", { gmsh_options = true }) end, "'gmsh_options'")
+for _, name in ipairs { "plain.msh", "shown.msh", "shown.msh.opt" } do os.remove(folder .. "/" .. name) end
+
 if params.lacuna ~= "" then
   mesh:write(folder .. "/plate.msh")
   plate:open_volume({ source = "source", target = "target", walls = "auto" }):close()
@@ -310,6 +320,13 @@ local clicks = play(faces, [=[
   click(findPixel(page, of, 4));
   say(page.recipe.value.replace(/\n/g, "|"));
   say(page.over(...findPixel(page, of, 2)).filter(x => x).slice(1).join("|"));
+  const tip = document.getElementById("tip");
+  point(page, "pointermove", findPixel(page, of, 3));
+  await sleep(500);
+  say(tip.style.display, tip.textContent.startsWith("face 3"));
+  point(page, "pointermove", [2, 2]);
+  await sleep(500);
+  say(tip.style.display);
   window.dispatchEvent(new KeyboardEvent("keydown", { key: "2" }));
   say(page.chosenRole);
 ]=])
@@ -321,7 +338,9 @@ check.that(clicks[5]:find("^The chosen faces leave %d+ free edges and 1 vertex o
     clicks[5])
 check.equal(clicks[6], "local void = model:open_volume {|  source = { 2 },|  walls = { 3 },|}")
 check.that(clicks[7]:find("area 2", 1, true) and clicks[7]:find("next to 3, 4, 5", 1, true), clicks[7])
-check.equal(clicks[8], "target")
+check.equal(clicks[8], "block true", "the pointer shows what a face is")
+check.equal(clicks[9], "none")
+check.equal(clicks[10], "target")
 
 -- A file's page says how to load it, and what it says runs.
 if params.lacuna ~= "" then

@@ -201,7 +201,7 @@ private:
     /// An end among faces that were all named as walls, where they show one.
     void take_end(Roles& roles) const
     {
-        for (const RoleCandidate& candidate : role_candidates(model_, roles.walls, context_)) {
+        for (const RoleCandidate& candidate : role_candidates(model_, roles.walls, {}, context_)) {
             const bool source = !candidate.roles.source.empty(), target = !candidate.roles.target.empty();
             if (source == target) continue;
             roles.target = source ? candidate.roles.source : candidate.roles.target;

@@ -18,9 +18,13 @@ async function start() {
                 "drag: turn · shift or right drag: move · wheel: zoom · x y z i: look along · f: all",
         }),
     );
+    // Where a look at one place takes longer, without a graphics card and with a large mesh, the page looks
+    // only where the pointer rests.
+    const slow = 25; // [ms]
     let asked = false,
         page = null,
-        pointer = null;
+        took = 0,
+        resting = 0;
     const stage = {
         box,
         canvas,
@@ -30,11 +34,6 @@ async function start() {
             asked = true;
             requestAnimationFrame(() => {
                 asked = false;
-                if (pointer) {
-                    const at = pointer;
-                    pointer = null;
-                    showTip(tip, page.over(...at), ...at);
-                }
                 page.drawing.render(page.camera);
                 page.moved();
                 showScale(scale, page.camera, canvas.clientHeight);
@@ -59,16 +58,25 @@ async function start() {
             requestAnimationFrame(step);
         },
     };
+    function over(x, y) {
+        const start = performance.now(),
+            before = page.drawing.hover;
+        showTip(tip, page.over(x, y), x, y);
+        took = performance.now() - start;
+        if (page.drawing.hover !== before) stage.change();
+    }
     const kind = data.kind === "cells" ? CellsPage : FacesPage;
     page = await kind.make(data, stage, document.getElementById("panel"));
     handle(canvas, page.camera, {
         change: () => {
+            clearTimeout(resting);
             showTip(tip, null);
             stage.change();
         },
         over: (x, y) => {
-            pointer = [x, y];
-            stage.change();
+            clearTimeout(resting);
+            if (took > slow) showTip(tip, null);
+            resting = setTimeout(() => over(x, y), took > slow ? 200 : 0);
         },
         click: (x, y) => page.click(x, y),
     });
