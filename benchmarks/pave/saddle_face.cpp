@@ -163,7 +163,7 @@ SurfaceQuads lacuna_quads(const SeededFace& seeded)
         [](const quads::PlanarRegion& region, const RunContext& c) {
             return quads::pave(region, {}, c).mesh;
         },
-        context);
+        nullptr, context);
     return {std::move(made.points), std::move(made.quads), 0, seconds() - start};
 }
 
