@@ -67,7 +67,7 @@ local reference = read(folder .. "../../docs/reference.md")
 for _, call in ipairs(calls) do
   local message = check.fails(function() call[2] { no_such_key = 1 } end, "'no_such_key'", "The keys are:")
   local taken = {}
-  for key in message:match("The keys are: (.*)"):gmatch("[%w_]+") do taken[key] = true end
+  for key in message:match("The keys are: ([^%[]*)"):gmatch("[%w_]+") do taken[key] = true end
   local fields = fields_of(call[1])
   for field in pairs(fields) do
     check.that(taken[field], call[1] .. "." .. field .. " of the stub is no option")
