@@ -403,8 +403,12 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
         morphed.nodes = given_target->nodes;
         morphed.report = "its own quads are laid out as the source's and stay";
     } else {
+        const OpenVolume& shape = shape_of(volume, options);
+        const std::optional<OpenVolume> turned = shape.turned_round != volume.turned_round
+                                                     ? std::optional(turned_round(shape))
+                                                     : std::nullopt;
         morphed = imprint ? morph_onto_faces(source, columns, seeds, *imprint, ends.target, context)
-                          : morph_onto(shape_of(volume, options), source, columns, context);
+                          : morph_onto(turned ? *turned : shape, source, columns, context);
     }
     result.report.push_back("target: " + morphed.report);
     report_progress(context, "layers");
