@@ -507,8 +507,9 @@ private:
         return inner_->contains(node);
     }
 
-    /// Put a node at the heights it is held at, within its layer: as far along the rim from its foot as on the
-    /// source, as far off the layer's plane there as it was. What the layers made of thin rows counts no more.
+    /// Put a node at the heights it is held at, within its layer: as far along the rim from its foot as on
+    /// the source, as far off the layer's plane there as it was. What the layers made of thin rows counts no
+    /// more.
     void move_inside(std::size_t node, const RowNode& row, std::size_t layer)
     {
         const std::size_t holds = std::min<std::size_t>(row.holds.size(), 2);
@@ -639,7 +640,8 @@ private:
         return place;
     }
 
-    /// New places of all nodes within a line, in sides of it: those given, others as far between as they were.
+    /// New places of all nodes within a line, in sides of it: those given, others as far between as they
+    /// were.
     static std::vector<std::pair<std::size_t, double>> places_along(
         const std::vector<Vec3>& line, const std::map<std::size_t, double>& place)
     {
