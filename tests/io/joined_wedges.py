@@ -141,6 +141,10 @@ def main():
                             "netCDF4": readers.read_exodus}[name]
                     mesh = read(path, "exodus") if name == "meshio" and file == "j.exo" else read(path)
                     check(f"{path.name} by {name}", mesh, counts)
+                    if file == "j.bdf" and name == "meshio":  # cells by their property
+                        filled = sum(counts.values()) - len(cells)
+                        expected = {7: len(cells), 8: filled} if source == "bdf" else {1: len(cells), 2: filled}
+                        assert mesh.groups == expected, (path.name, mesh.groups)
         if "meshio" in here and shutil.which("ccx"):
             points = solve(folder, "inp_j")
             assert points == 8 * counts["hexahedron"] + 2 * counts["wedge"], points

@@ -13,6 +13,7 @@ import tempfile
 
 try:
     import numpy as np
+    import readers
 except ImportError as error:
     print(f"left out: {error}")
     sys.exit(77)
@@ -128,53 +129,26 @@ def read_exodus(path):
             "groups": groups}
 
 
-def read_gmsh(path):
-    import gmsh
-    gmsh.initialize()
-    gmsh.option.setNumber("General.Terminal", 0)
-    gmsh.open(str(path))
-    tags, xyz, _ = gmsh.model.mesh.getNodes()
-    at = {int(t): i for i, t in enumerate(tags)}
-    points = np.array(xyz).reshape(-1, 3)
-    elements, nodes = gmsh.model.mesh.getElementsByType(5)
-    hexes = np.array([at[int(n)] for n in nodes]).reshape(-1, 8)
-    groups = {}
-    for dim, tag in gmsh.model.getPhysicalGroups():
-        count = sum(len(part) for entity in gmsh.model.getEntitiesForPhysicalGroup(dim, tag)
-                    for part in gmsh.model.mesh.getElements(dim, entity)[1])
-        name = gmsh.model.getPhysicalName(dim, tag)
-        groups[name] = max(groups.get(name, 0), count)  # faces of a property may be called as it is
-    gmsh.finalize()
-    found = {"hexes": places(points, hexes), "cells": dict(zip(map(int, elements), map(tuple, hexes))),
-             "nodes": np.array(list(map(int, tags)))}
-    if path.suffix == ".msh":
-        found["groups"] = groups
+def seen(mesh):
+    """What is checked of a mesh of the shared readers."""
+    hexes = mesh.cells["hexahedron"]
+    found = {"hexes": places(mesh.points, hexes)}
+    if "hexahedron" in mesh.numbers:
+        found["cells"] = dict(zip(map(int, mesh.numbers["hexahedron"]), map(tuple, hexes)))
+        found["nodes"] = mesh.node_numbers
+    if "hexahedron" in mesh.regions:
+        found["regions"] = mesh.regions["hexahedron"]
     return found
+
+
+def read_gmsh(path):
+    mesh = readers.read_gmsh(path)
+    return seen(mesh) | ({"groups": mesh.groups} if path.suffix == ".msh" else {})
 
 
 def read_vtk(path):
-    import vtk
-    from vtk.util.numpy_support import vtk_to_numpy
-    reader = vtk.vtkXMLUnstructuredGridReader() if path.suffix == ".vtu" else vtk.vtkUnstructuredGridReader()
-    reader.SetFileName(str(path))
-    if path.suffix == ".vtk":
-        reader.ReadAllScalarsOn()
-    reader.Update()
-    grid = reader.GetOutput()
-    points = vtk_to_numpy(grid.GetPoints().GetData())
-    cells = [c for c in range(grid.GetNumberOfCells()) if grid.GetCellType(c) == vtk.VTK_HEXAHEDRON]
-    hexes = np.array([[grid.GetCell(c).GetPointId(k) for k in range(8)] for c in cells])
-    entity = vtk_to_numpy(grid.GetCellData().GetArray("entity"))
-    field = grid.GetFieldData()
-    groups = {field.GetArray(a).GetName(): int(np.isin(entity, vtk_to_numpy(field.GetArray(a))).sum())
-              for a in range(field.GetNumberOfArrays())}
-    found = {"hexes": places(points, hexes), "groups": groups}
-    if grid.GetCellData().HasArray("cell_number"):
-        numbers = vtk_to_numpy(grid.GetCellData().GetArray("cell_number"))[cells]
-        found["cells"] = dict(zip(map(int, numbers), map(tuple, hexes)))
-        found["nodes"] = vtk_to_numpy(grid.GetPointData().GetArray("node_number"))
-        found["regions"] = vtk_to_numpy(grid.GetCellData().GetArray("region"))[cells]
-    return found
+    mesh = readers.read_vtk(path)
+    return seen(mesh) | {"groups": mesh.groups}
 
 
 def check(found, path, kept, walls):
@@ -205,7 +179,7 @@ def check(found, path, kept, walls):
 
 def main():
     text, kept = deck()
-    readers = []
+    found_readers = []
     for name, read, files in (("meshio", read_meshio, ["j.msh", "j.vtu", "j.vtk", "text.msh", "text.vtk", "oldtext.msh",
                                                        "numbered.vtu", "alone.vtu", "alone.vtk",
                                                        "alonetext.vtk"]),
@@ -216,16 +190,16 @@ def main():
         # meshio 5 reads no numbers with holes from a binary file of version 2.2.
         try:
             __import__(name)
-            readers.append((name, read, files))
+            found_readers.append((name, read, files))
         except ImportError:
             print(f"left out: {name} is not installed")
-    if not readers:
+    if not found_readers:
         return 77
     with tempfile.TemporaryDirectory() as folder:
         pathlib.Path(folder, "part.bdf").write_text(text)
         pathlib.Path(folder, "join.lua").write_text(RECIPE)
         subprocess.run([sys.argv[1], "join.lua"], cwd=folder, check=True, timeout=100)
-        for name, read, files in readers:
+        for name, read, files in found_readers:
             for file in files:
                 path = pathlib.Path(folder, file)
                 found = read(path)

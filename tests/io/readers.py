@@ -22,6 +22,7 @@ class Mesh:
         self.cells = {}    # by kind: places of nodes, a row each
         self.numbers = {}  # by kind, where they are known
         self.groups = {}   # by name or (dimension, number): how many cells
+        self.regions = {}  # by kind, where the file tells them
 
     def add(self, kind, nodes, numbers=None):
         nodes = np.asarray(nodes, dtype=np.int64).reshape(-1, CORNERS[kind])
@@ -107,6 +108,8 @@ def read_vtk(path):
             order = [0, 2, 1, 3, 5, 4] if VTK[kind] == "wedge" else range(CORNERS[VTK[kind]])
             nodes = [[grid.GetCell(c).GetPointId(k) for k in order] for c in cells]
             mesh.add(VTK[kind], nodes, None if cell_number is None else cell_number[cells])
+            if grid.GetCellData().HasArray("region"):
+                mesh.regions[VTK[kind]] = vtk_to_numpy(grid.GetCellData().GetArray("region"))[cells]
     entity = grid.GetCellData().GetArray("entity")
     field = grid.GetFieldData()
     for a in range(field.GetNumberOfArrays() if entity is not None else 0):
