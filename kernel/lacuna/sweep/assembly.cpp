@@ -2,6 +2,7 @@
 #include <lacuna/sweep/assembly.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/sweep/detail/assembly_imprint.h>
 #include <lacuna/sweep/detail/assembly_nodes.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
 #include <lacuna/sweep/detail/shared_middles.h>
@@ -56,14 +57,14 @@ struct Failed {
 class Assembler {
 public:
     Assembler(std::span<const AssemblyMember> members, const RunContext& context)
-        : members_(members), context_(context)
+        : members_(members.begin(), members.end()), context_(context)
     {
     }
 
     SweptAssembly run()
     {
         check_members();
-        result_.shared = shared_faces(members_, context_);
+        find_shared();
         find_order();
         plan_ = plan_assembly(members_, result_.shared, context_);
         sweep_all();
@@ -95,6 +96,24 @@ private:
                                                                  members_[m].region + "\"");
             }
         }
+    }
+
+    /// Faces that are shared in part are split first.
+    void find_shared()
+    {
+        FacesInCommon found = faces_in_common(members_, context_);
+        if (!found.partly.empty()) {
+            std::vector<std::string> regions;
+            for (const AssemblyMember& member : members_) {
+                imprinted_.push_back(*member.volume);
+                regions.push_back(member.region);
+            }
+            imprints_ = imprint_faces(imprinted_, regions, found.partly, context_);
+            for (std::size_t m = 0; m < members_.size(); ++m) members_[m].volume = &imprinted_[m];
+            result_.shared = shared_faces(members_, context_);
+            return;
+        }
+        result_.shared = std::move(found.whole);
     }
 
     [[nodiscard]] bool is_void(std::size_t m, FaceId face) const
@@ -240,7 +259,7 @@ private:
             }
             inputs_[m] = std::move(inputs);
         }
-        result_.report.clear();
+        result_.report = imprints_;
         for (const std::size_t m : order_)
             result_.report.insert(result_.report.end(), shared_lines_[m].begin(), shared_lines_[m].end());
         return std::nullopt;
@@ -492,7 +511,9 @@ private:
         }
     }
 
-    std::span<const AssemblyMember> members_;
+    std::vector<AssemblyMember> members_;
+    std::vector<OpenVolume> imprinted_; ///< the members' volumes, where faces of any had to be split
+    std::vector<std::string> imprints_; ///< of the report
     const RunContext& context_;
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> after_; ///< of each member, those that must come before it

@@ -54,7 +54,10 @@ struct SweptAssembly {
 ///         other numbers of layers are asked; "assembly.round"  volumes each of which lacks a face that the
 ///         next one has; "assembly.not_shared"  a shared face on which two meshes differ;
 ///         "assembly.hanging_node"  a node of one mesh within a side of another's.
-/// @throw InvalidInput  as `shared_faces()` and `sweep()`.
+/// Faces that are shared in part are split along each other's rims before; the faces of `shared` and of the
+/// parts are then those of the volumes as split, whose first faces are the members' own.
+/// @throw InvalidInput  as `shared_faces()` and `sweep()`; "assembly.part_of_face" where a face that is
+///         shared in part keeps its quads, or cannot be split.
 /// @post  conformal: every quad of a shared face is one of both volumes, no node of one lies within a side or
 ///        a quad of another, and each volume is proved as `sweep()` does, its shape against its own sealed
 ///        skin.

@@ -4,6 +4,7 @@
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/sweep/assembly.h>
+#include <lacuna/sweep/detail/assembly_imprint.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/topology/side_points.h>
 
@@ -179,40 +180,44 @@ bool share_area(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, doub
     return common.minCoeff() >= 0 && (common.array() > 2 * limit).count() > 1;
 }
 
-/// Whether two faces of two members are one; refuses what is neither that nor apart.
-bool is_shared(const AssemblyMember& a, Side& one, const AssemblyMember& b, Side& other,
-               const RunContext& context)
+/// What two faces of two members have in common.
+struct InCommon {
+    bool any = false, whole = false;
+    double limit = 0;  ///< how far the facets may be off each other
+    std::string words; ///< of a part
+};
+
+/// Refuses two volumes on the same side of a face.
+InCommon in_common(const AssemblyMember& a, Side& one, const AssemblyMember& b, Side& other,
+                   const RunContext& context)
 {
     const double tolerance = std::max(a.volume->model.tolerance, b.volume->model.tolerance);
     const double limit = tolerance + one.sag + other.sag;
-    if (!share_area(one.box, other.box, limit)) return false;
+    if (!share_area(one.box, other.box, limit)) return {};
     // A face that was made where none was given is the one that is given there.
     bool same = (is_void(one) || is_void(other)) && rim_lies_on(one, other, tolerance) &&
                 rim_lies_on(other, one, tolerance);
     const Cover there = cover_of(one, other, limit, context), back = cover_of(other, one, limit, context);
+    std::string words;
     if (!same) {
-        if (there.share <= kNothing && back.share <= kNothing) return false;
+        if (there.share <= kNothing && back.share <= kNothing) return {};
         const double whole = limit > tolerance ? kWholeCurved : kWhole;
         same = there.share >= whole && back.share >= whole;
         // Faces that bend away from each other along a common rim are near each other there, and no more.
-        if (!same && limit > tolerance && std::max(there.share, back.share) < kAlongRim) return false;
-        if (!same) {
-            const auto percent = [](double share) {
-                std::array<char, 32> text{};
-                std::snprintf(text.data(), text.size(), "%.3g %%", 100 * share);
-                return std::string(text.data());
-            };
-            throw InvalidInput("assembly.part_of_face",
-                               percent(there.share) + " of " + named(a, one.face) + " lies on " +
-                                   named(b, other.face) + ", and " + percent(back.share) +
-                                   " of that on it: a face must be shared as a whole; split it along the "
-                                   "other's rim");
-        }
+        if (!same && limit > tolerance && std::max(there.share, back.share) < kAlongRim) return {};
+        const auto percent = [](double share) {
+            std::array<char, 32> text{};
+            std::snprintf(text.data(), text.size(), "%.3g %%", 100 * share);
+            return std::string(text.data());
+        };
+        words = percent(there.share) + " of " + named(a, one.face) + " lies on " + named(b, other.face) +
+                ", and " + percent(back.share) + " of that on it";
     }
-    if (std::max(there.same_way, back.same_way) <= 0.5) return true;
-    throw InvalidInput("assembly.overlap", named(a, one.face) + " and " + named(b, other.face) +
-                                               " are one face, and both volumes lie on the same side of "
-                                               "it: volumes of an assembly may touch, not overlap");
+    if (std::max(there.same_way, back.same_way) > 0.5)
+        throw InvalidInput("assembly.overlap", named(a, one.face) + " and " + named(b, other.face) +
+                                                   " are one face, and both volumes lie on the same side of "
+                                                   "it: volumes of an assembly may touch, not overlap");
+    return {true, same, limit, std::move(words)};
 }
 
 /// Facets of a volume of which the middles are asked whether they are within another.
@@ -247,7 +252,7 @@ void check_apart(const AssemblyMember& a, const Eigen::AlignedBox3d& box_of_a, c
 
 } // namespace
 
-std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, const RunContext& context)
+FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context)
 {
     std::vector<std::vector<Side>> sides(members.size());
     std::vector<Eigen::AlignedBox3d> box(members.size());
@@ -262,7 +267,7 @@ std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, co
             sides[m].push_back(std::move(side));
         }
     }
-    std::vector<SharedFace> shared;
+    FacesInCommon found;
     for (std::size_t a = 0; a < members.size(); ++a) {
         for (std::size_t b = a + 1; b < members.size(); ++b) {
             const double margin = 1e-3 * (box[a].diagonal().norm() + box[b].diagonal().norm());
@@ -273,13 +278,28 @@ std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, co
             check_apart(members[b], box[b], members[a], box[a]);
             for (Side& one : sides[a]) {
                 for (Side& other : sides[b]) {
-                    if (is_shared(members[a], one, members[b], other, context))
-                        shared.push_back({a, b, one.face, other.face});
+                    InCommon common = in_common(members[a], one, members[b], other, context);
+                    if (!common.any) continue;
+                    const SharedFace faces{a, b, one.face, other.face};
+                    if (common.whole)
+                        found.whole.push_back(faces);
+                    else
+                        found.partly.push_back({faces, common.limit, std::move(common.words)});
                 }
             }
         }
     }
-    return shared;
+    return found;
+}
+
+std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, const RunContext& context)
+{
+    FacesInCommon found = faces_in_common(members, context);
+    if (!found.partly.empty())
+        throw InvalidInput("assembly.part_of_face",
+                           found.partly.front().words +
+                               ": a face must be shared as a whole; split it along the other's rim");
+    return std::move(found.whole);
 }
 
 } // namespace lacuna::sweep

@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/assembly_imprint.h>
+
+#include <lacuna/core/edge_key.h>
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/topology/section.h>
+#include <lacuna/topology/side_points.h>
+#include <lacuna/topology/split_edge.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+/// Chords that cross at less than this sine run along each other: ends of either are what counts then.
+constexpr double kAlong = 1e-6;
+
+/// Edges of a face's rim, each once.
+std::vector<EdgeId> rim_of(const Model& model, FaceId face)
+{
+    std::set<EdgeId> edges;
+    for (const Loop& loop : border_loops(model, face)) {
+        for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
+    }
+    return {edges.begin(), edges.end()};
+}
+
+std::vector<Vec3> line_of(const Model& model, EdgeId edge)
+{
+    std::vector<Vec3> line;
+    for (const Index p : model[edge].points) line.push_back(model.at(p));
+    return line;
+}
+
+/// The place of a chain closest to a point.
+struct OnLine {
+    double at = 0, distance = std::numeric_limits<double>::infinity();
+};
+OnLine closest_on(const std::vector<Vec3>& line, const Vec3& p)
+{
+    OnLine best;
+    double before = 0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const double f = fraction_along(p, line[i], line[i + 1]), length = (line[i + 1] - line[i]).norm();
+        const double distance = (p - ((1 - f) * line[i] + f * line[i + 1])).norm();
+        if (distance < best.distance) best = {before + f * length, distance};
+        before += length;
+    }
+    return best;
+}
+
+/// Where two chords cross, half way between them; nothing where they run along each other or are apart.
+std::optional<Vec3> crossing(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double within)
+{
+    const Vec3 u = b - a, v = d - c, w = c - a;
+    const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), whole = uu * vv - uv * uv;
+    if (!(whole > kAlong * kAlong * uu * vv)) return std::nullopt;
+    const double s = (vv * w.dot(u) - uv * w.dot(v)) / whole, t = (uv * w.dot(u) - uu * w.dot(v)) / whole;
+    const double slack_s = within / std::sqrt(uu), slack_t = within / std::sqrt(vv);
+    if (s < -slack_s || s > 1 + slack_s || t < -slack_t || t > 1 + slack_t) return std::nullopt;
+    const Vec3 p = a + s * u, q = c + t * v;
+    return (p - q).norm() <= within ? std::optional<Vec3>((p + q) / 2) : std::nullopt;
+}
+
+/// One face of one volume that another's rim is laid onto.
+class FaceCutter {
+public:
+    FaceCutter(Model& model, FaceId face) : model_(model), face_(face), tolerance_(model.tolerance) {}
+
+    /// Cut the facets along a chain of places near the face. @return  its points; empty: it leaves the face
+    std::vector<Index> lay(const std::vector<Vec3>& line)
+    {
+        std::vector<Index> stops;
+        for (const Vec3& p : line) {
+            const Index stop = point_at(p);
+            if (stop < 0) return {};
+            if (stops.empty() || stops.back() != stop) stops.push_back(stop);
+        }
+        std::vector<Index> chain{stops.front()};
+        for (std::size_t i = 0; i + 1 < stops.size(); ++i)
+            if (!cut_between(stops[i], stops[i + 1], chain)) return {};
+        return chain;
+    }
+
+private:
+    [[nodiscard]] Face& face() { return model_[face_]; }
+    [[nodiscard]] Vec2 uv_of(std::size_t t, std::size_t k)
+    {
+        return face().uv.empty() ? Vec2::Zero() : face().uv[t][k];
+    }
+
+    Index add_point(Vec3 place, Vec2 uv)
+    {
+        if (face().surface) face().surface->project({&place, 1}, {&uv, 1}, {});
+        model_.points.push_back(place);
+        return static_cast<Index>(model_.points.size()) - 1;
+    }
+
+    void add_facet(const ParamFacet& facet)
+    {
+        face().triangles.push_back(facet.corner);
+        if (!face().uv.empty() || face().surface) face().uv.push_back(facet.uv);
+    }
+
+    /// The point of the facets at a place: a corner, one put on a side, or one put within a facet.
+    Index point_at(const Vec3& p)
+    {
+        geometry::FacetTree::Hit best;
+        for (std::size_t t = 0; t < face().triangles.size(); ++t) {
+            const Triangle& c = face().triangles[t];
+            const geometry::FacetTree::Hit hit = geometry::closest_on_triangle(
+                p, {model_.at(c[0]), model_.at(c[1]), model_.at(c[2])});
+            if (hit.distance2 >= best.distance2) continue;
+            best = hit;
+            best.triangle = static_cast<Index>(t);
+        }
+        const std::size_t t = index(best.triangle);
+        const Triangle corner = face().triangles[t];
+        for (const Index c : corner)
+            if ((model_.at(c) - best.point).norm() <= tolerance_) return c;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index a = corner[k], b = corner[(k + 1) % 3];
+            const double f = fraction_along(best.point, model_.at(a), model_.at(b));
+            if ((best.point - ((1 - f) * model_.at(a) + f * model_.at(b))).norm() <= tolerance_)
+                return split_side(a, b, f);
+        }
+        std::array<Vec2, 3> uv;
+        Vec2 own = Vec2::Zero();
+        for (std::size_t k = 0; k < 3; ++k) {
+            uv[k] = uv_of(t, k);
+            own += best.barycentric[static_cast<int>(k)] * uv[k];
+        }
+        const Index made = add_point(best.point, own);
+        for (std::size_t k = 1; k < 3; ++k)
+            add_facet({{corner[k], corner[(k + 1) % 3], made}, {uv[k], uv[(k + 1) % 3], own}});
+        face().triangles[t] = {corner[0], corner[1], made};
+        if (!face().uv.empty()) face().uv[t] = {uv[0], uv[1], own};
+        return made;
+    }
+
+    /// A point on a side between two facets of the face; -1 on the face's rim, which has its points.
+    Index split_side(Index a, Index b, double fraction)
+    {
+        int beside = 0;
+        Vec2 uv = Vec2::Zero();
+        for (std::size_t t = 0; t < face().triangles.size(); ++t) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (edge_key(face().triangles[t][k], face().triangles[t][(k + 1) % 3]) != edge_key(a, b))
+                    continue;
+                ++beside;
+                const bool along = face().triangles[t][k] == a;
+                const double f = along ? fraction : 1 - fraction;
+                uv = (1 - f) * uv_of(t, k) + f * uv_of(t, (k + 1) % 3);
+            }
+        }
+        if (beside < 2) return -1;
+        const Index made = add_point((1 - fraction) * model_.at(a) + fraction * model_.at(b), uv);
+        SidePoints sides;
+        sides.add(a, b, {made});
+        cut_at_sides(model_.points, face(), sides);
+        return made;
+    }
+
+    /// Straight from a point to another, along the facets.
+    bool cut_between(Index from, Index to, std::vector<Index>& chain)
+    {
+        const Vec3 target = model_.at(to);
+        const std::size_t most = 4 * face().triangles.size() + 16;
+        for (std::size_t step = 0; from != to; ++step) {
+            if (step > most) return false;
+            const Index next = step_towards(from, to, target);
+            if (next < 0) return false;
+            chain.push_back(next);
+            from = next;
+        }
+        return true;
+    }
+
+    Index step_towards(Index from, Index to, const Vec3& target)
+    {
+        const Vec3 start = model_.at(from), way = target - start;
+        for (const Triangle& t : face().triangles) {
+            if (std::ranges::find(t, from) != t.end() && std::ranges::find(t, to) != t.end()) return to;
+        }
+        for (const Triangle& t : face().triangles) {
+            const auto k = static_cast<std::size_t>(std::ranges::find(t, from) - t.begin());
+            if (k == 3) continue;
+            const Index a = t[(k + 1) % 3], b = t[(k + 2) % 3];
+            const Vec3 normal = (model_.at(a) - start).cross(model_.at(b) - start);
+            const Vec3 aside = way.cross(normal).stableNormalized();
+            const double ha = (model_.at(a) - start).dot(aside), hb = (model_.at(b) - start).dot(aside);
+            for (const auto& [corner, h] : {std::pair(a, ha), std::pair(b, hb)}) {
+                if (std::abs(h) <= tolerance_ && (model_.at(corner) - start).dot(way) > 0) return corner;
+            }
+            if (ha * hb >= 0) continue;
+            const double f = ha / (ha - hb);
+            const Vec3 there = (1 - f) * model_.at(a) + f * model_.at(b);
+            if ((there - start).dot(way) <= 0) continue;
+            return split_side(a, b, f);
+        }
+        return -1;
+    }
+
+    Model& model_;
+    FaceId face_;
+    double tolerance_;
+};
+
+/// A face on one side of a pair.
+struct SideOfPair {
+    OpenVolume* volume;
+    FaceId face;
+
+    [[nodiscard]] Model& model() const { return volume->model; }
+    [[nodiscard]] double size() const { return std::sqrt(face_area(model(), face)); }
+};
+
+/// Make the place of a rim closest to a point a vertex, if it is near enough.
+void ensure_vertex(const SideOfPair& side, const Vec3& p, double within)
+{
+    Model& model = side.model();
+    for (const EdgeId edge : rim_of(model, side.face)) {
+        const std::vector<Vec3> line = line_of(model, edge);
+        const OnLine place = closest_on(line, p);
+        const double length = geometry::length(line);
+        if (place.distance > within) continue;
+        const double slack = std::max(within, model.tolerance);
+        if ((line.front() - p).norm() <= slack || (line.back() - p).norm() <= slack) return;
+        if (place.at <= model.tolerance || length - place.at <= model.tolerance) return;
+        split_edge(model, edge, place.at / length);
+        return;
+    }
+}
+
+/// Vertices of a face's rim.
+std::vector<Vec3> corners_of(const SideOfPair& side)
+{
+    std::vector<Vec3> corners;
+    for (const EdgeId edge : rim_of(side.model(), side.face)) {
+        for (const VertexId v : {side.model()[edge].from, side.model()[edge].to})
+            corners.push_back(side.model().at(side.model()[v].point));
+    }
+    return corners;
+}
+
+/// The edges of one rim that run across the other face, as chains.
+std::vector<std::vector<Vec3>> lines_across(const SideOfPair& of, const SideOfPair& on, double limit)
+{
+    const geometry::FacetTree facets(on.model().points, on.model()[on.face].triangles);
+    std::vector<std::vector<Vec3>> rim, lines;
+    for (const EdgeId edge : rim_of(on.model(), on.face)) rim.push_back(line_of(on.model(), edge));
+    const double near_rim = std::max(limit, on.model().tolerance);
+    for (const EdgeId edge : rim_of(of.model(), of.face)) {
+        std::vector<Vec3> line = line_of(of.model(), edge);
+        bool inside = true;
+        for (std::size_t i = 0; i + 1 < line.size() && inside; ++i) {
+            const Vec3 middle = (line[i] + line[i + 1]) / 2;
+            inside = facets.closest(middle, limit * limit).triangle >= 0 &&
+                     std::ranges::none_of(rim, [&](const std::vector<Vec3>& other) {
+                         return closest_on(other, middle).distance <= near_rim;
+                     });
+        }
+        if (inside) lines.push_back(std::move(line));
+    }
+    return lines;
+}
+
+/// Lay chains onto a face and split it. @return  its parts, the face itself first; empty: a chain leaves it
+std::vector<FaceId> split_along(const SideOfPair& side, const std::vector<std::vector<Vec3>>& lines,
+                                const RunContext& context)
+{
+    if (lines.empty()) return {side.face};
+    Model& model = side.model();
+    FaceCutter cutter(model, side.face);
+    std::vector<SectionWalk> walks;
+    for (const std::vector<Vec3>& line : lines) {
+        const std::vector<Index> chain = cutter.lay(line);
+        if (chain.size() < 2) return {};
+        SectionWalk& walk = walks.emplace_back();
+        for (const Index p : chain) walk.places.push_back({p, -1});
+        walk.closed = chain.front() == chain.back();
+        if (walk.closed) walk.places.pop_back();
+    }
+    const std::size_t edges = model.edges.size();
+    const WalkImprint made = imprint_walks(model, walks, {}, model.tolerance, context);
+    // They are chains, not where a plane cuts the surface.
+    for (std::size_t e = edges; e < model.edges.size(); ++e) {
+        if (model.edges[e].origin != Origin::made_void) continue;
+        model.edges[e].curve = nullptr;
+        model.edges[e].params.clear();
+    }
+    std::vector<FaceId> parts{side.face};
+    for (std::size_t f = side.volume->role.size(); f < model.faces.size(); ++f) {
+        side.volume->role.push_back(side.volume->role[made.parent[f].index()]);
+        if (made.parent[f] == side.face) parts.emplace_back(f);
+    }
+    return parts;
+}
+
+/// What both sides of a pair fall apart into.
+struct Parts {
+    std::vector<FaceId> a, b;
+};
+
+Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const std::string& names,
+                   const RunContext& context)
+{
+    const double within = std::max({limit, a.model().tolerance, b.model().tolerance});
+    std::vector<Vec3> stops = corners_of(a);
+    const std::vector<Vec3> others = corners_of(b);
+    stops.insert(stops.end(), others.begin(), others.end());
+    for (const EdgeId e : rim_of(a.model(), a.face)) {
+        const std::vector<Vec3> p = line_of(a.model(), e);
+        for (const EdgeId f : rim_of(b.model(), b.face)) {
+            const std::vector<Vec3> q = line_of(b.model(), f);
+            for (std::size_t i = 0; i + 1 < p.size(); ++i)
+                for (std::size_t j = 0; j + 1 < q.size(); ++j)
+                    if (const auto at = crossing(p[i], p[i + 1], q[j], q[j + 1], within))
+                        stops.push_back(*at);
+        }
+    }
+    for (const Vec3& stop : stops) {
+        ensure_vertex(a, stop, within);
+        ensure_vertex(b, stop, within);
+    }
+    const std::vector<std::vector<Vec3>> onto_a = lines_across(b, a, within),
+                                         onto_b = lines_across(a, b, within);
+    for (const auto& [side, lines] : {std::pair(&a, &onto_a), std::pair(&b, &onto_b)}) {
+        if (lines->empty() || side->model()[side->face].given_quads.empty()) continue;
+        throw InvalidInput("assembly.part_of_face",
+                           names + ": " + name_of(side->model(), side->face) +
+                               " came with quads, which stay as they are and cannot be split; load it with "
+                               "keep_mesh = false");
+    }
+    Parts parts{split_along(a, onto_a, context), split_along(b, onto_b, context)};
+    if (parts.a.empty() || parts.b.empty())
+        throw InvalidInput("assembly.part_of_face",
+                           names + ": the rim of one cannot be laid onto the facets of the other; split the "
+                                   "larger face along it where the faces were made");
+    return parts;
+}
+
+} // namespace
+
+std::vector<std::string> imprint_faces(std::span<OpenVolume> volumes, std::span<const std::string> regions,
+                                       std::span<const PartlyShared> pairs, const RunContext& context)
+{
+    std::map<std::pair<std::size_t, FaceId>, std::vector<FaceId>> parts_of;
+    const auto parts = [&](std::size_t m, FaceId face) -> std::vector<FaceId>& {
+        return parts_of.try_emplace({m, face}, std::vector<FaceId>{face}).first->second;
+    };
+    std::vector<std::string> report;
+    for (const PartlyShared& pair : pairs) {
+        check_cancelled(context);
+        const SharedFace& faces = pair.faces;
+        const std::string names = name_of(volumes[faces.a].model, faces.face_a) + " of " + regions[faces.a] +
+                                  " and " + name_of(volumes[faces.b].model, faces.face_b) + " of " +
+                                  regions[faces.b];
+        // Parts made on the way are met by those of the other.
+        std::vector<FaceId> all_a = parts(faces.a, faces.face_a);
+        for (std::size_t i = 0; i < all_a.size(); ++i) {
+            std::vector<FaceId> all_b = parts(faces.b, faces.face_b);
+            for (std::size_t j = 0; j < all_b.size(); ++j) {
+                const Parts made = imprint_pair({&volumes[faces.a], all_a[i]}, {&volumes[faces.b], all_b[j]},
+                                                pair.limit, names, context);
+                all_a.insert(all_a.end(), made.a.begin() + 1, made.a.end());
+                all_b.insert(all_b.end(), made.b.begin() + 1, made.b.end());
+            }
+            parts(faces.b, faces.face_b) = all_b;
+        }
+        parts(faces.a, faces.face_a) = all_a;
+        report.push_back("imprinted: " + names + " share a part, which is a face of both now");
+    }
+    return report;
+}
+
+} // namespace lacuna::sweep
