@@ -90,6 +90,43 @@ do
   check.that(volume:sweep { size = 0.5, intervals = { { "sweep", count = 5, bias = 3 } } }.layers == 5)
 end
 
+-- In an assembly, for the volumes that have the face: layers along a face that two blocks share, on both sides.
+do
+  local model = lacuna.model()
+  local corners = { { 0, 0 }, { 2, 0 }, { 2, 2 }, { 0, 2 } }
+  for level = 0, 2 do
+    local points = {}
+    for k, c in ipairs(corners) do points[k] = { c[1], c[2], level } end
+    model:add_face { name = "level_" .. level, points = points, cells = { { 1, 2, 3 }, { 1, 3, 4 } } }
+  end
+  local volumes = {}
+  for level = 0, 1 do
+    local walls = {}
+    for k = 1, 4 do
+      local a, b = corners[k], corners[k % 4 + 1]
+      walls[k] = ("wall_%d_%d"):format(level, k)
+      model:add_face { name = walls[k], cells = { { 1, 2, 3 }, { 1, 3, 4 } }, points = {
+        { a[1], a[2], level }, { b[1], b[2], level }, { b[1], b[2], level + 1 }, { a[1], a[2], level + 1 } } }
+    end
+    volumes[level + 1] = function()
+      return model:open_volume { name = "v" .. level, source = "level_" .. level,
+        target = "level_" .. (level + 1), walls = walls }
+    end
+  end
+  local function both() return lacuna.assembly { volumes[1](), volumes[2]() } end
+  local mesh = both():sweep { size = 0.5,
+    boundary_layers = { walls = "level_1", first = 0.05, growth = 1.5, count = 2 } }
+  local heights = {}
+  for i = 1, mesh.nodes do
+    local _, _, z = mesh:node(i)
+    heights[("%.6f"):format(z)] = true
+  end
+  for _, z in ipairs { 0.875, 0.95, 1.05, 1.125 } do
+    check.that(heights[("%.6f"):format(z)], "a layer at " .. z)
+  end
+  check.that(both():sweep({ size = 0.5, intervals = { { "sweep", 4 } } }).layers.v0 == 4)
+end
+
 -- What is refused, and in which words.
 local function refused(options, ...)
   options.size = 0.4

@@ -430,6 +430,27 @@ TEST_CASE("walls that go on into each other without a corner must have one table
     check_rows(half, {walls[0]}, one, 1e-6);
 }
 
+TEST_CASE("rows cross and end on edges between the faces of an end, on leaning walls too")
+{
+    for (const double lean : {0.0, 0.3}) {
+        CAPTURE(lean);
+        OpenVolume volume = test::board_box(3, 2, 1.5);
+        for (Vec3& p : volume.model.points) {
+            const Vec3 middle(1.5, 1, 0);
+            p += lean * p.z() * Vec3(p.x() - middle.x(), p.y() - middle.y(), 0);
+        }
+        surface::BoundaryLayer layer;
+        layer.walls.names = {"walls"};
+        layer.first = 0.02;
+        layer.growth = 1.5;
+        layer.count = 3;
+        const Swept swept = sweep::sweep(volume, with({layer}, 0.3));
+        test::check_valid(swept.mesh);
+        CHECK(swept.min_scaled_jacobian > 0.3);
+        check_rows(swept, volume.faces(Role::wall), layer, 1e-3);
+    }
+}
+
 TEST_CASE("the same rows come out for any number of threads")
 {
     PrismOptions how;

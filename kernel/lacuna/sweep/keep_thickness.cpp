@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/keep_thickness.h>
 
-#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
 #include <lacuna/surface/projector.h>
 #include <lacuna/sweep/detail/harmonic_spread.h>
@@ -14,7 +13,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <unordered_map>
 
 namespace lacuna::sweep {
 
@@ -28,29 +26,10 @@ constexpr int kRounds = 8;
 /// A row is met when it is off its thickness by less than this share: a tenth of what is allowed.
 constexpr double kMet = kThicknessOff / 10;
 
-/// A side of the rim with rows on it.
-struct RowSide {
-    std::size_t link, side; ///< from node `side` of the linking surface to the next
-    int table;
-    std::vector<Index> before, after; ///< source nodes of the rows over its ends, from the lowest
-};
-
-/// A column of row nodes over a node of the rim.
-struct RowColumn {
-    std::size_t link, node;
-    bool before = false, after = false; ///< over the sides before and after the node
-    int table = -1;
-    std::vector<Index> nodes;
-    std::vector<double> lean{}; ///< of each node from the foot along the rim, on the source [model length]
-};
-
-/// A node of rows, with what holds it: one wall, or two where rows cross.
-struct RowNode {
-    struct Hold {
-        std::size_t column;
-        double height;
-    };
-    std::vector<Hold> holds;
+/// A column that holds a node at a height: one wall's, or those of two where rows cross.
+struct Hold {
+    std::size_t column;
+    double height;
 };
 
 class ThicknessKeeper {
@@ -69,7 +48,12 @@ public:
         for (std::size_t b = 0; b < parts.links.size(); ++b) {
             for (std::size_t i = 0; i < size_of(b); ++i) link_of_[rim_node(b, i)] = static_cast<int>(b);
         }
-        find_rows();
+        columns_ = row_columns(parts, tables);
+        for (std::size_t c = 0; c < columns_.size(); ++c) {
+            const std::vector<double>& heights = heights_of(columns_[c].table);
+            for (std::size_t j = 0; j < heights.size(); ++j)
+                row_nodes_[columns_[c].nodes[j]].push_back({c, heights[j]});
+        }
         find_ends();
         find_still();
     }
@@ -102,17 +86,14 @@ public:
 
 private:
     [[nodiscard]] const std::vector<Quad>& quads() const { return parts_.source.quads.quads; }
-    [[nodiscard]] std::size_t size_of(std::size_t link) const
-    {
-        return parts_.source.links[link].source_at.size();
-    }
+    [[nodiscard]] std::size_t size_of(std::size_t link) const { return parts_.size_of(link); }
     [[nodiscard]] std::size_t rim_node(std::size_t link, std::size_t i) const
     {
-        return index(parts_.source.first[link]) + i % size_of(link);
+        return parts_.rim_node(link, i);
     }
     [[nodiscard]] FaceId wall_at(std::size_t link, std::size_t layer, std::size_t side) const
     {
-        return parts_.walls[link].face[layer * size_of(link) + side % size_of(link)];
+        return parts_.wall_at(link, layer, side);
     }
     [[nodiscard]] Vec3& at(std::size_t layer, std::size_t node) { return nodes_[layer * count_ + node]; }
     [[nodiscard]] const Vec3& at(std::size_t layer, std::size_t node) const
@@ -125,90 +106,6 @@ private:
     }
 
     // --- what there is ------------------------------------------------------------------------------
-
-    /// The table of a side of the rim: that of the wall at either end.
-    [[nodiscard]] int table_at(std::size_t link, std::size_t side) const
-    {
-        const int low = tables_.at(wall_at(link, 0, side));
-        return low >= 0 ? low : tables_.at(wall_at(link, layers_ - 1, side));
-    }
-
-    void find_rows()
-    {
-        std::unordered_map<std::uint64_t, std::size_t> side_of;
-        for (std::size_t q = 0; q < quads().size(); ++q) {
-            for (std::size_t k = 0; k < 4; ++k) {
-                const Quad& quad = quads()[q];
-                if (mesh::is_side(quad, k))
-                    side_of.try_emplace(edge_key(quad[k], quad[(k + 1) % 4]), 4 * q + k);
-            }
-        }
-        const std::vector<Index> partner = mesh::opposite_sides(quads(), static_cast<Index>(count_));
-        for (std::size_t b = 0; b < parts_.links.size(); ++b) {
-            std::vector<std::optional<RowSide>> sides(size_of(b));
-            for (std::size_t i = 0; i < size_of(b); ++i) {
-                const int table = table_at(b, i);
-                if (table < 0) continue;
-                const auto from = static_cast<Index>(rim_node(b, i)),
-                           to = static_cast<Index>(rim_node(b, i + 1));
-                sides[i] = walk({b, i, table, {}, {}}, side_of.at(edge_key(from, to)), from, partner);
-            }
-            add_columns(b, sides);
-        }
-        for (RowColumn& column : columns_) {
-            const std::vector<Vec3>& places = parts_.source.quads.nodes;
-            const Vec3& foot = places[rim_node(column.link, column.node)];
-            for (const Index node : column.nodes)
-                column.lean.push_back((places[index(node)] - foot).dot(tangent_of(column, 0)));
-        }
-        for (std::size_t c = 0; c < columns_.size(); ++c) {
-            const std::vector<double>& heights = heights_of(columns_[c].table);
-            for (std::size_t j = 0; j < heights.size(); ++j)
-                row_nodes_[columns_[c].nodes[j]].holds.push_back({c, heights[j]});
-        }
-    }
-
-    /// The rows over a side of the rim.
-    RowSide walk(RowSide row, std::size_t side, Index from, const std::vector<Index>& partner) const
-    {
-        for (std::size_t r = 0; r < heights_of(row.table).size(); ++r) {
-            const Quad& quad = quads()[side / 4];
-            const std::size_t k = side % 4;
-            if (mesh::is_triangle(quad)) refuse_rows(row);
-            const bool along = quad[k] == from;
-            row.before.push_back(along ? quad[(k + 3) % 4] : quad[(k + 2) % 4]);
-            row.after.push_back(along ? quad[(k + 2) % 4] : quad[(k + 3) % 4]);
-            from = row.before.back();
-            const Index next = partner[side / 4 * 4 + (k + 2) % 4];
-            if (r + 1 == heights_of(row.table).size()) break;
-            if (next < 0) refuse_rows(row);
-            side = static_cast<std::size_t>(next);
-        }
-        return row;
-    }
-
-    [[noreturn]] void refuse_rows(const RowSide& row) const
-    {
-        throw NotSweepable("sweep.layers_rows",
-                           "the quads of the source make fewer rows along " +
-                               name_of(model_, wall_at(row.link, 0, row.side)) + " than the " +
-                               std::to_string(heights_of(row.table).size()) +
-                               " of its boundary layers; mesh it anew (quads = \"paved\")");
-    }
-
-    void add_columns(std::size_t b, const std::vector<std::optional<RowSide>>& sides)
-    {
-        const std::size_t n = sides.size();
-        for (std::size_t i = 0; i < n; ++i) {
-            const auto &before = sides[(i + n - 1) % n], &after = sides[i];
-            if (before && after && before->table == after->table && before->after == after->before) {
-                columns_.push_back({b, i, true, true, after->table, after->before});
-                continue;
-            }
-            if (before) columns_.push_back({b, i, true, false, before->table, before->after});
-            if (after) columns_.push_back({b, i, false, true, after->table, after->before});
-        }
-    }
 
     void find_ends()
     {
@@ -284,17 +181,6 @@ private:
         if (column.before) normal += side_normal(column.link, (column.node + n - 1) % n, column.node, layer);
         if (column.after) normal += side_normal(column.link, column.node, column.node, layer);
         return column.before && column.after ? Vec3(normal / 2) : normal;
-    }
-
-    /// Along the rim at a column's foot, a unit long.
-    [[nodiscard]] Vec3 tangent_of(const RowColumn& column, std::size_t layer) const
-    {
-        const std::size_t n = size_of(column.link), i = column.node;
-        const Vec3& foot = at(layer, rim_node(column.link, i));
-        Vec3 along = Vec3::Zero();
-        if (column.before) along += (foot - at(layer, rim_node(column.link, i + n - 1))).normalized();
-        if (column.after) along += (at(layer, rim_node(column.link, i + 1)) - foot).normalized();
-        return along.stableNormalized();
     }
 
     /// Of a layer's quads at a node.
@@ -487,8 +373,8 @@ private:
                 for (const auto& [i, x] : places_along(line, *place)) {
                     const auto side = std::min(static_cast<std::size_t>(x), line.size() - 2);
                     const double share = x - static_cast<double>(side);
-                    at(layer, index(chain[i])) = nearest_on(exact, (1 - share) * line[side] +
-                                                                       share * line[side + 1]);
+                    at(layer, index(chain[i])) = nearest_on(
+                        model_, exact, (1 - share) * line[side] + share * line[side + 1]);
                 }
             }
         }
@@ -508,34 +394,36 @@ private:
     }
 
     /// Put a node at the heights it is held at, within its layer: as far along the rim from its foot as on
-    /// the source, as far off the layer's plane there as it was. What the layers made of thin rows counts no
-    /// more.
-    void move_inside(std::size_t node, const RowNode& row, std::size_t layer)
+    /// the source, as far off the layer's plane there as it was. Where the layers put nodes of thin rows does
+    /// not count.
+    void move_inside(std::size_t node, const std::vector<Hold>& holders, std::size_t layer)
     {
-        const std::size_t holds = std::min<std::size_t>(row.holds.size(), 2);
-        const RowColumn& own = columns_[row.holds[0].column];
+        const std::size_t holds = std::min<std::size_t>(holders.size(), 2);
+        const RowColumn& own = columns_[holders[0].column];
         const Vec3& foot = at(layer, rim_node(own.link, own.node));
         // The quads inside the rows are the larger ones, and tell how the layer lies.
         const Vec3 up = layer_normal(index(own.nodes.back()), layer);
         const Vec3 raised = up * up.dot(at(layer, node) - foot);
         if (holds == 1) {
             const auto number = std::find(own.nodes.begin(), own.nodes.end(), static_cast<Index>(node));
-            const Vec3 along = tangent_of(own, layer), normal = normal_of(own, layer);
+            const Vec3 along = own.tangent(parts_,
+                                           [&](std::size_t n) -> const Vec3& { return at(layer, n); }),
+                       normal = normal_of(own, layer);
             const Vec3 inward = up.cross(along) * (up.cross(along).dot(normal) > 0 ? 1 : -1);
             const double across = inward.dot(normal);
             if (!(across > 0)) return;
             const Vec3 lean = along * own.lean[static_cast<std::size_t>(number - own.nodes.begin())] + raised;
-            at(layer, node) = foot + lean + inward * ((row.holds[0].height - lean.dot(normal)) / across);
+            at(layer, node) = foot + lean + inward * ((holders[0].height - lean.dot(normal)) / across);
             return;
         }
         // Where rows cross, the heights over both walls say where.
         std::array<Vec3, 2> normal{Vec3::Zero(), Vec3::Zero()}, within = normal;
         std::array<double, 2> off{};
         for (std::size_t h = 0; h < holds; ++h) {
-            const RowColumn& column = columns_[row.holds[h].column];
+            const RowColumn& column = columns_[holders[h].column];
             normal[h] = normal_of(column, layer);
             within[h] = normal[h] - up * up.dot(normal[h]);
-            off[h] = row.holds[h].height -
+            off[h] = holders[h].height -
                      (at(layer, node) - at(layer, rim_node(column.link, column.node))).dot(normal[h]);
         }
         const double a = normal[0].dot(within[0]), b = normal[0].dot(within[1]), c = normal[1].dot(within[0]),
@@ -587,19 +475,6 @@ private:
         }
     }
 
-    /// Running place, in sides of the polyline, where it is at a height over its start along a normal.
-    static std::optional<double> place_at(const std::vector<Vec3>& line, const Vec3& normal, double height)
-    {
-        double below = 0;
-        for (std::size_t i = 1; i < line.size(); ++i) {
-            const double above = (line[i] - line.front()).dot(normal);
-            if (above >= height && above > below)
-                return static_cast<double>(i) - 1 + (height - below) / (above - below);
-            below = above;
-        }
-        return std::nullopt;
-    }
-
     void slide_row(std::size_t b, std::size_t first, std::size_t last, std::size_t layer,
                    const RowColumn* low, const RowColumn* high)
     {
@@ -640,39 +515,6 @@ private:
         return place;
     }
 
-    /// New places of all nodes within a line, in sides of it: those given, others as far between as they
-    /// were.
-    static std::vector<std::pair<std::size_t, double>> places_along(
-        const std::vector<Vec3>& line, const std::map<std::size_t, double>& place)
-    {
-        const std::size_t sides = line.size() - 1;
-        std::vector<double> lengths{0};
-        for (std::size_t i = 0; i < sides; ++i)
-            lengths.push_back(lengths.back() + (line[i + 1] - line[i]).norm());
-        const auto length_at = [&](double x) {
-            const auto i = std::min(static_cast<std::size_t>(x), sides - 1);
-            return lengths[i] + (x - static_cast<double>(i)) * (lengths[i + 1] - lengths[i]);
-        };
-        std::vector<std::pair<std::size_t, double>> moved;
-        for (std::size_t i = 1; i < sides; ++i) {
-            const auto above = place.lower_bound(i);
-            if (above->first == i) {
-                moved.emplace_back(i, above->second);
-                continue;
-            }
-            const auto below = std::prev(above);
-            const double share = (lengths[i] - lengths[below->first]) /
-                                 (lengths[above->first] - lengths[below->first]);
-            const double length = length_at(below->second) +
-                                  share * (length_at(above->second) - length_at(below->second));
-            const auto up = std::upper_bound(lengths.begin(), lengths.end(), length);
-            const std::size_t side = std::min(static_cast<std::size_t>(up - lengths.begin()) - 1, sides - 1);
-            moved.emplace_back(i, static_cast<double>(side) +
-                                      (length - lengths[side]) / (lengths[side + 1] - lengths[side]));
-        }
-        return moved;
-    }
-
     /// Move the nodes between corners of the rim to new places along it.
     void move_along(std::size_t b, std::size_t first, std::size_t layer, const std::vector<Vec3>& line,
                     const std::vector<std::pair<std::size_t, double>>& moved)
@@ -682,9 +524,8 @@ private:
         std::map<FaceId, std::vector<std::size_t>> on_face;
         for (const auto& [i, x] : moved) {
             const auto side = std::min(static_cast<std::size_t>(x), sides - 1);
-            const double share = x - static_cast<double>(side);
             const std::size_t node = rim_node(b, first + i);
-            at(layer, node) = (1 - share) * line[side] + share * line[side + 1];
+            at(layer, node) = point_at(line, x);
             const FaceId wall = wall_at(b, layer, first + side);
             if (model_[wall].origin == Origin::given && model_[wall].kind != "plane")
                 on_face[wall].push_back(node);
@@ -764,9 +605,7 @@ private:
             const std::optional<std::vector<double>> place = layer_places(node, line);
             if (!place) continue;
             for (std::size_t k = 1; k < layers_; ++k) {
-                const auto side = std::min(static_cast<std::size_t>((*place)[k]), layers_ - 1);
-                const double share = (*place)[k] - static_cast<double>(side);
-                at(k, node) = (1 - share) * line[side] + share * line[side + 1];
+                at(k, node) = point_at(line, (*place)[k]);
             }
         }
         put_on_walls();
@@ -822,7 +661,7 @@ private:
                     const std::size_t node = rim_node(b, i);
                     const FaceId wall = wall_at(b, k, i);
                     if (chain)
-                        at(k, node) = nearest_on(*chain, at(k, node));
+                        at(k, node) = nearest_on(model_, *chain, at(k, node));
                     else if (model_[wall].origin == Origin::given && model_[wall].kind != "plane")
                         on_wall_[{wall, k}].push_back(node);
                 }
@@ -830,43 +669,6 @@ private:
         }
         for (const auto& [where, nodes] : on_wall_) project(where.first, nodes, where.second);
         on_wall_.clear();
-    }
-
-    /// The place on a chain nearest to a point: on its polyline, then on the exact curve there.
-    [[nodiscard]] Vec3 nearest_on(const surface::Chain& chain, const Vec3& p) const
-    {
-        double best = std::numeric_limits<double>::infinity(), length = 0;
-        for (std::size_t u = 0; u < chain.uses().size(); ++u) {
-            const std::vector<Index> points = use_points(model_, chain.uses()[u]);
-            double arc = chain.start(u);
-            for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-                const Vec3 &a = model_.at(points[i]), side = model_.at(points[i + 1]) - a;
-                const double squared = side.squaredNorm();
-                const double share = squared > 0 ? std::clamp((p - a).dot(side) / squared, 0.0, 1.0) : 0;
-                const double off = (a + share * side - p).squaredNorm();
-                if (off < best) {
-                    best = off;
-                    length = arc + share * std::sqrt(squared);
-                }
-                arc += std::sqrt(squared);
-            }
-        }
-        // The exact curve runs a little unlike its polyline: where it is nearest takes a step or two more.
-        constexpr int kSteps = 4;
-        constexpr double kStep = 1e-5; // of the length, for the tangent
-        const double step = kStep * chain.length();
-        Vec3 point = p;
-        for (int i = 0; i < kSteps; ++i) {
-            length = std::clamp(length, 0.0, chain.length() - step);
-            const double lengths[] = {length, length + step};
-            const std::vector<Vec3> on = chain.points(lengths);
-            point = on[0];
-            const Vec3 tangent = (on[1] - on[0]) / step;
-            const double off = (p - on[0]).dot(tangent) / tangent.squaredNorm();
-            if (!(std::abs(off) > model_.tolerance)) break;
-            length += off;
-        }
-        return point;
     }
 
     const SweptParts& parts_;
@@ -877,7 +679,7 @@ private:
     std::size_t count_, layers_;
     std::vector<int> link_of_; ///< of each source node; -1: inside
     std::vector<RowColumn> columns_;
-    std::map<Index, RowNode> row_nodes_;
+    std::map<Index, std::vector<Hold>> row_nodes_;
     std::array<int, 2> end_table_{-1, -1};
     std::vector<std::vector<char>> still_column_;
     std::set<std::size_t> still_layers_;

@@ -2,30 +2,12 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/surface/boundary_layers.h>
-#include <lacuna/surface/source_mesh.h>
-#include <lacuna/surface/walls.h>
-#include <lacuna/sweep/detail/morph_ends.h>
+#include <lacuna/sweep/detail/row_columns.h>
 
-#include <map>
-#include <span>
 #include <string>
 #include <vector>
 
 namespace lacuna::sweep {
-
-/// What the layers of a sweep were made from.
-struct SweptParts {
-    const topology::OpenVolume& volume;
-    std::span<const surface::LinkingSurface> links;
-    const surface::SourceMesh& source;
-    std::span<const surface::WallMesh> walls;
-    const EndFaces& ends;
-    int layers = 1;
-    std::map<EdgeId, EdgeId>
-        target_edges; ///< what edges within the source are swept to, where that is an edge
-    bool source_stays = false, target_stays = false; ///< their nodes were given
-};
 
 /// Nodes of boundary layers, and what was reached.
 struct KeptThickness {

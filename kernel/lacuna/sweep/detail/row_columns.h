@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/surface/boundary_layers.h>
+#include <lacuna/surface/source_mesh.h>
+#include <lacuna/surface/walls.h>
+#include <lacuna/sweep/detail/morph_ends.h>
+
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// What the layers of a sweep were made from.
+struct SweptParts {
+    const topology::OpenVolume& volume;
+    std::span<const surface::LinkingSurface> links;
+    const surface::SourceMesh& source;
+    std::span<const surface::WallMesh> walls;
+    const EndFaces& ends;
+    int layers = 1;
+    /// What edges within the source are swept to, where that is an edge.
+    std::map<EdgeId, EdgeId> target_edges{};
+    bool source_stays = false, target_stays = false; ///< their nodes were given
+
+    [[nodiscard]] std::size_t size_of(std::size_t link) const { return source.links[link].source_at.size(); }
+    /// Source node of a node of a linking surface, counted round.
+    [[nodiscard]] std::size_t rim_node(std::size_t link, std::size_t i) const
+    {
+        return index(source.first[link]) + i % size_of(link);
+    }
+    /// The wall over a side of the rim.
+    [[nodiscard]] FaceId wall_at(std::size_t link, std::size_t layer, std::size_t side) const
+    {
+        return walls[link].face[layer * size_of(link) + side % size_of(link)];
+    }
+};
+
+/// A column of a source's row nodes over a node of its rim.
+struct RowColumn {
+    std::size_t link, node;
+    bool before = false, after = false; ///< the rows are over the sides before and after the node
+    int table = -1;
+    std::vector<Index> nodes; ///< one a row
+    std::vector<double> lean; ///< of each from the foot along the rim, on the source [model length]
+
+    /// Directions along the rim at the foot, a unit long, of nodes' places.
+    template <class At>
+    [[nodiscard]] Vec3 tangent(const SweptParts& parts, const At& at) const
+    {
+        const std::size_t n = parts.size_of(link);
+        const Vec3& foot = at(parts.rim_node(link, node));
+        Vec3 along = Vec3::Zero();
+        if (before) along += (foot - at(parts.rim_node(link, node + n - 1))).normalized();
+        if (after) along += (at(parts.rim_node(link, node + 1)) - foot).normalized();
+        return along.stableNormalized();
+    }
+};
+
+/// The rows over the sides of the rim that a wall with a table stands on: found by walking over opposite
+/// sides of quads. A side has the table of the wall at either end.
+/// @throw NotSweepable "sweep.layers_rows"  fewer rows than the table has; names the wall.
+std::vector<RowColumn> row_columns(const SweptParts& parts, const surface::LayerTables& tables);
+
+// --- places along a line of nodes, in sides of it ---------------------------------------------------
+
+/// Where a line is first at a height over its start, along a normal; nothing where it does not get there.
+std::optional<double> place_at(const std::vector<Vec3>& line, const Vec3& normal, double height);
+
+/// The point at a place.
+Vec3 point_at(const std::vector<Vec3>& line, double place);
+
+/// The point of a chain nearest to another: by its polyline, then by steps along the exact curve.
+Vec3 nearest_on(const topology::Model& model, const surface::Chain& chain, const Vec3& p);
+
+/// New places of all nodes within a line: those given, others as far between these as they were.
+/// @pre  places of both ends.
+std::vector<std::pair<std::size_t, double>> places_along(const std::vector<Vec3>& line,
+                                                         const std::map<std::size_t, double>& place);
+
+} // namespace lacuna::sweep

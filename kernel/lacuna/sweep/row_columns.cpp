@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/row_columns.h>
+
+#include <lacuna/core/edge_key.h>
+#include <lacuna/core/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <unordered_map>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+/// Source nodes of the rows over both ends of a side of the rim, from the lowest.
+struct RowSide {
+    int table = -1;
+    std::vector<Index> before, after;
+};
+
+class RowFinder {
+public:
+    RowFinder(const SweptParts& parts, const surface::LayerTables& tables)
+        : parts_(parts),
+          tables_(tables),
+          quads_(parts.source.quads.quads),
+          partner_(mesh::opposite_sides(quads_, static_cast<Index>(parts.source.quads.nodes.size())))
+    {
+        for (std::size_t q = 0; q < quads_.size(); ++q) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                if (mesh::is_side(quads_[q], k))
+                    side_of_.try_emplace(edge_key(quads_[q][k], quads_[q][(k + 1) % 4]), 4 * q + k);
+            }
+        }
+    }
+
+    std::vector<RowColumn> find()
+    {
+        for (std::size_t b = 0; b < parts_.links.size(); ++b) {
+            const std::size_t n = parts_.size_of(b);
+            std::vector<RowSide> sides;
+            for (std::size_t i = 0; i < n; ++i) sides.push_back(walk(b, i));
+            for (std::size_t i = 0; i < n; ++i) add_columns(b, i, sides[(i + n - 1) % n], sides[i]);
+        }
+        const std::vector<Vec3>& places = parts_.source.quads.nodes;
+        const auto at = [&](std::size_t node) -> const Vec3& { return places[node]; };
+        for (RowColumn& column : columns_) {
+            const Vec3 &foot = at(parts_.rim_node(column.link, column.node)),
+                       along = column.tangent(parts_, at);
+            for (const Index node : column.nodes) column.lean.push_back((at(index(node)) - foot).dot(along));
+        }
+        return std::move(columns_);
+    }
+
+private:
+    RowSide walk(std::size_t b, std::size_t i) const
+    {
+        RowSide row;
+        row.table = tables_.at(parts_.wall_at(b, 0, i));
+        if (row.table < 0)
+            row.table = tables_.at(parts_.wall_at(b, static_cast<std::size_t>(parts_.layers) - 1, i));
+        if (row.table < 0) return row;
+        const std::size_t rows = tables_.heights[static_cast<std::size_t>(row.table)].size();
+        auto from = static_cast<Index>(parts_.rim_node(b, i));
+        Index side = static_cast<Index>(
+            side_of_.at(edge_key(from, static_cast<Index>(parts_.rim_node(b, i + 1)))));
+        for (std::size_t r = 0; r < rows; ++r) {
+            const Quad quad = side < 0 ? Quad{} : quads_[index(side) / 4];
+            if (side < 0 || mesh::is_triangle(quad)) {
+                throw NotSweepable("sweep.layers_rows",
+                                   "the quads of the source make " + std::to_string(r) + " rows along " +
+                                       name_of(parts_.volume.model, parts_.wall_at(b, 0, i)) +
+                                       ", and its boundary layers have " + std::to_string(rows) +
+                                       "; quads = \"paved\" meshes it anew");
+            }
+            const std::size_t k = index(side) % 4;
+            const bool along = quad[k] == from;
+            row.before.push_back(quad[(k + (along ? 3 : 2)) % 4]);
+            row.after.push_back(quad[(k + (along ? 2 : 3)) % 4]);
+            from = row.before.back();
+            side = partner_[index(side) / 4 * 4 + (k + 2) % 4];
+        }
+        return row;
+    }
+
+    /// One column where the rows over both sides of a node have the same nodes over it, else one each.
+    void add_columns(std::size_t b, std::size_t i, const RowSide& before, const RowSide& after)
+    {
+        if (before.table >= 0 && before.table == after.table && before.after == after.before) {
+            columns_.push_back({b, i, true, true, after.table, after.before, {}});
+            return;
+        }
+        if (before.table >= 0) columns_.push_back({b, i, true, false, before.table, before.after, {}});
+        if (after.table >= 0) columns_.push_back({b, i, false, true, after.table, after.before, {}});
+    }
+
+    const SweptParts& parts_;
+    const surface::LayerTables& tables_;
+    const std::vector<Quad>& quads_;
+    std::vector<Index> partner_;
+    std::unordered_map<std::uint64_t, std::size_t> side_of_;
+    std::vector<RowColumn> columns_;
+};
+
+} // namespace
+
+std::vector<RowColumn> row_columns(const SweptParts& parts, const surface::LayerTables& tables)
+{
+    return RowFinder(parts, tables).find();
+}
+
+std::optional<double> place_at(const std::vector<Vec3>& line, const Vec3& normal, double height)
+{
+    double below = 0;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        const double above = (line[i] - line.front()).dot(normal);
+        if (above >= height && above > below)
+            return static_cast<double>(i) - 1 + (height - below) / (above - below);
+        below = above;
+    }
+    return std::nullopt;
+}
+
+Vec3 point_at(const std::vector<Vec3>& line, double place)
+{
+    const auto side = std::min(static_cast<std::size_t>(place), line.size() - 2);
+    const double share = place - static_cast<double>(side);
+    return (1 - share) * line[side] + share * line[side + 1];
+}
+
+Vec3 nearest_on(const Model& model, const surface::Chain& chain, const Vec3& p)
+{
+    double best = std::numeric_limits<double>::infinity(), length = 0;
+    for (std::size_t u = 0; u < chain.uses().size(); ++u) {
+        const std::vector<Index> points = use_points(model, chain.uses()[u]);
+        double arc = chain.start(u);
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            const Vec3 &a = model.at(points[i]), side = model.at(points[i + 1]) - a;
+            const double squared = side.squaredNorm();
+            const double share = squared > 0 ? std::clamp((p - a).dot(side) / squared, 0.0, 1.0) : 0;
+            const double off = (a + share * side - p).squaredNorm();
+            if (off < best) {
+                best = off;
+                length = arc + share * std::sqrt(squared);
+            }
+            arc += std::sqrt(squared);
+        }
+    }
+    // The exact curve runs a little unlike its polyline: two steps were enough in all cases tried.
+    constexpr int kSteps = 4;
+    constexpr double kStep = 1e-5; // of the length, for the tangent; a choice
+    const double step = kStep * chain.length();
+    Vec3 point = p;
+    for (int i = 0; i < kSteps; ++i) {
+        length = std::clamp(length, 0.0, chain.length() - step);
+        const double lengths[] = {length, length + step};
+        const std::vector<Vec3> on = chain.points(lengths);
+        point = on[0];
+        const Vec3 tangent = (on[1] - on[0]) / step;
+        const double off = (p - on[0]).dot(tangent) / tangent.squaredNorm();
+        if (!(std::abs(off) > model.tolerance)) break;
+        length += off;
+    }
+    return point;
+}
+
+std::vector<std::pair<std::size_t, double>> places_along(const std::vector<Vec3>& line,
+                                                         const std::map<std::size_t, double>& place)
+{
+    const std::size_t sides = line.size() - 1;
+    std::vector<double> lengths{0};
+    for (std::size_t i = 0; i < sides; ++i)
+        lengths.push_back(lengths.back() + (line[i + 1] - line[i]).norm());
+    const auto length_at = [&](double x) {
+        const auto i = std::min(static_cast<std::size_t>(x), sides - 1);
+        return lengths[i] + (x - static_cast<double>(i)) * (lengths[i + 1] - lengths[i]);
+    };
+    std::vector<std::pair<std::size_t, double>> moved;
+    for (std::size_t i = 1; i < sides; ++i) {
+        const auto above = place.lower_bound(i);
+        if (above->first == i) {
+            moved.emplace_back(i, above->second);
+            continue;
+        }
+        const auto below = std::prev(above);
+        const double share = (lengths[i] - lengths[below->first]) /
+                             (lengths[above->first] - lengths[below->first]);
+        const double length = length_at(below->second) +
+                              share * (length_at(above->second) - length_at(below->second));
+        const auto up = std::upper_bound(lengths.begin(), lengths.end(), length);
+        const std::size_t side = std::min(static_cast<std::size_t>(up - lengths.begin()) - 1, sides - 1);
+        moved.emplace_back(i, static_cast<double>(side) +
+                                  (length - lengths[side]) / (lengths[side + 1] - lengths[side]));
+    }
+    return moved;
+}
+
+} // namespace lacuna::sweep
