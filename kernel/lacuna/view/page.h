@@ -39,7 +39,7 @@ struct PageOptions {
 void write_page(std::span<const Region> regions, const io::OutputPath& path, const PageOptions& options = {},
                 const RunContext& context = {});
 
-/// The same of the solids of a file, corners alone. Elements of two dimensions give the skin its groups.
+/// The same of the solids of a file; of order 2 hexahedra alone are drawn with their middle nodes. Elements of two dimensions give the skin its groups.
 /// @throw InvalidInput "view.no_solids"  the deck has no solids.
 void write_page(const io::Deck& deck, const io::OutputPath& path, const PageOptions& options = {},
                 const RunContext& context = {});
