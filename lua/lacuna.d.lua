@@ -136,9 +136,13 @@
 ---@class lacuna.FacePictureOptions
 ---@field width? integer default 1200 [pixels]
 ---@field height? integer default 900 [pixels]
+---@field facets? boolean sides of the facets are drawn; default false
 ---@field view? "iso"|"front"|"back"|"left"|"right"|"top"|"bottom"|lacuna.Vector from what is seen to the eye; default "iso"
 
----@class lacuna.PictureOptions: lacuna.FacePictureOptions
+---@class lacuna.PictureOptions
+---@field width? integer default 1200 [pixels]
+---@field height? integer default 900 [pixels]
+---@field view? "iso"|"front"|"back"|"left"|"right"|"top"|"bottom"|lacuna.Vector from what is seen to the eye; default "iso"
 ---@field colour? "quality"|"layer"|"groups"|"region"|"origin" default "quality"
 ---@field cut? { point: lacuna.Vector, normal: lacuna.Vector } cells whose centre lies behind the plane are shown whole
 ---@field layers? { [1]: integer, [2]: integer } first and last that is shown; default all

@@ -186,6 +186,7 @@ const Option<view::PictureOptions> kFacePictureOptions[] = {
     {"width", count<&view::PictureOptions::width>},
     {"height", count<&view::PictureOptions::height>},
     {"view", read_direction},
+    {"facets", boolean<&view::PictureOptions::facets>},
 };
 
 void draw(ModelState& state, const io::OutputPath& path, const view::PictureOptions& options,

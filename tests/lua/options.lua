@@ -23,7 +23,7 @@ local calls = {
       { "source", "target", "walls", "faces", "class" } },
   view = { function(o) lacuna.synthetic.barrel():view("never_written.html", o) end, { "title" } },
   picture = { function(o) lacuna.synthetic.barrel():picture("never_written.png", o) end,
-      { "width", "height", "view" } },
+      { "width", "height", "view", "facets" } },
   match = { function(o) volume():match(o) end, { "method", "vertices", "loops", "flip" } },
   close = { function(o) volume():close(o) end, { "edge_shape", "void_edges", "cap" } },
   sweep = { function(o) volume():sweep(o) end,

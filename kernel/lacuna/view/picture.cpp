@@ -29,13 +29,13 @@ void write_picture(std::span<const Region> regions, const io::OutputPath& path, 
 void write_picture(const topology::Model& model, const io::OutputPath& path, const PictureOptions& options,
                    const RunContext& context)
 {
-    write(scene_of(model, nullptr), path, options, context);
+    write(scene_of(model, nullptr, options), path, options, context);
 }
 
 void write_picture(const topology::OpenVolume& volume, const io::OutputPath& path,
                    const PictureOptions& options, const RunContext& context)
 {
-    write(scene_of(volume.model, &volume.role), path, options, context);
+    write(scene_of(volume.model, &volume.role, options), path, options, context);
 }
 
 } // namespace lacuna::view

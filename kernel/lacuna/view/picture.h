@@ -30,6 +30,7 @@ struct PictureOptions {
     std::optional<CutPlane> cut{};              ///< of cells
     std::optional<std::array<int, 2>> layers{}; ///< first and last that is shown, from 1; none: all
     bool edges = true;                          ///< sides of cells and quads
+    bool facets = false;                        ///< of faces: sides of their facets
     bool legend = true;                         ///< a bar with its ends, of quality and layers
 };
 

@@ -202,7 +202,8 @@ Scene scene_of(std::span<const Region> regions, const PictureOptions& options, c
     return scene;
 }
 
-Scene scene_of(const topology::Model& model, const std::vector<topology::Role>* roles)
+Scene scene_of(const topology::Model& model, const std::vector<topology::Role>* roles,
+               const PictureOptions& options)
 {
     Scene scene;
     const auto colour_of = [&](std::size_t f) {
@@ -222,7 +223,7 @@ Scene scene_of(const topology::Model& model, const std::vector<topology::Role>* 
             scene.sides.push_back(side);
         }
         side.count = 3;
-        side.hidden = 15;
+        side.hidden = options.facets ? 0 : 15;
         for (const Triangle& triangle : topology::loose_triangles(face)) {
             for (std::size_t k = 0; k < 3; ++k) side.corner[k] = model.at(triangle[k]);
             scene.sides.push_back(side);

@@ -40,7 +40,8 @@ struct Scene {
 /// @throw InvalidInput  as `write_picture()`.
 Scene scene_of(std::span<const Region> regions, const PictureOptions& options, const RunContext& context);
 /// @param roles  of each face, or null.
-Scene scene_of(const topology::Model& model, const std::vector<topology::Role>* roles);
+Scene scene_of(const topology::Model& model, const std::vector<topology::Role>* roles,
+               const PictureOptions& options);
 
 /// The least number on the bar of quality: 0.5, or lower where there is something lower.
 double quality_low(double least);
