@@ -101,11 +101,35 @@
 ---@field first_node? integer of decks and with a model; default above all that are taken
 ---@field first_cell? integer likewise
 ---@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"
+---@field gmsh_options? boolean of .msh: a file beside it, .opt behind its name, with which Gmsh shows cells and groups; default false
 ---@field interfaces? boolean of an assembly: quads between its volumes are elements too; default false
 
 ---@class lacuna.ConvertOptions
 ---@field version? 4.1|2.2 of .msh; default 4.1
 ---@field binary? boolean of .msh and .vtk; default true
+
+---@class lacuna.PageOptions
+---@field title? string default: what the input is called
+
+---@class lacuna.ViewOptions: lacuna.PageOptions
+---@field show? "auto"|"faces"|"cells" default "auto": cells of meshes that have solids, else faces
+
+--- Of a model or volume.
+---@class lacuna.FacePictureOptions
+---@field width? integer default 1200 [pixels]
+---@field height? integer default 900 [pixels]
+---@field facets? boolean sides of the facets are drawn; default false
+---@field view? "iso"|"front"|"back"|"left"|"right"|"top"|"bottom"|lacuna.Vector from what is seen to the eye; default "iso"
+
+---@class lacuna.PictureOptions
+---@field width? integer default 1200 [pixels]
+---@field height? integer default 900 [pixels]
+---@field view? "iso"|"front"|"back"|"left"|"right"|"top"|"bottom"|lacuna.Vector from what is seen to the eye; default "iso"
+---@field colour? "quality"|"layer"|"groups"|"region"|"origin" default "quality"
+---@field cut? { point: lacuna.Vector, normal: lacuna.Vector } cells whose centre lies behind the plane are shown whole
+---@field layers? { [1]: integer, [2]: integer } first and last that is shown; default all
+---@field edges? boolean sides of cells; default true
+---@field legend? boolean a bar with the numbers at its ends; default true
 
 ---@class lacuna.Classification
 ---@field class lacuna.Class
@@ -209,6 +233,13 @@ function Model:add_face(face) end
 function Model:open_volume(roles) end
 ---@return string
 function Model:describe() end
+--- A page for a browser: the faces, labelled, to be clicked for the roles of a recipe.
+---@param path string .html
+---@param options? lacuna.PageOptions
+function Model:view(path, options) end
+---@param path string .png
+---@param options? lacuna.FacePictureOptions
+function Model:picture(path, options) end
 
 ---@class lacuna.Volume
 ---@field class lacuna.Class as the volume was given
@@ -232,6 +263,13 @@ function Volume:free_edges() end
 function Volume:tree() end
 ---@return string
 function Volume:describe() end
+--- A page for a browser: roles, void faces, free edges and vertices on no wall.
+---@param path string .html
+---@param options? lacuna.PageOptions
+function Volume:view(path, options) end
+---@param path string .png
+---@param options? lacuna.FacePictureOptions
+function Volume:picture(path, options) end
 --- The pieces of a volume one of whose ends lies at several heights; itself where none does.
 ---@return lacuna.Volume[]
 function Volume:cut() end
@@ -327,8 +365,14 @@ function Mesh:cells(kind) end
 ---@param path string
 ---@param options? lacuna.WriteOptions
 function Mesh:write(path, options) end
+--- A page for a browser: the mesh, to be turned, cut and coloured.
 ---@param path string .html
-function Mesh:view(path) end
+---@param options? lacuna.PageOptions
+function Mesh:view(path, options) end
+--- Drawn without a display.
+---@param path string .png
+---@param options? lacuna.PictureOptions
+function Mesh:picture(path, options) end
 
 --- Several volumes to be meshed as one.
 ---@class lacuna.Assembly
@@ -368,6 +412,13 @@ function AssemblyMesh:cells() end
 ---@param path string
 ---@param options? lacuna.WriteOptions
 function AssemblyMesh:write(path, options) end
+--- A page for a browser, regions told apart.
+---@param path string .html
+---@param options? lacuna.PageOptions
+function AssemblyMesh:view(path, options) end
+---@param path string .png
+---@param options? lacuna.PictureOptions
+function AssemblyMesh:picture(path, options) end
 
 ---@class lacuna.Synthetic
 local synthetic = {}
@@ -427,5 +478,10 @@ function lacuna.check(path) end
 ---@param options? lacuna.ConvertOptions
 ---@return { nodes: integer, elements: integer }
 function lacuna.convert(from, to, options) end
+--- A page of a file for a browser: its faces, or the cells of a mesh.
+---@param file string in any format that is read
+---@param path string .html
+---@param options? lacuna.ViewOptions
+function lacuna.view(file, path, options) end
 
 return lacuna

@@ -30,7 +30,8 @@ struct WriteArguments {
     bool element_given = false;
     std::vector<Box<ModelState>> with; ///< the first is the volume's; empty: the mesh alone
     bool renumber = false, renumber_given = false;
-    bool interfaces = false; ///< of an assembly: quads between its volumes too
+    bool gmsh_options = false; ///< a file beside a .msh that says how Gmsh shows it
+    bool interfaces = false;   ///< of an assembly: quads between its volumes too
 };
 
 /// Metrics to be written. Version 2.2 is for readers that know no other, some of which (meshio 5) refuse a
@@ -130,6 +131,7 @@ const Option<WriteArguments> kWriteOptions[] = {
     {"first_cell", read_first<&io::MeshDeckOptions::first_cell>},
     {"element", read_element},
     {"interfaces", boolean<&WriteArguments::interfaces>},
+    {"gmsh_options", boolean<&WriteArguments::gmsh_options>},
 };
 
 /// The decks that models were read from as one; `merged` holds it where there are several.
@@ -206,6 +208,7 @@ const char* idle_option(const Format& format, const WriteArguments& arguments)
     if (arguments.quality_given && numbered) return "quality";
     if (arguments.renumber_given && arguments.with.empty()) return "renumber";
     if (arguments.element_given && !format.has_element) return "element";
+    if (arguments.gmsh_options && std::string_view(format.ending) != ".msh") return "gmsh_options";
     if (arguments.deck.first_node != 0 && !numbered) return "first_node";
     if (arguments.deck.first_cell != 0 && !numbered) return "first_cell";
     return nullptr;
@@ -226,6 +229,12 @@ const Format& format_of(const std::string& path, const WriteArguments& arguments
                        "write: the ending of " + path + " says no format; meshes are written as" + known);
 }
 
+/// The file beside a .msh, where it is asked for.
+void write_options_beside(const Host& lent, const io::OutputPath& mesh, const WriteArguments& arguments)
+{
+    if (arguments.gmsh_options) io::write_msh_options(output_path(lent, mesh.text() + ".opt"));
+}
+
 /// mesh:write(path [, options])
 int write(lua_State* L)
 {
@@ -235,6 +244,7 @@ int write(lua_State* L)
     auto& arguments = temporary<WriteArguments>(L);
     read_options(L, 3, "write", kWriteOptions, arguments);
     RunContext& context = push_context(L);
+    const Host& lent = host(L);
     guard(L, [&] {
         const mesh::HexMesh& mesh = state.swept.mesh;
         const Format& format = format_of(path.text(), arguments);
@@ -250,6 +260,7 @@ int write(lua_State* L)
                 {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
         report_progress(context, "writing " + path.text());
         format.write(mesh, path, arguments, context);
+        write_options_beside(lent, path, arguments);
     });
     return 0;
 }
@@ -285,6 +296,7 @@ int write_assembly(lua_State* L)
     auto& arguments = temporary<WriteArguments>(L);
     read_options(L, 3, "write", kWriteOptions, arguments);
     RunContext& context = push_context(L);
+    const Host& lent = host(L);
     guard(L, [&] {
         if (arguments.quality_given)
             throw InvalidInput("lua.idle_option",
@@ -294,21 +306,10 @@ int write_assembly(lua_State* L)
         io::find_deck_format(io::ending_of(path.text()), arguments.deck.format);
         io::write_deck(deck_of_parts(state, arguments, context), arguments.deck.format, path, context,
                        {arguments.msh.binary, arguments.msh.version});
+        write_options_beside(lent, path, arguments);
     });
     return 0;
 }
-
-/// A method the kernel has nothing for yet, and what does instead.
-template <class T>
-int not_yet(lua_State* L, const char* name, const char* instead)
-{
-    lua_settop(L, 2);
-    check<T>(L, 1);
-    push_output_path(L, 2, name);
-    fail(L, "%s is not available yet; %s", name, instead);
-}
-
-int view(lua_State* L) { return not_yet<MeshState>(L, "view", "write a .msh and open it in Gmsh"); }
 
 const Option<io::FacetFileOptions> kFacetOptions[] = {{"binary", boolean<&io::FacetFileOptions::binary>}};
 
@@ -452,7 +453,7 @@ int check_file(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kMeshMethods[] = {{"write", write}, {"view", view}, {nullptr, nullptr}};
+const luaL_Reg kMeshMethods[] = {{"write", write}, {nullptr, nullptr}};
 const luaL_Reg kVolumeMethods[] = {{"write_facets", write_facets}, {nullptr, nullptr}};
 
 const luaL_Reg kFunctions[] = {{"check", check_file}, {"load", load}, {nullptr, nullptr}};

@@ -171,5 +171,6 @@ void bind_mesh(lua_State* L);
 void bind_quality(lua_State* L);
 void bind_io(lua_State* L);
 void bind_cad(lua_State* L);
+void bind_view(lua_State* L);
 
 } // namespace lacuna::lua

@@ -77,6 +77,12 @@ function commands.info()
   print(found and volume:describe() or "roles: none found: " .. volume)
 end
 
+function commands.view()
+  local page = first:match("[^/]*$"):gsub("%.[^.]*$", "") .. ".view.html"
+  lacuna.view(first, page)
+  print("wrote " .. page .. "; open it in a browser")
+end
+
 function commands.check()
   local quality = lacuna.check(first)
   if json then

@@ -249,8 +249,15 @@ local keys = {
     threads = function() return pick { 1, 2, 4, 100000 } end },
   write = { version = function() return pick { 4.1, 2.2 } end, binary = flag,
     quality = function() return pick { true, false, metric(), list_of(metric) } end, renumber = flag,
-    first_node = small, first_cell = small },
+    first_node = small, first_cell = small, gmsh_options = flag },
   write_facets = { binary = flag },
+  view = { title = function() return pick(words) end,
+    show = function() return pick { "auto", "faces", "cells" } end },
+  picture = { width = function() return random(1, 90) end, height = function() return random(1, 90) end,
+    view = function() return chance(0.5) and pick { "iso", "top", "left" } or vector() end,
+    colour = function() return pick { "quality", "layer", "groups", "region", "origin" } end,
+    cut = function() return { point = vector(), normal = vector() } end,
+    layers = function() return { random(0, 3), random(0, 5) } end, edges = flag, legend = flag },
   write_cad = { tolerance = length, deviation = length },
   prism = { sides = function() return random(3, 6) end, radius = length, height = length,
     holes = function() return random(0, 2) end, hole_radius = function() return 0.1 end, twist = length,
@@ -310,7 +317,15 @@ local right = {
   write_facets = function() return path(), chance(0.5) and options("write_facets") or nil end,
   write_cad = function() return pick { "a.stp.txt", "a", "", "a.msh" }, options("write_cad") end,
   sweep_to = function() return path(), options("sweep") end,
-  view = path,
+  view = function()
+    if chance(0.5) then return "a.html", chance(0.5) and options("view") or nil end
+    return path(), pick { "b.html", "b.png", "" }, chance(0.5) and options("view") or nil
+  end,
+  picture = function()
+    local small_one = options("picture") -- large ones take time
+    for _, key in ipairs { "width", "height" } do rawset(small_one, key, rawget(small_one, key) or 40) end
+    return pick { "a.png", "a.html" }, small_one
+  end,
   node = function() return random(0, 60) end,
   hex = function() return random(0, 30) end,
 }

@@ -21,6 +21,7 @@ local plan = {
   quality = { "mesh" },
   sweep = { "closure", "surface", "quality" },
   io = { "mesh", "healing" },
+  view = { "io", "quality" },
   cad_protocol = { "core" },
   cad = { "cad_protocol", "closure", "healing", "io", "surface" },
   cad_worker = { "cad_protocol", "geometry" },

@@ -24,7 +24,7 @@ end
 
 expect({ "--version" }, 0, { "lacuna " .. lacuna.version, "Lua 5.4", lacuna.gmsh_version }, {})
 expect({ "--help" }, 0, { "usage: lacuna", "exit codes" }, {})
-for _, command in ipairs { "info", "check", "convert" } do
+for _, command in ipairs { "info", "view", "check", "convert" } do
   for _, words in ipairs { { command, "--help" }, { "help", command }, { command, "x", "--help" } } do
     expect(words, 0, { "usage: lacuna " .. command }, {})
   end

@@ -21,6 +21,9 @@ local calls = {
     "region", "radius", "normal_within", "within" } },
   open_volume = { function(o) lacuna.synthetic.barrel():open_volume(o) end,
       { "source", "target", "walls", "faces", "class" } },
+  view = { function(o) lacuna.synthetic.barrel():view("never_written.html", o) end, { "title" } },
+  picture = { function(o) lacuna.synthetic.barrel():picture("never_written.png", o) end,
+      { "width", "height", "view", "facets" } },
   match = { function(o) volume():match(o) end, { "method", "vertices", "loops", "flip" } },
   close = { function(o) volume():close(o) end, { "edge_shape", "void_edges", "cap" } },
   sweep = { function(o) volume():sweep(o) end,
@@ -134,6 +137,10 @@ local steps, sum = {}, 0
 for i = 1, 10 do sum = sum + 0.1; steps[i] = sum end
 check.that(sum ~= 1)
 check.that(#volume():sweep({ layers = steps, size = 1 }):quality().worst == 10)
+wrong("picture", "width", { 0, -1, 2.5, "8" }, "a positive whole number")
+wrong("picture", "width", { 15, 16385 }, "16 to 16384")
+wrong("picture", "view", { "izo" }, 'did you mean "iso"?')
+wrong("picture", "view", { { 0, 0 } }, "three numbers")
 wrong("synthetic.prism", "sides", { 2, 3.5, "6" }, "at least 3")
 wrong("synthetic.prism", "radius", { 0, -1, huge }, "a positive number")
 wrong("synthetic.prism", "holes", { -1, 0.5 }, "at least 0")

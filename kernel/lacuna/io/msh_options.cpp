@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/msh.h>
+
+namespace lacuna::io {
+
+void write_msh_options(const OutputPath& path)
+{
+    WholeFile file(path);
+    file.append(
+        "// How Gmsh shows the mesh beside this file: cells with their sides, coloured by physical group.\n"
+        "// Tools > Options > Mesh > Color changes it; without this file Gmsh shows lines alone.\n"
+        "Mesh.ColorCarousel = 2;\n"
+        "Mesh.SurfaceFaces = 1;\n"
+        "Mesh.SurfaceEdges = 1;\n"
+        "Mesh.VolumeFaces = 0; // 1 to see the inside of cells that a clipping plane cuts free\n"
+        "Mesh.VolumeEdges = 0;\n"
+        "Mesh.Lines = 0;\n"
+        "Mesh.Points = 0;\n"
+        "Mesh.Light = 1;\n"
+        "General.ClipWholeElements = 1;\n"
+        "General.ClipOnlyDrawIntersectingVolume = 0;\n"
+        "General.Color.Background = {255, 255, 255};\n"
+        "General.Color.Foreground = {40, 50, 60};\n"
+        "General.Color.Text = {40, 50, 60};\n"
+        "Mesh.Color.Lines = {20, 28, 38};\n"
+        "If(PostProcessing.NbViews > 0)\n"
+        "  View[0].Visible = 0; // the quality, which would cover the groups\n"
+        "EndIf\n");
+    file.commit();
+}
+
+} // namespace lacuna::io

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/view/detail/cell_set.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/quality/metrics.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <unordered_map>
+
+namespace lacuna::view {
+
+std::vector<ShownPatch> shown_patches(const mesh::HexMesh& mesh)
+{
+    std::vector<ShownPatch> shown;
+    for (const mesh::SkinPatch& patch : mesh.patches) {
+        const bool named_void = std::any_of(patch.groups.begin(), patch.groups.end(),
+                                            [](const auto& name) { return name.starts_with("void:"); });
+        shown.push_back({patch.tag, patch.groups, patch.face == 0 && named_void, 0});
+    }
+    for (const std::vector<Index>* list : {&mesh.source_patch, &mesh.target_patch, &mesh.wall_patch})
+        for (const Index patch : *list)
+            if (patch >= 0) ++shown[index(patch)].quads;
+    return shown;
+}
+
+namespace {
+
+/// The eight corners of a solid.
+Hex as_hex(std::span<const Index> nodes, int corners)
+{
+    const auto n = [&](std::size_t k) { return nodes[k]; };
+    switch (corners) {
+    case 4:
+        return {n(0), n(1), n(2), n(2), n(3), n(3), n(3), n(3)};
+    case 5:
+        return {n(0), n(1), n(2), n(3), n(4), n(4), n(4), n(4)};
+    case 6:
+        return mesh::hex_of({n(0), n(1), n(2), n(3), n(4), n(5)});
+    default:
+        return {n(0), n(1), n(2), n(3), n(4), n(5), n(6), n(7)};
+    }
+}
+
+/// Names of the sets that elements of two dimensions are in.
+class SetsOfSides {
+public:
+    explicit SetsOfSides(const io::Deck& deck)
+    {
+        for (const io::DeckSet& set : deck.sets) {
+            if (set.kind != io::DeckSet::Kind::elements || set.name.empty()) continue;
+            for (const io::DeckTag tag : set.members) names_[tag].push_back(set.name);
+        }
+    }
+    [[nodiscard]] std::vector<std::string> of(io::DeckTag tag, const std::string& region) const
+    {
+        std::vector<std::string> groups;
+        if (!region.empty()) groups.push_back(region);
+        if (const auto found = names_.find(tag); found != names_.end())
+            for (const std::string& name : found->second)
+                if (std::find(groups.begin(), groups.end(), name) == groups.end()) groups.push_back(name);
+        return groups;
+    }
+
+private:
+    std::unordered_map<io::DeckTag, std::vector<std::string>> names_;
+};
+
+/// Numbers nodes anew as they are met.
+class Numbering {
+public:
+    explicit Numbering(std::size_t points) : number_(points, -1) {}
+    Index of(Index point, const std::vector<Vec3>& points, std::vector<Vec3>& nodes)
+    {
+        Index& number = number_[index(point)];
+        if (number < 0) {
+            number = static_cast<Index>(nodes.size());
+            nodes.push_back(points[index(point)]);
+        }
+        return number;
+    }
+    [[nodiscard]] Index known(Index point) const { return number_[index(point)]; }
+
+private:
+    std::vector<Index> number_;
+};
+
+/// The scaled Jacobian of hexahedra and wedges; of other solids not a number.
+std::vector<double> quality_of(const ListedCells& region, const RunContext& context)
+{
+    std::vector<Hex> measured;
+    std::vector<std::size_t> place;
+    for (std::size_t c = 0; c < region.cells.size(); ++c) {
+        const Hex& cell = region.cells[c];
+        if (cell[4] == cell[5]) continue;
+        measured.push_back(cell);
+        place.push_back(c);
+    }
+    std::vector<double> values(region.cells.size(), std::numeric_limits<double>::quiet_NaN());
+    const std::vector<double> found = quality::metric_values(region.nodes, measured,
+                                                             quality::Metric::scaled_jacobian, context);
+    for (std::size_t i = 0; i < found.size(); ++i) values[place[i]] = found[i];
+    return values;
+}
+
+} // namespace
+
+DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
+{
+    DeckCells found;
+    std::map<Index, std::size_t> of_region;
+    std::vector<Numbering> numbering;
+    for (const io::DeckBlock& block : deck.blocks) {
+        const io::DeckShapeInfo& info = io::shape_info(block.shape);
+        if (info.dimension != 3) continue;
+        if (info.nodes > info.corners) found.second_order = true;
+        for (std::size_t e = 0; e < block.count(); ++e) {
+            const Index region = block.regions.empty() ? -1 : block.regions[e];
+            const auto [at, fresh] = of_region.try_emplace(region, found.regions.size());
+            if (fresh) {
+                const bool named = region >= 0 && !deck.regions[index(region)].name.empty();
+                found.regions.push_back({named ? deck.regions[index(region)].name
+                                               : "region " + std::to_string(found.regions.size() + 1),
+                                         {},
+                                         {},
+                                         {},
+                                         {},
+                                         {},
+                                         {}});
+                numbering.emplace_back(deck.points.size());
+            }
+            ListedCells& cells = found.regions[at->second];
+            Hex cell = as_hex(block.element(e), info.corners);
+            for (Index& n : cell) n = numbering[at->second].of(n, deck.points, cells.nodes);
+            cells.cells.push_back(cell);
+            const bool fits = block.tags[e] <= std::numeric_limits<Index>::max();
+            cells.tags.push_back(fits ? static_cast<Index>(block.tags[e]) : 0);
+        }
+    }
+    if (found.regions.empty())
+        throw InvalidInput("view.no_solids", "view: " + deck.path +
+                                                 " holds no solids, so there are no cells to show; load it "
+                                                 "and look at its faces");
+    check_cancelled(context);
+
+    const SetsOfSides sets(deck);
+    std::map<std::vector<std::string>, Index> of_groups;
+    for (const io::DeckBlock& block : deck.blocks) {
+        const io::DeckShapeInfo& info = io::shape_info(block.shape);
+        if (info.dimension != 2) continue;
+        for (std::size_t e = 0; e < block.count(); ++e) {
+            const Index region = block.regions.empty() ? -1 : block.regions[e];
+            const auto groups = sets.of(block.tags[e], region < 0 ? "" : deck.regions[index(region)].name);
+            const auto [at, fresh] = of_groups.try_emplace(groups, static_cast<Index>(found.patches.size()));
+            if (fresh) {
+                const bool made_void = std::any_of(
+                    groups.begin(), groups.end(), [](const auto& name) { return name.starts_with("void:"); });
+                found.patches.push_back({static_cast<int>(found.patches.size()) + 1, groups, made_void, 0});
+            }
+            ++found.patches[index(at->second)].quads;
+            const auto own = block.element(e);
+            const Quad side{own[0], own[1], own[2], own[info.corners == 3 ? 2 : 3]};
+            for (std::size_t r = 0; r < found.regions.size(); ++r) {
+                Quad mine = side;
+                for (Index& n : mine) n = numbering[r].known(n);
+                if (std::find(mine.begin(), mine.end(), -1) != mine.end()) continue;
+                found.regions[r].sides.push_back(mine);
+                found.regions[r].side_patch.push_back(at->second);
+            }
+        }
+    }
+    for (ListedCells& region : found.regions) region.quality = quality_of(region, context);
+    return found;
+}
+
+} // namespace lacuna::view

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace lacuna::view {
+
+/// The bytes as a zlib stream (RFC 1950); without zlib, stored in blocks that are not compressed.
+std::string deflated(std::string_view bytes);
+
+/// CRC-32 of PNG (ISO 3309). O(bytes).
+std::uint32_t crc32(std::string_view bytes);
+
+} // namespace lacuna::view

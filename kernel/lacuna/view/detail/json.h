@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+
+#include <concepts>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lacuna::view {
+
+/// JSON put together from the left, fit to stand inside a `<script>`: no text in it can end the element.
+/// Numbers are the same in every locale; one that is not finite is null.
+class Json {
+public:
+    Json& begin_object() { return begin('{'); }
+    Json& end_object() { return end('}'); }
+    Json& begin_array() { return begin('['); }
+    Json& end_array() { return end(']'); }
+    /// Name of the value that comes next.
+    Json& key(std::string_view name);
+
+    Json& value(std::string_view text);
+    Json& value(const char* text) { return value(std::string_view(text)); }
+    Json& value(bool truth);
+    Json& value(double number);
+    Json& value(std::integral auto number) { return raw(std::to_string(number)); }
+    Json& value(const Vec3& place);
+    Json& value(const std::vector<std::string>& texts);
+
+    template <class T>
+    Json& member(std::string_view name, const T& what)
+    {
+        return key(name).value(what);
+    }
+    [[nodiscard]] const std::string& text() const { return text_; }
+
+private:
+    Json& begin(char bracket);
+    Json& end(char bracket);
+    Json& raw(std::string_view text);
+    void comma();
+
+    std::string text_;
+    bool first_ = true; ///< nothing stands in the open brackets yet, or a name precedes
+};
+
+} // namespace lacuna::view

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/view/page.h>
+
+#include <lacuna/topology/face_radius.h>
+#include <lacuna/view/detail/base64.h>
+#include <lacuna/view/detail/page_file.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+namespace lacuna::view {
+
+namespace {
+
+using topology::Model;
+using topology::Origin;
+
+const char* word(topology::Role role)
+{
+    return role == topology::Role::source ? "source" : role == topology::Role::target ? "target" : "walls";
+}
+
+const char* word(topology::Geometry geometry)
+{
+    switch (geometry) {
+    case topology::Geometry::given:
+        return "given";
+    case topology::Geometry::newell:
+        return "flat";
+    case topology::Geometry::transfinite:
+        return "between its sides";
+    case topology::Geometry::annular:
+        return "a strip between two loops";
+    case topology::Geometry::followed:
+        return "as the walls lead";
+    case topology::Geometry::minimal:
+        return "of least area";
+    case topology::Geometry::parallel:
+        return "parallel to the other end";
+    }
+    return "";
+}
+
+/// Quads and triangles of all faces, those of each in a row, given quads first.
+struct Sides {
+    std::vector<Index> corners;
+    std::vector<std::size_t> first, quads, count; ///< of each face
+};
+
+Sides sides_of(const Model& model)
+{
+    Sides sides;
+    const auto add = [&](const auto& cell) {
+        for (std::size_t k = 0; k < 4; ++k) sides.corners.push_back(cell[std::min(k, cell.size() - 1)]);
+    };
+    for (const topology::Face& face : model.faces) {
+        sides.first.push_back(sides.corners.size() / 4);
+        for (const Quad& quad : face.given_quads) add(quad);
+        sides.quads.push_back(face.given_quads.size());
+        for (const Triangle& triangle : topology::loose_triangles(face)) add(triangle);
+        sides.count.push_back(sides.corners.size() / 4 - sides.first.back());
+    }
+    return sides;
+}
+
+/// Edges of a face as its loops use them: a seam twice.
+std::vector<EdgeId> edges_of(const topology::Face& face)
+{
+    std::vector<EdgeId> edges;
+    for (const topology::Loop& loop : face.loops)
+        for (const topology::EdgeUse& use : loop.uses) edges.push_back(use.edge);
+    return edges;
+}
+
+void add_face(Json& json, const Model& model, FaceId id, const Sides& sides, const char* role)
+{
+    const topology::Face& face = model[id];
+    const Vec3 centre = topology::face_centroid(model, id);
+    const double area = topology::face_area(model, id);
+    const Vec3 normal = topology::face_area_vector(model, id);
+    double reach = 0;
+    for (const Triangle& triangle : face.triangles)
+        for (const Index point : triangle) reach = std::max(reach, (model.at(point) - centre).norm());
+    const std::size_t f = id.index();
+    json.begin_object().member("tag", face.tag).member("name", face.name).member("kind", face.kind);
+    json.member("area", area).member("centre", centre).member("reach", reach);
+    json.member("normal", area > 0 ? Vec3(normal / area) : Vec3(Vec3::Zero()));
+    json.member("loops", face.loops.size()).member("groups", face.groups);
+    std::vector<std::string> regions;
+    for (const auto& names : face.regions)
+        if (!names.empty()) regions.push_back(names.front());
+    json.member("regions", regions);
+    if (const std::optional<double> radius = topology::face_radius(model, id)) json.member("radius", *radius);
+    json.member("void", face.origin == Origin::made_void).member("geometry", word(face.geometry));
+    json.key("role");
+    if (role != nullptr)
+        json.value(role);
+    else
+        json.value(std::numeric_limits<double>::quiet_NaN()); // null
+    json.member("first", sides.first[f]).member("quads", sides.quads[f]).member("sides", sides.count[f]);
+    json.key("edges").begin_array();
+    for (const EdgeId edge : edges_of(face)) json.value(edge.index());
+    json.end_array().end_object();
+}
+
+void add_edges(Json& json, const Model& model)
+{
+    std::vector<Index> points;
+    json.key("edges").begin_array();
+    for (const topology::Edge& edge : model.edges) {
+        json.begin_object().member("tag", edge.tag).member("void", edge.origin == Origin::made_void);
+        json.member("from", edge.from.index()).member("to", edge.to.index());
+        json.member("first", points.size()).member("points", edge.points.size()).end_object();
+        points.insert(points.end(), edge.points.begin(), edge.points.end());
+    }
+    json.end_array().member("edgePointCount", points.size()).member("edgePoints", pack(points, 1));
+    json.key("vertices").begin_array();
+    for (const topology::Vertex& vertex : model.vertices)
+        json.begin_object().member("tag", vertex.tag).member("point", vertex.point).end_object();
+    json.end_array();
+}
+
+void write_faces(const Model& model, const std::vector<topology::Role>* roles, std::vector<std::string> facts,
+                 const io::OutputPath& path, const PageOptions& options, const RunContext& context)
+{
+    Eigen::AlignedBox3d box;
+    for (const topology::Face& face : model.faces)
+        for (const Triangle& triangle : face.triangles)
+            for (const Index point : triangle) box.extend(model.at(point));
+    const Grid grid = grid_over(box);
+    std::vector<Vec3> points = model.points;
+    for (Vec3& point : points) point = point.cwiseMax(box.min()).cwiseMin(box.max()); // some are in no facet
+
+    Json json;
+    json.begin_object().member("kind", "faces");
+    json.member("title", options.title.empty() ? model.source : options.title).member("path", options.path);
+    json.member("facts", facts).member("notes", model.notes);
+    add_frame(json, grid);
+    add_nodes(json.key("nodes"), grid, points, 1);
+    const Sides sides = sides_of(model);
+    json.member("sideCount", sides.corners.size() / 4).member("sides", pack(sides.corners, 4));
+    json.key("faces").begin_array();
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        check_cancelled(context);
+        add_face(json, model, FaceId(f), sides, roles != nullptr ? word((*roles)[f]) : nullptr);
+    }
+    json.end_array();
+    add_edges(json, model);
+    json.end_object();
+    write_html(json, path);
+}
+
+} // namespace
+
+void write_page(const Model& model, const io::OutputPath& path, const PageOptions& options,
+                const RunContext& context)
+{
+    write_faces(model, nullptr, {std::to_string(model.faces.size()) + " faces"}, path, options, context);
+}
+
+void write_page(const topology::OpenVolume& volume, const io::OutputPath& path, const PageOptions& options,
+                const RunContext& context)
+{
+    const std::vector<EdgeId> free = topology::free_edges(volume);
+    std::vector<std::string> facts{std::to_string(volume.model.faces.size()) + " faces"};
+    if (free.empty())
+        facts.emplace_back("sealed");
+    else
+        facts.push_back("class " + std::string(topology::to_string(topology::classify(volume).value)));
+    write_faces(volume.model, &volume.role, std::move(facts), path, options, context);
+}
+
+} // namespace lacuna::view

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/view/detail/json.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace lacuna::view {
+
+void Json::comma()
+{
+    if (!first_) text_ += ',';
+    first_ = false;
+}
+
+Json& Json::begin(char bracket)
+{
+    comma();
+    text_ += bracket;
+    first_ = true;
+    return *this;
+}
+
+Json& Json::end(char bracket)
+{
+    text_ += bracket;
+    first_ = false;
+    return *this;
+}
+
+Json& Json::raw(std::string_view text)
+{
+    comma();
+    text_ += text;
+    return *this;
+}
+
+Json& Json::key(std::string_view name)
+{
+    value(name);
+    text_ += ':';
+    first_ = true;
+    return *this;
+}
+
+Json& Json::value(std::string_view text)
+{
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    comma();
+    text_ += '"';
+    for (const char c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        if (code < 0x20 || c == '"' || c == '\\' || c == '<' || c == '>' || c == '&') {
+            text_ += "\\u00";
+            text_ += kDigits[code >> 4];
+            text_ += kDigits[code & 15];
+        } else {
+            text_ += c;
+        }
+    }
+    text_ += '"';
+    return *this;
+}
+
+Json& Json::value(bool truth) { return raw(truth ? "true" : "false"); }
+
+Json& Json::value(double number)
+{
+    if (!std::isfinite(number)) return raw("null");
+    char digits[32];
+    const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
+    return raw({digits, static_cast<std::size_t>(end - digits)});
+}
+
+Json& Json::value(const Vec3& place)
+{
+    begin_array();
+    for (const double coordinate : place) value(coordinate);
+    return end_array();
+}
+
+Json& Json::value(const std::vector<std::string>& texts)
+{
+    begin_array();
+    for (const std::string& text : texts) value(text);
+    return end_array();
+}
+
+} // namespace lacuna::view

@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/view/detail/raster.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/core/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace lacuna::view {
+
+namespace {
+
+constexpr int kSamples = 3;        // a pixel, each way
+constexpr double kMargin = 0.05;   // of the picture, that stays free round what is shown
+constexpr double kSideWidth = 1.1; // of lines between cells [pixels]
+constexpr double kSideDark = 0.75; // how dark they are: a choice, not a measurement
+constexpr double kNearer = 0.0008; // of the depth of what is shown, by which lines lie over their faces
+constexpr Colour kLineColour{20, 28, 38};
+
+/// A parallel projection of the scene onto samples; depth grows away from the eye.
+class Projection {
+public:
+    Projection(const Scene& scene, const PictureOptions& options)
+    {
+        const Vec3 back = options.direction.normalized();
+        const Vec3 up = std::abs(back.z()) > 0.98 ? Vec3(Vec3::UnitY()) : Vec3(Vec3::UnitZ());
+        const Vec3 right = up.cross(back).normalized();
+        turn_.row(0) = right;
+        turn_.row(1) = back.cross(right);
+        turn_.row(2) = back;
+        Eigen::AlignedBox3d box;
+        for (const DrawnSide& side : scene.sides)
+            for (std::size_t k = 0; k < side.count; ++k) box.extend(turn_ * side.corner[k]);
+        const double width = options.width * kSamples, height = options.height * kSamples;
+        const Vec3 size = box.sizes();
+        scale_ = std::min(width * (1 - 2 * kMargin) / std::max(size.x(), 1e-300),
+                          height * (1 - 2 * kMargin) / std::max(size.y(), 1e-300));
+        middle_ = box.center();
+        shift_ = {width / 2, height / 2};
+        depth_ = std::max(size.norm(), 1e-300);
+    }
+    /// x to the right, y down [samples]; z away from the eye, in parts of what is shown.
+    [[nodiscard]] Vec3 operator()(const Vec3& place) const
+    {
+        const Vec3 seen = turn_ * place - middle_;
+        return {shift_.x() + seen.x() * scale_, shift_.y() - seen.y() * scale_, -seen.z() / depth_};
+    }
+    [[nodiscard]] Vec3 turned(const Vec3& direction) const { return turn_ * direction; }
+
+private:
+    Eigen::Matrix3d turn_;
+    Vec3 middle_;
+    Vec2 shift_;
+    double scale_ = 1, depth_ = 1;
+};
+
+double distance_to(const Vec2& at, const Vec2& a, const Vec2& b)
+{
+    const Vec2 along = b - a;
+    const double length = along.squaredNorm();
+    const double t = length > 0 ? std::clamp((at - a).dot(along) / length, 0.0, 1.0) : 0.0;
+    return (at - a - t * along).norm();
+}
+
+Colour mixed(const Colour& a, const Colour& b, double share)
+{
+    Colour c{};
+    for (std::size_t k = 0; k < 3; ++k)
+        c[k] = static_cast<std::uint8_t>(std::lround(a[k] * (1 - share) + b[k] * share));
+    return c;
+}
+
+/// A side as it lies on the samples.
+struct Placed {
+    std::array<Vec3, 4> corner; ///< projected
+    std::size_t count;
+    unsigned hidden;
+    Colour colour; ///< lit
+    bool hatched;
+    double line; ///< how dark its lines are; less where they would cover it
+    Vec2 low, high;
+};
+
+/// The light comes from over the left shoulder.
+double light_on(const Vec3& normal)
+{
+    const Vec3 seen = normal.z() < 0 ? Vec3(-normal) : normal;
+    static const Vec3 kLight = Vec3(-0.25, 0.45, 0.86).normalized();
+    return 0.52 + 0.40 * std::max(seen.dot(kLight), 0.0) + 0.10 * seen.z();
+}
+
+std::vector<Placed> place_sides(const Scene& scene, const Projection& project)
+{
+    std::vector<Placed> placed;
+    placed.reserve(scene.sides.size());
+    for (const DrawnSide& side : scene.sides) {
+        const Vec3 across = side.corner[2] - side.corner[0];
+        const Vec3 normal = side.count == 3 ? Vec3((side.corner[1] - side.corner[0]).cross(across))
+                                            : Vec3(across.cross(side.corner[3] - side.corner[1]));
+        const double area = normal.norm();
+        if (!(area > 0)) continue;
+        const Vec3 seen = project.turned(normal / area);
+        if (side.closed && seen.z() <= 0 && side.count == 3) continue;
+        Placed& own = placed.emplace_back();
+        own.count = side.count;
+        own.hidden = side.hidden;
+        own.hatched = side.hatched;
+        const double light = std::min(light_on(seen) * (!side.closed && seen.z() < 0 ? 0.72 : 1.0), 1.0);
+        own.colour = mixed({0, 0, 0}, side.colour, light);
+        own.low = Vec2::Constant(std::numeric_limits<double>::infinity());
+        own.high = -own.low;
+        double girth = 0;
+        for (std::size_t k = 0; k < side.count; ++k) {
+            own.corner[k] = project(side.corner[k]);
+            own.low = own.low.cwiseMin(own.corner[k].head<2>());
+            own.high = own.high.cwiseMax(own.corner[k].head<2>());
+        }
+        for (std::size_t k = 0; k < side.count; ++k)
+            girth += (own.corner[(k + 1) % side.count] - own.corner[k]).head<2>().norm();
+        // Lines fade where quads are a few pixels wide, and are gone below two.
+        const double width = girth / static_cast<double>(side.count) / kSamples;
+        own.line = kSideDark * std::clamp((width - 2) / 4, 0.0, 1.0);
+    }
+    return placed;
+}
+
+/// The samples of some rows of the picture.
+class Band {
+public:
+    Band(int width, int first, int rows) : width_(width), first_(first), rows_(rows)
+    {
+        const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(rows);
+        depth_.assign(count, std::numeric_limits<float>::infinity());
+        colour_.assign(count, Colour{255, 255, 255});
+    }
+
+    void draw(const Placed& side)
+    {
+        if (side.high.y() < first_ || side.low.y() > first_ + rows_) return;
+        fill(side, {0, 1, 2});
+        if (side.count == 4) fill(side, {0, 2, 3});
+    }
+
+    void draw(const Vec3& from, const Vec3& to, const Colour& colour, double half_width)
+    {
+        const Vec2 a = from.head<2>(), b = to.head<2>();
+        const Vec2 low = a.cwiseMin(b).array() - half_width, high = a.cwiseMax(b).array() + half_width;
+        const double length = (b - a).squaredNorm();
+        each(low, high, [&](const Vec2& at, std::size_t sample) {
+            if (distance_to(at, a, b) > half_width) return;
+            const double t = length > 0 ? std::clamp((at - a).dot(b - a) / length, 0.0, 1.0) : 0.0;
+            put(sample, from.z() + t * (to.z() - from.z()) - kNearer, colour);
+        });
+    }
+
+    /// Mean of the samples of each pixel, into the picture.
+    void resolve(Image& image) const
+    {
+        const int wide = width_ / kSamples;
+        for (int y = 0; y < rows_ / kSamples; ++y) {
+            for (int x = 0; x < wide; ++x) {
+                std::array<int, 3> sum{};
+                for (int j = 0; j < kSamples; ++j)
+                    for (int i = 0; i < kSamples; ++i)
+                        for (std::size_t k = 0; k < 3; ++k)
+                            sum[k] += colour_[place(x * kSamples + i, y * kSamples + j)][k];
+                const auto at = 3 * (static_cast<std::size_t>(first_ / kSamples + y) *
+                                         static_cast<std::size_t>(wide) +
+                                     static_cast<std::size_t>(x));
+                constexpr int kAll = kSamples * kSamples;
+                for (std::size_t k = 0; k < 3; ++k)
+                    image.rgb[at + k] = static_cast<std::uint8_t>((sum[k] + kAll / 2) / kAll);
+            }
+        }
+    }
+
+private:
+    [[nodiscard]] std::size_t place(int x, int y) const
+    {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+    }
+
+    /// Call visit(place of the sample, its number) for those in a box.
+    template <class Visit>
+    void each(const Vec2& low, const Vec2& high, Visit&& visit) const
+    {
+        const int left = std::max(0, static_cast<int>(std::ceil(std::max(low.x(), 0.0) - 0.5)));
+        const int right = static_cast<int>(std::floor(std::min(high.x(), double(width_)) - 0.5));
+        const int top = std::max(first_, static_cast<int>(std::ceil(std::max(low.y(), 0.0) - 0.5)));
+        const int bottom = static_cast<int>(std::floor(std::min(high.y(), double(first_ + rows_)) - 0.5));
+        for (int y = top; y <= bottom; ++y)
+            for (int x = left; x <= right; ++x) visit(Vec2(x + 0.5, y + 0.5), place(x, y - first_));
+    }
+
+    void fill(const Placed& side, const std::array<std::size_t, 3>& corners)
+    {
+        const Vec3 &a = side.corner[corners[0]], &b = side.corner[corners[1]], &c = side.corner[corners[2]];
+        const Vec2 ab = (b - a).head<2>(), ac = (c - a).head<2>();
+        const double twice = ab.x() * ac.y() - ab.y() * ac.x();
+        if (twice == 0) return;
+        const Vec2 low = a.head<2>().cwiseMin(b.head<2>()).cwiseMin(c.head<2>());
+        const Vec2 high = a.head<2>().cwiseMax(b.head<2>()).cwiseMax(c.head<2>());
+        each(low, high, [&](const Vec2& at, std::size_t sample) {
+            const Vec2 p = at - a.head<2>();
+            const double v = (p.x() * ac.y() - p.y() * ac.x()) / twice;
+            const double w = (ab.x() * p.y() - ab.y() * p.x()) / twice;
+            if (v < 0 || w < 0 || v + w > 1) return;
+            const double depth = a.z() + v * (b.z() - a.z()) + w * (c.z() - a.z());
+            if (depth < depth_[sample]) put(sample, depth, colour_at(side, at));
+        });
+    }
+
+    [[nodiscard]] static Colour colour_at(const Placed& side, const Vec2& at)
+    {
+        constexpr double kHatch = 9 * kSamples, kStripe = 2 * kSamples; // [samples]
+        Colour colour = side.colour;
+        if (side.hatched && std::fmod(at.x() + at.y(), kHatch) < kStripe)
+            colour = mixed({0, 0, 0}, colour, 0.7);
+        if (side.line <= 0) return colour;
+        for (std::size_t k = 0; k < side.count; ++k) {
+            if ((side.hidden >> k & 1U) != 0) continue;
+            const Vec2 from = side.corner[k].head<2>(), to = side.corner[(k + 1) % side.count].head<2>();
+            if (distance_to(at, from, to) < kSideWidth * kSamples / 2)
+                return mixed(colour, kLineColour, side.line);
+        }
+        return colour;
+    }
+
+    void put(std::size_t sample, double depth, const Colour& colour)
+    {
+        if (!(depth < depth_[sample])) return;
+        depth_[sample] = static_cast<float>(depth);
+        colour_[sample] = colour;
+    }
+
+    int width_, first_, rows_;
+    std::vector<float> depth_;
+    std::vector<Colour> colour_;
+};
+
+// --- the legend ---------------------------------------------------------------------------------------
+
+/// Strokes of a digit in a box of 2 × 4: the seven of a pocket calculator, of which it lights some.
+constexpr std::array<std::array<double, 4>, 7> kStrokes{
+    {{0, 0, 2, 0}, {2, 0, 2, 2}, {2, 2, 2, 4}, {0, 4, 2, 4}, {0, 2, 0, 4}, {0, 0, 0, 2}, {0, 2, 2, 2}}};
+constexpr std::array<unsigned, 10> kDigits{0x3f, 0x06, 0x5b, 0x4f, 0x66, 0x6d, 0x7d, 0x07, 0x7f, 0x6f};
+
+/// Write a number with its left upper corner at a place, in letters of a height.
+void write_number(Band& band, const std::string& text, Vec2 at, double height)
+{
+    const double unit = height / 4;
+    const auto stroke = [&](double x0, double y0, double x1, double y1) {
+        band.draw({at.x() + x0 * unit, at.y() + y0 * unit, -2}, {at.x() + x1 * unit, at.y() + y1 * unit, -2},
+                  kLineColour, 0.3 * unit);
+    };
+    for (const char c : text) {
+        if (c == '.') {
+            stroke(0, 4, 0, 4);
+            at.x() += 1.2 * unit;
+        } else {
+            const unsigned lit = c == '-' ? 0x40 : kDigits[static_cast<std::size_t>(c - '0')];
+            for (std::size_t s = 0; s < kStrokes.size(); ++s)
+                if ((lit >> s & 1U) != 0)
+                    stroke(kStrokes[s][0], kStrokes[s][1], kStrokes[s][2], kStrokes[s][3]);
+            at.x() += 3.2 * unit;
+        }
+    }
+}
+
+/// A bar at the lower left, with the numbers of its ends below.
+void draw_legend(Band& band, const Legend& legend, const PictureOptions& options)
+{
+    if (legend.ramp.empty()) return;
+    constexpr double kWide = 180, kHigh = 12, kEdgeOf = 18, kLetters = 11; // [pixels]
+    const double left = kEdgeOf * kSamples, wide = kWide * kSamples;
+    const double bottom = (options.height - kEdgeOf) * kSamples;
+    const double letters = kLetters * kSamples, top = bottom - letters - (6 + kHigh) * kSamples;
+    constexpr int kSteps = 90;
+    for (int i = 0; i < kSteps; ++i) {
+        const double x = left + wide * (i + 0.5) / kSteps, half = wide / kSteps;
+        for (double y = top + half; y <= top + kHigh * kSamples - half; y += half)
+            band.draw({x, y, -2}, {x, y, -2}, on_ramp(legend.ramp, (i + 0.5) / kSteps), half);
+    }
+    const auto text = [](double number) {
+        char digits[32];
+        const int n = std::snprintf(digits, sizeof digits, number == std::floor(number) ? "%.0f" : "%.1f",
+                                    number);
+        std::string said(digits, static_cast<std::size_t>(n));
+        std::replace(said.begin(), said.end(), ',', '.'); // the host's locale
+        return said;
+    };
+    const std::string high = text(legend.high);
+    write_number(band, text(legend.low), {left, bottom - letters}, letters);
+    write_number(band, high,
+                 {left + wide - (0.8 * static_cast<double>(high.size()) - 0.3) * letters, bottom - letters},
+                 letters);
+}
+
+void check(const PictureOptions& options)
+{
+    constexpr int kLeast = 16,
+                  kMost = 16384; // [pixels]; nine samples of so many squared fit in memory in bands
+    const std::pair<const char*, int> lengths[] = {{"width", options.width}, {"height", options.height}};
+    for (const auto& [name, length] : lengths)
+        if (length < kLeast || length > kMost)
+            throw InvalidInput("view.picture_size", std::string("picture: option '") + name +
+                                                        "' must be 16 to 16384 pixels, found " +
+                                                        std::to_string(length));
+    if (!(options.direction.norm() > 0) || !options.direction.allFinite())
+        throw InvalidInput("view.direction", "picture: the direction of the view has no length");
+    if (options.cut && (!(options.cut->normal.norm() > 0) || !options.cut->normal.allFinite()))
+        throw InvalidInput("view.direction", "picture: the normal of the cut has no length");
+}
+
+} // namespace
+
+Image rasterise(const Scene& scene, const PictureOptions& options, const RunContext& context)
+{
+    check(options);
+    const Projection project(scene, options);
+    const std::vector<Placed> sides = place_sides(scene, project);
+    Image image{options.width, options.height, {}};
+    image.rgb.resize(3 * static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height));
+    constexpr std::size_t kRows = 64; // pixels of a band: its samples stay in the cache
+    const std::size_t bands = (static_cast<std::size_t>(options.height) + kRows - 1) / kRows;
+    parallel_for(context, bands, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end; ++b) {
+            check_cancelled(context);
+            const int first = static_cast<int>(b * kRows);
+            const int rows = std::min(static_cast<int>(kRows), options.height - first);
+            Band band(options.width * kSamples, first * kSamples, rows * kSamples);
+            for (const Placed& side : sides) band.draw(side);
+            for (const DrawnLine& line : scene.lines)
+                band.draw(project(line.from), project(line.to), line.colour, line.width * kSamples / 2);
+            if (options.legend) draw_legend(band, scene.legend, options);
+            band.resolve(image);
+        }
+    });
+    return image;
+}
+
+} // namespace lacuna::view

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/view/detail/scene.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/quality/metrics.h>
+#include <lacuna/view/detail/cell_set.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace lacuna::view {
+
+double quality_low(double least) { return std::min(0.5, std::floor(least * 10) / 10); }
+
+namespace {
+
+constexpr std::size_t kFaceOfQuadSide[] = {2, 1, 3, 0}; // which face of the cell stands on side k of its quad
+constexpr std::size_t kBottom = 4, kTop = 5;
+constexpr Colour kFreeEdge{214, 39, 40}, kEdge{40, 50, 60}, kVoidEdge{190, 110, 10};
+
+/// Cells of a swept region that are shown, and their sides that no other of them has.
+class ShownRegion {
+public:
+    ShownRegion(const Region& region, const PictureOptions& options)
+        : mesh_(*region.mesh), quads_(mesh_.quads.size()), mask_(mesh_.cell_count(), 1)
+    {
+        across_ = mesh::opposite_sides(mesh_.quads, mesh_.nodes_per_layer);
+        for (std::size_t r = 0; r < mesh_.rim.size(); ++r) rim_[mesh_.rim[r]] = r;
+        for (std::size_t c = 0; c < mask_.size(); ++c) mask_[c] = shown(c, options) ? 1 : 0;
+    }
+
+    /// Call visit(cell, face, patch) for each side; the patch is -1 inside.
+    template <class Visit>
+    void sides(Visit&& visit) const
+    {
+        for (std::size_t c = 0; c < mask_.size(); ++c) {
+            if (mask_[c] == 0) continue;
+            const std::size_t q = c % quads_, layer = c / quads_;
+            const bool last = layer + 1 == static_cast<std::size_t>(mesh_.layers);
+            if (layer == 0)
+                visit(c, kBottom, mesh_.source_patch[q]);
+            else if (mask_[c - quads_] == 0)
+                visit(c, kBottom, Index{-1});
+            if (last)
+                visit(c, kTop, mesh_.target_patch[q]);
+            else if (mask_[c + quads_] == 0)
+                visit(c, kTop, Index{-1});
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Index other = across_[4 * q + k];
+                if (other == mesh::kRimSide) {
+                    const Segment side{mesh_.quads[q][k], mesh_.quads[q][(k + 1) % 4]};
+                    visit(c, kFaceOfQuadSide[k], mesh_.wall_patch[layer * mesh_.rim.size() + rim_.at(side)]);
+                } else if (other >= 0 && mask_[layer * quads_ + index(other) / 4] == 0) {
+                    visit(c, kFaceOfQuadSide[k], Index{-1});
+                }
+            }
+        }
+    }
+
+private:
+    [[nodiscard]] bool shown(std::size_t cell, const PictureOptions& options) const
+    {
+        const auto layer = static_cast<int>(cell / quads_) + 1;
+        if (options.layers && (layer < (*options.layers)[0] || layer > (*options.layers)[1])) return false;
+        if (!options.cut) return true;
+        Vec3 centre = Vec3::Zero();
+        for (const Index n : mesh_.hex(cell)) centre += mesh_.nodes[index(n)] / 8;
+        return (centre - options.cut->point).dot(options.cut->normal) <= 0;
+    }
+
+    const mesh::HexMesh& mesh_;
+    std::size_t quads_;
+    std::vector<std::uint8_t> mask_;
+    std::vector<Index> across_;
+    std::map<Segment, std::size_t> rim_;
+};
+
+/// Draw a face of a cell. Of order 2 it is cut at its middle nodes: a quad between them, a triangle at each
+/// corner.
+void add_side(std::vector<DrawnSide>& sides, const mesh::HexMesh& mesh, std::size_t cell, std::size_t face,
+              const DrawnSide& like)
+{
+    const Hex hex = mesh.hex(cell);
+    const Quad& corners = mesh::kHexFaces[face];
+    std::vector<std::size_t> kept; // a wedge's sides have corners twice
+    for (std::size_t k = 0; k < 4; ++k)
+        if (hex[index(corners[k])] != hex[index(corners[(k + 1) % 4])]) kept.push_back(k);
+    if (kept.size() < 3) return;
+    const auto corner = [&](std::size_t k) { return mesh.nodes[index(hex[index(corners[kept[k]])])]; };
+    const std::size_t n = kept.size();
+    DrawnSide side = like;
+    side.count = n;
+    if (mesh.order() == 1) {
+        for (std::size_t k = 0; k < n; ++k) side.corner[k] = corner(k);
+        sides.push_back(side);
+        return;
+    }
+    const mesh::CellNodes nodes = mesh::cell_nodes(mesh, cell);
+    const auto middle = [&](std::size_t k) {
+        return mesh.node(index(nodes.node[index(8 + mesh::kHexFaceEdges[face][kept[k % n]])]));
+    };
+    for (std::size_t k = 0; k < n; ++k) side.corner[k] = middle(k);
+    side.hidden = 15;
+    sides.push_back(side);
+    side.count = 3;
+    side.hidden = 4;
+    for (std::size_t k = 0; k < n; ++k) {
+        side.corner = {middle(k + n - 1), corner(k), middle(k), middle(k)};
+        sides.push_back(side);
+    }
+}
+
+Colour kind_colour(std::size_t i) { return kind_colours()[i % kind_colours().size()]; }
+
+/// What a region's cells and sides are coloured with.
+struct Colours {
+    ColourBy by;
+    std::vector<double> quality;
+    double low = 0;
+    int layers = 1;
+    std::size_t region = 0, first_patch = 0;
+    std::vector<ShownPatch> patches;
+
+    [[nodiscard]] Colour of(std::size_t cell, std::size_t layer, Index patch) const
+    {
+        switch (by) {
+        case ColourBy::quality:
+            return on_ramp(quality_ramp(), (quality[cell] - low) / (1 - low));
+        case ColourBy::layer:
+            return on_ramp(order_ramp(), layers > 1 ? static_cast<double>(layer) / (layers - 1) : 0);
+        case ColourBy::region:
+            return kind_colour(region);
+        case ColourBy::origin:
+            return patch < 0 ? kInside : patches[index(patch)].made_void ? kVoid : kGiven;
+        case ColourBy::group:
+            break;
+        }
+        return patch < 0 ? kInside : kind_colour(first_patch + index(patch));
+    }
+    [[nodiscard]] bool hatched(Index patch) const
+    {
+        return (by == ColourBy::origin || by == ColourBy::group) && patch >= 0 &&
+               patches[index(patch)].made_void;
+    }
+};
+
+void check_layers(std::span<const Region> regions, const PictureOptions& options)
+{
+    if (!options.layers) return;
+    int most = 0;
+    for (const Region& region : regions) most = std::max(most, region.mesh->layers);
+    const auto [from, to] = *options.layers;
+    if (from < 1 || to < from || from > most)
+        throw InvalidInput("view.layers", "picture: layers from " + std::to_string(from) + " to " +
+                                              std::to_string(to) + " are asked for, and there are 1 to " +
+                                              std::to_string(most));
+}
+
+} // namespace
+
+Scene scene_of(std::span<const Region> regions, const PictureOptions& options, const RunContext& context)
+{
+    check_layers(regions, options);
+    Scene scene;
+    std::vector<Colours> colours;
+    double least = 1;
+    int layers = 1;
+    for (const Region& region : regions) {
+        Colours& own = colours.emplace_back();
+        own.by = options.colour;
+        own.region = colours.size() - 1;
+        own.patches = shown_patches(*region.mesh);
+        if (colours.size() > 1)
+            own.first_patch = colours[own.region - 1].first_patch + colours[own.region - 1].patches.size();
+        layers = std::max(layers, region.mesh->layers);
+        if (options.colour != ColourBy::quality) continue;
+        own.quality = quality::metric_values(*region.mesh, quality::Metric::scaled_jacobian, context);
+        for (const double value : own.quality) least = std::min(least, value);
+    }
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        check_cancelled(context);
+        const mesh::HexMesh& mesh = *regions[r].mesh;
+        Colours& own = colours[r];
+        own.low = quality_low(least);
+        own.layers = layers;
+        ShownRegion(regions[r], options).sides([&](std::size_t cell, std::size_t face, Index patch) {
+            DrawnSide like;
+            like.colour = own.of(cell, cell / mesh.quads.size(), patch);
+            like.hatched = own.hatched(patch);
+            like.hidden = options.edges ? 0 : 15;
+            add_side(scene.sides, mesh, cell, face, like);
+        });
+    }
+    if (!options.edges)
+        for (DrawnSide& side : scene.sides) side.hidden = 15;
+    if (scene.sides.empty())
+        throw InvalidInput("view.empty", "picture: the cut leaves no cell to show; turn its normal round or "
+                                         "move its point");
+    if (options.colour == ColourBy::quality) scene.legend = {quality_ramp(), quality_low(least), 1};
+    if (options.colour == ColourBy::layer) scene.legend = {order_ramp(), 1, static_cast<double>(layers)};
+    return scene;
+}
+
+Scene scene_of(const topology::Model& model, const std::vector<topology::Role>* roles,
+               const PictureOptions& options)
+{
+    Scene scene;
+    const auto colour_of = [&](std::size_t f) {
+        if (roles == nullptr) return model.faces[f].origin == topology::Origin::made_void ? kVoid : kGiven;
+        return (*roles)[f] == topology::Role::source   ? kSource
+               : (*roles)[f] == topology::Role::target ? kTarget
+                                                       : kWall;
+    };
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        const topology::Face& face = model.faces[f];
+        DrawnSide side;
+        side.colour = colour_of(f);
+        side.hatched = face.origin == topology::Origin::made_void;
+        side.closed = false;
+        for (const Quad& quad : face.given_quads) {
+            for (std::size_t k = 0; k < 4; ++k) side.corner[k] = model.at(quad[k]);
+            scene.sides.push_back(side);
+        }
+        side.count = 3;
+        side.hidden = options.facets ? 0 : 15;
+        for (const Triangle& triangle : topology::loose_triangles(face)) {
+            for (std::size_t k = 0; k < 3; ++k) side.corner[k] = model.at(triangle[k]);
+            scene.sides.push_back(side);
+        }
+    }
+    const auto uses = topology::edge_uses(model);
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const topology::Edge& edge = model.edges[e];
+        const bool free = uses[e].size() == 1;
+        DrawnLine line;
+        line.colour = free ? kFreeEdge : edge.origin == topology::Origin::made_void ? kVoidEdge : kEdge;
+        line.width = free ? 4 : 2;
+        for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
+            line.from = model.at(edge.points[i]);
+            line.to = model.at(edge.points[i + 1]);
+            scene.lines.push_back(line);
+        }
+    }
+    return scene;
+}
+
+} // namespace lacuna::view

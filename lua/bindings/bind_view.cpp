@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+// Pages: model:view(path), volume:view(path), mesh:view(path), lacuna.view(file, path).
+// Pictures: picture(path) of the same three.
+#include "bindings/classes.h"
+#include "bindings/io_paths.h"
+#include "bindings/lacuna_lua.h"
+#include "bindings/options.h"
+
+#include <lacuna/cad/load.h>
+#include <lacuna/io/deck.h>
+#include <lacuna/io/deck_file.h>
+#include <lacuna/view/page.h>
+#include <lacuna/view/picture.h>
+
+#include <algorithm>
+
+namespace lacuna::lua {
+
+namespace {
+
+void read_title(lua_State* L, int index, const Where& where, view::PageOptions& options)
+{
+    const char* title = read_string(L, index, where);
+    guard(L, [&] { options.title = title; });
+}
+
+const Option<view::PageOptions> kPageOptions[] = {{"title", read_title}};
+
+/// Where a page or picture goes, as a temporary. Raises where the ending is another.
+const io::OutputPath& push_path(lua_State* L, int index, const char* call, const char* ending)
+{
+    const io::OutputPath& path = push_output_path(L, index, call);
+    guard(L, [&] {
+        if (io::ending_of(path.text()) != ending)
+            throw InvalidInput("view.ending", std::string(call) + ": expected a file that ends with " +
+                                                  ending + ", found " + path.text());
+    });
+    return path;
+}
+const io::OutputPath& push_page_path(lua_State* L, int index) { return push_path(L, index, "view", ".html"); }
+
+/// One file by its name: what a recipe on the page can load.
+std::string loadable(const ModelState& state)
+{
+    return state.hand_made || state.decks.size() > 1 ? "" : state.model.source;
+}
+
+/// model:view(path [, options])
+int view_model(lua_State* L)
+{
+    lua_settop(L, 3);
+    const Box<ModelState>& state = hold_box<ModelState>(L, 1);
+    const io::OutputPath& path = push_page_path(L, 2);
+    auto& options = temporary<view::PageOptions>(L);
+    read_options(L, 3, "view", kPageOptions, options);
+    RunContext& context = push_context(L);
+    guard(L, [&] {
+        refresh(*state);
+        options.path = loadable(*state);
+        view::write_page(state->model, path, options, context);
+    });
+    return 0;
+}
+
+/// volume:view(path [, options])
+int view_volume(lua_State* L)
+{
+    lua_settop(L, 3);
+    const auto& state = hold<VolumeState>(L, 1);
+    const io::OutputPath& path = push_page_path(L, 2);
+    auto& options = temporary<view::PageOptions>(L);
+    read_options(L, 3, "view", kPageOptions, options);
+    RunContext& context = push_context(L);
+    guard(L, [&] { view::write_page(state.volume, path, options, context); });
+    return 0;
+}
+
+std::vector<view::Region> regions_of(const MeshState& state)
+{
+    const mesh::HexMesh& mesh = state.swept.mesh;
+    return {{&mesh, mesh.volume_groups.empty() ? "volume" : mesh.volume_groups.front()}};
+}
+
+std::vector<view::Region> regions_of(const AssemblyMeshState& state)
+{
+    std::vector<view::Region> regions;
+    for (std::size_t p = 0; p < state.regions.size(); ++p)
+        regions.push_back({&state.swept.parts[p].mesh, state.regions[p]});
+    return regions;
+}
+
+/// mesh:view(path [, options]), of one volume or an assembly
+template <class State>
+int view_mesh(lua_State* L)
+{
+    lua_settop(L, 3);
+    const auto& state = hold<State>(L, 1);
+    const io::OutputPath& path = push_page_path(L, 2);
+    auto& options = temporary<view::PageOptions>(L);
+    read_options(L, 3, "view", kPageOptions, options);
+    RunContext& context = push_context(L);
+    guard(L, [&] { view::write_page(regions_of(state), path, options, context); });
+    return 0;
+}
+
+// --- pictures -------------------------------------------------------------------------------------------
+
+const Word<view::ColourBy> kColours[] = {
+    {"quality", view::ColourBy::quality}, {"layer", view::ColourBy::layer},
+    {"groups", view::ColourBy::group},    {"region", view::ColourBy::region},
+    {"origin", view::ColourBy::origin},
+};
+
+struct Direction {
+    double x, y, z;
+};
+const Word<Direction> kDirections[] = {
+    {"iso", {1, -1.6, 0.9}}, {"front", {0, -1, 0}}, {"back", {0, 1, 0}},    {"left", {-1, 0, 0}},
+    {"right", {1, 0, 0}},    {"top", {0, 0, 1}},    {"bottom", {0, 0, -1}},
+};
+
+void read_direction(lua_State* L, int index, const Where& where, view::PictureOptions& options)
+{
+    if (lua_type(L, index) == LUA_TTABLE) {
+        options.direction = read_vector(L, index, where);
+        return;
+    }
+    const auto [x, y, z] = read_word(L, index, where, kDirections);
+    options.direction = {x, y, z};
+}
+
+void read_colour(lua_State* L, int index, const Where& where, view::PictureOptions& options)
+{
+    options.colour = read_word(L, index, where, kColours);
+}
+
+void read_cut_point(lua_State* L, int index, const Where& where, view::CutPlane& plane)
+{
+    plane.point = read_vector(L, index, where);
+}
+
+void read_cut_normal(lua_State* L, int index, const Where& where, view::CutPlane& plane)
+{
+    plane.normal = read_vector(L, index, where);
+}
+
+const Option<view::CutPlane> kCutOptions[] = {{"point", read_cut_point}, {"normal", read_cut_normal}};
+
+void read_cut(lua_State* L, int index, const Where& where, view::PictureOptions& options)
+{
+    if (lua_type(L, index) != LUA_TTABLE)
+        fail_value(L, where, "a table { point = {x, y, z}, normal = {x, y, z} }", index);
+    view::CutPlane plane;
+    for (const char* key : {"point", "normal"}) {
+        if (lua_getfield(L, index, key) == LUA_TNIL)
+            fail_option(L, where, "has no '%s': { point = {x, y, z}, normal = {x, y, z} }", key);
+        lua_pop(L, 1);
+    }
+    read_options(L, index, "picture: cut", kCutOptions, plane);
+    options.cut = plane;
+}
+
+void read_shown_layers(lua_State* L, int index, const Where& where, view::PictureOptions& options)
+{
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2)
+        fail_value(L, where, "an array of two numbers of layers, from and to", index);
+    std::array<int, 2> layers{};
+    std::size_t next = 0;
+    read_array(L, index, where, "",
+               [&](int element, const Where& at) { layers[next++] = read_whole(L, element, at, 1); });
+    options.layers = layers;
+}
+
+const Option<view::PictureOptions> kPictureOptions[] = {
+    {"width", count<&view::PictureOptions::width>},
+    {"height", count<&view::PictureOptions::height>},
+    {"view", read_direction},
+    {"colour", read_colour},
+    {"cut", read_cut},
+    {"layers", read_shown_layers},
+    {"edges", boolean<&view::PictureOptions::edges>},
+    {"legend", boolean<&view::PictureOptions::legend>},
+};
+/// Of faces, which have no cells.
+const Option<view::PictureOptions> kFacePictureOptions[] = {
+    {"width", count<&view::PictureOptions::width>},
+    {"height", count<&view::PictureOptions::height>},
+    {"view", read_direction},
+    {"facets", boolean<&view::PictureOptions::facets>},
+};
+
+void draw(ModelState& state, const io::OutputPath& path, const view::PictureOptions& options,
+          const RunContext& context)
+{
+    refresh(state);
+    view::write_picture(state.model, path, options, context);
+}
+
+void draw(const VolumeState& state, const io::OutputPath& path, const view::PictureOptions& options,
+          const RunContext& context)
+{
+    view::write_picture(state.volume, path, options, context);
+}
+
+template <class Mesh>
+void draw(const Mesh& state, const io::OutputPath& path, const view::PictureOptions& options,
+          const RunContext& context)
+{
+    view::write_picture(regions_of(state), path, options, context);
+}
+
+/// x:picture(path [, options])
+template <class State, const auto& Table>
+int picture(lua_State* L)
+{
+    lua_settop(L, 3);
+    auto& state = hold<State>(L, 1);
+    const io::OutputPath& path = push_path(L, 2, "picture", ".png");
+    auto& options = temporary<view::PictureOptions>(L);
+    read_options(L, 3, "picture", Table, options);
+    RunContext& context = push_context(L);
+    guard(L, [&] { draw(state, path, options, context); });
+    return 0;
+}
+
+// --- of a file ------------------------------------------------------------------------------------------
+
+enum class Show { automatic, faces, cells };
+const Word<Show> kShows[] = {{"auto", Show::automatic}, {"faces", Show::faces}, {"cells", Show::cells}};
+
+struct ViewFile {
+    view::PageOptions page;
+    Show show = Show::automatic;
+};
+
+void read_show(lua_State* L, int index, const Where& where, ViewFile& options)
+{
+    options.show = read_word(L, index, where, kShows);
+}
+
+void read_file_title(lua_State* L, int index, const Where& where, ViewFile& options)
+{
+    read_title(L, index, where, options.page);
+}
+
+const Option<ViewFile> kFileOptions[] = {{"title", read_file_title}, {"show", read_show}};
+
+/// Meshes are shown as cells where they have solids; decks, whose voids are to be filled, by their faces.
+bool shows_cells(const io::Deck& deck)
+{
+    switch (deck.format) {
+    case io::DeckFormat::msh:
+    case io::DeckFormat::vtk:
+    case io::DeckFormat::vtu:
+    case io::DeckFormat::medit:
+        return deck.element_count(3) > 0;
+    default:
+        return false;
+    }
+}
+
+bool is_deck(const std::string& ending)
+{
+    io::DeckFormat format;
+    return io::find_deck_format(ending, format) || ending == ".mesh";
+}
+
+void view_file(const std::string& file, const io::OutputPath& path, ViewFile& options,
+               const cad::Limits& limits, const RunContext& context)
+{
+    if (options.page.title.empty()) options.page.title = file.substr(file.rfind('/') + 1);
+    if (options.show == Show::cells || (options.show == Show::automatic && is_deck(io::ending_of(file)))) {
+        const io::Deck deck = io::read_deck(file);
+        if (options.show == Show::cells || shows_cells(deck))
+            return view::write_page(deck, path, options.page, context);
+    }
+    options.page.path = file;
+    view::write_page(cad::load_files({file}, {}, context, limits).model, path, options.page, context);
+}
+
+/// lacuna.view(file, path [, options])
+int view(lua_State* L)
+{
+    lua_settop(L, 3);
+    const char* file = read_string(L, 1, {"view", nullptr});
+    const io::OutputPath& path = push_page_path(L, 2);
+    auto& options = temporary<ViewFile>(L);
+    read_options(L, 3, "view", kFileOptions, options);
+    const Host& lent = host(L);
+    cad::Limits limits{};
+    limits.may_raise = !lent.sandboxed;
+    RunContext& context = push_context(L);
+    guard(L, [&] {
+        check_input_path(lent, file);
+        view_file(file, path, options, limits, context);
+    });
+    return 0;
+}
+
+const luaL_Reg kModelMethods[] = {
+    {"view", view_model}, {"picture", picture<ModelState, kFacePictureOptions>}, {nullptr, nullptr}};
+const luaL_Reg kVolumeMethods[] = {
+    {"view", view_volume}, {"picture", picture<VolumeState, kFacePictureOptions>}, {nullptr, nullptr}};
+const luaL_Reg kMeshMethods[] = {
+    {"view", view_mesh<MeshState>}, {"picture", picture<MeshState, kPictureOptions>}, {nullptr, nullptr}};
+const luaL_Reg kAssemblyMethods[] = {{"view", view_mesh<AssemblyMeshState>},
+                                     {"picture", picture<AssemblyMeshState, kPictureOptions>},
+                                     {nullptr, nullptr}};
+const luaL_Reg kFunctions[] = {{"view", view}, {nullptr, nullptr}};
+
+} // namespace
+
+void bind_view(lua_State* L)
+{
+    luaL_setfuncs(L, kFunctions, 0);
+    add_methods(L, kClassName<ModelState>, kModelMethods);
+    add_methods(L, kClassName<VolumeState>, kVolumeMethods);
+    add_methods(L, kClassName<MeshState>, kMeshMethods);
+    add_methods(L, kClassName<AssemblyMeshState>, kAssemblyMethods);
+}
+
+} // namespace lacuna::lua
