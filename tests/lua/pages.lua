@@ -262,7 +262,18 @@ local function round(name, made)
 end
 local barrel = lacuna.synthetic.barrel()
 local roles = { source = "source", target = "target", walls = "auto" }
-check.equal(round("order_2", barrel:open_volume(roles):sweep { layers = 3, size = 0.5, order = 2 })[3], "24")
+local curved = barrel:open_volume(roles):sweep { layers = 3, size = 0.5, order = 2 }
+local whole = round("order_2", curved)
+check.equal(whole[3], "24")
+curved:write(folder .. "/curved.msh")
+lacuna.view(folder .. "/curved.msh", folder .. "/curved.html")
+local listed = play(folder .. "/curved.html", kClosed .. [[
+  say(page.cellCount, closed());
+  page.flyTo(0);
+  say(page.drawing.topCount, page.quality.least);
+]])
+check.equal(listed[1], whole[1])
+check.near(tonumber(listed[2]:match("24 (%S+)")), curved:quality().min_scaled_jacobian, 1e-4)
 round("serendipity",
     barrel:open_volume(roles):sweep { layers = 3, size = 0.5, order = 2, serendipity = true })
 

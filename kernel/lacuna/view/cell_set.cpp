@@ -2,7 +2,9 @@
 #include <lacuna/view/detail/cell_set.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/parallel.h>
 #include <lacuna/quality/metrics.h>
+#include <lacuna/quality/second_order.h>
 
 #include <algorithm>
 #include <limits>
@@ -101,6 +103,17 @@ std::vector<double> quality_of(const ListedCells& region, const RunContext& cont
     const std::vector<double> found = quality::metric_values(region.nodes, measured,
                                                              quality::Metric::scaled_jacobian, context);
     for (std::size_t i = 0; i < found.size(); ++i) values[place[i]] = found[i];
+    constexpr std::size_t kGrain = 256; // as for swept meshes
+    parallel_for(context, region.curved.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            const std::span<const Index> own = region.curved[c].all();
+            if (own.empty()) continue;
+            std::array<Vec3, 27> places;
+            for (std::size_t k = 0; k < own.size(); ++k) places[k] = region.nodes[index(own[k])];
+            const std::array<Vec3, 27> all = mesh::as_hex27(std::span(places).first(own.size()));
+            if (!quality::is_straight(all)) values[c] = quality::judge(all, 0).scaled_jacobian;
+        }
+    });
     return values;
 }
 
@@ -114,26 +127,31 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
     for (const io::DeckBlock& block : deck.blocks) {
         const io::DeckShapeInfo& info = io::shape_info(block.shape);
         if (info.dimension != 3) continue;
-        if (info.nodes > info.corners) found.second_order = true;
+        const bool curved = info.corners == 8 && info.nodes > 8;
+        if (info.nodes > info.corners) (curved ? found.second_order : found.straightened) = true;
         for (std::size_t e = 0; e < block.count(); ++e) {
             const Index region = block.regions.empty() ? -1 : block.regions[e];
             const auto [at, fresh] = of_region.try_emplace(region, found.regions.size());
             if (fresh) {
-                const bool named = region >= 0 && !deck.regions[index(region)].name.empty();
-                found.regions.push_back({named ? deck.regions[index(region)].name
-                                               : "region " + std::to_string(found.regions.size() + 1),
-                                         {},
-                                         {},
-                                         {},
-                                         {},
-                                         {},
-                                         {}});
+                std::string& name = found.regions.emplace_back().name;
+                if (region >= 0) name = deck.regions[index(region)].name;
+                if (name.empty()) name = "region " + std::to_string(found.regions.size());
                 numbering.emplace_back(deck.points.size());
             }
             ListedCells& cells = found.regions[at->second];
             Hex cell = as_hex(block.element(e), info.corners);
             for (Index& n : cell) n = numbering[at->second].of(n, deck.points, cells.nodes);
             cells.cells.push_back(cell);
+            const auto own = block.element(e);
+            if (curved && std::find(own.begin(), own.end(), -1) == own.end()) {
+                cells.curved.resize(cells.cells.size());
+                mesh::CellNodes& nodes = cells.curved.back();
+                nodes.count = own.size();
+                for (std::size_t k = 0; k < own.size(); ++k)
+                    nodes.node[k] = numbering[at->second].of(own[k], deck.points, cells.nodes);
+            } else if (curved) {
+                found.straightened = true;
+            }
             const bool fits = block.tags[e] <= std::numeric_limits<Index>::max();
             cells.tags.push_back(fits ? static_cast<Index>(block.tags[e]) : 0);
         }
@@ -170,6 +188,8 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
             }
         }
     }
+    for (ListedCells& region : found.regions)
+        if (!region.curved.empty()) region.curved.resize(region.cells.size());
     for (ListedCells& region : found.regions) region.quality = quality_of(region, context);
     return found;
 }

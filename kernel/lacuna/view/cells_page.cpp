@@ -6,6 +6,7 @@
 #include <lacuna/view/detail/cell_set.h>
 #include <lacuna/view/detail/page_file.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -85,6 +86,15 @@ void add_listed(Json& json, const ListedCells& region, const Grid& grid)
 {
     json.begin_object().member("name", region.name).member("swept", false);
     json.member("count", region.cells.size()).member("cells", pack(flat(region.cells), 8));
+    json.member("curved", !region.curved.empty());
+    if (!region.curved.empty()) {
+        std::vector<std::array<Index, 12>> middles;
+        for (const mesh::CellNodes& cell : region.curved) {
+            middles.emplace_back().fill(-1);
+            if (cell.count > 0) std::copy_n(cell.node.begin() + 8, 12, middles.back().begin());
+        }
+        json.member("sideMiddles", pack(flat(middles), 12));
+    }
     json.member("tags", pack(region.tags, 1)).member("values", pack(rounded(region.quality), 1));
     json.member("sideCount", region.sides.size()).member("sides", pack(flat(region.sides), 4));
     json.member("sidePatch", pack(region.side_patch, 1));
@@ -157,7 +167,8 @@ void write_page(const io::Deck& deck, const io::OutputPath& path, const PageOpti
     const Grid grid = grid_over(box);
     std::vector<std::string> facts{counted(count, "cell")};
     if (cells.regions.size() > 1) facts.push_back(counted(cells.regions.size(), "region"));
-    if (cells.second_order) facts.emplace_back("order 2, drawn by the corners");
+    if (cells.second_order) facts.emplace_back("order 2");
+    if (cells.straightened) facts.emplace_back("some of order 2 drawn by their corners");
 
     Json json;
     json.begin_object().member("kind", "cells");

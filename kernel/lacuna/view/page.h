@@ -35,11 +35,12 @@ struct PageOptions {
 /// largest extent; the page computes cells, skin and cuts. Order 2 is drawn with its middle nodes.
 /// @pre    a region at least; those of an assembly in its order.
 /// @throw  InvalidInput, BackendError  as `io::WholeFile`. Cancelled.
-/// @note   A million hexahedra of a swept block take 4 MB. O(cells).
+/// @note   A million hexahedra of a twisted block take 2.5 MB with zlib. O(cells).
 void write_page(std::span<const Region> regions, const io::OutputPath& path, const PageOptions& options = {},
                 const RunContext& context = {});
 
-/// The same of the solids of a file, corners alone. Elements of two dimensions give the skin its groups.
+/// The same of the solids of a file; of order 2 hexahedra alone are drawn with their middle nodes. Elements
+/// of two dimensions give the skin its groups.
 /// @throw InvalidInput "view.no_solids"  the deck has no solids.
 void write_page(const io::Deck& deck, const io::OutputPath& path, const PageOptions& options = {},
                 const RunContext& context = {});

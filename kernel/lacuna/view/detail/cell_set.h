@@ -27,6 +27,9 @@ struct ListedCells {
     std::string name;
     std::vector<Vec3> nodes;
     std::vector<Hex> cells;
+    /// Of hexahedra of order 2 all their nodes, as `mesh::CellNodes` has them; a count of 0 for other cells.
+    /// Empty where there is none.
+    std::vector<mesh::CellNodes> curved;
     std::vector<Index> tags;     ///< numbers of the cells in the file; 0 where it is too large
     std::vector<double> quality; ///< scaled Jacobian; not a number where a cell has none
     std::vector<Quad> sides;     ///< elements of two dimensions; a triangle as {a, b, c, c}
@@ -37,7 +40,8 @@ struct ListedCells {
 struct DeckCells {
     std::vector<ListedCells> regions;
     std::vector<ShownPatch> patches;
-    bool second_order = false; ///< middle nodes were left out
+    bool second_order = false; ///< some cells are of order 2
+    bool straightened = false; ///< middle nodes of some of them were left out
 };
 /// @throw InvalidInput "view.no_solids"
 DeckCells listed_cells(const io::Deck& deck, const RunContext& context);

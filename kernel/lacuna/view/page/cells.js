@@ -175,6 +175,7 @@ class ListedCells {
         const cells = new ListedCells();
         Object.assign(cells, { name: r.name, count: r.count, layers: 0, nodeCount: r.nodes.count });
         cells.corner = await unpack(r.cells, 8 * r.count, 8);
+        if (r.curved) cells.middles = await unpack(r.sideMiddles, 12 * r.count, 12);
         cells.values = Int16Array.from(await unpack(r.values, r.count, 1));
         cells.tags = await unpack(r.tags, r.count, 1);
         const sides = await unpack(r.sides, 4 * r.sideCount, 4),
@@ -242,8 +243,10 @@ class ListedCells {
     corners(c, out) {
         for (let k = 0; k < 8; k++) out[k] = this.base + this.corner[8 * c + k];
     }
-    middleNodes() {
-        return false;
+    middleNodes(c, out) {
+        if (!this.middles || this.middles[12 * c] < 0) return false;
+        for (let k = 0; k < 12; k++) out[k] = this.base + this.middles[12 * c + k];
+        return true;
     }
     patchOf(c, face) {
         const p = -2 - this.across[6 * c + face];
