@@ -313,6 +313,10 @@ function Volume:write_cad(path, options) end
 ---@field file? string of the recipe
 ---@field line? integer
 
+--- A line a stage of the sweep; prints as lines.
+---@class lacuna.Report: string[]
+---@field seconds table<string, number> by stage
+
 --- Numbers in rows, as they lie in memory. #buffer is the number of rows.
 ---@class lacuna.Buffer
 ---@field rows integer
@@ -337,7 +341,7 @@ function Buffer:bytes() end
 ---@field wedges integer
 ---@field layers integer
 ---@field order 1|2
----@field report string[] a line a stage of the sweep; prints as lines
+---@field report lacuna.Report
 local Mesh = {}
 ---@return lacuna.Quality
 function Mesh:quality() end
@@ -389,7 +393,7 @@ function Assembly:sweep(options) end
 ---@field hexes integer
 ---@field layers table<string, integer> by region
 ---@field regions string[]
----@field report string[]
+---@field report lacuna.Report
 local AssemblyMesh = {}
 ---@return lacuna.Quality
 function AssemblyMesh:quality() end
