@@ -340,6 +340,10 @@ function Volume:write_cad(path, options) end
 ---@field file? string of the recipe
 ---@field line? integer
 
+--- A line a stage of the sweep; prints as lines.
+---@class lacuna.Report: string[]
+---@field seconds table<string, number> by stage
+
 --- Numbers in rows, as they lie in memory. #buffer is the number of rows.
 ---@class lacuna.Buffer
 ---@field rows integer
@@ -365,7 +369,7 @@ function Buffer:bytes() end
 ---@field layers integer
 ---@field order 1|2
 ---@field regions string[] the one volume's name
----@field report string[] a line a stage of the sweep; prints as lines
+---@field report lacuna.Report
 local Mesh = {}
 ---@return lacuna.Quality
 function Mesh:quality() end
@@ -419,7 +423,7 @@ function Assembly:sweep(options) end
 ---@field order 1|2
 ---@field layers table<string, integer> by region
 ---@field regions string[]
----@field report string[]
+---@field report lacuna.Report
 local AssemblyMesh = {}
 ---@return lacuna.Quality
 function AssemblyMesh:quality() end

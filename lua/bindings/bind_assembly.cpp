@@ -138,7 +138,7 @@ int mesh_report(lua_State* L)
             lua_rawseti(L, -2, next++);
         }
     }
-    set_report_meta(L);
+    set_report_meta(L, state.seconds);
     return 1;
 }
 

@@ -41,13 +41,14 @@ int mesh_order(lua_State* L)
 
 int mesh_report(lua_State* L)
 {
-    const auto& report = hold<MeshState>(L, 1).swept.report;
+    const MeshState& state = hold<MeshState>(L, 1);
+    const auto& report = state.swept.report;
     lua_createtable(L, static_cast<int>(report.size()), 0);
     for (std::size_t i = 0; i < report.size(); ++i) {
         lua_pushlstring(L, report[i].data(), report[i].size());
         lua_rawseti(L, -2, to_lua(i));
     }
-    set_report_meta(L);
+    set_report_meta(L, state.seconds);
     return 1;
 }
 

@@ -501,16 +501,18 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<Box<VolumeSta
 
 /// Sweep the pieces of a volume with branches or steps as an assembly.
 int sweep_steps(lua_State* L, const Box<VolumeState>& volume, const SweepArguments& arguments,
-                const RunContext& context)
+                RunContext& context)
 {
     auto& box = new_box<AssemblyMeshState>(L);
     guard(L, [&] {
         const Busy busy(*volume, "sweep");
+        StageClock clock(context);
         std::vector<Box<VolumeState>> pieces;
         std::vector<const SweepArguments*> options;
         add_members(pieces, options, volume, volume->name.empty() ? "piece" : volume->name, arguments,
                     context);
         box = sweep_members(pieces, options, context);
+        box->seconds = clock.seconds();
     });
     return 1;
 }
@@ -531,6 +533,7 @@ int sweep_volume(lua_State* L)
     auto& box = new_box<MeshState>(L);
     guard(L, [&] {
         const Busy busy(state, "sweep");
+        StageClock clock(context);
         close_volume(state, {}, context);
         box = std::make_shared<MeshState>();
         if (!state.decks.empty())
@@ -540,6 +543,7 @@ int sweep_volume(lua_State* L)
         box->swept = sweep::sweep(state.volume, arguments.options, context);
         if (!state.name.empty()) box->swept.mesh.volume_groups = {state.name};
         box->material = state.material;
+        box->seconds = clock.seconds();
     });
     return 1;
 }
@@ -617,6 +621,7 @@ int sweep_assembly(lua_State* L)
     lua_gc(L, LUA_GCCOLLECT);
     auto& box = new_box<AssemblyMeshState>(L);
     guard(L, [&] {
+        StageClock clock(context);
         std::vector<Box<VolumeState>> volumes;
         std::vector<const SweepArguments*> options;
         for (std::size_t m = 0; m < assembly.volumes.size(); ++m) {
@@ -625,6 +630,7 @@ int sweep_assembly(lua_State* L)
             add_members(volumes, options, volume, name, *arguments[m], context);
         }
         box = sweep_members(volumes, options, context);
+        box->seconds = clock.seconds();
     });
     return 1;
 }

@@ -285,8 +285,11 @@ int report_to_string(lua_State* L)
 
 } // namespace
 
-void set_report_meta(lua_State* L)
+void set_report_meta(lua_State* L, const StageSeconds& seconds)
 {
+    lua_createtable(L, 0, static_cast<int>(seconds.size()));
+    for (const auto& [stage, taken] : seconds) set_number(L, stage.c_str(), taken);
+    lua_setfield(L, -2, "seconds");
     if (luaL_newmetatable(L, "Report")) {
         lua_pushcfunction(L, report_to_string);
         lua_setfield(L, -2, "__tostring");

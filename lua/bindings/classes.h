@@ -5,6 +5,7 @@
 // names.
 
 #include "bindings/box.h"
+#include "bindings/stage_clock.h"
 
 #include <lacuna/closure/close.h>
 #include <lacuna/core/run_context.h>
@@ -91,6 +92,7 @@ struct MeshState {
     sweep::Swept swept;
     std::optional<quality::Quality> quality;
     std::string material; ///< of the volume
+    StageSeconds seconds; ///< of the sweep
 };
 
 /// Volumes to be meshed as one.
@@ -104,6 +106,7 @@ struct AssemblyMeshState {
     std::vector<std::string> regions;   ///< of each part
     std::vector<std::string> materials; ///< of each part; empty ones: none was said
     std::optional<quality::Quality> quality;
+    StageSeconds seconds; ///< of the sweep
 };
 
 /// The nodes and cells of all parts, numbered as one mesh.
@@ -148,8 +151,8 @@ void set_count(lua_State* L, const char* key, std::size_t value);
 void set_boolean(lua_State* L, const char* key, bool value);
 void set_string(lua_State* L, const char* key, const char* value);
 void set_strings(lua_State* L, const char* key, const std::vector<std::string>& values);
-/// The array of lines on top prints as lines from now on.
-void set_report_meta(lua_State* L);
+/// The array of lines on top prints as lines from now on, and gets the field `seconds`, a table by stage.
+void set_report_meta(lua_State* L, const StageSeconds& seconds);
 void push_face(lua_State* L, const Box<ModelState>& model, FaceId face);
 void push_group(lua_State* L, const std::string& name, int dim,
                 std::size_t cells); ///< { name=, dim=, cells= }

@@ -54,11 +54,10 @@ they can be found. A recipe names faces by these tags: part:open_volume { source
 
   --json   { file =, faces = [ { tag, name, kind, ... } ], class =, roles_refused = } for scripts
 )"},
-    {"view", "FILE", 1, false, "a page of a file's faces or cells for a browser",
+    {"view", "FILE", 1, false, "a page of its faces or cells, for a browser",
      R"(
-Writes FILE.view.html into the folder it is called in: one page without other files, to be opened in a
-browser. Faces of a model are labelled and can be clicked, which gives the roles for a recipe to copy. Meshes
-are turned, cut and coloured by quality, layer or group.
+Writes FILE.view.html into the folder it is called in, from any file that is read. The page needs nothing
+else: open it in a browser. Faces are picked by clicking and their roles copied; cells are cut and coloured.
 )"},
     {"check", "FILE", 1, true, "a mesh and its quality; exit code 1 when a cell is invalid",
      R"(

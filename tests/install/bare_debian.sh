@@ -43,6 +43,7 @@ lacuna box.lua
 lacuna check box.msh
 lacuna info box.step >/dev/null
 lacuna convert box.msh box.vtu
+lacuna view box.msh
 [ -z "$(ls -A "$HOME")" ] || { echo "something was written to the home folder"; exit 1; }
 
 # The module and the library, and what a host is compiled with.

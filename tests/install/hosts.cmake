@@ -9,6 +9,33 @@ endforeach()
 file(RENAME "${WORK_DIR}/first" "${WORK_DIR}/prefix")
 set(prefix "${WORK_DIR}/prefix")
 
+# What the manual prints of them is theirs.
+file(READ "${HOSTS_DIR}/../../../docs/hosts.md" page)
+set(hosts "")
+foreach(host IN ITEMS host.cpp host.c host.py)
+  file(READ "${HOSTS_DIR}/${host}" text)
+  string(APPEND hosts "${text}")
+endforeach()
+string(REGEX MATCHALL "\n```[a-z]+\n" begins "${page}")
+list(LENGTH begins count)
+if(count EQUAL 0)
+  message(FATAL_ERROR "docs/hosts.md has no block of code")
+endif()
+foreach(begin IN LISTS begins)
+  string(FIND "${page}" "${begin}" at)
+  string(LENGTH "${begin}" length)
+  math(EXPR at "${at} + ${length}")
+  string(SUBSTRING "${page}" ${at} -1 page)
+  string(FIND "${page}" "\n```\n" end)
+  string(SUBSTRING "${page}" 0 ${end} block)
+  string(FIND "${hosts}" "${block}" found)
+  if(found EQUAL -1)
+    message(FATAL_ERROR "a block of docs/hosts.md is in no host:\n${block}")
+  endif()
+  math(EXPR end "${end} + 5") # behind its last line
+  string(SUBSTRING "${page}" ${end} -1 page)
+endforeach()
+
 # The C++ and the C host, by find_package.
 run("configuring the hosts" ${CMAKE_COMMAND} -S "${HOSTS_DIR}" -B "${WORK_DIR}/build" -G "${GENERATOR}"
   "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_C_COMPILER=${C_COMPILER}" "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}"

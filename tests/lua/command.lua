@@ -24,7 +24,7 @@ end
 
 expect({ "--version" }, 0, { "lacuna " .. lacuna.version, "Lua 5.4", lacuna.gmsh_version }, {})
 expect({ "--help" }, 0, { "usage: lacuna", "exit codes" }, {})
-for _, command in ipairs { "info", "check", "convert" } do
+for _, command in ipairs { "info", "view", "check", "convert" } do
   for _, words in ipairs { { command, "--help" }, { "help", command }, { command, "x", "--help" } } do
     expect(words, 0, { "usage: lacuna " .. command }, {})
   end
@@ -33,6 +33,22 @@ end
 expect({ "help", "nothing" }, 2, {}, { "nothing" })
 expect({ "convert", "a.msh" }, 2, {}, { "IN OUT" })
 expect({ "convert", "--json", "a.msh", "b.vtu" }, 2, {}, { "--json" })
+
+-- Manual page and completions name every option and command that the help names.
+local _, help = run { "--help" }
+local program = arg[0]:match("^(.*/)") .. "../../lua/program/"
+for _, path in ipairs { "lacuna.1", "completion/lacuna.bash", "completion/_lacuna",
+  "completion/lacuna.fish" } do
+  local file <close> = assert(io.open(program .. path))
+  local text = file:read("a"):gsub("\\%-", "-")
+  for option in (help .. "--json"):gmatch("%-%-([%l-]+)") do
+    local there = text:find("--" .. option, 1, true) or text:find("-l " .. option, 1, true)
+    check.that(there, path .. ": --" .. option)
+  end
+  for command in help:gmatch("\n  (%l+) [%u ]+ %l") do
+    check.that(text:find("%f[%w]" .. command .. "%f[%W]"), path .. ": " .. command)
+  end
+end
 
 -- Bad usage is 2.
 expect({}, 2, {}, { "lacuna: ", "--help" })

@@ -122,6 +122,14 @@ check.equal(by_hand:close { void_edges = { { pair[2], pair[1], { { 0.5, 0, 2 } }
 -- A mesh: the count law, numbers from 1, groups that cover skin and volume.
 local mesh = void:sweep { layers = 3, size = 0.5 }
 check.equal(mesh.layers, 3)
+check.equal(tostring(mesh.report), table.concat(mesh.report, "\n"))
+local taken = 0
+for stage, seconds in pairs(mesh.report.seconds) do
+  check.equal(type(stage), "string")
+  check.that(seconds >= 0)
+  taken = taken + 1
+end
+check.that(taken >= 4, taken .. " stages")
 check.equal(mesh.hexes % 3, 0)
 check.equal(mesh.nodes % 4, 0)
 check.that(mesh.hexes >= 12)

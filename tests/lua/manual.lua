@@ -52,6 +52,7 @@ local calls = {
   { "SweepOptions", function(o) volume():sweep(o) end },
   { "Layers", function(o) volume():sweep { layers = o } end },
   { "WriteOptions", function(o) mesh:write("x.msh", o) end },
+  { "ConvertOptions", function(o) lacuna.convert("x.msh", "y.msh", o) end },
   { "WriteOptions", function(o) both:write("x.msh", o) end },
   { "PageOptions", function(o) prism():view("x.html", o) end },
   { "PageOptions", function(o) volume():view("x.html", o) end },
@@ -90,6 +91,33 @@ for _, call in ipairs(calls) do
     check.that(found,
         ("%s.%s: no row of the reference has the default %s"):format(call[1], field, default))
   end
+end
+
+-- --- fields of objects, and keys that the stub has in place ------------------------------------------------
+
+local function names(set)
+  local list = {}
+  for name in pairs(set) do list[#list + 1] = name end
+  table.sort(list)
+  return table.concat(list, ", ")
+end
+
+local objects = { Model = prism(), Face = prism():faces()[1], Volume = volume(), Mesh = mesh,
+  Assembly = lacuna.assembly { volume() }, AssemblyMesh = both, Buffer = mesh:cells() }
+for name, object in pairs(objects) do
+  check.equal(names(debug.getmetatable(object).fields), names(fields_of(name)), "fields of " .. name)
+end
+
+local text = read(folder .. "../../lua/lacuna.d.lua")
+for name, make in pairs(lacuna.synthetic) do
+  local keys = text:match("%-%-%-@param options%? (%b{})\n%-%-%-@return lacuna.Model\n" ..
+    "function synthetic%." .. name)
+  local known, taken = {}, {}
+  check.that(keys, name)
+  for key in keys:gmatch("([%w_]+)%?:") do known[key] = true end
+  local message = check.fails(function() make { no_such_key = 1 } end, "The keys are:")
+  for key in message:match("The keys are: ([^%[]*)"):gmatch("[%w_]+") do taken[key] = true end
+  check.equal(names(taken), names(known), "synthetic." .. name)
 end
 
 check.done()

@@ -295,6 +295,8 @@ TEST_CASE("interpreters come and go, eight at once, and leave no memory behind")
     const std::size_t after = resident();
     CAPTURE(before);
     CAPTURE(after);
+#ifndef __SANITIZE_ADDRESS__ // which keeps what was freed for a while, and finds leaks by itself
     // A state takes some 0.4 MB while it is open: were one in twenty left, this would be exceeded.
     CHECK(after < before + 8'000'000);
+#endif
 }

@@ -14,7 +14,7 @@ _lacuna()
     local flags="--verbose --quiet --traceback --help"
     case $command in
         help) mapfile -t COMPREPLY < <(compgen -W "info view check convert" -- "$word") && return ;;
-        info | view | check) flags+=" --json" ;;
+        info | check) flags+=" --json" ;;
         "") flags+=" --history --sandbox --output-dir --memory --seconds --version -i" ;;
     esac
     if [[ $word == -* ]]; then
