@@ -3,7 +3,6 @@ set -l commands info view check convert help
 complete -c lacuna -n "not __fish_seen_subcommand_from $commands" -a info -d 'the faces of a file, roles and class'
 complete -c lacuna -n "not __fish_seen_subcommand_from $commands" -a view -d 'a page for a browser'
 complete -c lacuna -n "not __fish_seen_subcommand_from $commands" -a check -d 'a mesh and its quality'
-complete -c lacuna -n "not __fish_seen_subcommand_from $commands" -a view -d 'a page for a browser'
 complete -c lacuna -n "not __fish_seen_subcommand_from $commands" -a convert -d 'a mesh to another format'
 complete -c lacuna -n "not __fish_seen_subcommand_from $commands" -a help -d 'about a command'
 complete -c lacuna -n "__fish_seen_subcommand_from help" -f -a 'info view check convert'
