@@ -227,6 +227,35 @@
 ---@field loops integer
 ---@field edges integer
 ---@field has_mesh boolean
+---@field radius? number of the cylinder or sphere that its facets lie on [model length]
+---@field axis? lacuna.Vector of that cylinder
+---@field box { [1]: lacuna.Vector, [2]: lacuna.Vector } its lowest and highest coordinates
+---@field neighbours integer[] tags of faces that share an edge with it
+
+---@class lacuna.Cavity
+---@field kind "pocket"|"bore"|"slot"|"inner void"
+---@field faces integer[] tags, for open_volume{ faces = … }
+---@field class lacuna.Class
+---@field volume number once it is sealed [model length³]
+
+---@class lacuna.FaceInfo: lacuna.Face
+---@field fits? "cylinder"|"sphere" what its facets lie on
+---@field centre? lacuna.Vector of that
+---@field free_edges integer how many
+---@field part integer of the sets of faces that hang together
+---@field cavity? integer a number in `cavities`
+---@field use string a kind of cavity, "outer skin" or "open shell"
+
+---@class lacuna.ModelInfo
+---@field source string
+---@field diagonal number [model length]
+---@field tolerance number [model length]
+---@field parts integer sets of faces that hang together
+---@field closed_parts integer those without free edges
+---@field faces lacuna.FaceInfo[]
+---@field free_edges { tag: integer, face: integer, from: integer, to: integer, length: number }[]
+---@field gaps { edge: integer, other: integer, width: number, tolerance: number }[] with the tolerance that sews each
+---@field cavities lacuna.Cavity[]
 
 ---@class lacuna.Model
 ---@field tolerance number [model length]
@@ -249,8 +278,15 @@ function Model:add_face(face) end
 ---@param roles? lacuna.Roles
 ---@return lacuna.Volume
 function Model:open_volume(roles) end
+--- Faces, free edges, gaps and cavities, in words.
 ---@return string
 function Model:describe() end
+--- The same as a table.
+---@return lacuna.ModelInfo
+function Model:info() end
+--- Pockets, bores and inner voids of closed skins.
+---@return lacuna.Cavity[]
+function Model:cavities() end
 --- A page for a browser: the faces, labelled, to be clicked for the roles of a recipe.
 ---@param path string .html
 ---@param options? lacuna.PageOptions

@@ -2,8 +2,12 @@
 // Model and Face.
 #include "bindings/faces.h"
 
+#include <lacuna/topology/face_facts.h>
+#include <lacuna/topology/face_radius.h>
+
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace lacuna::lua {
 
@@ -204,14 +208,6 @@ int face_from(lua_State* L)
     return 1;
 }
 
-/// text = model:describe()
-int describe_model(lua_State* L)
-{
-    const Box<ModelState>& state = hold_model(L, 1);
-    push_text(L, [&] { return topology::describe(state->model); });
-    return 1;
-}
-
 int model_to_string(lua_State* L)
 {
     const auto& state = hold<ModelState>(L, 1);
@@ -232,12 +228,7 @@ int model_length(lua_State* L)
 }
 
 const luaL_Reg kModelMethods[] = {
-    {"faces", faces},
-    {"face", face},
-    {"face_from", face_from},
-    {"add_face", add_face},
-    {"describe", describe_model},
-    {nullptr, nullptr},
+    {"faces", faces}, {"face", face}, {"face_from", face_from}, {"add_face", add_face}, {nullptr, nullptr},
 };
 const luaL_Reg kModelMeta[] = {{"__tostring", model_to_string}, {nullptr, nullptr}};
 const Field kModelFields[] = {
@@ -331,6 +322,65 @@ int face_has_mesh(lua_State* L)
     return 1;
 }
 
+/// A field of the shape that is fitted to the face's facets; nil where none fits.
+template <class Push>
+int fitted(lua_State* L, const Push& push)
+{
+    const HeldFace held = hold_face(L);
+    auto& shape = temporary<std::optional<topology::RoundShape>>(L);
+    guard(L, [&] { shape = topology::round_shape(held.model, held.face); });
+    if (!shape || !push(*shape)) lua_pushnil(L);
+    return 1;
+}
+
+int face_radius(lua_State* L)
+{
+    return fitted(L, [L](const topology::RoundShape& shape) {
+        lua_pushnumber(L, shape.radius);
+        return true;
+    });
+}
+
+int face_axis(lua_State* L)
+{
+    return fitted(L, [L](const topology::RoundShape& shape) {
+        if (shape.axis) push_vector(L, *shape.axis);
+        return shape.axis.has_value();
+    });
+}
+
+/// { {x, y, z}, {x, y, z} }
+int face_box(lua_State* L)
+{
+    const HeldFace held = hold_face(L);
+    Eigen::AlignedBox3d box;
+    for (const Triangle& t : held.model[held.face].triangles)
+        for (const Index p : t) box.extend(held.model.at(p));
+    lua_createtable(L, 2, 0);
+    push_vector(L, box.min());
+    lua_rawseti(L, -2, 1);
+    push_vector(L, box.max());
+    lua_rawseti(L, -2, 2);
+    return 1;
+}
+
+/// Tags of the faces that share an edge with it.
+int face_neighbours(lua_State* L)
+{
+    const HeldFace held = hold_face(L);
+    auto& tags = temporary<std::vector<int>>(L);
+    guard(L, [&] {
+        const auto facts = topology::face_facts(held.model);
+        for (const FaceId other : facts[held.face.index()].neighbours) tags.push_back(held.model[other].tag);
+    });
+    lua_createtable(L, static_cast<int>(tags.size()), 0);
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+        lua_pushinteger(L, tags[i]);
+        lua_rawseti(L, -2, to_lua(i));
+    }
+    return 1;
+}
+
 int face_to_string(lua_State* L)
 {
     const HeldFace held = hold_face(L);
@@ -348,9 +398,20 @@ int face_equal(lua_State* L)
 }
 
 const Field kFaceFields[] = {
-    {"tag", face_tag},           {"name", face_name},         {"kind", face_kind},   {"area", face_area},
-    {"normal", face_normal},     {"centroid", face_centroid}, {"loops", face_loops}, {"edges", face_edges},
-    {"has_mesh", face_has_mesh}, {nullptr, nullptr},
+    {"tag", face_tag},
+    {"name", face_name},
+    {"kind", face_kind},
+    {"area", face_area},
+    {"normal", face_normal},
+    {"centroid", face_centroid},
+    {"loops", face_loops},
+    {"edges", face_edges},
+    {"has_mesh", face_has_mesh},
+    {"radius", face_radius},
+    {"axis", face_axis},
+    {"box", face_box},
+    {"neighbours", face_neighbours},
+    {nullptr, nullptr},
 };
 const luaL_Reg kFaceMeta[] = {{"__tostring", face_to_string}, {"__eq", face_equal}, {nullptr, nullptr}};
 
@@ -362,6 +423,7 @@ void bind_topology(lua_State* L)
 {
     make_class<ModelState>(L, kModelFields, kModelMeta);
     add_methods(L, kClassName<ModelState>, kModelMethods);
+    bind_info(L);
     make_class<FaceHandle>(L, kFaceFields, kFaceMeta);
     luaL_setfuncs(L, kFunctions, 0);
 }

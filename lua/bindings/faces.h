@@ -51,4 +51,7 @@ Vec3 mean_normal(const topology::Model& model, FaceId face);
 /// Push the names of faces, at most twenty, as a list for messages.
 const char* push_names(lua_State* L, const topology::Model& model, const std::vector<FaceId>& faces);
 
+/// Adds info(), cavities() and describe() to Model; called by bind_topology().
+void bind_info(lua_State* L);
+
 } // namespace lacuna::lua

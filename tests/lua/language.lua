@@ -208,6 +208,26 @@ check.equal(whole:open_volume().class, "closed")
 check.equal(lacuna.synthetic.barrel({ drop = "target" }):open_volume().class, "IV")
 check.equal(lacuna.synthetic.elbow({ drop = { "source", "target" } }):open_volume().class, "V")
 
+-- What a model is made of, as a table and in words, from one source.
+local plate = lacuna.synthetic.plate { holes = 2 }
+local told, words = plate:info(), plate:describe()
+check.equal(#told.faces, #plate:faces())
+check.equal(#told.cavities, 2)
+check.equal(#plate:cavities(), 2)
+check.equal(told.closed_parts, 1)
+check.equal(#told.free_edges, 0)
+for i, cavity in ipairs(told.cavities) do
+  check.equal(cavity.kind, "bore")
+  check.equal(plate:open_volume({ faces = cavity.faces }).class, cavity.class)
+  check.that(words:find("bore: open_volume{ faces = { " .. table.concat(cavity.faces, ", "), 1, true))
+  local bore = plate:face(cavity.faces[1])
+  check.equal(told.faces[1].use, "outer skin")
+  check.that(bore.radius > 0 and #bore.axis == 3 and #bore.box == 2 and #bore.neighbours == 2)
+end
+local holed = lacuna.synthetic.plate { drop = "target" }
+check.that(#holed:info().free_edges > 0 and holed:describe():find("free edges: ", 1, true))
+check.fails(function() plate:open_volume { faces = { 1, 2 }, reading = 9 } end, "reading")
+
 -- Every way to give layers and sizes makes the layers asked for.
 local function swept(options)
   return cube(names):open_volume({ source = 1, walls = "auto" }):sweep(options)

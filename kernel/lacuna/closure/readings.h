@@ -26,11 +26,11 @@ struct Reading {
 /// about as likely.
 ///
 /// Readings as topology::role_candidates() has them are sealed, each by itself; those that do not seal drop
-/// out. Two readings are one void where their volumes agree and no point of the void faces of one lies
-/// further than a small share of its size from the other's: given faces are the same in both. A void is then
-/// read anew, as the closed skin it is, and swept the best way: of those about as likely as the likeliest the
-/// one with the fewest irregular nodes to expect, and of these the one with the most even cells. That way is
-/// kept open where a reading of the given faces says the same.
+/// out. Two readings are one void where their volumes agree and no point of one's void faces lies further
+/// than a small share of its size from the other's: given faces are the same in both. A void is then read
+/// anew, as the closed skin it is, and swept the best way: of those about as likely as the likeliest the one
+/// with the fewest irregular nodes to expect, and of these the one with the most even cells. That way is kept
+/// open where a reading of the given faces says the same.
 /// @return  empty where no reading passes.
 /// @throw InvalidInput  faces that cannot be oriented. Cancelled.
 /// @note  O(facets log facets) for each reading that is sealed; no more than 24 are. Readings that only fill

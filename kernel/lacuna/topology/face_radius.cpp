@@ -12,8 +12,13 @@ namespace {
 constexpr double kMostOff =
     0.01; // of the radius: well above the rounding of files, below what is another shape
 
-/// Radius of the circle or sphere through points, those of a row each, where all lie on it.
-std::optional<double> fitted(const Eigen::MatrixXd& points)
+struct Round {
+    double radius = 0;
+    Eigen::VectorXd centre;
+};
+
+/// The circle or sphere through points, those of a row each, where all lie on it.
+std::optional<Round> fitted(const Eigen::MatrixXd& points)
 {
     // |p|² = 2 c·p + (r² - |c|²) is linear in what is sought.
     const Eigen::Index n = points.cols();
@@ -27,12 +32,18 @@ std::optional<double> fitted(const Eigen::MatrixXd& points)
     if (!(radius > 0) || !std::isfinite(radius)) return {};
     const Eigen::VectorXd distance = (at.rowwise() - centre.transpose()).rowwise().norm();
     if ((distance.array() - radius).abs().maxCoeff() > kMostOff * radius) return {};
-    return radius;
+    return Round{radius, centre + mean.transpose()};
 }
 
 } // namespace
 
 std::optional<double> face_radius(const Model& model, FaceId id)
+{
+    const auto shape = round_shape(model, id);
+    return shape ? std::optional(shape->radius) : std::nullopt;
+}
+
+std::optional<RoundShape> round_shape(const Model& model, FaceId id)
 {
     const Face& face = model[id];
     if (face.kind == "plane") return {};
@@ -55,8 +66,18 @@ std::optional<double> face_radius(const Model& model, FaceId id)
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread / area);
     const Eigen::Vector3d share = axes.eigenvalues(); // of the normals along each axis, squared; rising
     if (share[1] < kMostOff * kMostOff) return {};    // all look one way
-    if (share[0] < kMostOff) return fitted(points * axes.eigenvectors().rightCols<2>());
-    return fitted(points);
+    if (share[0] >= kMostOff) {
+        const auto sphere = fitted(points);
+        if (!sphere) return {};
+        return RoundShape{sphere->radius, sphere->centre, {}};
+    }
+    const Eigen::Matrix<double, 3, 2> across = axes.eigenvectors().rightCols<2>();
+    const auto circle = fitted(points * across);
+    if (!circle) return {};
+    const Vec3 axis = axes.eigenvectors().col(0);
+    const Eigen::VectorXd along = points * axis;
+    const Vec3 centre = across * circle->centre + axis * (along.minCoeff() + along.maxCoeff()) / 2;
+    return RoundShape{circle->radius, centre, axis};
 }
 
 } // namespace lacuna::topology

@@ -2,7 +2,7 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/topology/gaps.h>
 
 #include <algorithm>
 #include <array>
@@ -14,9 +14,6 @@
 namespace lacuna::topology {
 
 namespace {
-
-/// Gaps wider than this part of the diagonal are not sewn: io::load_facets() takes no wider tolerance.
-constexpr double kWidestSewn = 0.01;
 
 constexpr std::array<std::string_view, 6> kClassNames{"closed", "I", "II", "III", "IV", "V"};
 
@@ -55,64 +52,27 @@ std::string count(std::size_t n, std::string_view one)
     return std::to_string(n) + " " + std::string(one) + (n == 1 ? "" : "s");
 }
 
-/// Free edges of two sets of faces that run beside each other.
-struct Gap {
-    EdgeId own, other;
-    double width = std::numeric_limits<double>::infinity(); ///< at its widest [model length]
-};
-
-/// The narrowest gap between a free edge of `part` and the free edges of all other faces.
-Gap narrowest_gap(const Model& model, const std::vector<FaceId>& part)
-{
-    const std::set<FaceId> own(part.begin(), part.end());
-    const auto uses = edge_uses(model);
-    std::vector<EdgeId> mine, owner;
-    std::vector<Triangle> sides; // of no area
-    for (std::size_t e = 0; e < uses.size(); ++e) {
-        if (uses[e].size() != 1) continue;
-        if (own.contains(uses[e].front().face)) {
-            mine.emplace_back(e);
-            continue;
-        }
-        const std::vector<Index>& chain = model.edges[e].points;
-        for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-            sides.push_back({chain[i], chain[i + 1], chain[i + 1]});
-            owner.emplace_back(e);
-        }
-    }
-    Gap gap;
-    if (sides.empty()) return gap;
-    const geometry::FacetTree tree(model.points, sides);
-    for (const EdgeId edge : mine) {
-        Gap here{edge, {}, 0};
-        for (const Index p : model[edge].points) {
-            const geometry::FacetTree::Hit hit = tree.closest(model.at(p));
-            if (here.other.valid() && std::sqrt(hit.distance2) <= here.width) continue;
-            here.width = std::sqrt(hit.distance2);
-            here.other = owner[index(hit.triangle)];
-        }
-        if (here.width < gap.width) gap = here;
-    }
-    return gap;
-}
-
 /// What is between a wall and its neighbours, and the tolerance that sews it up; nothing where it is too wide
 /// to be sewn.
 std::string gap_in_words(const Model& model, const std::vector<FaceId>& part)
 {
-    const Gap gap = narrowest_gap(model, part);
-    if (!(gap.width <= kWidestSewn * model.diagonal)) return "";
-    // Rounded up to two digits, with room for the rounding of coordinates.
-    const auto plain = [](double value, int digits) {
+    const std::set<FaceId> own(part.begin(), part.end());
+    const auto uses = edge_uses(model);
+    const auto is_own = [&](EdgeId edge) { return own.contains(uses[edge.index()].front().face); };
+    const std::vector<Gap> all = gaps(model);
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const Gap& gap) { return is_own(gap.own) != is_own(gap.other); });
+    if (found == all.end()) return "";
+    Gap gap = *found;
+    if (!is_own(gap.own)) std::swap(gap.own, gap.other);
+    const auto plain = [](double value) {
         std::array<char, 32> text{};
-        std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+        std::snprintf(text.data(), text.size(), "%.3g", value);
         return std::string(text.data());
     };
-    const double power = std::pow(10, std::floor(std::log10(std::max(gap.width, model.tolerance))) - 1);
-    const std::string enough = plain(std::ceil(1.01 * std::max(gap.width, model.tolerance) / power) * power,
-                                     3);
+    const std::string enough = plain(sewing_tolerance(model, gap));
     return ": its " + name_of(model, gap.own) + " runs beside " + name_of(model, gap.other) + ", at most " +
-           plain(gap.width, 3) + " away, and the tolerance is " + plain(model.tolerance, 3) +
+           plain(gap.width) + " away, and the tolerance is " + plain(model.tolerance) +
            "; lacuna.load(…, { tolerance = " + enough + " }) or lacuna.model{ tolerance = " + enough +
            " } joins them";
 }

@@ -34,23 +34,29 @@ public:
         }
     }
 
-    /// Mean angle between two faces along an edge they share [degrees]; 0 where they run on smoothly.
-    [[nodiscard]] double angle_across(EdgeId edge, const std::vector<FaceUse>& uses) const
+    /// Mean angle between two faces along an edge they share, below 0 in a hollow [degrees]; 0 where they run
+    /// on smoothly.
+    [[nodiscard]] double fold_across(EdgeId edge, const std::vector<FaceUse>& uses) const
     {
         const std::vector<Index>& points = model_[edge].points;
-        double sum = 0;
+        double sum = 0, above = 0;
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
             const std::vector<Beside>& facets = beside_.at(edge_key(points[i], points[i + 1]));
-            std::vector<Vec3> normals;
+            std::vector<Vec3> normals, middles;
             for (const FaceUse& use : uses) {
                 const auto found = std::find_if(facets.begin(), facets.end(),
                                                 [&](const Beside& b) { return b.face == use.face; });
-                if (found != facets.end()) normals.push_back(normal_of(found->facet));
+                if (found == facets.end()) continue;
+                normals.push_back(normal_of(found->facet));
+                const Triangle& t = found->facet;
+                middles.push_back((model_.at(t[0]) + model_.at(t[1]) + model_.at(t[2])) / 3);
             }
-            if (normals.size() == 2)
-                sum += std::atan2(normals[0].cross(normals[1]).norm(), normals[0].dot(normals[1]));
+            if (normals.size() != 2) continue;
+            sum += std::atan2(normals[0].cross(normals[1]).norm(), normals[0].dot(normals[1]));
+            above += normals[0].dot(middles[1] - model_.at(points[i]));
         }
-        return sum / static_cast<double>(points.size() - 1) * 180 / std::numbers::pi;
+        const double angle = sum / static_cast<double>(points.size() - 1) * 180 / std::numbers::pi;
+        return above > 0 ? -angle : angle;
     }
 
 private:
@@ -141,17 +147,25 @@ void measure_facets(const Model& model, SmoothPatch& patch)
 
 } // namespace
 
-std::vector<double> angles_across(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
-                                  const RunContext& context)
+std::vector<double> folds_across(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
+                                 const RunContext& context)
 {
     const FacetsAtEdges facets(model, context);
     std::vector<double> angle(uses.size(), 0);
     for (std::size_t e = 0; e < uses.size(); ++e) {
         if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
         check_cancelled(context);
-        angle[e] = facets.angle_across(EdgeId(e), uses[e]);
+        angle[e] = facets.fold_across(EdgeId(e), uses[e]);
     }
     return angle;
+}
+
+std::vector<double> angles_across(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
+                                  const RunContext& context)
+{
+    std::vector<double> angles = folds_across(model, uses, context);
+    for (double& angle : angles) angle = std::abs(angle);
+    return angles;
 }
 
 std::vector<SmoothPatch> smooth_patches(const Model& model, const std::vector<std::vector<FaceUse>>& uses,

@@ -28,10 +28,14 @@ struct SmoothPatch {
 /// A choice, not a measurement: a chamfer of 45° still parts two patches.
 inline constexpr double kSmooth = 30;
 
-/// Mean angle between the two faces of each edge [degrees]; 0 where they run on smoothly or are not two.
-/// Near linear in the number of facets.
+/// Mean angle between the two faces of each edge, below 0 where they meet inside a hollow, as their normals
+/// say [degrees]; 0 where they run on smoothly or are not two. Near linear in the number of facets.
 /// @pre  the model is oriented.
 /// @throw Cancelled
+std::vector<double> folds_across(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
+                                 const RunContext& context);
+
+/// The same without the sign.
 std::vector<double> angles_across(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
                                   const RunContext& context);
 

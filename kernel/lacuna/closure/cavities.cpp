@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/cavities.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/union_find.h>
+#include <lacuna/topology/hollows.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+const char* word(VolumeClass value)
+{
+    switch (value) {
+    case VolumeClass::closed:
+        return "inner void";
+    case VolumeClass::IV:
+        return "pocket";
+    case VolumeClass::V:
+        return "bore";
+    default:
+        return "slot";
+    }
+}
+
+std::optional<Cavity> cavity(const Model& model, const std::vector<FaceId>& faces, const RunContext& context)
+{
+    try {
+        const std::vector<Reading> readings = find_readings(model, faces, context);
+        if (readings.size() != 1) return std::nullopt;
+        const VolumeClass value = readings.front().classification.value;
+        return Cavity{word(value), faces, value, readings.front().enclosed};
+    } catch (const InvalidInput&) {
+        return std::nullopt;
+    } catch (const NotClosed&) {
+        return std::nullopt;
+    }
+}
+
+/// Hollows that share a whole rim, as one.
+std::vector<std::vector<FaceId>> joined(const Model& model, const std::vector<Hollow>& hollows)
+{
+    std::map<std::set<EdgeId>, std::size_t> first; // the hollow that has a rim
+    geometry::UnionFind hang(hollows.size());
+    for (std::size_t h = 0; h < hollows.size(); ++h) {
+        for (const Rim& rim : rims(model, hollows[h].faces)) {
+            std::set<EdgeId> edges;
+            for (const EdgeUse& use : rim.uses) edges.insert(use.edge);
+            const auto [known, fresh] = first.emplace(std::move(edges), h);
+            if (!fresh) hang.unite_least(known->second, h);
+        }
+    }
+    std::map<std::size_t, std::vector<FaceId>> by_root;
+    std::map<std::size_t, std::size_t> count;
+    for (std::size_t h = 0; h < hollows.size(); ++h) {
+        std::vector<FaceId>& faces = by_root[hang.find(h)];
+        faces.insert(faces.end(), hollows[h].faces.begin(), hollows[h].faces.end());
+        ++count[hang.find(h)];
+    }
+    std::vector<std::vector<FaceId>> result;
+    for (auto& [root, faces] : by_root) {
+        if (count[root] < 2) continue;
+        std::sort(faces.begin(), faces.end());
+        result.push_back(std::move(faces));
+    }
+    return result;
+}
+
+} // namespace
+
+std::vector<Cavity> cavities(const Model& model, const RunContext& context)
+{
+    const std::vector<Hollow> found = hollows(model, context);
+    std::vector<std::vector<FaceId>> groups;
+    for (const Hollow& hollow : found) groups.push_back(hollow.faces);
+    for (std::vector<FaceId>& faces : joined(model, found)) groups.push_back(std::move(faces));
+    std::stable_sort(groups.begin(), groups.end(),
+                     [](const auto& a, const auto& b) { return a.front() < b.front(); });
+    std::vector<Cavity> result;
+    for (const std::vector<FaceId>& faces : groups) {
+        check_cancelled(context);
+        if (auto one = cavity(model, faces, context)) result.push_back(std::move(*one));
+    }
+    return result;
+}
+
+} // namespace lacuna::closure

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "support/volumes.h"
+
+#include <lacuna/topology/face_facts.h>
+#include <lacuna/topology/face_radius.h>
+#include <lacuna/topology/gaps.h>
+#include <lacuna/topology/hollows.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+using namespace lacuna;
+using namespace lacuna::topology;
+using test::without;
+
+TEST_CASE("neighbours know each other, and free edges are those of faces left out")
+{
+    for (const int sides : {3, 4, 6}) {
+        for (const bool drop : {false, true}) {
+            const auto prism = test::prism({.sides = sides, .drop = without(drop, false, false)});
+            const auto facts = face_facts(prism.model);
+            std::size_t free = 0;
+            for (std::size_t f = 0; f < facts.size(); ++f) {
+                free += facts[f].free_edges.size();
+                for (const FaceId other : facts[f].neighbours) {
+                    const auto& back = facts[other.index()].neighbours;
+                    CHECK(std::find(back.begin(), back.end(), FaceId(f)) != back.end());
+                }
+            }
+            CHECK(free == (drop ? static_cast<std::size_t>(sides) : 0));
+        }
+    }
+}
+
+TEST_CASE("a round wall has its radius and axis, however the prism lies")
+{
+    for (const double height : {0.5, 3.0}) {
+        const auto prism = test::prism({.sides = 0, .radius = 1.5, .height = height, .cuts = 6});
+        const auto shape = round_shape(prism.model, prism.face({Role::wall}));
+        REQUIRE(shape);
+        CHECK(shape->radius == doctest::Approx(1.5));
+        REQUIRE(shape->axis);
+        CHECK(std::abs(shape->axis->z()) == doctest::Approx(1));
+        CHECK(shape->centre.z() == doctest::Approx(height / 2));
+        CHECK(shape->centre.head<2>().norm() < 1e-9);
+    }
+}
+
+TEST_CASE("the holes of a plate are its hollows, and its outer sides are none")
+{
+    for (const int holes : {0, 1, 3}) {
+        for (const int hole_sides : {0, 4, 6}) {
+            const auto prism = test::prism({.holes = holes, .hole_sides = hole_sides});
+            const auto found = hollows(prism.model);
+            REQUIRE(found.size() == static_cast<std::size_t>(holes));
+            for (const Hollow& hollow : found) {
+                CHECK(hollow.mouths == 2);
+                for (const FaceId face : hollow.faces) CHECK(prism.part[face.index()].loop > 0);
+            }
+        }
+    }
+}
+
+TEST_CASE("a gap between faces apart is found with its width, and its tolerance is enough and little more")
+{
+    for (const double width : {1e-5, 3.3e-4, 2e-3}) {
+        const auto prism = test::prism({.sides = 4});
+        Model apart = prism.model;
+        // The source with points, edges and vertices of its own, moved off.
+        const Model source = extract(prism.model, {prism.face({Role::source})});
+        std::vector<FaceId> rest;
+        for (std::size_t f = 0; f < prism.model.faces.size(); ++f)
+            if (FaceId(f) != prism.face({Role::source})) rest.emplace_back(f);
+        apart = extract(prism.model, rest);
+        const auto points = static_cast<Index>(apart.points.size());
+        const std::size_t vertices = apart.vertices.size(), edges = apart.edges.size();
+        for (const Vec3& p : source.points) apart.points.push_back(p - width * Vec3::UnitZ());
+        for (Vertex v : source.vertices) {
+            v.point += points;
+            apart.vertices.push_back(v);
+        }
+        for (Edge e : source.edges) {
+            e.from = VertexId(e.from.index() + vertices);
+            e.to = VertexId(e.to.index() + vertices);
+            for (Index& p : e.points) p += points;
+            apart.edges.push_back(e);
+        }
+        Face face = source.faces.front();
+        for (Triangle& t : face.triangles)
+            for (Index& p : t) p += points;
+        for (Loop& loop : face.loops)
+            for (EdgeUse& use : loop.uses) use.edge = EdgeId(use.edge.index() + edges);
+        apart.faces.push_back(face);
+        apart.tolerance = 1e-9;
+        const auto found = gaps(apart);
+        REQUIRE(found.size() == 4);
+        for (const Gap& gap : found) {
+            CHECK(gap.width == doctest::Approx(width));
+            const double enough = sewing_tolerance(apart, gap);
+            CHECK(enough > gap.width);
+            CHECK(enough < 1.2 * gap.width);
+        }
+    }
+}
