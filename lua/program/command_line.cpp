@@ -49,10 +49,12 @@ const Command kCommands[] = {
     {"info", "FILE", 1, true, "the faces of a file, and the roles and class they seem to have",
      R"(
 Reads CAD, facets or a finite element mesh, and prints a line a face: its tag, which is the one Gmsh
-shows, its kind, area and normal. Then the roles and the class of the open volume that the faces bound, where
-they can be found. A recipe names faces by these tags: part:open_volume { source = 12, target = 31 }.
+shows, its kind with its sizes, area, centre, normal, box, edges, neighbours and what it may be. Then free
+edges, gaps and the tolerance that sews them, pockets and bores; the roles and the class of the open volume
+that the faces bound, where they can be found. A recipe names faces by these tags:
+part:open_volume { source = 12, target = 31 }.
 
-  --json   { file =, faces = [ { tag, name, kind, ... } ], class =, roles_refused = } for scripts
+  --json   what model:info() says, with file =, class =, roles = or roles_refused =, for scripts
 )"},
     {"view", "FILE", 1, false, "a page of its faces or cells, for a browser",
      R"(

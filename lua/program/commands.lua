@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: MIT
 -- The commands of the program: command, options, file, ...
-local debug, command, json, first, second = ...
+local command, json, first, second = ...
 local lacuna = require "lacuna"
 
 -- --- JSON --------------------------------------------------------------------------------------------------
@@ -44,31 +44,14 @@ end
 
 -- --- the commands ------------------------------------------------------------------------------------------
 
--- The fields of an object, as plain values; faces among them by their tags.
-local function fields_of(object_of_class)
-  local plain = {}
-  local function plain_of(value)
-    if type(value) == "userdata" then return value.tag end
-    if type(value) ~= "table" then return value end
-    local copy = {}
-    for key, part in pairs(value) do copy[key] = plain_of(part) end
-    return copy
-  end
-  for name in pairs(debug.getmetatable(object_of_class).fields) do
-    plain[name] = plain_of(object_of_class[name])
-  end
-  return plain
-end
-
 local commands = {}
 
 function commands.info()
   local model = lacuna.load(first)
   local found, volume = pcall(model.open_volume, model)
   if json then
-    local faces = {}
-    for i, face in ipairs(model:faces()) do faces[i] = fields_of(face) end
-    local told = { file = first, faces = faces }
+    local told = model:info()
+    told.file = first
     if found then told.class, told.roles = volume.class, volume:describe() end
     if not found then told.roles_refused = volume.message or tostring(volume) end
     return print(encode(told))

@@ -37,11 +37,10 @@ void run_action(const CommandLine& line, lacuna::Interpreter& interpreter, Progr
         break;
     case Action::command: {
         lua_State* const L = push_chunk(interpreter, "commands");
-        luaopen_debug(L); // which the sandbox keeps from recipes
         lua_pushstring(L, line.command.c_str());
         lua_pushboolean(L, line.json);
         for (const std::string& word : line.words) lua_pushstring(L, word.c_str());
-        interpreter.call(3 + static_cast<int>(line.words.size()));
+        interpreter.call(2 + static_cast<int>(line.words.size()));
         break;
     }
     case Action::version:

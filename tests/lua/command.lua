@@ -188,7 +188,7 @@ expect({ "-i" }, 0, { "after" }, { "prompt:1:" }, "x = = 1\nprint 'after'\n")
 
 if lacuna.gmsh_version ~= "none" then
   check.write(folder .. "/square.geo", 'SetFactory("OpenCASCADE"); Rectangle(7) = {0, 0, 0, 3, 2};\n')
-  expect({ "info", "square.geo" }, 0, { "area", "7  plane", "6" }, {})
+  expect({ "info", "square.geo" }, 0, { "face 7: plane, area 6", "free edges: 4" }, {})
   expect({ "info", "nowhere.step" }, 1, {}, { "nowhere.step" })
 end
 
