@@ -113,6 +113,12 @@ local mesh = stairs:open_volume { source = { "low", "high" }, target = "roof",
 check.equal(#mesh.regions, 2)
 check.near(mesh.fidelity.volume, 10, 1e-9)
 
+-- The tree says what it is cut into.
+local drum = turned(with(top, skin, bottom)):open_volume { source = { "floor", "top" },
+  target = { "lid", "bottom" }, walls = { "side", "skin" }, name = "air" }:tree()
+check.that(drum:find("pieces: 3\n  air_1: class closed, level 0", 1, true), drum)
+check.that(drum:find "air_1 and air_%d share void face", drum)
+
 -- Two ends apart that no walls join.
 check.fails(function()
   turned({ can[1], can[2], can[3], top }):open_volume { source = { "floor", "top" }, target = "lid",
