@@ -3,7 +3,9 @@
 // class.
 #include "bindings/faces.h"
 
+#include <lacuna/closure/branches.h>
 #include <lacuna/closure/readings.h>
+#include <lacuna/sweep/assembly.h>
 #include <lacuna/topology/auto_walls.h>
 
 #include <cctype>
@@ -259,11 +261,44 @@ int free_edges(lua_State* L)
     return 1;
 }
 
+/// The pieces that a volume with branches or steps is cut into, and which faces they share.
+std::string pieces_in_words(const VolumeState& state, const RunContext& context)
+{
+    if (state.closure || !closure::has_pieces(state.volume)) return "";
+    std::vector<closure::StepPiece> pieces;
+    try {
+        pieces = closure::cut_into_pieces(state.volume, context);
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) {
+        return std::string("pieces: it is not cut: ") + error.what() + "\n";
+    }
+    if (pieces.size() < 2) return "";
+    std::vector<sweep::AssemblyMember> members;
+    for (const closure::StepPiece& piece : pieces) {
+        const std::string name = state.name.empty() ? "piece" : state.name;
+        members.push_back({&piece.volume, {}, name + "_" + std::to_string(members.size() + 1)});
+    }
+    std::string text = "pieces: " + std::to_string(pieces.size()) + '\n';
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        text += "  " + members[p].region + ": class " +
+                std::string(topology::to_string(topology::classify(pieces[p].volume).value)) + ", level " +
+                std::to_string(pieces[p].level) + ", " + std::to_string(pieces[p].volume.model.faces.size()) +
+                " faces\n";
+    }
+    for (const sweep::SharedFace& face : sweep::shared_faces(members, context)) {
+        text += "  " + members[face.a].region + " and " + members[face.b].region + " share " +
+                topology::name_of(pieces[face.a].volume.model, face.face_a) + '\n';
+    }
+    return text;
+}
+
 /// text = volume:tree()
 int volume_tree(lua_State* L)
 {
     const auto& state = hold<VolumeState>(L, 1);
-    push_text(L, [&] { return tree(state.volume); });
+    RunContext& context = push_context(L);
+    push_text(L, [&] { return tree(state.volume) + pieces_in_words(state, context); });
     return 1;
 }
 

@@ -3,8 +3,8 @@
 
 #include <lacuna/closure/cut.h>
 #include <lacuna/closure/detail/pieces.h>
+#include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/void_geometry.h>
-#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/geometry/union_find.h>
@@ -20,7 +20,6 @@
 #include <numeric>
 #include <optional>
 #include <set>
-#include <unordered_map>
 
 namespace lacuna::closure {
 
@@ -69,67 +68,6 @@ Vec3 mean(const std::vector<Vec3>& places)
            static_cast<double>(places.size());
 }
 
-/// +1 where the facets face outward, -1 where inward, as their walls round the middle say.
-double facing(const Model& model)
-{
-    Vec3 centre = Vec3::Zero();
-    double area = 0;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) {
-        const double own = face_area(model, FaceId(f));
-        centre += own * face_centroid(model, FaceId(f));
-        area += own;
-    }
-    centre /= area;
-    double sum = 0;
-    for (const Face& face : model.faces) {
-        for (const Triangle& t : face.triangles) {
-            const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
-            sum += ((a + b + c) / 3 - centre).dot((b - a).cross(c - a));
-        }
-    }
-    return sum < 0 ? -1 : 1;
-}
-
-/// By how much the skin turns inward over each edge between two walls, on average [radians].
-std::vector<double> concave_turns(const OpenVolume& volume)
-{
-    const Model& model = volume.model;
-    const double outward = facing(model);
-    std::unordered_map<std::uint64_t, Vec3> normal; // of the wall facet at a directed side
-    std::set<std::uint64_t> sides;
-    for (const Edge& edge : model.edges) {
-        for (std::size_t i = 0; i + 1 < edge.points.size(); ++i)
-            sides.insert(edge_key(edge.points[i], edge.points[i + 1]));
-    }
-    for (std::size_t f = 0; f < model.faces.size(); ++f) {
-        if (volume.role[f] != Role::wall) continue;
-        for (const Triangle& t : model.faces[f].triangles) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (!sides.contains(edge_key(t[k], t[(k + 1) % 3]))) continue;
-                normal.emplace(directed_key(t[k], t[(k + 1) % 3]),
-                               (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])));
-            }
-        }
-    }
-    std::vector<double> turns;
-    for (const Edge& edge : model.edges) {
-        double sum = 0, length = 0;
-        for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
-            const Index a = edge.points[i], b = edge.points[i + 1];
-            const auto left = normal.find(directed_key(a, b)), right = normal.find(directed_key(b, a));
-            if (left == normal.end() || right == normal.end()) continue;
-            const Vec3 way = model.at(b) - model.at(a);
-            const Vec3 turn = left->second.cross(right->second);
-            const double angle = std::atan2(turn.norm(), left->second.dot(right->second));
-            // From the facet that runs with the edge to the other, a convex skin turns about the edge's way.
-            sum += way.norm() * (turn.dot(way) > 0 ? -outward : outward) * angle;
-            length += way.norm();
-        }
-        turns.push_back(length > 0 ? sum / length : 0);
-    }
-    return turns;
-}
-
 class BranchFinder {
 public:
     explicit BranchFinder(const OpenVolume& volume)
@@ -149,14 +87,25 @@ public:
     }
 
 private:
+    /// Edges of faces that are no walls.
+    [[nodiscard]] std::vector<bool> at_ends() const
+    {
+        std::vector<bool> result;
+        for (const std::vector<FaceUse>& users : uses_)
+            result.push_back(std::ranges::any_of(
+                users, [&](const FaceUse& use) { return volume_.role[use.face.index()] != Role::wall; }));
+        return result;
+    }
+
     void find_lines()
     {
         const std::vector<double> turns = concave_turns(volume_);
+        const std::vector<bool> is_end = at_ends();
         std::map<VertexId, std::vector<EdgeId>> at;
         geometry::UnionFind sets(model_.edges.size());
         std::vector<EdgeId> concave;
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
-            if (uses_[e].size() != 2 || turns[e] < kConcave * std::numbers::pi / 180) continue;
+            if (is_end[e] || turns[e] < kConcave * std::numbers::pi / 180) continue;
             concave.emplace_back(e);
             for (const VertexId v : {model_.edges[e].from, model_.edges[e].to}) {
                 for (const EdgeId other : at[v]) sets.unite_least(other.index(), e);

@@ -19,9 +19,13 @@ using namespace topology;
 
 namespace {
 
+/// A cut lies across the sweep where its normal and the source's differ by less than this cosine. A choice.
+constexpr double kAcross = 0.9;
+
 /// A piece, still in the model of all.
 struct Part {
     std::vector<FaceId> skin, partitions;
+    std::vector<FaceId> behind; ///< partitions it lies behind
 };
 
 class Parter {
@@ -82,6 +86,7 @@ private:
                 const auto [found, fresh] = number.try_emplace(root, parts_.size());
                 if (fresh) parts_.emplace_back();
                 parts_[found->second].partitions.push_back(face);
+                if (root == behind) parts_[found->second].behind.push_back(face);
             }
         }
         std::map<std::size_t, std::vector<FaceId>> lone;
@@ -153,8 +158,19 @@ private:
         }
         std::vector<std::vector<FaceId>> across;
         for (std::vector<FaceId>& cut : connected_parts(model_, part.partitions)) {
-            if (touches(cut, roles.source) || touches(cut, roles.target) ||
-                (!roles.source.empty() && !roles.target.empty()))
+            // In the plane of an end that it goes on from, it is of that end.
+            std::vector<FaceId>* const end = goes_on(cut, roles.source)   ? &roles.source
+                                             : goes_on(cut, roles.target) ? &roles.target
+                                                                          : nullptr;
+            if (end != nullptr) {
+                end->insert(end->end(), cut.begin(), cut.end());
+                continue;
+            }
+            std::vector<FaceId>* const facing = faced_as(cut, part, roles);
+            if (facing != nullptr && !touches(cut, roles.source) && !touches(cut, roles.target))
+                facing->insert(facing->end(), cut.begin(), cut.end());
+            else if (touches(cut, roles.source) || touches(cut, roles.target) ||
+                     (!roles.source.empty() && !roles.target.empty()))
                 roles.walls.insert(roles.walls.end(), cut.begin(), cut.end());
             else
                 across.push_back(std::move(cut));
@@ -171,19 +187,41 @@ private:
         return turned(roles);
     }
 
+    [[nodiscard]] bool lies_in_plane(FaceId face) const
+    {
+        return parted_.plane && std::ranges::all_of(model_[face].triangles, [&](const Triangle& t) {
+                   return std::ranges::all_of(t, [&](Index p) {
+                       return std::abs(geometry::height(*parted_.plane, model_.at(p))) <= model_.tolerance;
+                   });
+               });
+    }
+
+    /// Of a piece with both ends, the one a flat cut across the sweep is part of: that which faces its way.
+    [[nodiscard]] std::vector<FaceId>* faced_as(const std::vector<FaceId>& cut, const Part& part,
+                                                Roles& roles) const
+    {
+        if (!parted_.plane || roles.source.empty() || roles.target.empty()) return nullptr;
+        Vec3 area = Vec3::Zero();
+        for (const FaceId face : roles.source) area += face_area_vector(model_, face);
+        const bool behind = std::ranges::find(part.behind, cut.front()) != part.behind.end();
+        const double along = (behind ? 1 : -1) * parted_.plane->normal.dot(area) / area.norm();
+        if (along > kAcross) return &roles.source;
+        return along < -kAcross ? &roles.target : nullptr;
+    }
+
+    /// Whether a cut meets faces of an end that lie in its plane.
+    [[nodiscard]] bool goes_on(const std::vector<FaceId>& cut, const std::vector<FaceId>& end) const
+    {
+        return std::ranges::any_of(end,
+                                   [&](FaceId face) { return lies_in_plane(face) && touches(cut, {face}); });
+    }
+
     /// Walls in the plane of a cut that is an end, as a shoulder it goes on from, are of that end.
     void take_coplanar(std::vector<FaceId>& walls, std::vector<FaceId>& cut) const
     {
-        if (!parted_.plane) return;
         std::vector<FaceId> both = cut;
-        for (const FaceId wall : walls) {
-            const bool flat = std::ranges::all_of(model_[wall].triangles, [&](const Triangle& t) {
-                return std::ranges::all_of(t, [&](Index p) {
-                    return std::abs(geometry::height(*parted_.plane, model_.at(p))) <= model_.tolerance;
-                });
-            });
-            if (flat) both.push_back(wall);
-        }
+        for (const FaceId wall : walls)
+            if (lies_in_plane(wall)) both.push_back(wall);
         if (both.size() == cut.size()) return;
         for (const std::vector<FaceId>& end : connected_parts(model_, both)) {
             if (std::ranges::find(end, cut.front()) == end.end()) continue;

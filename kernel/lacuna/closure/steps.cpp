@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/steps.h>
 
+#include <lacuna/closure/cut.h>
+#include <lacuna/closure/detail/turns.h>
+#include <lacuna/closure/void_geometry.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/geometry/predicates.h>
 #include <lacuna/geometry/triangulate.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -22,46 +28,87 @@ namespace {
 /// How many facets of a target's part say which part of the source it lies over.
 constexpr std::size_t kVotes = 50;
 
-/// Walls that join two parts of the stepped end.
-struct Riser {
-    std::size_t low = 0, high = 0; ///< parts of the end, the higher one nearer to the other end
-    std::vector<FaceId> walls;
-    std::vector<Rim> rims; ///< closed walks along the upper part's edges at these walls
+/// An end turns into the walls at a step by more than this [degrees]: half of a right angle. A choice.
+constexpr double kStep = 45;
+/// Each cut leaves pieces with fewer steps. More rounds than this are a fault, not a shape.
+constexpr int kRounds = 64;
+
+/// A rim of an end from which the walls go away from the opposite end.
+struct Hanging {
+    std::size_t part = 0; ///< of the end
+    Rim rim;
 };
+
+/// How the rims of an end turn into the walls.
+struct Steps {
+    std::vector<std::vector<FaceId>> parts; ///< of the end, that hang together
+    std::vector<Hanging> closed;            ///< all round
+    std::vector<FaceId> risers;             ///< walls at steps that end at other walls
+};
+
+Steps find_steps(const OpenVolume& volume, Role end, const std::vector<double>& turns)
+{
+    const Model& model = volume.model;
+    const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
+    Steps steps;
+    const std::vector<FaceId> faces = volume.faces(end);
+    if (faces.empty()) return steps;
+    steps.parts = connected_parts(model, faces);
+    for (std::size_t p = 0; p < steps.parts.size(); ++p) {
+        for (Rim& rim : topology::rims(model, steps.parts[p])) {
+            std::size_t away = 0, onward = 0;
+            std::vector<FaceId> risers;
+            for (const EdgeUse& use : rim.uses) {
+                if (turns[use.edge.index()] < kStep * std::numbers::pi / 180) {
+                    if (uses[use.edge.index()].size() > 1) ++onward;
+                    continue;
+                }
+                ++away;
+                for (const FaceUse& user : uses[use.edge.index()])
+                    if (volume.role[user.face.index()] == Role::wall) risers.push_back(user.face);
+            }
+            if (away == 0) continue;
+            if (onward == 0)
+                steps.closed.push_back({p, std::move(rim)});
+            else
+                steps.risers.insert(steps.risers.end(), risers.begin(), risers.end());
+        }
+    }
+    return steps;
+}
 
 /// A rim laid onto the opposite end.
 struct Imprinted {
-    std::size_t riser = 0;
-    FaceId target;             ///< the face it lies on
-    std::vector<Index> points; ///< of the model, the first not repeated
-    std::vector<Vec2> flat;    ///< the same seen along the sweep
+    std::size_t part = 0; ///< it is a rim of
+    Rim rim;
+    FaceId target;                       ///< the face it lies on
+    std::size_t inside = 0, outside = 0; ///< the regions of that face on both sides of it
+    std::vector<Index> points;           ///< of the model, the first not repeated
+    std::vector<Vec2> flat;              ///< the same seen along the sweep
     std::vector<FaceId> curtain;
 };
 
 class StepCutter {
 public:
-    StepCutter(const OpenVolume& volume, Role stepped, const RunContext& context)
+    StepCutter(const OpenVolume& volume, Role stepped, Steps steps, const RunContext& context)
         : volume_(volume),
           model_(volume.model),
           stepped_(stepped),
           other_(stepped == Role::source ? Role::target : Role::source),
-          context_(context)
+          context_(context),
+          ends_(std::move(steps.parts)),
+          hanging_(std::move(steps.closed))
     {
     }
 
     std::vector<StepPiece> run()
     {
-        ends_ = connected_parts(model_, volume_.faces(stepped_));
-        if (volume_.faces(other_).empty())
-            refuse("the steps at " + name_of(model_, ends_[1].front()) +
-                   " are cut towards the opposite end, which is missing; give its face");
         Vec3 area = Vec3::Zero();
         for (const FaceId face : volume_.faces(stepped_)) area += face_area_vector(model_, face);
         along_ = -area.normalized();
         right_ = along_.unitOrthogonal();
         up_ = along_.cross(right_);
-        find_risers();
-        for (std::size_t r = 0; r < risers_.size(); ++r) hang(r);
+        for (const Hanging& hanging : hanging_) hang(hanging);
         for (const FaceId face : volume_.faces(other_)) split(face);
         build_loops(model_);
         return pieces();
@@ -71,79 +118,6 @@ private:
     [[noreturn]] void refuse(const std::string& why) const { throw NotSweepable("closure.steps", why); }
 
     [[nodiscard]] Vec2 flat(const Vec3& p) const { return {p.dot(right_), p.dot(up_)}; }
-
-    void find_risers()
-    {
-        const std::vector<std::vector<FaceUse>> uses = edge_uses(model_);
-        std::vector<std::size_t> part_of(model_.faces.size(), ends_.size());
-        for (std::size_t p = 0; p < ends_.size(); ++p) {
-            for (const FaceId face : ends_[p]) part_of[face.index()] = p;
-        }
-        for (const std::vector<FaceId>& walls : connected_parts(model_, volume_.faces(Role::wall))) {
-            std::set<std::size_t> touched;
-            FaceId opposite;
-            for (const FaceId wall : walls) {
-                for (const Loop& loop : model_[wall].loops) {
-                    for (const EdgeUse& use : loop.uses) {
-                        for (const FaceUse& user : uses[use.edge.index()]) {
-                            if (part_of[user.face.index()] < ends_.size())
-                                touched.insert(part_of[user.face.index()]);
-                            if (volume_.role[user.face.index()] == other_) opposite = user.face;
-                        }
-                    }
-                }
-            }
-            if (touched.size() < 2) {
-                other_walls_.emplace_back(walls, touched.empty() ? ends_.size() : *touched.begin());
-                continue;
-            }
-            if (touched.size() > 2 || opposite.valid()) {
-                refuse("the walls round the step at " + name_of(model_, ends_[*touched.rbegin()].front()) +
-                       (opposite.valid() ? " go on to " + name_of(model_, opposite)
-                                         : " join " + std::to_string(touched.size()) + " parts of the end") +
-                       ", so no face hangs from a closed rim there");
-            }
-            add_riser(walls, touched, uses, part_of);
-        }
-    }
-
-    void add_riser(const std::vector<FaceId>& walls, const std::set<std::size_t>& parts,
-                   const std::vector<std::vector<FaceUse>>& uses, const std::vector<std::size_t>& part_of)
-    {
-        std::map<std::size_t, std::set<EdgeId>> rim;
-        std::map<std::size_t, std::pair<double, std::size_t>> height;
-        for (const FaceId wall : walls) {
-            for (const Loop& loop : model_[wall].loops) {
-                for (const EdgeUse& use : loop.uses) {
-                    for (const FaceUse& user : uses[use.edge.index()]) {
-                        const std::size_t part = part_of[user.face.index()];
-                        if (part == ends_.size()) continue;
-                        rim[part].insert(use.edge);
-                        for (const Index p : model_[use.edge].points) {
-                            height[part].first += model_.at(p).dot(along_);
-                            ++height[part].second;
-                        }
-                    }
-                }
-            }
-        }
-        const auto mean = [&](std::size_t p) {
-            return height.at(p).first / static_cast<double>(height.at(p).second);
-        };
-        Riser riser{*parts.begin(), *parts.rbegin(), walls, {}};
-        if (mean(riser.low) > mean(riser.high)) std::swap(riser.low, riser.high);
-        for (Rim& walk : topology::rims(model_, ends_[riser.high])) {
-            const auto at_riser = std::ranges::count_if(
-                walk.uses, [&](const EdgeUse& use) { return rim.at(riser.high).contains(use.edge); });
-            if (at_riser == 0) continue;
-            if (at_riser != static_cast<long>(walk.uses.size())) {
-                refuse("the rim of the step at " + name_of(model_, ends_[riser.high].front()) +
-                       " meets other walls too, so no face hangs from a closed rim there");
-            }
-            riser.rims.push_back(std::move(walk));
-        }
-        risers_.push_back(std::move(riser));
-    }
 
     const geometry::FacetTree& opposite_tree()
     {
@@ -179,79 +153,80 @@ private:
         return found;
     }
 
-    /// Faces from the riser's upper rims to the opposite end.
-    void hang(std::size_t r)
+    /// Faces from a rim to the opposite end.
+    void hang(const Hanging& hanging)
     {
-        for (const Rim& rim : risers_[r].rims) {
-            check_cancelled(context_);
-            Imprinted image;
-            image.riser = r;
-            std::map<Index, Index> above_of; // of each point of the rim
-            const auto lift = [&](Index p) {
-                const auto known = above_of.find(p);
-                if (known != above_of.end()) return known->second;
-                const Vec3 from = model_.at(p);
-                const std::optional<Hit> hit = above(from);
-                if (!hit || (image.target.valid() && hit->face != image.target)) {
-                    refuse("the rim of the step at " + name_of(model_, ends_[risers_[r].high].front()) +
-                           (hit ? " lies below " + name_of(model_, image.target) + " and " +
-                                      name_of(model_, hit->face) + ": give the opposite end there as one face"
-                                : " does not lie below the opposite end everywhere"));
-                }
-                image.target = hit->face;
-                const auto made = static_cast<Index>(model_.points.size());
-                model_.points.push_back(hit->place);
-                uv_.emplace(made, hit->uv);
-                above_of.emplace(p, made);
-                return made;
-            };
-            std::map<VertexId, VertexId> vertex_above;
-            std::map<VertexId, EdgeId> line;
-            const auto vertex = [&](VertexId v) {
-                const auto known = vertex_above.find(v);
-                if (known != vertex_above.end()) return known->second;
-                return vertex_above.emplace(v, add_void_vertex(model_, lift(model_[v].point))).first->second;
-            };
-            const auto side_line = [&](VertexId v) {
-                if (line.contains(v)) return;
-                const VertexId top = vertex(v);
-                line.emplace(v, add_void_edge(model_, v, top, {model_[v].point, model_[top].point}));
-            };
-            for (const EdgeUse& use : rim.uses) {
-                const std::vector<Index> low = use_points(model_, use);
-                std::vector<Index> high;
-                for (const Index p : low) high.push_back(lift(p));
-                const VertexId from = use_from(model_, use), to = use_to(model_, use);
-                // A closed rim hangs as a ring of two loops, others as one face a side.
-                const bool closed = rim.uses.size() == 1;
-                add_void_edge(model_, vertex(from), vertex(to), high);
-                if (!closed) {
-                    side_line(from);
-                    side_line(to);
-                }
-                image.curtain.push_back(add_void_face(model_, Geometry::transfinite));
-                Face& face = model_.faces.back();
-                for (std::size_t i = 0; i + 1 < low.size(); ++i) {
-                    face.triangles.push_back({low[i], low[i + 1], high[i + 1]});
-                    face.triangles.push_back({low[i], high[i + 1], high[i]});
-                }
-                image.points.insert(image.points.end(), high.begin(), high.end() - 1);
+        const Rim& rim = hanging.rim;
+        check_cancelled(context_);
+        Imprinted image;
+        image.part = hanging.part;
+        image.rim = rim;
+        std::map<Index, Index> above_of; // of each point of the rim
+        const auto lift = [&](Index p) {
+            const auto known = above_of.find(p);
+            if (known != above_of.end()) return known->second;
+            const Vec3 from = model_.at(p);
+            const std::optional<Hit> hit = above(from);
+            if (!hit || (image.target.valid() && hit->face != image.target)) {
+                refuse("the rim of the step at " + name_of(model_, ends_[hanging.part].front()) +
+                       (hit ? " lies below " + name_of(model_, image.target) + " and " +
+                                  name_of(model_, hit->face) + ": give the opposite end there as one face"
+                            : " does not lie below the opposite end everywhere"));
             }
-            for (const Index p : image.points) image.flat.push_back(flat(model_.at(p)));
-            images_.push_back(std::move(image));
+            image.target = hit->face;
+            const auto made = static_cast<Index>(model_.points.size());
+            model_.points.push_back(hit->place);
+            uv_.emplace(made, hit->uv);
+            above_of.emplace(p, made);
+            return made;
+        };
+        std::map<VertexId, VertexId> vertex_above;
+        std::map<VertexId, EdgeId> line;
+        const auto vertex = [&](VertexId v) {
+            const auto known = vertex_above.find(v);
+            if (known != vertex_above.end()) return known->second;
+            return vertex_above.emplace(v, add_void_vertex(model_, lift(model_[v].point))).first->second;
+        };
+        const auto side_line = [&](VertexId v) {
+            if (line.contains(v)) return;
+            const VertexId top = vertex(v);
+            line.emplace(v, add_void_edge(model_, v, top, {model_[v].point, model_[top].point}));
+        };
+        for (const EdgeUse& use : rim.uses) {
+            const std::vector<Index> low = use_points(model_, use);
+            std::vector<Index> high;
+            for (const Index p : low) high.push_back(lift(p));
+            const VertexId from = use_from(model_, use), to = use_to(model_, use);
+            // A closed rim hangs as a ring of two loops, others as one face a side.
+            const bool closed = rim.uses.size() == 1;
+            add_void_edge(model_, vertex(from), vertex(to), high);
+            if (!closed) {
+                side_line(from);
+                side_line(to);
+            }
+            image.curtain.push_back(add_void_face(model_, Geometry::transfinite));
+            Face& face = model_.faces.back();
+            for (std::size_t i = 0; i + 1 < low.size(); ++i) {
+                face.triangles.push_back({low[i], low[i + 1], high[i + 1]});
+                face.triangles.push_back({low[i], high[i + 1], high[i]});
+            }
+            image.points.insert(image.points.end(), high.begin(), high.end() - 1);
         }
+        for (const Index p : image.points) image.flat.push_back(flat(model_.at(p)));
+        images_.push_back(std::move(image));
     }
 
     /// Cut a face of the opposite end along the rims laid onto it.
     void split(FaceId id)
     {
-        std::vector<const Imprinted*> own;
-        for (const Imprinted& image : images_)
+        std::vector<Imprinted*> own;
+        for (Imprinted& image : images_)
             if (image.target == id) own.push_back(&image);
         if (own.empty()) {
             regions_.push_back(id);
             return;
         }
+        std::vector<std::size_t> region; // of each ring: the one that lies within it
         // All loops, the face's own first; each region lies within one and outside those right within it.
         struct Ring {
             std::vector<Index> points;
@@ -281,6 +256,7 @@ private:
         };
         std::vector<std::size_t> parents;
         for (std::size_t i = 0; i < rings.size(); ++i) parents.push_back(parent(i));
+        region.assign(rings.size(), 0);
 
         const Face before = model_[id];
         const Vec3 area = face_area_vector(model_, id);
@@ -329,6 +305,7 @@ private:
                 face.triangles.push_back(corner);
             }
             if (before.surface) set_uv(before, face);
+            region[outer] = regions_.size();
             if (first) {
                 regions_.push_back(id);
                 model_[id] = std::move(face);
@@ -337,6 +314,13 @@ private:
                 model_.faces.push_back(std::move(face));
             }
             first = false;
+        }
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            if (parents[given + i] == rings.size())
+                refuse("the rim of the step at " + name_of(model_, ends_[own[i]->part].front()) +
+                       " does not lie within " + name_of(model_, id));
+            own[i]->inside = region[given + i];
+            own[i]->outside = region[parents[given + i]];
         }
     }
 
@@ -371,74 +355,98 @@ private:
             }
         }
         const geometry::FacetTree ends(model_.points, triangles);
-        std::vector<Roles> roles(ends_.size());
-        std::vector<std::vector<FaceId>> opposite(ends_.size());
-        for (const FaceId region : regions_) {
+        // Where nothing of the stepped end lies below, its face is missing: one more part, without faces.
+        const std::size_t none = ends_.size();
+        std::vector<std::size_t> part_of(regions_.size(), none);
+        std::vector<std::vector<FaceId>> opposite(none + 1), walls(none + 1);
+        for (std::size_t r = 0; r < regions_.size(); ++r) {
             std::map<std::size_t, double> votes;
-            const std::vector<Triangle>& facets = model_[region].triangles;
+            const std::vector<Triangle>& facets = model_[regions_[r]].triangles;
             const std::size_t step = std::max<std::size_t>(1, facets.size() / kVotes);
             for (std::size_t t = 0; t < facets.size(); t += step) {
                 const Vec3 &a = model_.at(facets[t][0]), &b = model_.at(facets[t][1]),
                            &c = model_.at(facets[t][2]);
                 const auto hit = ends.first_along((a + b + c) / 3, -along_);
-                if (hit.triangle >= 0) votes[part[index(hit.triangle)]] += (b - a).cross(c - a).norm();
+                votes[hit.triangle < 0 ? none : part[index(hit.triangle)]] += (b - a).cross(c - a).norm();
             }
-            if (votes.empty()) refuse(name_of(model_, region) + " lies over no part of the stepped end");
-            opposite[std::ranges::max_element(votes, {}, [](const auto& v) { return v.second; })->first]
-                .push_back(region);
+            part_of[r] = std::ranges::max_element(votes, {}, [](const auto& v) { return v.second; })->first;
+            opposite[part_of[r]].push_back(regions_[r]);
         }
-        std::vector<std::vector<FaceId>> walls(ends_.size());
-        const auto give = [&](std::size_t p, const std::vector<FaceId>& faces) {
-            walls[p].insert(walls[p].end(), faces.begin(), faces.end());
-        };
-        for (const Riser& riser : risers_) give(riser.low, riser.walls);
+        std::vector<std::size_t> below(none + 1, none); // the part round a part that hangs
         for (const Imprinted& image : images_) {
-            give(risers_[image.riser].low, image.curtain);
-            give(risers_[image.riser].high, image.curtain);
+            const std::size_t outer = part_beyond(image, part_of);
+            if (outer == image.part)
+                refuse("what lies on both sides of the step at " + name_of(model_, ends_[outer].front()) +
+                       " has the same end below, seen along the sweep");
+            below[image.part] = outer;
+            for (const std::size_t p : {image.part, outer})
+                walls[p].insert(walls[p].end(), image.curtain.begin(), image.curtain.end());
         }
-        for (const auto& [faces, p] : other_walls_)
-            give(p < ends_.size() ? p : part_beside(faces, opposite), faces);
+        for (const std::vector<FaceId>& faces : connected_parts(model_, volume_.faces(Role::wall))) {
+            std::vector<FaceId>& own = walls[part_with(faces, part_of, opposite)];
+            own.insert(own.end(), faces.begin(), faces.end());
+        }
         std::vector<StepPiece> result;
-        for (std::size_t p = 0; p < ends_.size(); ++p) {
+        for (std::size_t p = 0; p <= none; ++p) {
+            if (p == none && opposite[p].empty()) {
+                if (!walls[p].empty()) refuse(name_of(model_, walls[p].front()) + " touches neither end");
+                continue;
+            }
             if (opposite[p].empty())
                 refuse("nothing of the opposite end lies over " + name_of(model_, ends_[p].front()) +
                        ", seen along the sweep");
-            Roles own{ends_[p], opposite[p], walls[p]};
+            Roles own{p == none ? std::vector<FaceId>{} : ends_[p], opposite[p], walls[p]};
             if (stepped_ == Role::target) std::swap(own.source, own.target);
-            result.push_back({open_volume(model_, own, context_), level_of(p)});
+            if (volume_.turned_round) std::swap(own.source, own.target);
+            int level = 0;
+            for (std::size_t at = p; at != none && level <= kRounds; ++level) {
+                if (std::ranges::none_of(images_, [&](const Imprinted& image) { return image.part == at; }))
+                    break;
+                at = below[at];
+            }
+            result.push_back({open_volume(model_, own, context_), level});
         }
         std::ranges::stable_sort(result, {}, &StepPiece::level);
         return result;
     }
 
-    /// How many steps lead up to a part.
-    [[nodiscard]] int level_of(std::size_t part) const
+    /// The part on the other side of what hangs from a rim.
+    static std::size_t part_beyond(const Imprinted& image, const std::vector<std::size_t>& part_of)
     {
-        int level = 0;
-        for (std::size_t at = part; level <= static_cast<int>(risers_.size()); ++level) {
-            const auto below = std::ranges::find(risers_, at, &Riser::high);
-            if (below == risers_.end()) break;
-            at = below->low;
-        }
-        return level;
+        const std::size_t inside = part_of[image.inside];
+        return inside == image.part ? part_of[image.outside] : inside;
     }
 
-    /// The piece of walls that touch the opposite end alone.
-    std::size_t part_beside(const std::vector<FaceId>& faces,
-                            const std::vector<std::vector<FaceId>>& opposite) const
+    /// The piece that walls are of: that of the part they go up from; else the one round the part they go
+    /// down from; else that of the opposite region they touch.
+    [[nodiscard]] std::size_t part_with(const std::vector<FaceId>& faces,
+                                        const std::vector<std::size_t>& part_of,
+                                        const std::vector<std::vector<FaceId>>& opposite) const
     {
+        std::map<EdgeId, const Imprinted*> hung;
+        for (const Imprinted& image : images_) {
+            for (const EdgeUse& use : image.rim.uses) hung.emplace(use.edge, &image);
+        }
         const std::vector<std::vector<FaceUse>> uses = edge_uses(model_);
+        const Imprinted* down = nullptr;
+        std::size_t beside = ends_.size();
         for (const FaceId face : faces) {
             for (const Loop& loop : model_[face].loops) {
                 for (const EdgeUse& use : loop.uses) {
+                    if (const auto at = hung.find(use.edge); at != hung.end()) {
+                        down = at->second;
+                        continue;
+                    }
                     for (const FaceUse& user : uses[use.edge.index()]) {
+                        for (std::size_t p = 0; p < ends_.size(); ++p)
+                            if (std::ranges::find(ends_[p], user.face) != ends_[p].end()) return p;
                         for (std::size_t p = 0; p < opposite.size(); ++p)
-                            if (std::ranges::find(opposite[p], user.face) != opposite[p].end()) return p;
+                            if (std::ranges::find(opposite[p], user.face) != opposite[p].end()) beside = p;
                     }
                 }
             }
         }
-        refuse(name_of(model_, faces.front()) + " touches neither end");
+        return down != nullptr ? part_beyond(*down, part_of) : beside;
     }
 
     const OpenVolume& volume_;
@@ -446,9 +454,8 @@ private:
     Role stepped_, other_;
     const RunContext& context_;
     std::vector<std::vector<FaceId>> ends_; ///< parts that hang together, of the stepped end
+    std::vector<Hanging> hanging_;
     Vec3 along_ = Vec3::Zero(), right_ = Vec3::Zero(), up_ = Vec3::Zero();
-    std::vector<Riser> risers_;
-    std::vector<std::pair<std::vector<FaceId>, std::size_t>> other_walls_; ///< and the part they touch
     std::vector<Imprinted> images_;
     std::vector<FaceId> regions_;                       ///< of the opposite end, after the cuts
     std::map<Index, Vec2> uv_;                          ///< of points laid onto the opposite end
@@ -456,31 +463,162 @@ private:
     std::vector<std::pair<FaceId, std::size_t>> facet_; ///< of each triangle of the tree
 };
 
+/// The opposite end of steps, where it is missing and one open loop shows it: flat, or as its rim bends.
+void cap_opposite(OpenVolume& volume, Role other, const Steps& steps, const RunContext& context)
+{
+    const std::vector<Rim> open = free_loops(volume);
+    const std::string step = name_of(volume.model,
+                                     volume.model.faces.empty() ? FaceId() : steps.parts.back().front());
+    if (open.size() != 1)
+        throw NotSweepable("closure.steps", "the steps at " + step +
+                                                " are cut towards the opposite end, which is missing, and " +
+                                                std::to_string(open.size()) +
+                                                " loops are open; give its face, or the other faces");
+    Loop loop;
+    for (auto use = open.front().uses.rbegin(); use != open.front().uses.rend(); ++use)
+        loop.uses.push_back({use->edge, !use->reversed});
+    add_void_face(volume, fill(volume, {loop}, nullptr, "the end opposite " + step, context), other);
+    build_loops(volume.model);
+}
+
+/// Cut a volume, and all pieces of it that are met, by the planes of some of its faces, one after the other.
+std::vector<StepPiece> cut_by_planes(const OpenVolume& volume, const std::vector<FaceId>& faces,
+                                     const RunContext& context)
+{
+    std::vector<StepPiece> pieces{{volume, 0}};
+    for (const FaceId face : faces) {
+        std::vector<StepPiece> cut;
+        for (const StepPiece& piece : pieces) {
+            try {
+                for (StepPiece& own : cut_by_face(piece.volume, volume.model, face, context))
+                    cut.push_back(std::move(own));
+            } catch (const NotSweepable& error) {
+                if (error.code() == "closure.cut_face")
+                    throw NotSweepable(
+                        "closure.steps",
+                        "the step at " + name_of(volume.model, face) +
+                            " is not flat, so that no plane goes on from it, and no face hangs "
+                            "from a closed rim there; cut the volume by cut{ plane = … }");
+                if (error.code() != "closure.cut_misses") throw;
+                cut.push_back(piece);
+            }
+        }
+        pieces = std::move(cut);
+    }
+    return pieces;
+}
+
+/// The ends of a volume whose rims turn into the walls.
+std::array<Steps, 2> steps_of(const OpenVolume& volume)
+{
+    const std::vector<double> turns = concave_turns(volume);
+    return {find_steps(volume, Role::source, turns), find_steps(volume, Role::target, turns)};
+}
+
+void sort_by_level(std::vector<StepPiece>& pieces)
+{
+    std::ranges::stable_sort(pieces, {}, &StepPiece::level);
+}
+
+/// Hang faces from closed rims, of one end after the other, until no piece has any.
+std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, int round)
+{
+    face_away(volume.model);
+    std::array<Steps, 2> steps = steps_of(volume);
+    for (const Role end : {Role::source, Role::target}) {
+        Steps& own = steps[end == Role::source ? 0 : 1];
+        if (own.closed.empty()) continue;
+        if (round == kRounds)
+            throw NotSweepable("closure.steps",
+                               "the volume has more steps than are cut; cut it by planes first");
+        const Role other = end == Role::source ? Role::target : Role::source;
+        if (volume.faces(other).empty()) cap_opposite(volume, other, own, context);
+        std::vector<StepPiece> result;
+        for (StepPiece& piece : StepCutter(volume, end, std::move(own), context).run()) {
+            for (StepPiece& part : hang_all(std::move(piece.volume), context, round + 1)) {
+                part.level += piece.level;
+                result.push_back(std::move(part));
+            }
+        }
+        return result;
+    }
+    for (const Role end : {Role::source, Role::target}) {
+        const std::vector<std::vector<FaceId>>& parts = steps[end == Role::source ? 0 : 1].parts;
+        if (parts.size() < 2) continue;
+        throw NotSweepable("closure.steps",
+                           std::string("the ") + (end == Role::source ? "source" : "target") +
+                               " lies apart in several places, as " +
+                               name_of(volume.model, parts[0].front()) + " and " +
+                               name_of(volume.model, parts[1].front()) +
+                               ", and no walls go down from one to the other; make two volumes "
+                               "of it, or cut it by cut{ plane = … }");
+    }
+    return {{std::move(volume), 0}};
+}
+
+bool is_stepped(const Steps& steps)
+{
+    return steps.parts.size() > 1 || !steps.closed.empty() || !steps.risers.empty();
+}
+
+/// In the planes of all flat steps; `why` they are not hung from is what is said where that fails too.
+std::vector<StepPiece> cut_in_layers(const OpenVolume& volume, const std::array<Steps, 2>& steps,
+                                     const std::exception_ptr& why, const RunContext& context)
+{
+    std::vector<FaceId> faces;
+    for (const Steps& own : steps) {
+        for (const Hanging& hanging : own.closed) faces.push_back(own.parts[hanging.part].front());
+    }
+    try {
+        std::vector<StepPiece> pieces = cut_by_planes(volume, faces, context);
+        const bool done = std::ranges::none_of(pieces, [](const StepPiece& piece) {
+            const std::array<Steps, 2> left = steps_of(piece.volume);
+            return is_stepped(left[0]) || is_stepped(left[1]);
+        });
+        if (done) return pieces;
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error&) { // what was wrong first says more
+    }
+    std::rethrow_exception(why);
+}
+
 } // namespace
 
 bool has_steps(const OpenVolume& volume)
 {
-    for (const Role end : {Role::source, Role::target}) {
-        const std::vector<FaceId> faces = volume.faces(end);
-        if (faces.size() > 1 && connected_parts(volume.model, faces).size() > 1) return true;
-    }
-    return false;
+    const std::array<Steps, 2> steps = steps_of(volume);
+    return is_stepped(steps[0]) || is_stepped(steps[1]);
 }
 
-std::vector<StepPiece> cut_steps(const OpenVolume& volume, const RunContext& context)
+std::vector<StepPiece> cut_steps(const OpenVolume& whole, const RunContext& context)
 {
-    const auto parts = [&](Role end) {
-        const std::vector<FaceId> faces = volume.faces(end);
-        return faces.empty() ? 0 : connected_parts(volume.model, faces).size();
-    };
-    const std::size_t sources = parts(Role::source), targets = parts(Role::target);
-    if (sources <= 1 && targets <= 1) return {{volume, 0}};
-    if (sources > 1 && targets > 1) {
-        throw NotSweepable("closure.steps", "the source lies at " + std::to_string(sources) +
-                                                " heights and the target at " + std::to_string(targets) +
-                                                "; steps at one end alone are cut: make two volumes of it");
+    OpenVolume volume = whole;
+    face_away(volume.model);
+    const std::array<Steps, 2> steps = steps_of(volume);
+    if (!is_stepped(steps[0]) && !is_stepped(steps[1])) return {{whole, 0}};
+    std::vector<FaceId> risers = steps[0].risers;
+    risers.insert(risers.end(), steps[1].risers.begin(), steps[1].risers.end());
+    std::vector<StepPiece> result;
+    if (!risers.empty()) {
+        // Faces hang from what is left all round.
+        for (const StepPiece& piece : cut_by_planes(volume, risers, context)) {
+            for (StepPiece& own : hang_all(piece.volume, context, 0)) result.push_back(std::move(own));
+        }
+        sort_by_level(result);
+        return result;
     }
-    return StepCutter(volume, sources > 1 ? Role::source : Role::target, context).run();
+    std::exception_ptr why;
+    try {
+        result = hang_all(volume, context, 0);
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error&) {
+        why = std::current_exception();
+    }
+    if (why) result = cut_in_layers(volume, steps, why, context);
+    sort_by_level(result);
+    return result;
 }
 
 } // namespace lacuna::closure

@@ -8,27 +8,30 @@
 
 namespace lacuna::closure {
 
-/// Whether an end of a volume lies at several heights: its faces are parts that hang together by walls alone.
+/// Whether an end of a volume lies at several heights: its faces are parts that do not hang together, or the
+/// skin turns towards the void by more than 45° at a rim of it.
 bool has_steps(const topology::OpenVolume& volume);
 
-/// A piece of a volume with steps.
+/// A piece of a volume that was cut.
 struct StepPiece {
     topology::OpenVolume volume;
     int level = 0; ///< 0: it goes from end to end as the whole does; else above so many steps
 };
 
-/// Cut a volume whose source or target lies at several heights into pieces that can be swept, one for each
-/// part of that end.
+/// Cut a volume whose source, target or both lie at several heights into pieces that can be swept.
 ///
-/// Where walls join two parts of the end, void faces hang from their upper rim, straight along the sweep, to
-/// the opposite end, and its faces are split there. The pieces keep the given faces with their tags; the void
-/// faces between two of them are both's, so that `sweep::sweep_assembly()` makes one mesh of them. Pieces are
-/// open volumes like others, to be classified, closed and swept by themselves.
+/// Where the walls at a rim of an end go away from the opposite end, void faces hang from it, straight
+/// along the sweep, to that end, whose faces are split there; first from the source, then from the target.
+/// Rims that end at other walls are cut by the planes of the flat walls at them, and where nothing can
+/// hang, as from rims that lie above each other, the planes of all flat steps cut the volume in layers. A
+/// missing opposite end is made of the one loop that is open. The pieces keep the given faces with their
+/// tags; the void faces between two of them are both's, so that `sweep::sweep_assembly()` makes one mesh of
+/// them. Pieces are open volumes like others, to be classified, closed and swept by themselves.
 /// @return  those of level 0 first; the volume itself where its ends have no steps.
-/// @throw NotSweepable "closure.steps"  steps at both ends; a step whose walls reach the opposite end, or
-///         whose rim is not closed or does not lie below one face of the opposite end; no opposite end; names
-///         the faces.
-/// @note  O(facets log facets). The direction is that of the stepped end's mean normal.
+/// @throw NotSweepable "closure.steps"  a step whose rim does not lie below one face of the opposite end, or
+///         that ends at other walls and is not flat; an end in several places that no walls join; names the
+///         faces.
+/// @note  O(facets log facets) a step. The direction is that of the stepped end's mean normal.
 std::vector<StepPiece> cut_steps(const topology::OpenVolume& volume, const RunContext& context = {});
 
 } // namespace lacuna::closure

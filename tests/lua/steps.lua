@@ -1,0 +1,179 @@
+-- SPDX-License-Identifier: MIT
+-- Steps at one end and at both: what stands, hangs or floats in a can, stepped pins in stepped bores, stairs.
+local lacuna = require "lacuna"
+local folder = arg[0]:match "^(.*[/\\])" or ""
+local check = dofile(folder .. "check.lua")
+local params = lacuna.params { members = 80 }
+
+local around = 24
+local function circle(r) return around / 2 * r * r * math.sin(2 * math.pi / around) end
+
+--- Faces that turn about the z axis: { name, { r, z }, { r, z } … } each.
+local function turned(lines)
+  local model = lacuna.model()
+  for _, line in ipairs(lines) do
+    local points, cells, rings = {}, {}, {}
+    for k = 2, #line do
+      local r, z = line[k][1], line[k][2]
+      rings[k - 1] = { first = #points + 1, tip = r == 0 }
+      for i = 0, r == 0 and 0 or around - 1 do
+        local t = 2 * math.pi * i / around
+        points[#points + 1] = { r * math.cos(t), r * math.sin(t), z }
+      end
+    end
+    for k = 1, #rings - 1 do
+      for i = 0, around - 1 do
+        local a, b, j = rings[k], rings[k + 1], (i + 1) % around
+        local cell = { a.first + (a.tip and 0 or i) }
+        if not a.tip then cell[2] = a.first + j end
+        if not b.tip then cell[#cell + 1] = b.first + j end
+        cell[#cell + 1] = b.first + (b.tip and 0 or i)
+        cells[#cells + 1] = cell
+      end
+    end
+    model:add_face { name = line[1], points = points, cells = cells }
+  end
+  return model
+end
+
+--- Lines of a turned skin that climbs from z to z, with its shoulders by the way they face; and the volume
+--- within it. `sign`: +1 where the void is inside of it, -1 outside.
+local function climb(name, radii, heights, sign, lines, roles)
+  local volume = 0
+  for k, r in ipairs(radii) do
+    local low, high = heights[k], heights[k + 1]
+    volume = volume + circle(r) * (high - low)
+    if r > 0 then
+      lines[#lines + 1] = { ("%s_wall_%d"):format(name, k), { r, low }, { r, high } }
+      table.insert(roles.walls, lines[#lines][1])
+    end
+    local above = radii[k + 1]
+    if above then
+      lines[#lines + 1] = { ("%s_step_%d"):format(name, k), { r, high }, { above, high } }
+      if r > above then lines[#lines][2], lines[#lines][3] = lines[#lines][3], lines[#lines][2] end
+      table.insert((above - r) * sign > 0 and roles.source or roles.target, lines[#lines][1])
+    end
+  end
+  return sign * volume
+end
+
+local function sweep(lines, roles, size)
+  local model = turned(lines)
+  local volume = model:open_volume(roles)
+  return volume:sweep { size = size }, #model:open_volume(roles):cut()
+end
+
+-- Each of these by name: what they are and how many pieces.
+local can = { { "floor", { 0, 0 }, { 2, 0 } }, { "side", { 2, 0 }, { 2, 5 } }, { "lid", { 0, 5 }, { 2, 5 } } }
+local function with(...)
+  local lines = { table.unpack(can) }
+  for _, line in ipairs { ... } do lines[#lines + 1] = line end
+  return lines
+end
+local top, skin, bottom = { "top", { 0, 3 }, { 1, 3 } }, { "skin", { 1, 2 }, { 1, 3 } },
+  { "bottom", { 0, 2 }, { 1, 2 } }
+local function holds(what, lines, roles, pieces, volume)
+  local mesh, count = sweep(lines, roles, 0.3)
+  check.equal(count, pieces, what)
+  check.equal(mesh:quality().certified, true, what)
+  check.that(math.abs(mesh.fidelity.volume - volume) < 0.02 * volume, what .. " " .. mesh.fidelity.volume)
+end
+holds("a drum floats in a can", with(top, skin, bottom),
+  { source = { "floor", "top" }, target = { "lid", "bottom" }, walls = { "side", "skin" } }, 3,
+  circle(2) * 5 - circle(1))
+local standing = { "skin", { 1, 0 }, { 1, 3 } }
+holds("a drum stands in a can without floor", { can[2], can[3], top, standing },
+  { source = "top", target = "lid", walls = { "side", "skin" } }, 2, circle(2) * 5 - circle(1) * 3)
+holds("a drum stands in a can without lid", { { "floor", { 1, 0 }, { 2, 0 } }, can[2], top, standing },
+  { source = { "top", "floor" }, walls = { "side", "skin" } }, 2, circle(2) * 5 - circle(1) * 3)
+holds("a flange, whose rims lie above each other",
+  { { "b", { 0, 0 }, { 1, 0 } }, { "w1", { 1, 0 }, { 1, 2 } }, { "f1", { 1, 2 }, { 2, 2 } },
+    { "w2", { 2, 2 }, { 2, 3 } }, { "f2", { 2, 3 }, { 1, 3 } }, { "w3", { 1, 3 }, { 1, 5 } },
+    { "t", { 1, 5 }, { 0, 5 } } },
+  { source = { "b", "f1" }, target = { "t", "f2" }, walls = { "w1", "w2", "w3" } }, 3,
+  circle(1) * 4 + circle(2))
+
+-- Stairs: the step ends at the walls beside it, and the plane of its riser cuts.
+local stairs = lacuna.model()
+local function quad(name, ...)
+  stairs:add_face { name = name, points = { ... }, cells = { { 1, 2, 3, 4 } } }
+end
+quad("low", { 0, 0, 0 }, { 1, 0, 0 }, { 1, 2, 0 }, { 0, 2, 0 })
+quad("riser", { 1, 0, 0 }, { 1, 0, 1 }, { 1, 2, 1 }, { 1, 2, 0 })
+quad("high", { 1, 0, 1 }, { 2, 0, 1 }, { 2, 2, 1 }, { 1, 2, 1 })
+quad("left", { 0, 0, 0 }, { 0, 2, 0 }, { 0, 2, 3 }, { 0, 0, 3 })
+quad("right", { 2, 0, 1 }, { 2, 2, 1 }, { 2, 2, 3 }, { 2, 0, 3 })
+quad("roof", { 0, 0, 3 }, { 2, 0, 3 }, { 2, 2, 3 }, { 0, 2, 3 })
+for n, y in ipairs { 0, 2 } do
+  stairs:add_face { name = "beside_" .. n, cells = { { 1, 2, 3, 6 }, { 3, 4, 5, 6 } },
+    points = { { 0, y, 0 }, { 1, y, 0 }, { 1, y, 1 }, { 2, y, 1 }, { 2, y, 3 }, { 0, y, 3 } } }
+end
+local mesh = stairs:open_volume { source = { "low", "high" }, target = "roof",
+  walls = { "riser", "left", "right", "beside_1", "beside_2" } }:sweep { size = 0.3 }
+check.equal(#mesh.regions, 2)
+check.near(mesh.fidelity.volume, 10, 1e-9)
+
+-- The tree says what it is cut into.
+local drum = turned(with(top, skin, bottom)):open_volume { source = { "floor", "top" },
+  target = { "lid", "bottom" }, walls = { "side", "skin" }, name = "air" }:tree()
+check.that(drum:find("pieces: 3\n  air_1: class closed, level 0", 1, true), drum)
+check.that(drum:find "air_1 and air_%d share void face", drum)
+
+-- Two ends apart that no walls join.
+check.fails(function()
+  turned({ can[1], can[2], can[3], top }):open_volume { source = { "floor", "top" }, target = "lid",
+    walls = "side" }:sweep { size = 0.3 }
+end, "apart", '"floor"', '"top"', "closure.steps")
+
+-- A family: a pin of one to three diameters in a bore of one to three, steps either way.
+local state = 14
+local function random(low, high)
+  state = (state * 48271) % 2147483647
+  return low + (high - low) * state / 2147483647
+end
+local function heights(count, length, taken)
+  local z = {}
+  for k = 1, count - 1 do
+    repeat
+      z[k] = random(0.6, length - 0.6)
+      local near = false
+      for _, other in ipairs(taken) do near = near or math.abs(other - z[k]) < 0.35 end
+    until not near
+    taken[#taken + 1] = z[k]
+  end
+  table.sort(z)
+  table.insert(z, 1, 0)
+  z[#z + 1] = length
+  return z
+end
+local meshed, refused, pieces = 0, {}, 0
+for member = 1, params.members do
+  local length, lines, taken = 5, {}, {}
+  local roles = { source = { "start" }, target = { "stop" }, walls = {} }
+  local pin, bore, low, high = {}, {}, math.floor(random(1, 3.999)), math.floor(random(1, 3.999))
+  for k = 1, low do pin[k] = ({ 0.5, 0.7, 0.9, 1.1 })[math.floor(random(1, 4.999))] end
+  for k = 1, high do bore[k] = ({ 1.6, 1.9, 2.2, 2.5 })[math.floor(random(1, 4.999))] end
+  for _, radii in ipairs { pin, bore } do
+    for k = #radii, 2, -1 do if radii[k] == radii[k - 1] then table.remove(radii, k) end end
+  end
+  if random(0, 1) < 0.2 then pin = { 0 } end
+  local volume = climb("bore", bore, heights(#bore, length, taken), 1, lines, roles) +
+    climb("pin", pin, heights(#pin, length, taken), -1, lines, roles)
+  lines[#lines + 1] = { "start", { pin[1], 0 }, { bore[1], 0 } }
+  lines[#lines + 1] = { "stop", { pin[#pin], length }, { bore[#bore], length } }
+  local ok, found, count = pcall(sweep, lines, roles, 0.4)
+  if ok then
+    meshed, pieces = meshed + 1, pieces + count
+    check.equal(found:quality().certified, true, "member " .. member)
+    check.that(math.abs(found.fidelity.volume - volume) < 0.02 * volume,
+      ("member %d: volume %g for %g"):format(member, found.fidelity.volume, volume))
+  else
+    local code = tostring(found):match "%[([%a_]+%.[%a_]+)%]"
+    check.that(code, "refused by name: " .. tostring(found))
+    refused[#refused + 1] = member .. " " .. code
+  end
+end
+print(("%d meshed in %d pieces, %d refused"):format(meshed, pieces, #refused))
+for _, line in ipairs(refused) do print(line) end
+check.that(meshed >= 0.95 * params.members)
+check.done()
