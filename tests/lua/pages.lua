@@ -118,7 +118,7 @@ local function play(path, script)
   check.write(driven, whole:sub(1, at - 1) .. [[<script>(async () => {
     const lines = [], say = (...all) => lines.push(all.join(" "));
     const sleep = ms => new Promise(done => setTimeout(done, ms));
-    for (let i = 0; i < 200 && !window.lacunaPage; i++) await sleep(20);
+    for (let i = 0; i < 1000 && !window.lacunaPage; i++) await sleep(20);
     // The window's place of a pixel that shows side or face `wanted`, by what `of` makes of a side.
     const findPixel = (page, of, wanted) => {
       const box = page.drawing.canvas.getBoundingClientRect();
@@ -140,7 +140,8 @@ local function play(path, script)
     document.body.append(out);
   })()</script>]] .. whole:sub(at))
   local command = ("'%s' --headless=new --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader " ..
-      "--user-data-dir='%s/profile' --window-size=1200,800 --virtual-time-budget=20000 " ..
+      "--user-data-dir='%s/profile' --window-size=1200,800 --virtual-time-budget=60000 " ..
+      "--force-prefers-reduced-motion " ..
       "--enable-logging=stderr --dump-dom 'file://%s' 2>'%s.err'"):format(
       params.browser, folder, driven, driven)
   local pipe <close> = assert(io.popen(command))

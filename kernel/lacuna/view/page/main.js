@@ -44,8 +44,9 @@ async function start() {
                 start = performance.now();
             const old = { centre: camera.centre, scale: camera.scale, back: camera.axes[2] },
                 back = unit(from);
+            const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
             const step = now => {
-                const t = Math.min((now - start) / 450, 1),
+                const t = still ? 1 : Math.min((now - start) / 450, 1),
                     s = t * t * (3 - 2 * t);
                 camera.look(plus(times(old.back, 1 - s), times(back, s)));
                 camera.centre = plus(times(old.centre, 1 - s), times(centre, s));
@@ -55,7 +56,8 @@ async function start() {
                 if (stage.flying) requestAnimationFrame(step);
             };
             stage.flying = true;
-            requestAnimationFrame(step);
+            if (still) step(start);
+            else requestAnimationFrame(step);
         },
     };
     function over(x, y) {
