@@ -352,6 +352,19 @@ bool restrict_files()
 
 } // namespace
 
+void keep_from_writing()
+{
+    const long version = ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
+    if (version < 1 || ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return;
+    Ruleset rules;
+    rules.files = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_MAKE_DIR |
+                  LANDLOCK_ACCESS_FS_REMOVE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR;
+    const int set = static_cast<int>(::syscall(SYS_landlock_create_ruleset, &rules, sizeof(rules.files), 0));
+    if (set < 0) return;
+    ::syscall(SYS_landlock_restrict_self, set, 0);
+    ::close(set);
+}
+
 std::string confine()
 {
     struct sigaction action {};

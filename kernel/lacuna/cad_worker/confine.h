@@ -5,6 +5,10 @@
 
 namespace lacuna::cad_worker {
 
+/// Take from the process, for good, to write, make or remove any file by name, where the kernel has Landlock.
+/// For the time before `confine()`: libraries that come with Gmsh write preferences as it starts.
+void keep_from_writing();
+
 /// Take from the process, for good, what reading and writing CAD needs not: starting programs, processes
 /// and sockets, changing its limits, opening any file for writing; where the kernel has Landlock, also
 /// reading any file but the system's libraries. Files of a request are opened by the names `offer()` gave

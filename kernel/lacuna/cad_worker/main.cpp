@@ -53,6 +53,7 @@ int main()
     using namespace lacuna;
     cad_protocol::Channel channel{cad_protocol::Descriptor(kSocket)};
     try {
+        cad_worker::keep_from_writing();
         const cad_worker::Gmsh gmsh;
         const std::string missing = cad_worker::confine();
         std::thread(watch_host, host).detach();
