@@ -66,7 +66,9 @@ public:
     {
         check_skin(mesh_);
         const bool abaqus = options_.format == DeckFormat::abaqus;
-        if (cell_shape(mesh_) == DeckShape::hex27)
+        const bool has_full = options_.format == DeckFormat::msh || options_.format == DeckFormat::vtk ||
+                              options_.format == DeckFormat::vtu || options_.format == DeckFormat::exodus;
+        if (cell_shape(mesh_) == DeckShape::hex27 && !has_full)
             throw InvalidInput("io.no_such_element",
                                "hexahedra of 27 nodes are no elements of Abaqus, CalculiX, Nastran or UNV; "
                                "sweep with order = 2, serendipity = true for those of 20");

@@ -399,8 +399,38 @@ SkinCounts place_skin(const OpenVolume& volume, mesh::HexMesh& mesh, const std::
     return SkinPlacer(volume, mesh, faces, blend, options, states, context).place();
 }
 
-void project_centres(const OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
-                     MiddleStates& states, const RunContext& context)
+namespace {
+
+/// Middles of quads that came with their own. @return  how many
+std::size_t take_given_centres(const Model& model, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
+                               const SecondOrderOptions& options, MiddleStates& states)
+{
+    if (!options.given_centres) return 0;
+    std::vector<std::array<Vec3, 4>> quads;
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        if (!keeps_quads(model[faces[index(mesh::skin_quad(mesh, i).patch)]])) continue;
+        const mesh::CellNodes nodes = mesh::skin_nodes(mesh, i);
+        std::array<Vec3, 4>& quad = quads.emplace_back();
+        for (std::size_t k = 0; k < 4; ++k) quad[k] = mesh.nodes[index(nodes.node[k])];
+        places.push_back(index(nodes.node[8]) - mesh.nodes.size());
+    }
+    const std::vector<Vec3> given = options.given_centres(quads);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (!given[i].allFinite()) continue;
+        mesh.middles.nodes[places[i]] = given[i];
+        states[places[i]] = Middle::settled;
+        ++count;
+    }
+    return count;
+}
+
+} // namespace
+
+std::size_t project_centres(const OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
+                            const SecondOrderOptions& options, MiddleStates& states,
+                            const RunContext& context)
 {
     std::map<FaceId, std::vector<std::size_t>> of_face;
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
@@ -422,6 +452,7 @@ void project_centres(const OpenVolume& volume, mesh::HexMesh& mesh, const std::v
             states[places[i]] = Middle::settled;
         }
     }
+    return take_given_centres(volume.model, mesh, faces, options, states);
 }
 
 void place_centres(mesh::HexMesh& mesh, const MiddleStates& states, std::size_t cell)

@@ -6,6 +6,7 @@
 #include <lacuna/quality/quality.h>
 #include <lacuna/topology/open_volume.h>
 
+#include <array>
 #include <functional>
 #include <set>
 #include <span>
@@ -17,9 +18,13 @@ namespace lacuna::sweep {
 /// Middle nodes that a deck gives between two places of it, pair by pair; not a number where it gives none.
 using GivenMiddles = std::function<std::vector<Vec3>(std::span<const Vec3> from, std::span<const Vec3> to)>;
 
+/// The same of quads, by the places of their corners.
+using GivenCentres = std::function<std::vector<Vec3>(std::span<const std::array<Vec3, 4>> quads)>;
+
 struct SecondOrderOptions {
-    bool serendipity = false; ///< hex20 instead of hex27
-    GivenMiddles given;       ///< null: none
+    bool serendipity = false;     ///< hex20 instead of hex27
+    GivenMiddles given;           ///< null: none
+    GivenCentres given_centres{}; ///< of hex27; null: none
 };
 
 /// What became of a mesh that got middle nodes.

@@ -73,9 +73,11 @@ struct SkinCounts {
 SkinCounts place_skin(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
                       const std::vector<FaceId>& faces, const LevelBlend& blend,
                       const SecondOrderOptions& options, MiddleStates& states, const RunContext& context);
-/// Project the middles of the skin's quads where their faces say so.
-void project_centres(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
-                     const std::vector<FaceId>& faces, MiddleStates& states, const RunContext& context);
+/// Project the middles of the skin's quads where their faces say so; those that are given stay.
+/// @return  how many were given
+std::size_t project_centres(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
+                            const std::vector<FaceId>& faces, const SecondOrderOptions& options,
+                            MiddleStates& states, const RunContext& context);
 
 /// Middles of the faces of a cell and of the cell: they follow from those of the sides, but for settled ones.
 void place_centres(mesh::HexMesh& mesh, const MiddleStates& states, std::size_t cell);
