@@ -425,20 +425,35 @@ SweepArguments& push_arguments(lua_State* L, int index, const char* call, const 
     return arguments;
 }
 
-/// Middle nodes of the decks a volume's faces came from.
-std::vector<Vec3> given_middles(const VolumeState& state, std::span<const Vec3> from,
-                                std::span<const Vec3> to)
+/// Nodes of the decks a volume's faces came from, where `ask(deck, tolerance, scale)` finds them; the first
+/// deck that has one gives it.
+template <class Ask>
+std::vector<Vec3> from_decks(const VolumeState& state, std::size_t count, const Ask& ask)
 {
     constexpr double kTogether =
         1e-9; // of the diagonal: kept nodes are the decks' to the bit, but for the scale
-    std::vector<Vec3> found(from.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    std::vector<Vec3> found(count, Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
     for (const auto& deck : state.decks) {
-        const std::vector<Vec3> middles = io::middles_between(
-            *deck, from, to, kTogether * state.volume.model.diagonal, state.scale);
+        const std::vector<Vec3> own = ask(*deck, kTogether * state.volume.model.diagonal, state.scale);
         for (std::size_t i = 0; i < found.size(); ++i)
-            if (!found[i].allFinite()) found[i] = middles[i];
+            if (!found[i].allFinite()) found[i] = own[i];
     }
     return found;
+}
+
+/// Middle nodes of sides and of quads that the decks give.
+void take_given_middles(const VolumeState& state, sweep::SecondOrderOptions& options)
+{
+    options.given = [&state](std::span<const Vec3> from, std::span<const Vec3> to) {
+        return from_decks(state, from.size(), [&](const io::Deck& deck, double tolerance, double scale) {
+            return io::middles_between(deck, from, to, tolerance, scale);
+        });
+    };
+    options.given_centres = [&state](std::span<const std::array<Vec3, 4>> quads) {
+        return from_decks(state, quads.size(), [&](const io::Deck& deck, double tolerance, double scale) {
+            return io::centres_of(deck, quads, tolerance, scale);
+        });
+    };
 }
 
 /// A volume of an assembly with its options, or the pieces of one with branches or steps.
@@ -536,10 +551,7 @@ int sweep_volume(lua_State* L)
         StageClock clock(context);
         close_volume(state, {}, context);
         box = std::make_shared<MeshState>();
-        if (!state.decks.empty())
-            arguments.options.second_order.given = [&state](auto from, auto to) {
-                return given_middles(state, from, to);
-            };
+        if (!state.decks.empty()) take_given_middles(state, arguments.options.second_order);
         box->swept = sweep::sweep(state.volume, arguments.options, context);
         if (!state.name.empty()) box->swept.mesh.volume_groups = {state.name};
         box->material = state.material;

@@ -175,6 +175,64 @@ check.fails(function() meshes[27]:write(params.scratch .. "/a.inp") end, "27 nod
 check.fails(function() sweep { serendipity = true } end, "serendipity", "order = 2")
 check.fails(function() sweep { order = 3 } end, "order", "1 or 2")
 
+-- Nodes in the middle of given quads stay where they are: a ring of hex27 whose bore is filled, the middles
+-- of the bore's quads moved a little.
+do
+  local path = params.scratch .. "/full_ring.msh"
+  sweep({ order = 2 }):write(path, { binary = false })
+  local lines, at_node, centres, moved = {}, {}, {}, {}
+  local part, block
+  for line in io.lines(path) do
+    lines[#lines + 1] = line
+    if line:sub(1, 1) == "$" then part, block = line, nil end
+    local numbers = {}
+    for word in line:gmatch("%S+") do numbers[#numbers + 1] = tonumber(word) end
+    if part == "$Elements" and #numbers == 4 and block ~= "size" then block = numbers[3] end
+    if part == "$Elements" and #numbers == 10 and block == 10 then centres[#centres + 1] = numbers[10] end
+    if part == "$Nodes" and #numbers == 3 then at_node[#at_node + 1] = #lines end
+  end
+  -- Nodes are written in the order of their numbers.
+  for _, tag in ipairs(centres) do
+    local x, y, z = lines[at_node[tag]]:match("(%S+) (%S+) (%S+)")
+    local out = math.sqrt(x * x + y * y)
+    if math.abs(out - 0.5) < 0.02 and z * 1 > 0.01 and z * 1 < 0.99 then
+      local line = ("%.17g %.17g %.17g"):format(x * 1.01, y * 1.01, z + 0.004)
+      lines[at_node[tag]] = line
+      moved[#moved + 1] = line
+    end
+  end
+  check.that(#moved > 8, "quads on the bore")
+  check.write(path, table.concat(lines, "\n") .. "\n")
+  local model = lacuna.load(path, { feature_angle = 60 })
+  local bore = model:face "wall:4"
+  local void = model:open_volume { walls = bore }
+  local mesh = void:sweep { order = 2, size = 0.2 }
+  check.that(mesh:quality().certified)
+  local has = {}
+  for n = 1, mesh.nodes do has[("%.17g %.17g %.17g"):format(mesh:node(n))] = true end
+  for _, line in ipairs(moved) do check.that(has[line], line) end
+  local whole = lacuna.check(path).hexes + mesh.hexes
+  for _, ending in ipairs { "msh", "vtu", "vtk", "exo" } do
+    local joined = params.scratch .. "/full_joined." .. ending
+    mesh:write(joined, { with = model })
+    check.equal(lacuna.check(joined).hexes, whole)
+  end
+  -- Every place has one node.
+  local places = {}
+  mesh:write(params.scratch .. "/full_text.msh", { with = model, binary = false })
+  local nodes = read(params.scratch .. "/full_text.msh"):match("%$Nodes\n(.-)%$EndNodes")
+  for x, y, z in nodes:gmatch("\n(%S+) (%S+) (%S+) ?%f[\n]") do
+    local key = ("%.9f %.9f %.9f"):format(x, y, z)
+    check.that(not places[key], "two nodes at " .. key)
+    places[key] = true
+  end
+  check.that(size(places) > #centres)
+  local without = void:sweep { order = 2, serendipity = true, size = 0.2 }
+  local out = params.scratch .. "/refused.msh"
+  check.fails(function() without:write(out, { with = model }) end, "node in its middle", "serendipity")
+  check.that(not check.exists(out))
+end
+
 -- The same bytes for any number of threads.
 local bytes
 for _, threads in ipairs { 1, 2, 3 } do

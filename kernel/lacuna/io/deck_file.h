@@ -41,7 +41,7 @@ bool find_deck_format(std::string_view ending, DeckFormat& format);
 ///
 /// Abaqus's names have letters, digits, - and _ : others become _ .
 /// @throw InvalidInput "io.element"       `element` is no hexahedron of as many nodes as the mesh's.
-///                     "io.no_such_element"  the mesh is of hex27, which none of the formats has.
+///                     "io.no_such_element"  the mesh is of hex27, which Nastran, Abaqus and UNV have not.
 ///                     "io.number_taken"  a first number is below 1, or the last would be too high.
 /// @note  O(nodes + cells).
 Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options);
@@ -74,7 +74,8 @@ Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& optio
 ///                                         both.
 ///                     "io.other_model"    a patch is of no face of the model.
 ///                     "io.no_material"    the deck has no material called `material`; lists those it has.
-///                     "io.mixed_order"    elements beside the void are of another order than the mesh.
+///                     "io.mixed_order"    elements beside the void are of another order than the mesh, or
+///                                         have nodes in the middle of quads where it has none.
 ///                     as `deck_of()`.
 /// @note  O(n log n) in the nodes of the deck; a copy of the deck is made.
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,

@@ -134,10 +134,24 @@ void add_members(const DeckSet& set, std::string head, DeckFile& file)
                              }});
 }
 
+/// Numbers of nodes and elements that a column has no room for would run into the one before.
+void check_numbers(const Deck& deck)
+{
+    constexpr DeckTag kMost = 9'999'999'999; // in ten characters
+    const auto too_high = [](const std::vector<DeckTag>& tags) {
+        return std::ranges::any_of(tags, [](DeckTag tag) { return tag > kMost; });
+    };
+    if (too_high(deck.point_tags) ||
+        std::ranges::any_of(deck.blocks, [&](const DeckBlock& block) { return too_high(block.tags); }))
+        throw InvalidInput("io.number_taken", deck.path + " has numbers above " + std::to_string(kMost) +
+                                                  ", more than a universal file holds; write another format");
+}
+
 } // namespace
 
 DeckFile unv_file(const Deck& deck)
 {
+    check_numbers(deck);
     const bool same = deck.format == DeckFormat::unv;
     DeckFile file;
     if (same) file.sections.push_back({text_at(deck, DeckText::Place::cards), 0, 0, {}});

@@ -12,7 +12,7 @@ namespace lacuna::mesh {
 
 struct HexMesh;
 
-/// Nodes of a hexahedron of order 2, in the order of VTK, which is Abaqus's and Exodus's too: the corners as
+/// Nodes of a hexahedron of order 2, in the order of VTK, which is Abaqus's too: the corners as
 /// in `Hex`, the middles of the sides in the order of `kHexEdges`, those of the faces in the order of
 /// `kHexFaces`, that of the whole. A hex20 has the first twenty, a hex27 all.
 ///

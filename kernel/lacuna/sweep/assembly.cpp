@@ -358,11 +358,13 @@ private:
             }
             return middles;
         };
-        options.given_centres = [=](std::span<const std::array<Vec3, 4>> quads) {
-            std::vector<Vec3> middles;
-            for (const std::array<Vec3, 4>& quad : quads)
-                middles.push_back(
-                    first_of([&](const SharedMiddles& m) { return m.centre(quad); }).value_or(none));
+        options.given_centres = [=,
+                                 decks = options.given_centres](std::span<const std::array<Vec3, 4>> quads) {
+            std::vector<Vec3> middles = decks ? decks(quads) : std::vector<Vec3>(quads.size(), none);
+            for (std::size_t i = 0; i < quads.size(); ++i) {
+                const auto known = first_of([&](const SharedMiddles& m) { return m.centre(quads[i]); });
+                if (known) middles[i] = *known;
+            }
             return middles;
         };
     }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -401,27 +402,45 @@ SkinCounts place_skin(const OpenVolume& volume, mesh::HexMesh& mesh, const std::
     return SkinPlacer(volume, mesh, faces, blend, options, states, context).place();
 }
 
-void place_skin_centres(const OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
-                        const GivenCentres& given, MiddleStates& states, const RunContext& context)
+namespace {
+
+/// Middles that are given of the skin's quads; not a number where none is.
+std::vector<Vec3> given_centres(const Model& model, const mesh::HexMesh& mesh,
+                                const std::vector<FaceId>& faces, const SecondOrderOptions& options)
 {
-    std::vector<Vec3> known;
-    if (given) {
-        std::vector<std::array<Vec3, 4>> corners;
-        for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
-            const Quad quad = mesh::skin_quad(mesh, i).nodes;
-            std::array<Vec3, 4>& own = corners.emplace_back();
-            for (std::size_t k = 0; k < 4; ++k) own[k] = mesh.nodes[index(quad[k])];
-        }
-        known = given(corners);
+    std::vector<Vec3> found(mesh.skin_count(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    if (!options.given_centres) return found;
+    std::vector<std::array<Vec3, 4>> corners;
+    std::vector<std::size_t> quads;
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        const mesh::SkinQuad quad = mesh::skin_quad(mesh, i);
+        if (!options.given_all_over && !keeps_quads(model[faces[index(quad.patch)]])) continue;
+        quads.push_back(i);
+        std::array<Vec3, 4>& own = corners.emplace_back();
+        for (std::size_t k = 0; k < 4; ++k) own[k] = mesh.nodes[index(quad.nodes[k])];
     }
+    const std::vector<Vec3> given = options.given_centres(corners);
+    for (std::size_t i = 0; i < quads.size(); ++i) found[quads[i]] = given[i];
+    return found;
+}
+
+} // namespace
+
+std::size_t place_skin_centres(const OpenVolume& volume, mesh::HexMesh& mesh,
+                               const std::vector<FaceId>& faces, const SecondOrderOptions& options,
+                               MiddleStates& states, const RunContext& context)
+{
+    const std::vector<Vec3> given = given_centres(volume.model, mesh, faces, options);
+    std::size_t count = 0;
     std::map<FaceId, std::vector<std::size_t>> of_face;
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         const FaceId face = faces[index(mesh::skin_quad(mesh, i).patch)];
         const std::size_t place = index(mesh::skin_nodes(mesh, i).node[8]) - mesh.nodes.size();
         states[place] = Middle::loose;
-        if (!known.empty() && known[i].allFinite()) {
-            mesh.middles.nodes[place] = known[i];
+        if (given[i].allFinite()) {
+            mesh.middles.nodes[place] = given[i];
             states[place] = Middle::settled;
+            ++count;
             continue;
         }
         if (volume.model[face].surface != nullptr && !keeps_quads(volume.model[face]))
@@ -439,6 +458,7 @@ void place_skin_centres(const OpenVolume& volume, mesh::HexMesh& mesh, const std
             states[places[i]] = Middle::settled;
         }
     }
+    return count;
 }
 
 void place_centres(mesh::HexMesh& mesh, const MiddleStates& states, std::size_t cell)

@@ -191,13 +191,13 @@ Elevated elevate(const topology::OpenVolume& volume, mesh::HexMesh& mesh, const 
     MiddleStates states(places.count(), Middle::inside);
     place_straight(mesh, context);
     const LevelBlend blend(mesh);
-    const SkinCounts counts = place_skin(volume, mesh, faces, blend, options, states, context);
+    SkinCounts counts = place_skin(volume, mesh, faces, blend, options, states, context);
     check_cancelled(context);
     if (mesh.layers > 1) place_levels(mesh, blend, context);
     place_columns(mesh, context);
     if (mesh.middles.full) {
         place_all_centres(mesh, states, context);
-        place_skin_centres(volume, mesh, faces, options.given_centres, states, context);
+        counts.given += place_skin_centres(volume, mesh, faces, options, states, context);
         place_all_centres(mesh, states, context);
     }
     check_cancelled(context);

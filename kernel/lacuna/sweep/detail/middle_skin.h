@@ -73,10 +73,11 @@ struct SkinCounts {
 SkinCounts place_skin(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
                       const std::vector<FaceId>& faces, const LevelBlend& blend,
                       const SecondOrderOptions& options, MiddleStates& states, const RunContext& context);
-/// Put the middles of the skin's quads where they are given, and project them where their faces say so.
-void place_skin_centres(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
-                        const std::vector<FaceId>& faces, const GivenCentres& given, MiddleStates& states,
-                        const RunContext& context);
+/// Put the middles of the skin's quads where they are given, and project the others where their faces say so.
+/// @return  how many were given
+std::size_t place_skin_centres(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
+                               const std::vector<FaceId>& faces, const SecondOrderOptions& options,
+                               MiddleStates& states, const RunContext& context);
 
 /// Middles of the faces of a cell and of the cell: they follow from those of the sides, but for settled ones.
 void place_centres(mesh::HexMesh& mesh, const MiddleStates& states, std::size_t cell);
