@@ -27,6 +27,8 @@ constexpr double kSameMiddle = 1e-2;
 constexpr double kSameCentre = 0.2;
 /// Nodes that edges of several members may have in all: with more the memory goes before anything is meshed.
 constexpr double kMostNodes = 2e7;
+/// Edges that a segment of a rim reaches by less than this part of its length are not its own.
+constexpr double kInset = 1e-3;
 /// Rounds of making ends even. Each bumps a class; a choice, far above what families of blocks need.
 constexpr int kRounds = 64;
 
@@ -147,12 +149,21 @@ private:
         for (const surface::LinkingSurface& link : surface::linking_surfaces(*members_[m].volume)) {
             for (const surface::RimSegment& segment : link.segments) {
                 const EdgeId from = link.source.uses()[segment.use].edge;
+                // A segment may run along several edges of the target: from the first to the last of them.
                 const double whole = link.target.length();
-                double at = (segment.target_from + segment.target_to) / 2;
-                while (at >= whole) at -= whole;
-                const EdgeId to = link.target.uses()[link.target.position(at).use].edge;
-                target_of[from].insert(to);
-                source_of[to].insert(from);
+                const double inset = kInset * (segment.target_to - segment.target_from);
+                const auto use_at = [&](double at) {
+                    while (at >= whole) at -= whole;
+                    return link.target.position(at).use;
+                };
+                const std::size_t last = use_at(segment.target_to - inset);
+                for (std::size_t use = use_at(segment.target_from + inset);;
+                     use = (use + 1) % link.target.uses().size()) {
+                    const EdgeId to = link.target.uses()[use].edge;
+                    target_of[from].insert(to);
+                    source_of[to].insert(from);
+                    if (use == last) break;
+                }
             }
             for (const surface::LinkingLine& line : link.lines) {
                 if (line.line.uses.size() != 1) { // how many sides each edge gets is the sweep's matter
