@@ -90,8 +90,7 @@ do
   check.that(volume:sweep { size = 0.5, intervals = { { "sweep", count = 5, bias = 3 } } }.layers == 5)
 end
 
--- In an assembly, for the volumes that have the face: layers along a face that two blocks share, on both
--- sides.
+-- In an assembly, for the volumes that have the face: layers along a face that two share, on both sides.
 do
   local model = lacuna.model()
   local corners = { { 0, 0 }, { 2, 0 }, { 2, 2 }, { 0, 2 } }
