@@ -203,6 +203,6 @@ TEST_CASE("a rim with an odd number of given sides is filled, and the side that 
     CHECK(kept(result.mesh, opened.quads) + 4 == opened.quads.size());
     CHECK(missing(result.mesh, opened.nodes) == 0);
     CHECK(std::any_of(result.report.begin(), result.report.end(), [](const std::string& line) {
-        return line.find("odd number of sides") != std::string::npos;
+        return line.find("9 sides, an odd number") != std::string::npos;
     }));
 }

@@ -224,7 +224,9 @@ TEST_CASE("walls that cover a part of the height or the width keep their quads, 
                     const bool both = ends.source != Given::no && ends.target != Given::no;
                     const bool round = std::string(hull.name) == "ring";
                     // Without both ends the walls' open rims are the other's.
-                    if (!both && map.map != bent && map.map != uneven) continue;
+                    if (!both && map.map != bent) continue;
+                    // Rims of triangles are kept in the same way as those of quads.
+                    if (ends.source == Given::triangles && map.map != bent && map.map != uneven) continue;
                     fill(hull, partial, map, ends, !both ? one_end : round ? rings : blocks);
                 }
             }

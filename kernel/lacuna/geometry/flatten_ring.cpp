@@ -30,16 +30,23 @@ Lengths lengths_of(const Facets& facets, const std::vector<Index>& loop)
 
 double share(double turns) { return turns - std::floor(turns); }
 
-/// Where on the inner loop the coordinate round the strip is 0, so that the strip is sheared least: a mean on
-/// the circle of what the facets say that lead there.
-double start_of_inner(const std::vector<Index>& inner, const Lengths& lengths, const Eigen::MatrixXd& natural)
+/// How far the inner loop is to be turned so that the strip is sheared least [turns]: the coordinate round
+/// the strip plus this share of the one across it has the least Dirichlet energy.
+double least_shear(const Facets& facets, const HarmonicProblem& problem, const Eigen::MatrixXd& strip)
 {
-    Vec2 sum = Vec2::Zero();
-    for (std::size_t i = 0; i < inner.size(); ++i) {
-        const double off = 2 * std::numbers::pi * (natural(inner[i], 0) + lengths.at[i] / lengths.whole);
-        sum += Vec2(std::cos(off), std::sin(off));
+    double both = 0, across = 0;
+    for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
+        Vec2 round = Vec2::Zero(), up = Vec2::Zero();
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec2& gradient = facets.shapes[t].gradient[k];
+            const Index p = facets.triangles[t][k];
+            round += gradient * (strip(p, 0) + problem.corner_turns[t][k] * problem.period[0]);
+            up += gradient * strip(p, 1);
+        }
+        both += facets.shapes[t].area * round.dot(up);
+        across += facets.shapes[t].area * up.squaredNorm();
     }
-    return std::atan2(sum.y(), sum.x()) / (2 * std::numbers::pi);
+    return across > 0 ? -both / across : 0;
 }
 
 } // namespace
@@ -57,33 +64,27 @@ Positions ring(const Facets& facets)
     problem.triangles = facets.triangles;
     problem.corner_turns = turns_along(facets.triangles, cut);
     // The loop has the facets on its left, so that it leaves the cut to the right, where a turn less is seen.
-    problem.period = -Eigen::RowVectorXd::Ones(1);
-    problem.fixed = outer;
+    problem.period = Eigen::RowVector2d(-1, 0);
     const auto round_at = [&](std::size_t i) { return i == 0 ? 1 : round.at[i] / round.whole; };
-    problem.fixed_values.resize(static_cast<Eigen::Index>(outer.size()), 1);
-    for (std::size_t i = 0; i < outer.size(); ++i)
-        problem.fixed_values(static_cast<Eigen::Index>(i), 0) = round_at(i);
-    const Eigen::MatrixXd natural = solve_harmonic(problem);
-
-    // The inner loop runs the other way. Its points are seen on the branch that the cut's end is on.
-    const double start = start_of_inner(inner, within, natural);
+    // The inner loop runs the other way, and is turned afterwards: what it is turned by is harmonic too. Its
+    // points are seen on the branch that the cut's end is on.
     const auto end = static_cast<std::size_t>(std::find(inner.begin(), inner.end(), cut.back()) -
                                               inner.begin());
-    const double at_end = start - within.at[end] / within.whole;
-    const double branch = at_end + std::round(natural(cut.back(), 0) - at_end);
-    problem.period = Eigen::RowVector2d(-1, 0);
+    const double branch = -within.at[end] / within.whole;
+    problem.fixed = outer;
     problem.fixed.insert(problem.fixed.end(), inner.begin(), inner.end());
     const auto rows = static_cast<Eigen::Index>(problem.fixed.size());
     problem.fixed_values.resize(rows, 2);
     for (std::size_t i = 0; i < outer.size(); ++i)
         problem.fixed_values.row(static_cast<Eigen::Index>(i)) << round_at(i), 0;
     for (std::size_t i = 0; i < inner.size(); ++i) {
-        const double s = start - within.at[i] / within.whole;
+        const double s = -within.at[i] / within.whole;
         // Back from the cut, up to a turn.
         const double own = i == end ? branch : branch - share(branch - s);
         problem.fixed_values.row(static_cast<Eigen::Index>(outer.size() + i)) << own, 1;
     }
-    const Eigen::MatrixXd strip = solve_harmonic(problem);
+    Eigen::MatrixXd strip = solve_harmonic(problem);
+    strip.col(0) += least_shear(facets, problem, strip) * strip.col(1);
 
     double energy = 0;
     for (std::size_t t = 0; t < facets.triangles.size(); ++t) {

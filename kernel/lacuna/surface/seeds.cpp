@@ -545,14 +545,15 @@ private:
         return words;
     }
 
-    [[nodiscard]] bool odd(FaceId face) const
+    [[nodiscard]] int sides_of(FaceId face) const
     {
         int sum = 0;
         for (const Loop& loop : model_[face].loops) {
             for (const EdgeUse& use : loop.uses) sum += seeds_.count(use.edge);
         }
-        return sum % 2 != 0;
+        return sum;
     }
+    [[nodiscard]] bool odd(FaceId face) const { return sides_of(face) % 2 != 0; }
 
     /// An edge by which a face gets rid of an odd side, and the edges that get one more for it.
     struct WayOut {
@@ -660,15 +661,16 @@ private:
             }
             if (longest == nullptr) continue;
             if (wedges_) {
-                seeds_.notes.push_back("the rim of " + name_of(model_, face) +
-                                       " came with an odd number of sides: one of its cells is a triangle");
+                seeds_.notes.push_back("the rim of " + name_of(model_, face) + " came with " +
+                                       std::to_string(sides_of(face)) +
+                                       " sides, an odd number: one of its cells is a triangle");
                 odd_.insert(face);
                 continue;
             }
-            seeds_.notes.push_back("the rim of " + name_of(model_, face) +
-                                   " came with an odd number of sides, which no quads fill: a side on " +
-                                   name_of(model_, at) +
-                                   ", with what stands on it, is divided in two; wedges = true keeps it");
+            seeds_.notes.push_back(
+                "the rim of " + name_of(model_, face) + " came with " + std::to_string(sides_of(face)) +
+                " sides, an odd number, which no quads fill: a side on " + name_of(model_, at) +
+                ", with what stands on it, is divided in two; wedges = true keeps it");
             longest->kept.push_back((longest->from + longest->to) / 2);
             longest->count = 2;
         }

@@ -11,6 +11,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -67,16 +68,26 @@ void add_curvature(const Model& model, FaceId face, const SizeField& asked, int 
             area += other.area;
         }
     };
-    std::map<Index, Around> at; // in the model's order
+    std::vector<Index> number; // of the face's points, in the model's order
+    for (const Triangle& t : f.triangles) number.insert(number.end(), t.begin(), t.end());
+    std::sort(number.begin(), number.end());
+    number.erase(std::unique(number.begin(), number.end()), number.end());
+    const auto place = [&](Index p) {
+        return static_cast<std::size_t>(std::lower_bound(number.begin(), number.end(), p) - number.begin());
+    };
+    std::vector<Around> at(number.size());
     std::unordered_map<std::uint64_t, std::size_t> first;
+    first.reserve(2 * f.triangles.size());
     for (std::size_t i = 0; i < f.triangles.size(); ++i) {
         const Triangle& t = f.triangles[i];
         const Vec3 normal = area_vector(model, t);
+        const std::array<std::size_t, 3> own{place(t[0]), place(t[1]), place(t[2])};
         for (std::size_t k = 0; k < 3; ++k) {
             const Index a = t[k], b = t[(k + 1) % 3];
+            Around &from = at[own[k]], &to = at[own[(k + 1) % 3]];
             const Vec3 side = model.at(b) - model.at(a);
-            at[a].area += normal.norm() / 3;
-            for (const Index p : {a, b}) at[p].shortest = std::min(at[p].shortest, side.norm());
+            from.area += normal.norm() / 3;
+            for (Around* end : {&from, &to}) end->shortest = std::min(end->shortest, side.norm());
             const auto [found, fresh] = first.try_emplace(edge_key(a, b), i);
             if (fresh) continue;
             const Vec3 other = area_vector(model, f.triangles[found->second]);
@@ -85,18 +96,21 @@ void add_curvature(const Model& model, FaceId face, const SizeField& asked, int 
             const double bend = std::atan2(other.cross(normal).dot(side) / length, other.dot(normal));
             const Vec3 across = side.cross(normal + other).stableNormalized();
             const Eigen::Matrix3d part = bend * length / 2 * across * across.transpose();
-            at[a].bends += part;
-            at[b].bends += part;
+            from.bends += part;
+            to.bends += part;
         }
     }
     // The facets at one point alone are too few where they are slivers: their neighbours' count as well.
-    std::map<Index, Around> wide = at;
+    std::vector<Around> wide = at;
     for (const auto& [side, triangle] : first) {
-        const Index a = static_cast<Index>(side >> 32), b = static_cast<Index>(side & 0xffffffffU);
+        const std::size_t a = place(static_cast<Index>(side >> 32));
+        const std::size_t b = place(static_cast<Index>(side & 0xffffffffU));
         wide[a].add(at[b]);
         wide[b].add(at[a]);
     }
-    for (const auto& [point, around] : wide) {
+    for (std::size_t p = 0; p < wide.size(); ++p) {
+        const Around& around = wide[p];
+        const Index point = number[p];
         if (!(around.area > 0)) continue;
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(around.bends / around.area,
                                                                     Eigen::EigenvaluesOnly);
