@@ -720,3 +720,90 @@ TEST_CASE("what stands in a box gets room above it: pieces cut along the sweep, 
     MESSAGE(meshed << " meshed in " << pieces << " pieces, " << refused << " refused");
     CHECK(meshed >= 57);
 }
+
+namespace {
+
+/// Tubes on each other that get wider, with ledges between them, as a mesh of triangles whose rims stay.
+OpenVolume stepped_bore(int around, const std::vector<double>& radii, double height)
+{
+    healing::FacetSoup soup;
+    const auto label = [&](const std::string& name) {
+        soup.label_name.push_back(name);
+        return static_cast<int>(soup.label_name.size()) - 1;
+    };
+    const auto ring = [&](double radius, double z) {
+        const auto first = static_cast<Index>(soup.points.size());
+        for (int i = 0; i < around; ++i) {
+            const double angle = 2 * std::numbers::pi * i / around;
+            soup.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+        }
+        return first;
+    };
+    const auto add = [&](const Triangle& t, int of) {
+        soup.triangles.push_back(t);
+        soup.triangle_label.push_back(of);
+    };
+    const auto band = [&](Index a, Index b, int of) {
+        for (Index i = 0; i < around; ++i) {
+            const Index j = (i + 1) % around;
+            add({a + i, a + j, b + j}, of);
+            add({a + i, b + j, b + i}, of);
+        }
+    };
+    const auto fan = [&](Index rim, double z, int of) {
+        soup.points.emplace_back(0, 0, z);
+        const auto middle = static_cast<Index>(soup.points.size()) - 1;
+        for (Index i = 0; i < around; ++i) add({middle, rim + i, rim + (i + 1) % around}, of);
+    };
+    Index low = ring(radii.front(), 0);
+    fan(low, 0, label("source"));
+    for (std::size_t r = 0; r < radii.size(); ++r) {
+        const double top = height * static_cast<double>(r + 1);
+        const Index high = ring(radii[r], top);
+        band(low, high, label("wall"));
+        if (r + 1 == radii.size()) {
+            fan(high, top, label("target"));
+            break;
+        }
+        const Index wider = ring(radii[r + 1], top);
+        band(high, wider, label("source"));
+        low = wider;
+    }
+    soup.label_keeps_nodes.assign(soup.label_name.size(), 1);
+    healing::SplitOptions split;
+    split.whole_labels = true;
+    const Model model = healing::split_facets(soup, split);
+    Roles roles;
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        const std::string& name = model.faces[f].name;
+        (name.starts_with("wall")     ? roles.walls
+         : name.starts_with("source") ? roles.source
+                                      : roles.target)
+            .emplace_back(f);
+    }
+    return open_volume(model, roles);
+}
+
+} // namespace
+
+TEST_CASE("pieces of a stepped round bore given as a mesh of triangles are one mesh at any size")
+{
+    for (const int around : {12, 20, 36}) {
+        for (const std::vector<double>& radii :
+             {std::vector<double>{1, 2}, std::vector<double>{0.6, 1, 1.5}}) {
+            double volume = 0;
+            for (const double r : radii) volume += section_area(r, around);
+            for (const double size : {0.1, 0.2, 0.35, 0.8}) {
+                if (size < 0.2 && around > 12) continue;
+                CAPTURE(around);
+                CAPTURE(radii.size());
+                CAPTURE(size);
+                Members members;
+                for (const closure::StepPiece& piece : closure::cut_steps(stepped_bore(around, radii, 1)))
+                    members.add(closed(piece.volume), size);
+                REQUIRE(members.volumes.size() == radii.size());
+                check_assembly(sweep::sweep_assembly(members.list()), volume, 1e-3);
+            }
+        }
+    }
+}

@@ -2,8 +2,8 @@
 #include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
 #include <lacuna/surface/detail/chain_nodes.h>
-#include <lacuna/surface/detail/kept_edges.h>
 #include <lacuna/surface/given_nodes.h>
+#include <lacuna/topology/give_mesh.h>
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 #include <lacuna/surface/given_nodes.h>
 
 #include <lacuna/surface/detail/chain_nodes.h>
-#include <lacuna/surface/detail/kept_edges.h>
 #include <lacuna/surface/detail/paired_breaks.h>
+#include <lacuna/topology/give_mesh.h>
 
 #include <algorithm>
 #include <array>
@@ -337,21 +337,6 @@ private:
 };
 
 } // namespace
-
-std::set<EdgeId> kept_edges(const Model& model)
-{
-    std::set<EdgeId> edges;
-    for (std::size_t e = 0; e < model.edges.size(); ++e) {
-        if (model.edges[e].keeps_nodes) edges.emplace(e);
-    }
-    for (const Face& face : model.faces) {
-        if (!face.keeps_nodes) continue;
-        for (const Loop& loop : face.loops) {
-            for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
-        }
-    }
-    return edges;
-}
 
 void keep_given_nodes(const OpenVolume& volume, std::span<const GivenColumns> columns,
                       std::vector<LinkingSurface>& links, std::vector<std::string>& notes, bool wedges)

@@ -5,13 +5,16 @@
 #include <lacuna/surface/linking_surface.h>
 #include <lacuna/surface/seeds.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
+#include <lacuna/topology/give_mesh.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <set>
+#include <tuple>
 
 namespace lacuna::sweep {
 
@@ -70,6 +73,7 @@ public:
         join_opposite();
         for (std::size_t e = 0; e < edges_.size(); ++e)
             if (stacked_.contains(same_.find(e))) common_[e] = false;
+        find_kept();
         count();
         make_even();
         AssemblyPlan plan;
@@ -237,6 +241,32 @@ private:
         return spec.heights.empty() ? spec.count : static_cast<int>(spec.heights.size());
     }
 
+    [[nodiscard]] int sides_of(std::size_t e) const
+    {
+        return static_cast<int>(model(edges_[e].member)[edges_[e].edge].points.size()) - 1;
+    }
+
+    /// Edges that came with nodes that stay. Of the same one in several members, one with quads beside it
+    /// comes before one that bounds a mere shape.
+    void find_kept()
+    {
+        kept_.assign(edges_.size(), Kept::no);
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            for (const EdgeId edge : kept_edges(model(m))) kept_[number(m, edge)] = Kept::rim;
+            for (const Face& face : model(m).faces) {
+                if (!face.keeps_nodes || face.given_quads.empty()) continue;
+                for (const Loop& loop : face.loops) {
+                    for (const EdgeUse& use : loop.uses) kept_[number(m, use.edge)] = Kept::quads;
+                }
+            }
+        }
+        for (std::size_t e = 0; e < edges_.size(); ++e) {
+            if (kept_[e] == Kept::no) continue;
+            const auto [found, fresh] = kept_one_.try_emplace(same_.find(e), e);
+            if (!fresh && kept_[found->second] < kept_[e]) found->second = e;
+        }
+    }
+
     /// A number for each class.
     void count()
     {
@@ -253,10 +283,21 @@ private:
                                    std::to_string(layers_asked(a)) + " and " +
                                    std::to_string(layers_asked(b)));
         }
+        std::map<std::size_t, Kept> kept; // of the edges that say a class's number
+        for (std::size_t e = 0; e < edges_.size(); ++e) {
+            Kept& of = kept[classes_.find(e)];
+            of = std::max(of, kept_[e]);
+        }
         std::map<std::size_t, double> most;
         for (std::size_t e = 0; e < edges_.size(); ++e) {
-            double& of = most[classes_.find(e)];
-            if (!asked.contains(classes_.find(e))) of = std::max(of, wanted(edges_[e]));
+            const std::size_t of = classes_.find(e);
+            double& sides = most[of];
+            if (asked.contains(of) || kept_[e] != kept.at(of)) continue;
+            sides = std::max(sides, kept_[e] == Kept::no ? wanted(edges_[e]) : sides_of(e));
+        }
+        for (const auto& [of, how] : kept) {
+            if (how == Kept::quads) asked_.insert(of);
+            if (how == Kept::rim) rims_.insert(of);
         }
         for (const auto& [of, sides] : most) {
             if (!(sides < std::numeric_limits<Index>::max() / 16.0))
@@ -274,7 +315,7 @@ private:
         }
     }
 
-    /// Ends of which every edge is shared have an even number of sides in all.
+    /// Ends of which every edge is shared, or came with nodes, have an even number of sides in all.
     void make_even()
     {
         for (int round = 0; round < kRounds; ++round) {
@@ -296,8 +337,9 @@ private:
         int sides = 0;
         for (const Loop& loop : border_loops(model(m), face)) {
             for (const EdgeUse& use : loop.uses) {
-                if (!common_[number(m, use.edge)]) return false;
-                const std::size_t of = classes_.find(number(m, use.edge));
+                const std::size_t e = number(m, use.edge);
+                if (!common_[e] && kept_[e] == Kept::no) return false;
+                const std::size_t of = classes_.find(e);
                 ++uses[of];
                 sides += count_.at(of);
             }
@@ -306,9 +348,11 @@ private:
         std::size_t best = edges_.size();
         for (const auto& [of, times] : uses) {
             if (times % 2 == 0 || asked_.contains(of)) continue;
-            // Later rounds take the next one, so that ends do not chase each other.
+            // Later rounds take the next one, so that ends do not chase each other; nodes that came with a
+            // shape give way last.
             const auto before = [&](std::size_t a, std::size_t b) {
-                return std::pair(-bumps_[a], count_.at(a)) > std::pair(-bumps_[b], count_.at(b));
+                return std::tuple(!rims_.contains(a), -bumps_[a], count_.at(a)) >
+                       std::tuple(!rims_.contains(b), -bumps_[b], count_.at(b));
             };
             if (best == edges_.size() || before(of, best)) best = of;
         }
@@ -322,6 +366,12 @@ private:
     [[nodiscard]] std::vector<Vec3> places(std::size_t e, int count) const
     {
         const MemberEdge& edge = edges_[e];
+        if (kept_[e] != Kept::no && sides_of(e) == count) {
+            std::vector<Vec3> own;
+            for (const Index p : model(edge.member)[edge.edge].points)
+                own.push_back(model(edge.member).at(p));
+            return own;
+        }
         std::vector<double> at;
         for (int i = 0; i <= count; ++i) at.push_back(static_cast<double>(i) / count);
         // Layers as they are spread in a member that asks for it.
@@ -362,7 +412,9 @@ private:
         plan.layers.assign(members_.size(), 0);
         std::map<std::size_t, std::vector<Vec3>> nodes;
         for (std::size_t e = 0; e < edges_.size(); ++e) {
-            if (!common_[e] || !is_on_frame(e)) continue;
+            // What bounds a mere shape gives way where the members' number is not its own.
+            const bool gives_way = kept_[e] == Kept::rim && sides_of(e) != count_.at(classes_.find(e));
+            if (!(common_[e] || gives_way) || !is_on_frame(e)) continue;
             auto found = nodes.find(same_.find(e));
             if (found == nodes.end())
                 found = nodes.emplace(same_.find(e), places(exact_one(e), count_.at(classes_.find(e)))).first;
@@ -405,10 +457,13 @@ private:
         return corners_.emplace_back(p);
     }
 
-    /// Of the same edge in several members, one with an exact curve.
+    /// Of the same edge in several members, one that came with nodes, or with an exact curve.
     [[nodiscard]] std::size_t exact_one(std::size_t e)
     {
         const std::size_t root = same_.find(e);
+        if (const auto kept = kept_one_.find(root);
+            kept != kept_one_.end() && sides_of(kept->second) == count_.at(classes_.find(e)))
+            return kept->second;
         for (std::size_t other = 0; other < edges_.size(); ++other) {
             if (same_.find(other) == root && model(edges_[other].member)[edges_[other].edge].curve != nullptr)
                 return other;
@@ -445,6 +500,11 @@ private:
     std::vector<std::size_t> first_; ///< number of each member's first edge
     std::vector<MemberEdge> edges_;  ///< of all members
     mutable geometry::UnionFind same_{0}, classes_{0};
+    /// What stays of the nodes an edge came with: none, the rim of a shape, that of quads.
+    enum class Kept : std::uint8_t { no, rim, quads };
+    std::vector<Kept> kept_;                            ///< of each edge
+    std::map<std::size_t, std::size_t> kept_one_;       ///< of the same edges, one that came with nodes
+    std::set<std::size_t> rims_;                        ///< classes whose number is that of a shape's rim
     std::vector<bool> common_;                          ///< of each edge: other members have it too
     std::map<std::size_t, std::vector<EdgeUse>> sides_; ///< of each member: side lines of one edge
     std::map<std::size_t, int> count_;                  ///< of each class

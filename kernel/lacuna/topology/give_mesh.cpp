@@ -162,7 +162,7 @@ public:
         for (std::size_t f = 0; f < model_.faces.size(); ++f) {
             if (FaceId(f) == replaced) continue;
             Face& face = model_.faces[f];
-            if (!face.keeps_nodes && !sides_.empty()) cut_at_sides(model_.points, face, sides_);
+            if (face.given_quads.empty() && !sides_.empty()) cut_at_sides(model_.points, face, sides_);
             move(face);
         }
         for (const Chain& chain : chains_) {
@@ -531,6 +531,21 @@ private:
 };
 
 } // namespace
+
+std::set<EdgeId> kept_edges(const Model& model)
+{
+    std::set<EdgeId> edges;
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        if (model.edges[e].keeps_nodes) edges.emplace(e);
+    }
+    for (const Face& face : model.faces) {
+        if (!face.keeps_nodes) continue;
+        for (const Loop& loop : face.loops) {
+            for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
+        }
+    }
+    return edges;
+}
 
 void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges)
 {

@@ -3,6 +3,7 @@
 
 #include <lacuna/topology/open_volume.h>
 
+#include <set>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct EdgeNodes {
     EdgeId edge;
     std::vector<Vec3> nodes;
 };
+
+/// Edges that keep their nodes, by themselves or with the mesh of a face.
+std::set<EdgeId> kept_edges(const Model& model);
 
 /// Make points the nodes of edges, to be kept by whoever meshes the faces beside them.
 ///
