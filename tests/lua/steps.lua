@@ -113,6 +113,41 @@ local mesh = stairs:open_volume { source = { "low", "high" }, target = "roof",
 check.equal(#mesh.regions, 2)
 check.near(mesh.fidelity.volume, 10, 1e-9)
 
+-- A thick pin that stands on the floor of a box, whichever sides of the box are missing: the pin's skin, that
+-- faces the other way, is most of what is given.
+local function boxed_pin(sides)
+  local model = lacuna.model()
+  local function face(name, points, cells)
+    model:add_face { name = name, points = points, cells = cells or { { 1, 2, 3, 4 } } }
+  end
+  local function corners(low, high, z)
+    return { low, low, z }, { high, low, z }, { high, high, z }, { low, high, z }
+  end
+  local outer, inner = { corners(0, 4, 0) }, { corners(0.4, 3.6, 0) }
+  face("floor", table.move(inner, 1, 4, 5, { corners(0, 4, 0) }),
+    { { 1, 5, 6, 2 }, { 2, 6, 7, 3 }, { 3, 7, 8, 4 }, { 4, 8, 5, 1 } })
+  face("tip", { corners(0.4, 3.6, 3.5) })
+  face("lid", { corners(0, 4, 4) })
+  local walls = {}
+  local function stand(name, at, i, height)
+    local a, b = at[i], at[i % 4 + 1]
+    face(name .. i, { a, b, { b[1], b[2], height }, { a[1], a[2], height } })
+    walls[#walls + 1] = name .. i
+  end
+  for i = 1, 4 do
+    stand("skin_", inner, i, 3.5)
+    if sides & 1 << (i - 1) ~= 0 then stand("side_", outer, i, 4) end
+  end
+  return model:open_volume { source = { "floor", "tip" }, target = "lid", walls = walls }
+end
+for sides = 0, 15 do
+  local missing = boxed_pin(sides)
+  check.that(missing:tree():find("pieces: 2", 1, true), "sides " .. sides)
+  local pinned = missing:sweep { size = 0.8 }
+  check.equal(pinned:quality().certified, true, "sides " .. sides)
+  check.near(pinned.fidelity.volume, 64 - 3.5 * 3.2 ^ 2, 1e-9)
+end
+
 -- The tree says what it is cut into.
 local drum = turned(with(top, skin, bottom)):open_volume { source = { "floor", "top" },
   target = { "lid", "bottom" }, walls = { "side", "skin" }, name = "air" }:tree()

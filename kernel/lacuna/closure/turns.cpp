@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -65,17 +67,91 @@ bool faces_outward(const Model& model, const std::vector<FaceId>& faces)
     return sum >= 0;
 }
 
+/// Facets of an end that are asked what lies over them, about so many.
+constexpr std::size_t kAsked = 50;
+
+/// Facets of some parts of the skin.
+struct SomeParts {
+    std::vector<Triangle> facets;
+    std::vector<FaceId> face; ///< of each facet
+    std::optional<geometry::FacetTree> tree;
+};
+
+SomeParts parts_where(const Model& model, const std::vector<std::vector<FaceId>>& parts,
+                      const std::function<bool(std::size_t)>& wanted)
+{
+    SomeParts some;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        if (!wanted(p)) continue;
+        for (const FaceId face : parts[p]) {
+            const std::vector<Triangle>& own = model[face].triangles;
+            some.facets.insert(some.facets.end(), own.begin(), own.end());
+            some.face.resize(some.facets.size(), face);
+        }
+    }
+    some.tree.emplace(model.points, some.facets);
+    return some;
+}
+
+/// Area of a part's ends that see the opposite end, among `seen`, on the side they face, less that of those
+/// that see it behind them: the void lies between a source and the target it looks at.
+double faces_opposite(const OpenVolume& volume, const std::vector<FaceId>& part, const SomeParts& seen)
+{
+    const Model& model = volume.model;
+    double before = 0;
+    for (const FaceId face : part) {
+        const Role role = volume.role[face.index()];
+        if (role == Role::wall) continue;
+        const Role opposite = role == Role::source ? Role::target : Role::source;
+        const std::vector<Triangle>& facets = model[face].triangles;
+        const std::size_t step = std::max<std::size_t>(1, facets.size() / kAsked);
+        for (std::size_t t = 0; t < facets.size(); t += step) {
+            const Vec3 &a = model.at(facets[t][0]), &b = model.at(facets[t][1]), &c = model.at(facets[t][2]);
+            const Vec3 area = (b - a).cross(c - a) / 2, middle = (a + b + c) / 3;
+            for (const double side : {1.0, -1.0}) {
+                const Vec3 way = side * area.stableNormalized();
+                const auto hit = seen.tree->first_along(middle + model.tolerance * way, way);
+                if (hit.triangle >= 0 && volume.role[seen.face[index(hit.triangle)].index()] == opposite)
+                    before += side * area.norm();
+            }
+        }
+    }
+    return before;
+}
+
+/// Of each part, whether its facets face the void. Its ends, where they see the opposite end of another part
+/// or, of a part that lies within no other, its own, say so; else facets face away from their middle, or
+/// towards it where the part lies within another.
+std::vector<bool> parts_facing_void(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts)
+{
+    const Model& model = volume.model;
+    const std::vector<bool> inner = inner_parts(model, parts);
+    std::vector<bool> facing;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        double before = 0;
+        const bool ends = std::ranges::any_of(
+            parts[p], [&](FaceId face) { return volume.role[face.index()] != Role::wall; });
+        if (ends && parts.size() > 1)
+            before = faces_opposite(volume, parts[p],
+                                    parts_where(model, parts, [&](std::size_t o) { return o != p; }));
+        if (ends && before == 0 && !inner[p])
+            before = faces_opposite(volume, parts[p],
+                                    parts_where(model, parts, [&](std::size_t o) { return o == p; }));
+        facing.push_back(before != 0 ? before > 0 : faces_outward(model, parts[p]) == inner[p]);
+    }
+    return facing;
+}
+
 } // namespace
 
 std::vector<double> concave_turns(const OpenVolume& volume)
 {
     const Model& model = volume.model;
     const std::vector<std::vector<FaceId>> parts = parts_of(model);
-    const std::vector<bool> inner = inner_parts(model, parts);
+    const std::vector<bool> facing = parts_facing_void(volume, parts);
     std::vector<double> away(model.faces.size(), 1); // from the void: +1 as the facets face
     for (std::size_t p = 0; p < parts.size(); ++p) {
-        const bool right = faces_outward(model, parts[p]) != inner[p];
-        for (const FaceId face : parts[p]) away[face.index()] = right ? 1 : -1;
+        for (const FaceId face : parts[p]) away[face.index()] = facing[p] ? -1 : 1;
     }
     std::vector<bool> on_edge(model.points.size(), false);
     std::unordered_set<std::uint64_t> sides;
@@ -121,12 +197,12 @@ std::vector<double> concave_turns(const OpenVolume& volume)
     return turns;
 }
 
-void face_away(Model& model)
+void face_away(OpenVolume& volume)
 {
-    const std::vector<std::vector<FaceId>> parts = parts_of(model);
-    const std::vector<bool> inner = inner_parts(model, parts);
+    const std::vector<std::vector<FaceId>> parts = parts_of(volume.model);
+    const std::vector<bool> facing = parts_facing_void(volume, parts);
     for (std::size_t p = 0; p < parts.size(); ++p)
-        if (faces_outward(model, parts[p]) == inner[p]) flip_faces(model, parts[p]);
+        if (facing[p]) flip_faces(volume.model, parts[p]);
 }
 
 } // namespace lacuna::closure

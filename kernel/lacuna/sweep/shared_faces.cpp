@@ -223,13 +223,13 @@ InCommon in_common(const AssemblyMember& a, Side& one, const AssemblyMember& b, 
 /// Facets of a volume of which the middles are asked whether they are within another.
 constexpr std::size_t kAsked = 64;
 
-/// Refuse a volume some of whose skin is within another's.
+/// Refuse a volume some of whose skin is within another's; what is within one that is open no one can say.
 void check_apart(const AssemblyMember& a, const Eigen::AlignedBox3d& box_of_a, const AssemblyMember& b,
                  const Eigen::AlignedBox3d& box_of_b)
 {
     const double inside_by = kInside * b.volume->model.diagonal;
     const Eigen::AlignedBox3d inner(box_of_b.min().array() + inside_by, box_of_b.max().array() - inside_by);
-    if (inner.isEmpty() || !inner.intersects(box_of_a)) return;
+    if (inner.isEmpty() || !inner.intersects(box_of_a) || !free_edges(*b.volume).empty()) return;
     const auto facets_of = [](const OpenVolume& volume) {
         std::vector<Triangle> facets;
         for (const Face& face : volume.model.faces)
