@@ -449,6 +449,7 @@ if params.lacuna ~= "" then
   check.write(folder .. "/made.lua", loads[1]:gsub("|", "\n") .. "\nprint(void.class)\n")
   local code, out, err = check.run(params.lacuna, folder, { "made.lua" })
   check.equal(code .. out, "0closed\n", err)
+  check.that(check.exists(folder .. "/it's a plate.msh"), "the recipe ends with a mesh")
 end
 
 -- A seam is no free edge: its face is on both sides of it.

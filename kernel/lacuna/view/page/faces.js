@@ -192,6 +192,7 @@ class FacesPage {
             "local void = model:open_volume {",
             ...lines,
             "}",
+            ...(data.path ? ["local mesh = void:sweep {}", `mesh:write ${luaText(meshName(data.path))}`] : []),
         ].join("\n");
     }
     copy() {
@@ -421,6 +422,9 @@ class FacesPage {
         this.labels.replaceChildren(...labels);
     }
 }
+
+// "part.msh" of "folder/part.step".
+const meshName = path => path.replace(/^.*\//, "").replace(/\.[^.]*$/, "") + ".msh";
 
 // A text as Lua writes it.
 function luaText(text) {
