@@ -2,10 +2,7 @@
 // What a model is made of, as a table and as text: faces and their sizes, free edges, gaps, cavities.
 #include "bindings/faces.h"
 
-#include <lacuna/closure/cavities.h>
-#include <lacuna/topology/face_facts.h>
-#include <lacuna/topology/face_radius.h>
-#include <lacuna/topology/gaps.h>
+#include <lacuna/closure/model_facts.h>
 
 #include <algorithm>
 #include <array>
@@ -21,47 +18,7 @@ namespace {
 /// As many faces, edges and gaps are listed one by one in the text; more are grouped or counted. A choice.
 constexpr std::size_t kMostLines = 60;
 
-struct Info {
-    std::vector<topology::FaceFacts> faces;
-    std::vector<std::optional<topology::RoundShape>> round;
-    std::vector<bool> part_closed;
-    std::vector<topology::Gap> gaps;
-    std::vector<closure::Cavity> cavities;
-    std::vector<std::size_t> cavity_of; ///< of each face the smallest cavity, from 0; their count: none
-};
-
-Info gather(const topology::Model& model, const RunContext& context)
-{
-    Info info;
-    info.faces = topology::face_facts(model);
-    std::size_t parts = 0;
-    for (const topology::FaceFacts& face : info.faces) parts = std::max(parts, face.part + 1);
-    info.part_closed.assign(parts, true);
-    for (std::size_t f = 0; f < info.faces.size(); ++f) {
-        check_cancelled(context);
-        info.round.push_back(topology::round_shape(model, FaceId(f)));
-        if (!info.faces[f].free_edges.empty()) info.part_closed[info.faces[f].part] = false;
-    }
-    info.gaps = topology::gaps(model, context);
-    info.cavities = closure::cavities(model, context);
-    info.cavity_of.assign(info.faces.size(), info.cavities.size());
-    for (std::size_t c = 0; c < info.cavities.size(); ++c) {
-        for (const FaceId face : info.cavities[c].faces) {
-            std::size_t& now = info.cavity_of[face.index()];
-            const bool smaller = now == info.cavities.size() ||
-                                 info.cavities[c].faces.size() < info.cavities[now].faces.size();
-            if (smaller) now = c;
-        }
-    }
-    return info;
-}
-
-/// What a face would be part of.
-const char* use_of(const Info& info, std::size_t face)
-{
-    if (info.cavity_of[face] < info.cavities.size()) return info.cavities[info.cavity_of[face]].kind.c_str();
-    return info.part_closed[info.faces[face].part] ? "outer skin" : "open shell";
-}
+using Info = closure::ModelFacts;
 
 // --- text -----------------------------------------------------------------------------------------------
 
@@ -121,7 +78,7 @@ void write_face(std::ostream& out, const topology::Model& model, const Info& inf
     if (!info.faces[face].free_edges.empty()) out << ", " << info.faces[face].free_edges.size() << " free";
     if (!info.faces[face].neighbours.empty())
         out << ", beside " << tags(model, info.faces[face].neighbours, 12);
-    out << "; " << use_of(info, face) << '\n';
+    out << "; " << closure::use_of(info, id) << '\n';
 }
 
 /// Faces alike in shape, size and use, one line a group.
@@ -133,7 +90,7 @@ void write_groups(std::ostream& out, const topology::Model& model, const Info& i
         std::string like = shape(model, info, f) + ", area " + number(topology::face_area(model, FaceId(f)));
         if (!info.faces[f].free_edges.empty()) like += ", with free edges";
         if (!model.faces[f].name.empty()) like += ", \"" + model.faces[f].name + "\"";
-        like += std::string("; ") + use_of(info, f);
+        like += std::string("; ") + closure::use_of(info, FaceId(f));
         auto& group = groups[like];
         if (group.empty()) order.push_back(like);
         group.emplace_back(f);
@@ -235,7 +192,7 @@ void push_face_info(lua_State* L, const topology::Model& model, const Info& info
     set_tags(L, "neighbours", model, info.faces[f].neighbours);
     set_count(L, "free_edges", info.faces[f].free_edges.size());
     set_count(L, "part", info.faces[f].part + 1);
-    set_string(L, "use", use_of(info, f));
+    set_string(L, "use", closure::use_of(info, id));
     if (info.cavity_of[f] < info.cavities.size()) set_count(L, "cavity", info.cavity_of[f] + 1);
     if (const auto& round = info.round[f]) {
         set_string(L, "fits", round->is_sphere() ? "sphere" : "cylinder");
@@ -307,7 +264,7 @@ int info(lua_State* L)
     auto& model = temporary<topology::Model>(L); // a finalizer may grow a face meanwhile
     guard(L, [&] {
         model = state->model;
-        found = gather(model, context);
+        found = closure::model_facts(model, context);
     });
     lua_createtable(L, 0, 9);
     set_string(L, "source", model.source.c_str());
@@ -353,7 +310,7 @@ int describe_model(lua_State* L)
     lua_settop(L, 1);
     const Box<ModelState>& state = hold_model(L);
     RunContext& context = push_context(L);
-    push_text(L, [&] { return in_text(state->model, gather(state->model, context)); });
+    push_text(L, [&] { return in_text(state->model, closure::model_facts(state->model, context)); });
     return 1;
 }
 

@@ -354,6 +354,88 @@ check.equal(clicks[8], "block true", "the pointer shows what a face is")
 check.equal(clicks[9], "none")
 check.equal(clicks[10], "target")
 
+-- What model:info() tells of faces the page tells: the pointer shows it, cavities and gaps are there to be
+-- picked, and what a pick says runs.
+local drilled = lacuna.synthetic.plate { holes = 2 }
+local told = drilled:info()
+drilled:view(folder .. "/drilled.html")
+local picks = play(folder .. "/drilled.html", [=[
+  say(page.data.faces.map(face => [face.tag, face.use, face.neighbours.join(" "), face.low, face.high,
+    face.radius].join(";")).join("|"));
+  say(page.cavityButtons.map(button => button.textContent).join("|"));
+  page.role[0] = "source"; page.paint();
+  page.cavityButtons[1].dispatchEvent(new MouseEvent("mouseenter"));
+  page.cavityButtons[1].click();
+  say(page.recipe.value.replace(/\n/g, "|"));
+  say(page.state.textContent);
+  const bore = page.data.cavities[1].faces[0];
+  const of = side => page.data.faces[page.faceOf[side]].tag;
+  page.camera.look([0.3, -0.2, 1]); page.camera.fit(1);
+  say(page.over(...findPixel(page, of, bore)).filter(x => x).join("|"));
+  page.roleChoice.set("walls");
+  page.role[page.data.faces.findIndex(face => face.tag === bore)] = "faces";
+  const at = findPixel(page, of, 2);
+  point(page, "pointerdown", at); point(page, "pointerup", at);
+  say(page.recipe.value.replace(/\n/g, "|"), page.gapButtons === undefined);
+]=])
+local rows = {}
+for i, face in ipairs(told.faces) do
+  local function numbers(list) return table.concat(list, " ") end
+  rows[i] = table.concat({ face.tag, face.use, numbers(face.neighbours) }, ";")
+end
+local shown = 0
+for row in (picks[1] .. "|"):gmatch("(.-)|") do
+  shown = shown + 1
+  check.equal(row:sub(1, #rows[shown] + 1), rows[shown] .. ";")
+  local radius = tonumber(row:match(";([^;]*)$"))
+  check.that((radius == nil) == (told.faces[shown].radius == nil), row)
+  if radius then check.near(radius, told.faces[shown].radius, 1e-9) end
+end
+check.equal(shown, #told.faces)
+local bore = told.cavities[2]
+check.that(picks[2]:find("|bore, faces " .. table.concat(bore.faces, ", ") .. "  class V, volume", 1, true),
+    picks[2])
+check.equal(picks[3],
+    ("local void = model:open_volume {|  faces = { %s },|}"):format(table.concat(bore.faces, ", ")),
+    "roles chosen before are gone")
+check.equal(picks[4], "The chosen faces leave 2 free edges and 0 vertices of the ends without a wall.")
+check.that(picks[5]:find("cylinder of radius", 1, true) and picks[5]:find("|axis (", 1, true) and
+    picks[5]:find("|box (", 1, true) and picks[5]:find("|bore", 1, true), picks[5])
+check.equal(picks[6], "local void = model:open_volume {|  walls = { 2 },|} true",
+    "a role takes the place of faces without roles")
+check.write(folder .. "/pick.lua", 'local model = require("lacuna").synthetic.plate { holes = 2 }\n' ..
+    picks[3]:gsub("|", "\n") .. "\nprint(void.class)\n")
+if params.lacuna ~= "" then
+  local code, out, err = check.run(params.lacuna, folder, { "pick.lua" })
+  check.equal(code .. out, "0V\n", err)
+end
+
+local apart = folder .. "/apart.stl"
+local side = "facet normal 0 0 0\nouter loop\n%s\nendloop\nendfacet\n"
+local function square(x)
+  local function corner(dx, y) return ("vertex %.17g %d 0"):format(x + dx, y) end
+  return side:format(corner(0, 0) .. "\n" .. corner(1, 0) .. "\n" .. corner(1, 1)) ..
+      side:format(corner(0, 0) .. "\n" .. corner(1, 1) .. "\n" .. corner(0, 1))
+end
+check.write(apart, "solid a\n" .. square(0) .. square(1.001) .. "endsolid a\n")
+local loose = lacuna.load(apart)
+local gap = loose:info().gaps[1]
+loose:view(folder .. "/apart.html")
+local sewn = play(folder .. "/apart.html", [[
+  say(page.gapButtons.length, page.gapButtons[0].textContent);
+  page.gapButtons[0].dispatchEvent(new MouseEvent("mouseenter"));
+  page.gapButtons[0].click();
+  say(page.recipe.value);
+  page.gapButtons[0].click();
+  say(page.recipe.value === "");
+]])
+check.equal(sewn[1], ("1 edges %d and %d  at most 0.001 apart; tolerance = %s sews them"):format(
+    gap.edge, gap.other, gap.tolerance))
+local load_line = sewn[2]:match("^local model = (.*)$")
+check.that(load_line, sewn[2])
+check.equal(#load("local lacuna = ... return " .. load_line)(lacuna):info().gaps, 0, "it sews them")
+check.equal(sewn[3], "true")
+
 -- A file's page says how to load it, and what it says runs.
 if params.lacuna ~= "" then
   void:write_facets(folder .. "/it's a plate.stl")
@@ -367,6 +449,7 @@ if params.lacuna ~= "" then
   check.write(folder .. "/made.lua", loads[1]:gsub("|", "\n") .. "\nprint(void.class)\n")
   local code, out, err = check.run(params.lacuna, folder, { "made.lua" })
   check.equal(code .. out, "0closed\n", err)
+  check.that(check.exists(folder .. "/it's a plate.msh"), "the recipe ends with a mesh")
 end
 
 -- A seam is no free edge: its face is on both sides of it.

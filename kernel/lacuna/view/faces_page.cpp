@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/view/page.h>
 
-#include <lacuna/topology/face_radius.h>
+#include <lacuna/closure/model_facts.h>
 #include <lacuna/view/detail/base64.h>
 #include <lacuna/view/detail/page_file.h>
 
@@ -73,6 +73,24 @@ std::vector<EdgeId> edges_of(const topology::Face& face)
     return edges;
 }
 
+void add_tags(Json& json, const char* key, const Model& model, const std::vector<FaceId>& faces)
+{
+    json.key(key).begin_array();
+    for (const FaceId face : faces) json.value(model[face].tag);
+    json.end_array();
+}
+
+/// What tells a face from others: its box, its neighbours, the cylinder or sphere it lies on.
+void add_facts(Json& json, const Model& model, const topology::FaceFacts& facts,
+               const std::optional<topology::RoundShape>& round)
+{
+    if (!facts.box.isEmpty()) json.member("low", facts.box.min()).member("high", facts.box.max());
+    add_tags(json, "neighbours", model, facts.neighbours);
+    if (!round) return;
+    json.member("fits", round->is_sphere() ? "sphere" : "cylinder").member("radius", round->radius);
+    if (round->axis) json.member("axis", *round->axis);
+}
+
 void add_face(Json& json, const Model& model, FaceId id, const Sides& sides, const char* role)
 {
     const topology::Face& face = model[id];
@@ -83,7 +101,7 @@ void add_face(Json& json, const Model& model, FaceId id, const Sides& sides, con
     for (const Triangle& triangle : face.triangles)
         for (const Index point : triangle) reach = std::max(reach, (model.at(point) - centre).norm());
     const std::size_t f = id.index();
-    json.begin_object().member("tag", face.tag).member("name", face.name).member("kind", face.kind);
+    json.member("tag", face.tag).member("name", face.name).member("kind", face.kind);
     json.member("area", area).member("centre", centre).member("reach", reach);
     json.member("normal", area > 0 ? Vec3(normal / area) : Vec3(Vec3::Zero()));
     json.member("loops", face.loops.size()).member("groups", face.groups);
@@ -91,7 +109,6 @@ void add_face(Json& json, const Model& model, FaceId id, const Sides& sides, con
     for (const auto& names : face.regions)
         if (!names.empty()) regions.push_back(names.front());
     json.member("regions", regions);
-    if (const std::optional<double> radius = topology::face_radius(model, id)) json.member("radius", *radius);
     json.member("void", face.origin == Origin::made_void).member("geometry", word(face.geometry));
     json.key("role");
     if (role != nullptr)
@@ -101,7 +118,7 @@ void add_face(Json& json, const Model& model, FaceId id, const Sides& sides, con
     json.member("first", sides.first[f]).member("quads", sides.quads[f]).member("sides", sides.count[f]);
     json.key("edges").begin_array();
     for (const EdgeId edge : edges_of(face)) json.value(edge.index());
-    json.end_array().end_object();
+    json.end_array();
 }
 
 void add_edges(Json& json, const Model& model)
@@ -121,9 +138,39 @@ void add_edges(Json& json, const Model& model)
     json.end_array();
 }
 
-void write_faces(const Model& model, const std::vector<topology::Role>* roles, std::vector<std::string> facts,
+void add_gaps(Json& json, const Model& model, const std::vector<topology::Gap>& gaps)
+{
+    json.key("gaps").begin_array();
+    for (const topology::Gap& gap : gaps) {
+        json.begin_object().key("edges").begin_array().value(gap.own.index()).value(gap.other.index());
+        json.end_array().member("width", gap.width);
+        json.member("tolerance", topology::sewing_tolerance(model, gap)).end_object();
+    }
+    json.end_array();
+}
+
+void add_cavities(Json& json, const Model& model, const std::vector<closure::Cavity>& cavities)
+{
+    json.key("cavities").begin_array();
+    for (const closure::Cavity& cavity : cavities) {
+        json.begin_object().member("kind", cavity.kind).member("volume", cavity.volume);
+        json.member("class", std::string(topology::to_string(cavity.value)));
+        add_tags(json, "faces", model, cavity.faces);
+        json.end_object();
+    }
+    json.end_array();
+}
+
+/// What is said of a model whose faces are to be chosen, or the roles of a volume whose faces were.
+struct Told {
+    const closure::ModelFacts* model = nullptr;
+    const std::vector<topology::Role>* roles = nullptr;
+};
+
+void write_faces(const Model& model, const Told& told, const std::vector<std::string>& facts,
                  const io::OutputPath& path, const PageOptions& options, const RunContext& context)
 {
+    const auto of_faces = told.model != nullptr ? told.model->faces : topology::face_facts(model);
     Eigen::AlignedBox3d box;
     for (const topology::Face& face : model.faces)
         for (const Triangle& triangle : face.triangles)
@@ -143,10 +190,18 @@ void write_faces(const Model& model, const std::vector<topology::Role>* roles, s
     json.key("faces").begin_array();
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         check_cancelled(context);
-        add_face(json, model, FaceId(f), sides, roles != nullptr ? word((*roles)[f]) : nullptr);
+        const FaceId id(f);
+        json.begin_object();
+        add_face(json, model, id, sides, told.roles != nullptr ? word((*told.roles)[f]) : nullptr);
+        add_facts(json, model, of_faces[f],
+                  told.model != nullptr ? told.model->round[f] : topology::round_shape(model, id));
+        if (told.model != nullptr) json.member("use", closure::use_of(*told.model, id));
+        json.end_object();
     }
     json.end_array();
     add_edges(json, model);
+    add_gaps(json, model, told.model != nullptr ? told.model->gaps : std::vector<topology::Gap>{});
+    add_cavities(json, model, told.model != nullptr ? told.model->cavities : std::vector<closure::Cavity>{});
     json.end_object();
     write_html(json, path);
 }
@@ -156,7 +211,9 @@ void write_faces(const Model& model, const std::vector<topology::Role>* roles, s
 void write_page(const Model& model, const io::OutputPath& path, const PageOptions& options,
                 const RunContext& context)
 {
-    write_faces(model, nullptr, {std::to_string(model.faces.size()) + " faces"}, path, options, context);
+    const closure::ModelFacts facts = closure::model_facts(model, context);
+    write_faces(model, {&facts, nullptr}, {std::to_string(model.faces.size()) + " faces"}, path, options,
+                context);
 }
 
 void write_page(const topology::OpenVolume& volume, const io::OutputPath& path, const PageOptions& options,
@@ -168,7 +225,7 @@ void write_page(const topology::OpenVolume& volume, const io::OutputPath& path, 
         facts.emplace_back("sealed");
     else
         facts.push_back("class " + std::string(topology::to_string(topology::classify(volume).value)));
-    write_faces(volume.model, &volume.role, std::move(facts), path, options, context);
+    write_faces(volume.model, {nullptr, &volume.role}, facts, path, options, context);
 }
 
 } // namespace lacuna::view

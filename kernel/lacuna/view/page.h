@@ -46,8 +46,10 @@ void write_page(const io::Deck& deck, const io::OutputPath& path, const PageOpti
                 const RunContext& context = {});
 
 /// A page of faces: labelled, described where the mouse is, and clicked to collect a recipe's source, target
-/// and walls. Edges of one face alone are marked.
-/// @throw  as `io::WholeFile`.
+/// and walls, or faces without roles. Edges of one face alone are marked. Cavities and unsewn gaps, as
+/// closure::model_facts() finds them, are listed to be picked.
+/// @throw  as `io::WholeFile`. Cancelled.
+/// @note   As closure::model_facts().
 void write_page(const topology::Model& model, const io::OutputPath& path, const PageOptions& options = {},
                 const RunContext& context = {});
 

@@ -3,11 +3,13 @@
 
 // Models and open volumes: faces to be chosen for a recipe.
 
-const kRoles = ["source", "target", "walls"];
+// Named roles, or faces whose roles are left to be found.
+const kRoles = ["source", "target", "walls", "faces"];
 const kFreeEdge = [214, 39, 40],
     kEdge = [40, 50, 60],
     kVoidEdge = [190, 110, 10],
-    kWallFree = [148, 20, 140];
+    kWallFree = [148, 20, 140],
+    kChosen = [30, 140, 140];
 
 class FacesPage {
     static async make(data, stage, panel) {
@@ -53,7 +55,9 @@ class FacesPage {
             this.roleChoice.row,
             el("p", {
                 className: "quiet",
-                textContent: "A second click takes a face out. Keys 1, 2, 3 change the role.",
+                textContent:
+                    "A second click takes a face out. Keys 1 to 4 change the role. " +
+                    "Of faces alone the roles are found.",
             }),
         );
         this.recipe = el("textarea", { readOnly: true, spellcheck: false, id: "recipe" });
@@ -66,13 +70,16 @@ class FacesPage {
                     textContent: "Clear",
                     onclick: () => {
                         this.role.fill(null);
+                        this.tolerance = null;
                         this.paint();
                     },
                 }),
                 this.copied,
             ),
         );
+        this.listCavities();
         this.state = section(panel, "What is open");
+        this.listGaps();
         this.legend = section(panel, "Legend");
         const names = section(panel, "Faces");
         this.faceButtons = data.faces.map((face, f) =>
@@ -105,6 +112,62 @@ class FacesPage {
         );
     }
 
+    // A line that is pointed at to be seen and clicked to be taken.
+    offer(words, quiet, seen, taken) {
+        return el(
+            "button",
+            {
+                className: "link",
+                onclick: taken,
+                onmouseenter: () => this.liftEdges(seen()),
+                onmouseleave: () => this.lift(-1),
+            },
+            words,
+            el("span", { className: "quiet", textContent: `  ${quiet}` }),
+        );
+    }
+
+    listCavities() {
+        const { data } = this;
+        if (data.cavities.length === 0) return;
+        const numberOf = new Map(data.faces.map((face, f) => [face.tag, f]));
+        this.cavityButtons = data.cavities.map(cavity => {
+            const faces = cavity.faces.map(tag => numberOf.get(tag));
+            const some = cavity.faces.slice(0, 12).join(", ") + (faces.length > 12 ? ", …" : "");
+            return this.offer(
+                `${cavity.kind}, faces ${some}`,
+                `class ${cavity.class}, volume ${digits(cavity.volume)}`,
+                () => faces.flatMap(f => data.faces[f].edges),
+                () => {
+                    this.role.fill(null);
+                    faces.forEach(f => {
+                        this.role[f] = "faces";
+                    });
+                    this.paint();
+                },
+            );
+        });
+        section(this.panel, "Cavities").append(...this.cavityButtons);
+    }
+
+    listGaps() {
+        const { data } = this;
+        if (data.gaps.length === 0) return;
+        this.gapButtons = data.gaps.map(gap => {
+            const [own, other] = gap.edges.map(e => data.edges[e].tag);
+            return this.offer(
+                `edges ${own} and ${other}`,
+                `at most ${digits(gap.width)} apart; tolerance = ${gap.tolerance} sews them`,
+                () => gap.edges,
+                () => {
+                    this.tolerance = this.tolerance === gap.tolerance ? null : gap.tolerance;
+                    this.paint();
+                },
+            );
+        });
+        section(this.panel, "Gaps").append(...this.gapButtons);
+    }
+
     title(face) {
         return (face.void ? "void face " : "face ") + face.tag + (face.name ? ` "${face.name}"` : "");
     }
@@ -118,14 +181,18 @@ class FacesPage {
         const lines = kRoles
             .filter(role => tags(role).length > 0)
             .map(role => `  ${role} = { ${tags(role).join(", ")} },`);
-        if (lines.length === 0) return "";
-        const path = data.path ? [`local model = lacuna.load ${luaText(data.path)}`] : [];
+        const load = this.tolerance
+            ? `lacuna.load(${luaText(data.path || "…")}, { tolerance = ${this.tolerance} })`
+            : `lacuna.load ${luaText(data.path)}`;
+        const path = data.path || this.tolerance ? [`local model = ${load}`] : [];
+        if (lines.length === 0) return this.tolerance ? path[0] : "";
         return [
             ...(path.length ? ['local lacuna = require "lacuna"'] : []),
             ...path,
             "local void = model:open_volume {",
             ...lines,
             "}",
+            ...(data.path ? ["local mesh = void:sweep {}", `mesh:write ${luaText(meshName(data.path))}`] : []),
         ].join("\n");
     }
     copy() {
@@ -159,6 +226,7 @@ class FacesPage {
             for (const e of face.edges)
                 for (const v of [data.edges[e].from, data.edges[e].to])
                     if (role[f] === "walls") onWall.add(v);
+                    else if (role[f] === "faces") continue;
                     else if (free[e] || this.facesOfEdge[e].some(o => role[o] === "walls")) onEnd.add(v);
         });
         const ends = role.includes("source") || role.includes("target");
@@ -173,7 +241,7 @@ class FacesPage {
         const { free, wallFree, some } = this.openOf();
         const colours = data.faces.map((face, f) => {
             const role = this.role[f];
-            const colour = role ? palette[role] : face.void ? palette.void : palette.given;
+            const colour = role ? palette[role] || kChosen : face.void ? palette.void : palette.given;
             return word(colour, (face.void ? kHatched : 0) | (some && role === null ? kFaint : 0));
         });
         for (let s = 0; s < data.sideCount; s++) {
@@ -209,7 +277,7 @@ class FacesPage {
         const line = (colour, text) =>
             row(el("span", { style: { width: "22px", borderTop: `3px solid ${css(colour)}` } }), text);
         this.legend.replaceChildren(
-            ...kRoles.filter(r => this.role.includes(r)).map(r => row(swatch(palette[r]), r)),
+            ...kRoles.filter(r => this.role.includes(r)).map(r => row(swatch(palette[r] || kChosen), r)),
             row(swatch(palette.given), "given face"),
             ...(hatched
                 ? [row(swatch([240, 240, 240], true), "hatched: made when the volume was closed")]
@@ -222,15 +290,17 @@ class FacesPage {
 
     lift(f) {
         this.lifted = f;
-        const colour = word([255, 255, 255], 12),
-            lines = [];
-        if (f >= 0)
-            for (const e of this.data.faces[f].edges) {
-                const edge = this.data.edges[e];
-                for (let i = edge.first; i + 1 < edge.first + edge.points; i++)
-                    lines.push(this.edgePoints[i], this.edgePoints[i + 1], word([20, 60, 200], 12));
-            }
-        this.drawing.putLines(colour ? lines : [], true);
+        this.liftEdges(f >= 0 ? this.data.faces[f].edges : []);
+    }
+
+    liftEdges(edges) {
+        const lines = [];
+        for (const e of edges) {
+            const edge = this.data.edges[e];
+            for (let i = edge.first; i + 1 < edge.first + edge.points; i++)
+                lines.push(this.edgePoints[i], this.edgePoints[i + 1], word([20, 60, 200], 12));
+        }
+        this.drawing.putLines(lines, true);
         this.stage.change();
     }
 
@@ -244,6 +314,12 @@ class FacesPage {
         this.stage.flyTo(centre, Math.max(0.05 * this.data.radius, 0.9 * face.reach), from);
     }
 
+    // "radius 3", or what a face of no such kind lies on.
+    round(face) {
+        const size = `radius ${digits(face.radius)}`;
+        return [face.fits, "torus"].includes(face.kind) ? size : `a ${face.fits} of ${size}`;
+    }
+
     over(x, y) {
         const side = x < 0 ? -1 : this.drawing.pick(this.camera, x, y);
         const f = side < 0 ? -1 : this.faceOf[side];
@@ -252,21 +328,22 @@ class FacesPage {
         const { data } = this,
             face = data.faces[f],
             { free } = this.openOf();
-        const neighbours = [
-            ...new Set(face.edges.flatMap(e => this.facesOfEdge[e]).filter(o => o !== f)),
-        ].map(o => data.faces[o].tag);
+        const some = face.neighbours.slice(0, 12).join(", ") + (face.neighbours.length > 12 ? ", …" : "");
         const freeEdges = face.edges.filter(e => free[e]).length;
         return [
             this.title(face) + (this.role[f] ? ` – ${this.role[f]}` : ""),
             face.void
                 ? `void, closed: ${face.geometry}`
-                : face.kind + (face.radius ? `, radius ${digits(face.radius)}` : ""),
+                : face.kind + (face.radius ? `, ${this.round(face)}` : ""),
+            face.axis ? `axis ${place(face.axis)}` : "",
             `area ${digits(face.area)}`,
             `centre ${place(face.centre)}`,
             Math.hypot(...face.normal) > 0.3 ? `normal ${place(face.normal)}` : "",
+            face.low ? `box ${place(face.low)} to ${place(face.high)}` : "",
             `${things(new Set(face.edges).size, "edge")}, ${things(face.loops, "loop")}` +
                 (freeEdges ? `, ${freeEdges} free` : ""),
-            neighbours.length ? `next to ${neighbours.join(", ")}` : "no neighbours",
+            some ? `next to ${some}` : "no neighbours",
+            face.use || "",
             face.quads ? `came with ${things(face.quads, "quad")}` : "",
             face.groups.length ? `in ${face.groups.join(", ")}` : "",
             face.regions.length ? `bounds ${face.regions.join(", ")}` : "",
@@ -278,6 +355,8 @@ class FacesPage {
         if (side < 0) return false;
         const f = this.faceOf[side];
         if (this.data.faces[f].void) return false;
+        const alone = r => r === "faces";
+        this.role = this.role.map(r => (alone(r) === alone(this.chosenRole) ? r : null)); // not beside roles
         this.role[f] = this.role[f] === this.chosenRole ? null : this.chosenRole;
         this.paint();
         return true;
@@ -343,6 +422,9 @@ class FacesPage {
         this.labels.replaceChildren(...labels);
     }
 }
+
+// "part.msh" of "folder/part.step".
+const meshName = path => path.replace(/^.*\//, "").replace(/\.[^.]*$/, "") + ".msh";
 
 // A text as Lua writes it.
 function luaText(text) {
