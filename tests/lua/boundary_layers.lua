@@ -90,6 +90,21 @@ do
   check.that(volume:sweep { size = 0.5, intervals = { { "sweep", count = 5, bias = 3 } } }.layers == 5)
 end
 
+-- Rows without number, without room or too thin to be told apart are refused before any is made.
+do
+  local volume = lacuna.synthetic.prism { sides = 4, height = 2 }:open_volume()
+  local function rows(first, count, growth)
+    return function()
+      volume:sweep { size = 0.5,
+        boundary_layers = { walls = "walls", first = first, count = count, growth = growth } }
+    end
+  end
+  check.fails(rows(0.01, 1000000000), "boundary_layers", "1000000000", "sweep.too_many")
+  check.fails(rows(0.01, 900), "boundary_layers", "900 rows", "across", "surface.layers_room")
+  check.fails(rows(0.01, 20, 0.1), "boundary_layers", "tolerance", "surface.layers_room")
+  check.fails(rows(1e-12, 2), "boundary_layers", "tolerance", "surface.layers_room")
+end
+
 -- In an assembly, for the volumes that have the face: layers along a face that two share, on both sides.
 do
   local model = lacuna.model()

@@ -132,6 +132,15 @@ check.equal(#mesh.regions, 3)
 check.near(mesh.fidelity.volume, 26, 1e-9)
 check.that(mesh:quality().min_scaled_jacobian > 0.7)
 
+-- Two at one place, to opposite sides: a cross of four arms.
+for _, radius in ipairs { 0.3, 0.5, 0.7 } do
+  local cross = { { at = 2, side = 1, radius = radius, length = 2, role = "target" },
+    { at = 2, side = 3, radius = radius, length = 1.5, role = "wall" } }
+  mesh = open(duct(4, cross), cross):sweep { size = 0.3 }
+  check.equal(#mesh.regions, 4)
+  check.near(mesh.fidelity.volume, volume(4, cross), 0.02 * volume(4, cross))
+end
+
 -- A dimple is a wall like any other.
 local dimple = { { at = 3, side = 1, radius = 0.5, length = 0.1, role = "wall" } }
 check.equal(#open(duct(6, dimple), dimple):cut(), 1)

@@ -436,15 +436,16 @@ private:
         for (std::size_t f = work.role.size(); f < made.parent.size(); ++f)
             work.role.push_back(work.role[made.parent[f].index()]);
         std::vector<FaceId> host;
-        for (std::size_t f = 0; f < model.faces.size(); ++f)
+        for (std::size_t f = 0; f < made.parent.size(); ++f)
             if (found_.region[made.parent[f].index()] == mouths.front()->host) host.emplace_back(f);
 
         PartedModel parted;
         Partition middle;
         std::map<VertexId, EdgeUse> onward; // from the end of a walk across its mouth
         for (const Mouth* mouth : mouths) {
+            // The void faces of a mouth before it are behind those of the skin.
             std::vector<FaceId> branch;
-            for (std::size_t f = 0; f < model.faces.size(); ++f)
+            for (std::size_t f = 0; f < made.parent.size(); ++f)
                 if (found_.region[made.parent[f].index()] == mouth->branch) branch.emplace_back(f);
             std::array<std::vector<EdgeUse>, 2>
                 halves; // behind the plane and before it, as the branch uses them

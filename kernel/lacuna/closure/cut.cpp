@@ -5,6 +5,7 @@
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/number_text.h>
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/geometry/plane.h>
 #include <lacuna/geometry/predicates.h>
@@ -30,12 +31,7 @@ constexpr std::size_t kAllOrders = 7;
 /// Loops of less area than this part of the square of their length enclose nothing. A choice.
 constexpr double kSlit = 1e-6;
 
-std::string number(double value)
-{
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.4g", value);
-    return text.data();
-}
+std::string number(double value) { return with_digits(value, 4); }
 
 std::vector<FaceId> all_faces(const Model& model)
 {

@@ -3,12 +3,11 @@
 
 #include <lacuna/closure/steps.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/number_text.h>
 #include <lacuna/geometry/facet_tree.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -270,12 +269,7 @@ std::vector<FaceId> rising(std::vector<FaceId> faces)
     return faces;
 }
 
-std::string plain(double value)
-{
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.4g", value);
-    return text.data();
-}
+std::string plain(double value) { return with_digits(value, 4); }
 
 std::string ways_in_words(const Reading& reading)
 {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/healing/detail/surplus_faces.h>
 
+#include <lacuna/core/number_text.h>
 #include <lacuna/healing/detail/coincident_faces.h>
 #include <lacuna/healing/detail/edge_track.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <set>
 
@@ -51,12 +51,7 @@ void leave_out_copies(LooseModel& loose, StitchReport& report, const std::vector
 
 } // namespace
 
-std::string in_words(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
+std::string in_words(double value) { return with_digits(value, 3); }
 
 void leave_out_thin_faces(LooseModel& loose, double tolerance, StitchReport& report)
 {

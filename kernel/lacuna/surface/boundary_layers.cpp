@@ -2,6 +2,7 @@
 #include <lacuna/surface/boundary_layers.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/number_text.h>
 #include <lacuna/surface/detail/face_sides.h>
 
 #include <algorithm>
@@ -151,6 +152,33 @@ private:
     RimRows rows_;
 };
 
+constexpr int kMostRows = 1000; // a choice, not a measurement: rows are fitted to each other one by one
+
+/// @throw NotSweepable "surface.layers_room"  rows that no volume of this width holds, or thinner than what is
+///                     told apart; InvalidInput "sweep.too_many".
+void check_room(const Model& model, const BoundaryLayer& layer)
+{
+    const auto refuse = [&](const std::string& why) {
+        throw NotSweepable("surface.layers_room", "sweep: option 'boundary_layers' asks for " +
+                                                      std::to_string(layer.count) + " rows from " +
+                                                      with_digits(layer.first, 3) + " with growth " +
+                                                      with_digits(layer.growth, 3) + "; " + why);
+    };
+    if (layer.count > kMostRows) {
+        throw InvalidInput("sweep.too_many", "sweep: option 'boundary_layers' asks for " +
+                                                 std::to_string(layer.count) + " rows; " +
+                                                 std::to_string(kMostRows) + " at most");
+    }
+    const double height = row_heights(layer).back();
+    if (!(height <= model.diagonal))
+        refuse("they are " + with_digits(height, 3) + " high, and the volume is " +
+               with_digits(model.diagonal, 3) + " across; ask for fewer or thinner ones");
+    const double thinnest = std::min(layer.first, layer.first * std::pow(layer.growth, layer.count - 1));
+    if (!(thinnest > model.tolerance))
+        refuse("the thinnest is " + with_digits(thinnest, 3) + ", within the model's tolerance of " +
+               with_digits(model.tolerance, 3) + "; ask for fewer or thicker ones");
+}
+
 } // namespace
 
 std::vector<double> row_heights(const BoundaryLayer& layer)
@@ -212,6 +240,7 @@ LayerTables layer_tables(const OpenVolume& volume, std::span<const BoundaryLayer
             throw InvalidInput("surface.two_layers", "sweep: option 'boundary_layers' gives " +
                                                          name_of(volume.model, face) + " two tables");
         }
+        check_room(volume.model, layer);
         tables.heights.push_back(row_heights(layer));
     }
     return tables;

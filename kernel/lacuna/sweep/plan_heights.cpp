@@ -127,6 +127,12 @@ std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions&
                            "sweep: option 'layers' gives heights, and boundary layers of an end give others; "
                            "leave out one of them");
     }
+    if (spec.count == 0) {
+        throw NotSweepable("sweep.layers",
+                           "quads that walls came with give the heights of layers, and boundary layers of an "
+                           "end give others; leave the end out of 'boundary_layers', or load with "
+                           "keep_mesh = false");
+    }
     if (spec.count <= taken) {
         throw InvalidInput("sweep.layers", "sweep: option 'layers' asks for " + std::to_string(spec.count) +
                                                ", and boundary layers of the ends take " +

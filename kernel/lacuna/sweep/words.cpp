@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/words.h>
 
+#include <lacuna/core/number_text.h>
+
 #include <charconv>
-#include <cstdio>
 
 namespace lacuna::sweep {
 
-std::string in_short(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2g", value);
-    return text;
-}
+std::string in_short(double value) { return with_digits(value, 2); }
 
 std::string place_in_short(const Vec3& p)
 {
