@@ -87,3 +87,11 @@ recipe("packed_box", { picture("mesh", "packed_box_inside",
     { cut = { point = { 0, 39, 0 }, normal = { 0, -1, 0 } }, colour = "region", view = low }) })
 recipe("resin", { picture("mesh", "resin_inside",
     { cut = { point = { 0, 1, 0 }, normal = { 0, -1, 0 } }, colour = "region", view = low }) })
+recipe("tee", { picture("mesh", "tee_inside",
+    { cut = { point = { 0, 0, 0 }, normal = { 0, -1, 0 } }, colour = "region", view = low }) })
+recipe("stepped_pin", { picture("mesh", "stepped_pin_inside",
+    { cut = { point = { 0, 0, 0 }, normal = { 0, -1, 0 } }, colour = "region", view = low }) })
+recipe("bottle", { picture("mesh", "bottle_inside",
+    { cut = { point = { 0, 40, 0 }, normal = { 0, -1, 0 } }, colour = "region", view = low }) })
+recipe("both_sides", { picture("mesh", "both_sides", { colour = "region", view = low }) })
+recipe("boundary_layers", { picture("mesh", "boundary_layers", { view = { 0.3, -0.8, 1.2 } }) })
