@@ -154,8 +154,8 @@ private:
 
 constexpr int kMostRows = 1000; // a choice, not a measurement: rows are fitted to each other one by one
 
-/// @throw NotSweepable "surface.layers_room"  rows that no volume of this width holds, or thinner than what is
-///                     told apart; InvalidInput "sweep.too_many".
+/// @throw NotSweepable "surface.layers_room"  rows that no volume of this width holds, or that are too thin.
+/// @throw InvalidInput "sweep.too_many"
 void check_room(const Model& model, const BoundaryLayer& layer)
 {
     const auto refuse = [&](const std::string& why) {
