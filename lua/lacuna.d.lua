@@ -97,6 +97,7 @@
 ---@field gap? integer least number of quads across a narrow place of the source; default: none
 ---@field max_deviation? number how far the skin may be from the sealed skin [model length]; default: a quarter of a quad's side
 ---@field quads? "auto"|"paved"|"mapped"|"gmsh"|"keep" default "auto"; the report says which way each face was meshed
+---@field fallback? "wedges"|"leave_out" what becomes of a volume that cannot be hexahedra alone; default: an error
 ---@field wedges? boolean triangles that an end came with stay, with wedges on them; default false: quads among triangles are an error
 ---@field rows? integer rows of quads from every loop of the source that stay as they are laid; default: what the paver finds good
 ---@field row_height? number|fun(x: number, y: number, z: number): number of those rows (one at least); default: the size
@@ -397,7 +398,13 @@ function Buffer:each() end
 ---@return string
 function Buffer:bytes() end
 
+---@class lacuna.LeftOut
+---@field region string
+---@field code string the error's
+---@field message string
+
 ---@class lacuna.Mesh
+---@field left_out lacuna.LeftOut[] none
 ---@field fidelity lacuna.Fidelity
 ---@field nodes integer
 ---@field hexes integer
@@ -452,6 +459,7 @@ function Assembly:sweep(options) end
 
 --- The mesh of an assembly, a region each.
 ---@class lacuna.AssemblyMesh
+---@field left_out lacuna.LeftOut[] volumes and pieces that `fallback = "leave_out"` left out
 ---@field fidelity { volume: number, sealed_volume: number, max_distance: number, mean_distance: number, regions: table<string, lacuna.Fidelity> }
 ---@field nodes integer
 ---@field hexes integer

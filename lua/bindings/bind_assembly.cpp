@@ -123,6 +123,25 @@ int mesh_regions(lua_State* L)
     return 1;
 }
 
+/// { { region =, code =, message = }, ... }
+int mesh_left_out(lua_State* L)
+{
+    const auto& state = hold<AssemblyMeshState>(L, 1);
+    lua_createtable(L, static_cast<int>(state.left_out.size()), 0);
+    for (std::size_t i = 0; i < state.left_out.size(); ++i) {
+        const sweep::LeftOut& out = state.left_out[i];
+        lua_createtable(L, 0, 3);
+        lua_pushlstring(L, out.region.data(), out.region.size());
+        lua_setfield(L, -2, "region");
+        lua_pushlstring(L, out.code.data(), out.code.size());
+        lua_setfield(L, -2, "code");
+        lua_pushlstring(L, out.message.data(), out.message.size());
+        lua_setfield(L, -2, "message");
+        lua_rawseti(L, -2, to_lua(i));
+    }
+    return 1;
+}
+
 int mesh_report(lua_State* L)
 {
     const auto& state = hold<AssemblyMeshState>(L, 1);
@@ -263,7 +282,8 @@ const luaL_Reg kMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
 const Field kFields[] = {
     {"wedges", mesh_wedges}, {"order", mesh_order},       {"nodes", mesh_nodes},
     {"hexes", mesh_hexes},   {"layers", mesh_layers},     {"regions", mesh_regions},
-    {"report", mesh_report}, {"fidelity", mesh_fidelity}, {nullptr, nullptr},
+    {"report", mesh_report}, {"fidelity", mesh_fidelity}, {"left_out", mesh_left_out},
+    {nullptr, nullptr},
 };
 
 } // namespace

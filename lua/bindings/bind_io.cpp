@@ -355,6 +355,8 @@ int write_assembly(lua_State* L)
                                "leave it out");
         static_cast<void>(format_of(path.text(), arguments)); // refuses what the format has not
         io::find_deck_format(io::ending_of(path.text()), arguments.deck.format);
+        for (const sweep::LeftOut& out : state.left_out)
+            log_line(context, "note: " + path.text() + " has a hole: left out is " + out.message);
         io::write_deck(deck_of_parts(state, arguments, context), arguments.deck.format, path, context,
                        {arguments.msh.binary, arguments.msh.version});
         write_options_beside(lent, path, arguments);

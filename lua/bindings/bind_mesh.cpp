@@ -183,10 +183,18 @@ int mesh_to_string(lua_State* L)
 const luaL_Reg kMethods[] = {
     {"node", node}, {"hex", hex}, {"wedge", wedge}, {"groups", groups}, {nullptr, nullptr}};
 const luaL_Reg kMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
+/// { }: what a volume alone cannot mesh is an error
+int mesh_left_out(lua_State* L)
+{
+    check<MeshState>(L, 1);
+    lua_newtable(L);
+    return 1;
+}
+
 const Field kFields[] = {
-    {"nodes", mesh_nodes},   {"hexes", mesh_hexes},       {"wedges", mesh_wedges},
-    {"layers", mesh_layers}, {"regions", mesh_regions},   {"order", mesh_order},
-    {"report", mesh_report}, {"fidelity", mesh_fidelity}, {nullptr, nullptr},
+    {"nodes", mesh_nodes},       {"hexes", mesh_hexes}, {"wedges", mesh_wedges}, {"layers", mesh_layers},
+    {"regions", mesh_regions},   {"order", mesh_order}, {"report", mesh_report}, {"fidelity", mesh_fidelity},
+    {"left_out", mesh_left_out}, {nullptr, nullptr},
 };
 
 } // namespace

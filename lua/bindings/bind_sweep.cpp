@@ -317,6 +317,16 @@ void read_wedges(lua_State* L, int index, const Where& where, SweepArguments& ar
     arguments.options.wedges = read_boolean(L, index, where);
 }
 
+const Word<sweep::Fallback> kFallbacks[] = {
+    {"wedges", sweep::Fallback::wedges},
+    {"leave_out", sweep::Fallback::leave_out},
+};
+
+void read_fallback(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.fallback = read_word(L, index, where, kFallbacks);
+}
+
 void read_order(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
     arguments.options.order = read_whole(L, index, where, 1);
@@ -385,6 +395,7 @@ const Option<SweepArguments> kSweepOptions[] = {
     {"max_deviation", read_max_deviation},
     {"quads", read_quads},
     {"wedges", read_wedges},
+    {"fallback", read_fallback},
     {"rows", read_rows},
     {"row_height", read_row_height},
     {"boundary_layers", read_boundary_layers},
@@ -456,6 +467,27 @@ void take_given_middles(const VolumeState& state, sweep::SecondOrderOptions& opt
     };
 }
 
+/// Do something to a volume of an assembly; where it fails and may be left out, say so.
+/// @return  whether it was done.
+template <class Do>
+bool do_or_leave_out(std::vector<sweep::LeftOut>& left_out, const std::string& region,
+                     const SweepArguments& arguments, const Do& what)
+{
+    if (arguments.options.fallback != sweep::Fallback::leave_out) {
+        what();
+        return true;
+    }
+    try {
+        what();
+        return true;
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) {
+        left_out.push_back({region, error.code(), region + ": " + error.what()});
+        return false;
+    }
+}
+
 /// A volume of an assembly with its options, or the pieces of one with branches or steps.
 void add_members(std::vector<Box<VolumeState>>& volumes, std::vector<const SweepArguments*>& options,
                  const Box<VolumeState>& volume, const std::string& name, const SweepArguments& arguments,
@@ -495,22 +527,35 @@ void keep_known_faces(sweep::AssemblyMember& member)
 /// Layers asked for are those of the pieces that go from end to end.
 std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<Box<VolumeState>>& volumes,
                                                  const std::vector<const SweepArguments*>& options,
+                                                 std::vector<sweep::LeftOut> left_out,
                                                  const RunContext& context)
 {
     std::vector<sweep::AssemblyMember> members;
+    std::vector<std::string> materials;
     std::vector<std::unique_ptr<Busy>> busy;
     auto mesh = std::make_shared<AssemblyMeshState>();
     for (std::size_t m = 0; m < volumes.size(); ++m) {
         VolumeState& state = *volumes[m];
         busy.push_back(std::make_unique<Busy>(state, "sweep"));
-        close_volume(state, {}, context);
-        mesh->regions.push_back(state.name.empty() ? "volume_" + std::to_string(m + 1) : state.name);
-        mesh->materials.push_back(state.material);
-        members.push_back({&state.volume, options[m]->options, mesh->regions.back()});
+        const std::string region = state.name.empty() ? "volume_" + std::to_string(m + 1) : state.name;
+        const auto close = [&] { close_volume(state, {}, context); };
+        if (!do_or_leave_out(left_out, region, *options[m], close)) continue;
+        materials.push_back(state.material);
+        members.push_back({&state.volume, options[m]->options, region});
         keep_known_faces(members.back());
         if (state.level > 0) members.back().options.layers = {};
     }
+    if (members.empty() && !left_out.empty())
+        throw NotSweepable(left_out.front().code, left_out.front().message);
     mesh->swept = sweep::sweep_assembly(members, context);
+    for (const std::size_t m : mesh->swept.member) {
+        mesh->regions.push_back(members[m].region);
+        mesh->materials.push_back(materials[m]);
+    }
+    for (const sweep::LeftOut& out : left_out)
+        mesh->swept.report.push_back("left out: " + out.message + " [" + out.code + "]");
+    mesh->left_out = std::move(left_out);
+    mesh->left_out.insert(mesh->left_out.end(), mesh->swept.left_out.begin(), mesh->swept.left_out.end());
     return mesh;
 }
 
@@ -526,7 +571,7 @@ int sweep_steps(lua_State* L, const Box<VolumeState>& volume, const SweepArgumen
         std::vector<const SweepArguments*> options;
         add_members(pieces, options, volume, volume->name.empty() ? "piece" : volume->name, arguments,
                     context);
-        box = sweep_members(pieces, options, context);
+        box = sweep_members(pieces, options, {}, context);
         box->seconds = clock.seconds();
     });
     return 1;
@@ -636,12 +681,14 @@ int sweep_assembly(lua_State* L)
         StageClock clock(context);
         std::vector<Box<VolumeState>> volumes;
         std::vector<const SweepArguments*> options;
+        std::vector<sweep::LeftOut> left_out;
         for (std::size_t m = 0; m < assembly.volumes.size(); ++m) {
             const Box<VolumeState>& volume = assembly.volumes[m];
             const std::string name = volume->name.empty() ? "volume_" + std::to_string(m + 1) : volume->name;
-            add_members(volumes, options, volume, name, *arguments[m], context);
+            const auto add = [&] { add_members(volumes, options, volume, name, *arguments[m], context); };
+            do_or_leave_out(left_out, name, *arguments[m], add);
         }
-        box = sweep_members(volumes, options, context);
+        box = sweep_members(volumes, options, std::move(left_out), context);
         box->seconds = clock.seconds();
     });
     return 1;

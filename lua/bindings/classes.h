@@ -105,6 +105,7 @@ struct AssemblyMeshState {
     sweep::SweptAssembly swept;
     std::vector<std::string> regions;   ///< of each part
     std::vector<std::string> materials; ///< of each part; empty ones: none was said
+    std::vector<sweep::LeftOut> left_out;
     std::optional<quality::Quality> quality;
     StageSeconds seconds; ///< of the sweep
 };

@@ -63,12 +63,13 @@ Exit run(const CommandLine& line)
     options.sandbox = line.sandbox;
     options.output_folder = line.output_dir;
     options.traceback = line.traceback;
-    // What a format cannot hold is said by notes.
-    if (line.verbose || line.command == "convert")
-        options.log = [&](std::string_view text) {
-            progress.clear();
-            std::fprintf(stderr, "lacuna: %.*s\n", static_cast<int>(text.size()), text.data());
-        };
+    // What a format cannot hold, and what a mesh lacks, is said by notes.
+    const bool all = line.verbose || line.command == "convert";
+    options.log = [&progress, all](std::string_view text) {
+        if (!all && !text.starts_with("note: ")) return;
+        progress.clear();
+        std::fprintf(stderr, "lacuna: %.*s\n", static_cast<int>(text.size()), text.data());
+    };
     if (line.sandbox) {
         options.memory = static_cast<std::size_t>(line.memory * 1024 * 1024);
         limit_process(line.memory, line.seconds);

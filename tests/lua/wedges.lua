@@ -50,6 +50,43 @@ local done, message = pcall(function() return void():sweep {} end)
 assert(not done and tostring(message):find("14 quads and 4 triangles", 1, true), tostring(message))
 assert(tostring(message):find("wedges = true", 1, true), tostring(message))
 
+local fallen = void():sweep { fallback = "wedges" }
+assert(fallen.wedges == 4 * HEIGHT and fallen:quality().certified and #fallen.left_out == 0)
+assert(tostring(fallen.report):find("fallback: meshed with wedges, because", 1, true))
+assert(not pcall(function() void():sweep { fallback = "leave_out" } end), "nothing would be left")
+
+-- In an assembly the failing volume falls back, or is left out and named.
+do
+  local block = lacuna.model()
+  local function quad(name, ...)
+    block:add_face { name = name, points = { ... }, cells = { { 1, 2, 3, 4 } } }
+  end
+  local base = { { N, 0 }, { N + 2, 0 }, { N + 2, N }, { N, N } }
+  for side = 1, 4 do
+    local a, b = base[side], base[side % 4 + 1]
+    quad("wall_" .. side, { a[1], a[2], 0 }, { b[1], b[2], 0 }, { b[1], b[2], HEIGHT },
+      { a[1], a[2], HEIGHT })
+  end
+  quad("low", { N, 0, 0 }, { N + 2, 0, 0 }, { N + 2, N, 0 }, { N, N, 0 })
+  local roles = { name = "beside", source = "low", walls = { "wall_1", "wall_2", "wall_3", "wall_4" } }
+  local function sweep(fallback)
+    return lacuna.assembly { void(), block:open_volume(roles) }:sweep { size = 1, fallback = fallback }
+  end
+  local done, message = pcall(sweep)
+  assert(not done and tostring(message):find("volume_1", 1, true), tostring(message))
+  local both = sweep "wedges"
+  assert(#both.regions == 2 and both.wedges > 0 and both:quality().certified and #both.left_out == 0)
+  assert(math.abs(both.fidelity.volume - N * (N + 2) * HEIGHT) < 1e-9)
+  local one = sweep "leave_out"
+  assert(table.concat(one.regions, " ") == "beside" and one:quality().certified)
+  assert(math.abs(one.fidelity.volume - N * 2 * HEIGHT) < 1e-9)
+  assert(#one.left_out == 1 and one.left_out[1].region == "volume_1")
+  assert(one.left_out[1].code == "surface.given_triangles", one.left_out[1].code)
+  assert(tostring(one.report):find("left out: volume_1: ", 1, true))
+  one:write(params.scratch .. "/left_out.msh")
+  assert(lacuna.check(params.scratch .. "/left_out.msh").hexes == one.hexes)
+end
+
 local mesh = void():sweep { wedges = true }
 assert(mesh.hexes == 14 * HEIGHT and mesh.wedges == 4 * HEIGHT and mesh.layers == HEIGHT)
 local quality = mesh:quality()

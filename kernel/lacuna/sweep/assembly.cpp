@@ -12,6 +12,7 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -46,6 +47,15 @@ constexpr double kFlat = 1e-9;
 /// A member's own mesh of a shared face came out unlike its neighbour's.
 struct UnlikeNeighbour : Error {
     using Error::Error;
+};
+
+/// A member could not be swept.
+struct MemberFailed : NotSweepable {
+    MemberFailed(std::size_t which, const std::string& code, const std::string& why)
+        : NotSweepable(code, why), member(which)
+    {
+    }
+    std::size_t member;
 };
 
 /// A member that could not be swept where others had been before it.
@@ -212,7 +222,7 @@ private:
             log_line(context_, failed->why);
             first.insert(first.begin(), failed->member);
         }
-        throw NotSweepable(reason->code, reason->why);
+        throw MemberFailed(reason->member, reason->code, reason->why);
     }
 
     void note_order(const std::vector<std::size_t>& order)
@@ -255,7 +265,7 @@ private:
             } catch (const Error& error) {
                 Failed failed{m, error.code(), members_[m].region + ": " + error.what()};
                 if (!neighbours.empty()) return failed;
-                throw NotSweepable(failed.code, failed.why);
+                throw MemberFailed(m, failed.code, failed.why);
             }
             inputs_[m] = std::move(inputs);
         }
@@ -289,6 +299,7 @@ private:
     {
         const AssemblyMember& member = members_[m];
         SweepOptions options = member.options;
+        options.fallback = Fallback::none; // the whole is worked out anew
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
         std::vector<Neighbour> alike, handed;
         for (const Neighbour& n : neighbours) (is_alike(m, n) ? alike : handed).push_back(n);
@@ -535,7 +546,39 @@ private:
 
 SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunContext& context)
 {
-    return Assembler(members, context).run();
+    std::vector<AssemblyMember> left(members.begin(), members.end());
+    std::vector<std::size_t> place(left.size());
+    std::iota(place.begin(), place.end(), std::size_t{0});
+    std::map<std::string, MemberFailed> without_wedges; // by region
+    std::vector<LeftOut> left_out;
+    for (;;) {
+        try {
+            SweptAssembly swept = Assembler(left, context).run();
+            swept.member = std::move(place);
+            for (const auto& [region, failed] : without_wedges)
+                swept.report.push_back(std::string("fallback: meshed with wedges, because ") + failed.what());
+            for (const LeftOut& out : left_out)
+                swept.report.push_back("left out: " + out.message + " [" + out.code + "]");
+            swept.left_out = std::move(left_out);
+            return swept;
+        } catch (const MemberFailed& failed) {
+            AssemblyMember& member = left[failed.member];
+            const Fallback fallback = member.options.fallback;
+            if (fallback == Fallback::wedges && !member.options.wedges) {
+                member.options.wedges = true;
+                without_wedges.emplace(member.region, failed);
+            } else if (const auto first = without_wedges.find(member.region); first != without_wedges.end()) {
+                throw MemberFailed(first->second); // says more than what fails with wedges
+            } else if (fallback == Fallback::leave_out && left.size() > 1) {
+                left_out.push_back({member.region, failed.code(), failed.what()});
+                left.erase(left.begin() + static_cast<std::ptrdiff_t>(failed.member));
+                place.erase(place.begin() + static_cast<std::ptrdiff_t>(failed.member));
+            } else {
+                throw;
+            }
+            log_line(context, failed.what());
+        }
+    }
 }
 
 } // namespace lacuna::sweep

@@ -32,14 +32,21 @@ struct SharedFace {
 /// @note  O((facets) log) for faces whose boxes meet.
 std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, const RunContext& context = {});
 
+/// A volume of an assembly that could not be meshed, and the others were without it.
+struct LeftOut {
+    std::string region, code, message; ///< its name, and the error
+};
+
 /// Hexahedra of many sweeps, with one node where several meet.
 struct SweptAssembly {
-    std::vector<Swept> parts; ///< in the members' order, each with numbers of its own
+    std::vector<Swept> parts;        ///< in the members' order, each with numbers of its own
+    std::vector<std::size_t> member; ///< of each part, its place in the list of members
+    std::vector<LeftOut> left_out;   ///< members that are no part
     /// Of each part's nodes, the number in the whole, from 0. Parts come one after the other; a node that
     /// an earlier part has keeps that one's number.
     std::vector<std::vector<Index>> number;
     std::size_t nodes = 0;           ///< of the whole
-    std::vector<SharedFace> shared;  ///< whose quads are one
+    std::vector<SharedFace> shared;  ///< whose quads are one; `a` and `b` are places in `parts`
     std::vector<std::string> report; ///< a line for each shared face, and the order they were meshed in
 };
 
@@ -50,6 +57,8 @@ struct SweptAssembly {
 /// other, each keeping, node for node, what its neighbours' meshes are on the faces they share. Where a
 /// volume cannot keep what its neighbours have made, the order is changed so that it goes before them. A void
 /// face with the rim of a neighbour's given one is that face.
+/// A member that cannot be meshed so is tried with wedges or left out, as its `fallback` says, and the whole
+/// is worked out anew without it: what it would have given others is not there.
 /// @throw NotSweepable  as `sweep()`, the region named; "assembly.layers"  volumes side by side for which
 ///         other numbers of layers are asked; "assembly.round"  volumes each of which lacks a face that the
 ///         next one has; "assembly.not_shared"  a shared face on which two meshes differ;

@@ -29,6 +29,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -647,9 +648,7 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
     return options;
 }
 
-} // namespace
-
-Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
+Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {
     check_cancelled(context);
     check(asked, context);
@@ -679,6 +678,35 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
     }
     require(best.fidelity, best.mesh.layers, {options.max_deviation});
     return best;
+}
+
+} // namespace
+
+Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
+{
+    if (asked.fallback != Fallback::wedges || asked.wedges) return sweep_once(volume, asked, context);
+    std::exception_ptr why;
+    std::string words;
+    try {
+        return sweep_once(volume, asked, context);
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) {
+        why = std::current_exception();
+        words = error.what();
+    }
+    try {
+        SweepOptions with_wedges = asked;
+        with_wedges.wedges = true;
+        Swept swept = sweep_once(volume, with_wedges, context);
+        swept.report.push_back("fallback: meshed with wedges, because " + words);
+        return swept;
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) { // what went wrong with hexahedra alone says more
+        log_line(context, std::string("with wedges: ") + error.what());
+    }
+    std::rethrow_exception(why);
 }
 
 } // namespace lacuna::sweep

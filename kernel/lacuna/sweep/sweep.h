@@ -64,6 +64,13 @@ struct Beside {
     const topology::OpenVolume* shape = nullptr;
 };
 
+/// What becomes of a volume that cannot be meshed with hexahedra alone.
+enum class Fallback {
+    none,     ///< it is an error
+    wedges,   ///< it is tried again with `SweepOptions::wedges`
+    leave_out ///< the other volumes of an assembly are meshed without it; alone it is an error
+};
+
 struct SweepOptions {
     LayerSpec layers;
     surface::SizeField size; ///< null: from the rim's own spacing
@@ -79,6 +86,7 @@ struct SweepOptions {
     /// their number is odd, one triangle makes up for it. Without: such an end is an error, or a side is
     /// divided.
     bool wedges = false;
+    Fallback fallback = Fallback::none;
     int rows = 0; ///< exact rows along every loop of the source, >= 0; needs quads automatic or paved
     surface::SizeField row_height; ///< of those rows; null: the size
     /// Thin rows of cells along walls and ends; a face is in one at most.
