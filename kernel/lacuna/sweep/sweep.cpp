@@ -689,9 +689,7 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
     std::string words;
     try {
         return sweep_once(volume, asked, context);
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const Error& error) {
+    } catch (const NotSweepable& error) {
         why = std::current_exception();
         words = error.what();
     }
