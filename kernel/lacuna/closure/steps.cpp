@@ -523,7 +523,7 @@ void sort_by_level(std::vector<StepPiece>& pieces)
 /// Hang faces from closed rims, of one end after the other, until no piece has any.
 std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, int round)
 {
-    face_away(volume.model);
+    face_away(volume);
     std::array<Steps, 2> steps = steps_of(volume);
     for (const Role end : {Role::source, Role::target}) {
         Steps& own = steps[end == Role::source ? 0 : 1];
@@ -594,7 +594,7 @@ bool has_steps(const OpenVolume& volume)
 std::vector<StepPiece> cut_steps(const OpenVolume& whole, const RunContext& context)
 {
     OpenVolume volume = whole;
-    face_away(volume.model);
+    face_away(volume);
     const std::array<Steps, 2> steps = steps_of(volume);
     if (!is_stepped(steps[0]) && !is_stepped(steps[1])) return {{whole, 0}};
     std::vector<FaceId> risers = steps[0].risers;

@@ -46,9 +46,68 @@ std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<
     return inner;
 }
 
-/// Whether facets face away from their middle.
-bool faces_outward(const Model& model, const std::vector<FaceId>& faces)
+/// Walls that go away from the rims of the ends to one side by more than this share of what they go in all
+/// tell on which side of the ends the void is. A choice: at a step they go to the other side.
+constexpr double kOneWay = 0.75;
+
+/// By how much walls go away from the ends behind the ends' facets, less by how much before them, over all
+/// they go: 1 where facets of ends face away from the void. 0 where no wall meets an end.
+double walls_behind_ends(const OpenVolume& volume, const std::vector<FaceId>& faces)
 {
+    const Model& model = volume.model;
+    const auto is_wall = [&](FaceId face) { return volume.role[face.index()] == Role::wall; };
+    std::unordered_map<std::uint64_t, Vec3> beyond; // of a directed side of a wall's facet its third corner
+    for (const FaceId face : faces) {
+        if (!is_wall(face)) continue;
+        for (const Triangle& t : model[face].triangles)
+            for (std::size_t k = 0; k < 3; ++k)
+                beyond.emplace(directed_key(t[k], t[(k + 1) % 3]), model.at(t[(k + 2) % 3]));
+    }
+    double sum = 0, whole = 0;
+    for (const FaceId face : faces) {
+        if (is_wall(face)) continue;
+        for (const Triangle& t : model[face].triangles) {
+            const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
+            const Vec3 normal = (b - a).cross(c - a).stableNormalized();
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto wall = beyond.find(directed_key(t[(k + 1) % 3], t[k]));
+                if (wall == beyond.end()) continue;
+                const Vec3 &from = model.at(t[k]), &to = model.at(t[(k + 1) % 3]);
+                const Vec3 side = (to - from).stableNormalized(), way = wall->second - from;
+                const double behind = -normal.dot((way - way.dot(side) * side).stableNormalized());
+                sum += (to - from).norm() * behind;
+                whole += (to - from).norm() * std::abs(behind);
+            }
+        }
+    }
+    return whole > 0 ? sum / whole : 0;
+}
+
+bool is_closed(const std::vector<Triangle>& facets)
+{
+    std::unordered_set<std::uint64_t> sides;
+    for (const Triangle& t : facets)
+        for (std::size_t k = 0; k < 3; ++k) sides.insert(directed_key(t[k], t[(k + 1) % 3]));
+    return std::ranges::all_of(facets, [&](const Triangle& t) {
+        return sides.contains(directed_key(t[1], t[0])) && sides.contains(directed_key(t[2], t[1])) &&
+               sides.contains(directed_key(t[0], t[2]));
+    });
+}
+
+/// Whether the facets of a part face away from the void: as the walls go from the ends where an open part has
+/// both and all go one way; else they face away from their middle, or towards it where the part lies within
+/// another.
+bool outward(const OpenVolume& volume, const std::vector<FaceId>& faces, bool inner)
+{
+    const Model& model = volume.model;
+    const std::vector<Triangle> facets = facets_of(model, faces);
+    const auto has = [&](Role role) {
+        return std::ranges::any_of(faces, [&](FaceId f) { return volume.role[f.index()] == role; });
+    };
+    if (has(Role::source) && has(Role::target) && !is_closed(facets)) {
+        const double behind = walls_behind_ends(volume, faces);
+        if (std::abs(behind) > kOneWay) return behind > 0;
+    }
     Vec3 centre = Vec3::Zero();
     double area = 0;
     for (const FaceId face : faces) {
@@ -58,11 +117,11 @@ bool faces_outward(const Model& model, const std::vector<FaceId>& faces)
     }
     centre /= area;
     double sum = 0;
-    for (const Triangle& t : facets_of(model, faces)) {
+    for (const Triangle& t : facets) {
         const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
         sum += ((a + b + c) / 3 - centre).dot((b - a).cross(c - a));
     }
-    return sum >= 0;
+    return (sum >= 0) != inner;
 }
 
 } // namespace
@@ -74,7 +133,7 @@ std::vector<double> concave_turns(const OpenVolume& volume)
     const std::vector<bool> inner = inner_parts(model, parts);
     std::vector<double> away(model.faces.size(), 1); // from the void: +1 as the facets face
     for (std::size_t p = 0; p < parts.size(); ++p) {
-        const bool right = faces_outward(model, parts[p]) != inner[p];
+        const bool right = outward(volume, parts[p], inner[p]);
         for (const FaceId face : parts[p]) away[face.index()] = right ? 1 : -1;
     }
     std::vector<bool> on_edge(model.points.size(), false);
@@ -121,12 +180,13 @@ std::vector<double> concave_turns(const OpenVolume& volume)
     return turns;
 }
 
-void face_away(Model& model)
+void face_away(OpenVolume& volume)
 {
+    Model& model = volume.model;
     const std::vector<std::vector<FaceId>> parts = parts_of(model);
     const std::vector<bool> inner = inner_parts(model, parts);
     for (std::size_t p = 0; p < parts.size(); ++p)
-        if (faces_outward(model, parts[p]) == inner[p]) flip_faces(model, parts[p]);
+        if (!outward(volume, parts[p], inner[p])) flip_faces(model, parts[p]);
 }
 
 } // namespace lacuna::closure
