@@ -211,4 +211,20 @@ end
 print(("%d meshed in %d pieces, %d refused"):format(meshed, pieces, #refused))
 for _, line in ipairs(refused) do print(line) end
 check.that(meshed >= 0.95 * params.members)
+
+-- A groove round a shaft, and the gap in a sleeve: one of the two walls is missing, and there is no step.
+for _, size in ipairs { { 10, 14, 2 }, { 10, 11, 5 }, { 1, 9, 0.5 }, { 3, 4, 20 } } do
+  for _, drop in ipairs { "wall_1", "wall_2" } do
+    local part = lacuna.synthetic.annulus { inner = size[1], outer = size[2], height = size[3], drop = drop }
+    for _, ends in ipairs { { "source", "target" }, { "target", "source" } } do
+      local void = part:open_volume { source = ends[1], target = ends[2], walls = "auto" }
+      check.equal(#void:cut(), 1, drop .. " missing: it is swept as a whole")
+    end
+  end
+end
+local groove = lacuna.synthetic.annulus { inner = 10, outer = 14, height = 2, drop = "wall_1" }
+local filled = groove:open_volume({ source = "source", target = "target", walls = "auto" }):sweep { size = 1 }
+check.that(filled:quality().certified)
+check.near(filled.fidelity.volume, filled.fidelity.sealed_volume, 0.02 * filled.fidelity.sealed_volume)
+
 check.done()
