@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <set>
 
@@ -67,6 +68,119 @@ void check_prism(const PrismOptions& options, VolumeClass value, double closenes
         CHECK(closed.void_faces.size() == wanted.walls);
         CHECK(closed.void_edges.size() == wanted.corners);
     }
+}
+
+/// A wall on part of a prism's side that stands on the source, or hangs from the target, and stops short of
+/// the other.
+struct Stub {
+    int side = 0;
+    bool hangs = false;
+    double begin = 0, end = 1, height = 1; ///< shares of the side and of the prism's height
+};
+
+/// A prism of straight sides, of which some have a whole wall and some a stub.
+struct StubbedPrism {
+    std::vector<Vec2> outline; ///< anticlockwise
+    double height = 2;
+    std::vector<int> whole{}; ///< sides with a whole wall
+    std::vector<Stub> stubs{};
+
+    [[nodiscard]] double volume() const
+    {
+        double twice = 0;
+        for (std::size_t i = 0; i < outline.size(); ++i) {
+            const Vec2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+            twice += a.x() * b.y() - a.y() * b.x();
+        }
+        return height * twice / 2;
+    }
+
+    [[nodiscard]] std::string name() const
+    {
+        std::string text = std::to_string(outline.size()) + " sides, whole walls on";
+        for (const int side : whole) text += " " + std::to_string(side);
+        for (const Stub& stub : stubs) {
+            text += (stub.hangs ? "; hangs on side " : "; stands on side ") + std::to_string(stub.side) +
+                    " from " + std::to_string(stub.begin) + " to " + std::to_string(stub.end) + ", " +
+                    std::to_string(stub.height) + " high";
+        }
+        return text;
+    }
+
+    [[nodiscard]] OpenVolume open() const
+    {
+        healing::FacetSoup soup;
+        Roles roles;
+        int labels = 0;
+        const auto add = [&](const std::vector<Vec3>& polygon, std::vector<FaceId>& faces) {
+            std::vector<Index> at;
+            for (const Vec3& p : polygon) {
+                const auto same = std::find_if(soup.points.begin(), soup.points.end(),
+                                               [&](const Vec3& q) { return (p - q).norm() < 1e-12; });
+                at.push_back(static_cast<Index>(same - soup.points.begin()));
+                if (same == soup.points.end()) soup.points.push_back(p);
+            }
+            for (std::size_t i = 2; i < at.size(); ++i) {
+                soup.triangles.push_back({at[0], at[i - 1], at[i]});
+                soup.triangle_label.push_back(labels);
+            }
+            faces.emplace_back(static_cast<std::size_t>(labels++));
+        };
+        std::vector<Vec3> low, high;
+        for (const Vec2& p : outline) {
+            low.insert(low.begin(), Vec3(p.x(), p.y(), 0));
+            high.emplace_back(p.x(), p.y(), height);
+        }
+        add(low, roles.source);
+        add(high, roles.target);
+        const auto add_wall = [&](int side, double begin, double end, double from, double to) {
+            const auto i = static_cast<std::size_t>(side);
+            const Vec2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+            const Vec2 p = a + begin * (b - a), q = a + end * (b - a);
+            add({{p.x(), p.y(), from}, {q.x(), q.y(), from}, {q.x(), q.y(), to}, {p.x(), p.y(), to}},
+                roles.walls);
+        };
+        for (const int side : whole) add_wall(side, 0, 1, 0, height);
+        for (const Stub& s : stubs) {
+            const double tall = s.height * height;
+            add_wall(s.side, s.begin, s.end, s.hangs ? height - tall : 0, s.hangs ? height : tall);
+        }
+        return open_volume(healing::split_facets(soup), roles);
+    }
+};
+
+/// Three to six corners on an ellipse, and one or two stubs of any width and height, at a corner or in the
+/// middle of a side; now and then other sides have whole walls.
+StubbedPrism random_stubbed_prism(std::mt19937_64& dice)
+{
+    std::uniform_real_distribution<double> uniform(0, 1);
+    const auto between = [&](double low, double high) { return low + (high - low) * uniform(dice); };
+    const auto one_of = [&](int n) { return static_cast<int>(dice() % static_cast<unsigned>(n)); };
+    StubbedPrism prism;
+    const int sides = 3 + one_of(4);
+    const double wide = between(0.7, 1.5);
+    for (int i = 0; i < sides; ++i) {
+        const double angle = 2 * std::numbers::pi * (i + between(-0.15, 0.15)) / sides;
+        prism.outline.emplace_back(wide * std::cos(angle), std::sin(angle));
+    }
+    prism.height = between(0.7, 3);
+    std::set<int> free;
+    for (int i = 0; i < sides; ++i) free.insert(i);
+    const int stubs = 1 + one_of(2);
+    for (int i = 0; i < stubs; ++i) {
+        const auto side = std::next(free.begin(), one_of(static_cast<int>(free.size())));
+        Stub stub{.side = *side, .hangs = one_of(2) == 1, .height = between(0.04, 0.96)};
+        const int place = one_of(4); // from the first corner, to the second, in between, the whole side
+        if (place == 1 || place == 2) stub.begin = between(0.01, 0.5);
+        if (place == 0 || place == 2) stub.end = between(0.51, 0.99);
+        if (place == 0 && one_of(2) == 1) stub.end = between(0.01, 0.5);
+        prism.stubs.push_back(stub);
+        free.erase(side);
+    }
+    for (const int side : free) {
+        if (one_of(3) == 0) prism.whole.push_back(side);
+    }
+    return prism;
 }
 
 } // namespace
@@ -367,6 +481,62 @@ TEST_CASE("pieces of walls missing from a row are closed")
         ++combinations;
     }
     MESSAGE(combinations << " rows");
+}
+
+TEST_CASE("a stub that ends within a side of a box leaves the sealed volume the box's")
+{
+    const std::vector<Vec2> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    const std::vector<std::vector<Stub>> cases{
+        {{.end = 0.5, .height = 0.5}},
+        {{.end = 0.5, .height = 0.05}},
+        {{.end = 0.3, .height = 0.25}},
+        {{.end = 0.9, .height = 0.95}},
+        {{.end = 0.99, .height = 0.5}},
+        {{.begin = 0.5, .height = 0.5}},
+        {{.begin = 0.3, .end = 0.6, .height = 0.5}},
+        {{.end = 0.5, .height = 0.5}, {.side = 2, .end = 0.5, .height = 0.5}},
+        {{.end = 0.5, .height = 0.4}, {.hangs = true, .end = 0.5, .height = 0.4}},
+        {{.end = 0.5, .height = 0.4}, {.hangs = true, .end = 0.3, .height = 0.4}},
+        {{.end = 0.5, .height = 0.4}, {.hangs = true, .begin = 0.3, .height = 0.4}},
+        {{.end = 0.4, .height = 0.5}, {.begin = 0.6, .height = 0.3}},
+    };
+    for (const bool turned : {false, true}) {
+        for (const bool opposite : {false, true}) {
+            for (const std::vector<Stub>& stubs : cases) {
+                StubbedPrism prism{.outline = square, .stubs = stubs};
+                if (opposite && stubs.back().side != 2) prism.whole = {2};
+                for (Stub& stub : prism.stubs) stub.hangs = stub.hangs != turned;
+                CAPTURE(prism.name());
+                auto volume = prism.open();
+                test::seal(volume);
+                test::check_sealed(volume);
+                CHECK(closure::enclosed_volume(volume) == doctest::Approx(prism.volume()).epsilon(1e-9));
+            }
+        }
+    }
+}
+
+TEST_CASE(
+    "prisms with stubs of any width and height close to the volume of the whole, or are refused by name")
+{
+    std::mt19937_64 dice(7);
+    int sealed = 0, refused = 0;
+    for (int i = 0; i < 600; ++i) {
+        const StubbedPrism prism = random_stubbed_prism(dice);
+        CAPTURE(prism.name());
+        auto volume = prism.open();
+        try {
+            test::seal(volume);
+        } catch (const Error& error) {
+            MESSAGE(error.code() << ": " << std::string(error.what()));
+            ++refused;
+            continue;
+        }
+        CHECK(closure::enclosed_volume(volume) == doctest::Approx(prism.volume()).epsilon(1e-9));
+        ++sealed;
+    }
+    MESSAGE(sealed << " sealed, " << refused << " refused by name");
+    CHECK(sealed > refused);
 }
 
 TEST_CASE("a class IV volume with a wall missing is refused, and the source's edge named")

@@ -233,7 +233,7 @@ private:
         return shorter ? std::min(before, after) : std::max(before, after);
     }
 
-    /// Corners within a segment of the loops.
+    /// Corners within a segment of the loops. Those on walls too: a wall may stop short of the other end.
     void pair_corners(double from, double run, bool whole)
     {
         std::vector<std::pair<double, std::size_t>> low, high;
@@ -242,10 +242,10 @@ private:
             if (whole || (along > 0 && along < run)) list.emplace_back(along, i);
         };
         for (std::size_t i = 0; i < partner_.size(); ++i) {
-            if (source_.corner[i] && wants(source_, partner_, i)) add(low, source_.at[i], i);
+            if (source_.corner[i] && partner_[i] == kNone) add(low, source_.at[i], i);
         }
         for (std::size_t j = 0; j < taken_.size(); ++j) {
-            if (target_.corner[j] && wants(target_, taken_, j)) add(high, place_[j], j);
+            if (target_.corner[j] && taken_[j] == kNone) add(high, place_[j], j);
         }
         if (low.empty() || high.empty()) return;
         std::sort(low.begin(), low.end());

@@ -213,7 +213,7 @@ private:
         match_.hard.push_back(known != problem_.hard.end() && known->second == to);
     }
 
-    /// Vertices on walls want no partner, but those the walls give them.
+    /// Vertices on walls want no split: they have the partners that walls give them, or corners find.
     [[nodiscard]] ArcLoop arc_loop(const LoopShape& shape) const
     {
         ArcLoop loop{shape.vertices, shape.vertex_arc, shape.corner, {}};

@@ -13,7 +13,7 @@ struct ArcLoop {
     std::vector<VertexId> vertices;
     std::vector<double> at;   ///< share of the loop's length at each vertex, in [0, 1), rising
     std::vector<bool> corner; ///< false for a vertex that only says where a smooth run was cut
-    std::vector<bool> open;   ///< false for a vertex that wants no partner, since it is on a wall
+    std::vector<bool> open;   ///< false for a vertex on a wall: it wants no split, nor, smooth, a partner
 };
 
 /// Vertices paired, and places that need a vertex for one to pair with.
@@ -28,7 +28,7 @@ struct ArcPairs {
 /// Hard pairs hold, and shares between them are stretched to meet. Then, in this order:
 /// - Corners meet corners: of the loop with fewer all, the nearest ones that keep the order (least sum of
 ///   squares); but none further apart than half a side of either, for which another corner is closer. Shares
-///   are stretched to meet there too.
+///   are stretched to meet there too. Corners on walls take part: a wall may stop short of the other end.
 /// - Vertices left, of any kind, are paired where they are nearer than a quarter of the shortest side beside
 ///   them, rather than cut off a short piece, and than `most_twist`.
 /// - A corner left wants a vertex at its share of the other loop. Smooth vertices need none.
