@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/io/detail/msh_content.h>
 #include <lacuna/io/detail/sections.h>
+#include <lacuna/topology/skin_groups.h>
 
 #include <algorithm>
 #include <array>
@@ -88,23 +89,6 @@ Skin skin_of(const OpenVolume& volume)
     return skin;
 }
 
-/// The groups the face's quads have in a mesh.
-std::vector<std::string> groups_of(const OpenVolume& volume, std::size_t f)
-{
-    const Face& face = volume.model.faces[f];
-    const bool made = face.origin == Origin::made_void;
-    const std::string own = (made ? "void:" : "wall:") + std::to_string(face.tag);
-    std::vector<std::string> groups;
-    if (volume.role[f] == Role::wall) {
-        groups.push_back(own);
-    } else {
-        groups.push_back((volume.role[f] == Role::source) != volume.turned_round ? "source" : "target");
-        if (made) groups.push_back(own);
-    }
-    if (!face.name.empty() && face.name != groups.front()) groups.push_back(face.name);
-    return groups;
-}
-
 // ---- STL
 
 Vec3 normal_of(const Skin& skin, const Triangle& t)
@@ -172,10 +156,9 @@ std::vector<Section> stl_text(const Skin& skin)
 // ---- OBJ
 
 /// The groups of a face as words, for OBJ knows no blank in a name; the first is the face's alone.
-std::string obj_groups(const OpenVolume& volume, std::size_t f)
+std::string obj_groups(const OpenVolume& volume, std::vector<std::string> groups, std::size_t f)
 {
     const Face& face = volume.model.faces[f];
-    std::vector<std::string> groups = groups_of(volume, f);
     if (volume.role[f] != Role::wall)
         groups.front() += (face.origin == Origin::made_void ? ":void:" : ":") + std::to_string(face.tag);
     std::string line;
@@ -191,6 +174,7 @@ std::string obj_groups(const OpenVolume& volume, std::size_t f)
 
 std::vector<Section> obj_text(const OpenVolume& volume, const Skin& skin)
 {
+    const std::vector<std::vector<std::string>> groups = skin_groups(volume);
     std::vector<Section> sections{{{},
                                    skin.points.size(),
                                    3 * kNumberBytes + 2,
@@ -204,7 +188,7 @@ std::vector<Section> obj_text(const OpenVolume& volume, const Skin& skin)
                                    }}};
     for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
         const std::size_t first = skin.start[f];
-        sections.push_back({"g" + obj_groups(volume, f) + "\n", skin.start[f + 1] - first,
+        sections.push_back({"g" + obj_groups(volume, groups[f], f) + "\n", skin.start[f + 1] - first,
                             3 * kNumberBytes + 2,
                             [&skin, first](std::size_t begin, std::size_t end, char* out) {
                                 for (std::size_t i = first + begin; i < first + end; ++i) {
@@ -249,9 +233,10 @@ std::vector<int> surface_tags(const Model& model)
 std::vector<Surface> surfaces_of(const OpenVolume& volume, const Skin& skin, GroupTags& groups)
 {
     std::vector<Surface> surfaces;
+    const std::vector<std::vector<std::string>> named = skin_groups(volume);
     const std::vector<int> tags = surface_tags(volume.model);
     for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
-        Surface surface{tags[f], groups.tags_of(2, groups_of(volume, f), "surface"), {}};
+        Surface surface{tags[f], groups.tags_of(2, named[f], "surface"), {}};
         for (std::size_t i = skin.start[f]; i < skin.start[f + 1]; ++i)
             for (const Index p : skin.triangles[i])
                 surface.box.extend(skin.points[static_cast<std::size_t>(p)]);

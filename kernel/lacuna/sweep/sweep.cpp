@@ -23,6 +23,7 @@
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/sweep/layers.h>
 #include <lacuna/sweep/morph.h>
+#include <lacuna/topology/skin_groups.h>
 
 #include <algorithm>
 #include <array>
@@ -201,7 +202,10 @@ bool ruled(const OpenVolume& volume, const std::vector<surface::LinkingSurface>&
 /// SkinPatches of the skin, one a face, with the groups a person reads.
 class SkinPatches {
 public:
-    SkinPatches(const OpenVolume& volume, mesh::HexMesh& mesh) : volume_(volume), mesh_(mesh) {}
+    SkinPatches(const OpenVolume& volume, mesh::HexMesh& mesh)
+        : volume_(volume), mesh_(mesh), groups_(topology::skin_groups(volume))
+    {
+    }
 
     /// Face of each patch.
     [[nodiscard]] std::vector<FaceId> faces() const
@@ -219,32 +223,16 @@ public:
             mesh::SkinPatch patch;
             patch.tag = static_cast<int>(mesh_.patches.size()) + 1;
             if (f.origin != Origin::made_void) patch.face = f.tag;
-            patch.groups.push_back(role_group(face));
-            if (f.origin == Origin::made_void && volume_.role[face.index()] != Role::wall)
-                patch.groups.push_back("void:" + std::to_string(f.tag));
-            if (!f.name.empty() && f.name != patch.groups.front()) patch.groups.push_back(f.name);
+            patch.groups = groups_[face.index()];
             mesh_.patches.push_back(std::move(patch));
         }
         return found->second;
     }
 
 private:
-    [[nodiscard]] std::string role_group(FaceId face) const
-    {
-        const Face& f = volume_.model[face];
-        switch (volume_.role[face.index()]) {
-        case Role::source:
-            return volume_.turned_round ? "target" : "source";
-        case Role::target:
-            return volume_.turned_round ? "source" : "target";
-        case Role::wall:
-            break;
-        }
-        return (f.origin == Origin::made_void ? "void:" : "wall:") + std::to_string(f.tag);
-    }
-
     const OpenVolume& volume_;
     mesh::HexMesh& mesh_;
+    std::vector<std::vector<std::string>> groups_; ///< of each face
     std::map<FaceId, Index> patch_;
 };
 

@@ -1,0 +1,56 @@
+-- SPDX-License-Identifier: MIT
+-- Groups hold the quads of the faces they are named for, whatever names the input gave to faces.
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local lacuna = require "lacuna"
+local params = lacuna.params { lacuna = "", scratch = "" }
+
+local function cells_of(mesh)
+  local cells = {}
+  for _, group in ipairs(mesh:groups()) do
+    check.that(not cells[group.name], group.name .. " is there twice")
+    cells[group.name] = group.cells
+  end
+  return cells
+end
+
+-- A cube with a name for each face: bottom, top, and four sides.
+local function cube(names)
+  local model = lacuna.model()
+  local points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 },
+    { 0, 1, 1 } }
+  for k, c in ipairs { { 1, 4, 3, 2 }, { 5, 6, 7, 8 }, { 1, 2, 6, 5 }, { 2, 3, 7, 6 }, { 3, 4, 8, 7 },
+    { 4, 1, 5, 8 } } do
+    local corners = {}
+    for i = 1, 4 do corners[i] = points[c[i]] end
+    model:add_face { name = names[k], points = corners, cells = { { 1, 2, 3, 4 } } }
+  end
+  return model
+end
+local function volume_of(model)
+  local faces = model:faces()
+  return model:open_volume { source = faces[1], target = faces[2],
+    walls = { faces[3], faces[4], faces[5], faces[6] } }
+end
+
+-- A face named as another face's role, or as a group of another face, is told apart.
+for _, names in ipairs { { "target", "source" }, { "Target", "SOURCE" } } do
+  for k, name in ipairs { "wall", "source", "wall:4", "source_2" } do names[k + 2] = name end
+  local mesh = volume_of(cube(names)):sweep { size = 0.5, layers = 3 }
+  local cells = cells_of(mesh)
+  local per_side = cells["wall:3"]
+  check.equal(cells.source, 4)
+  check.equal(cells.target, 4)
+  check.equal(cells["wall:4"], per_side)
+  check.equal(cells["wall:4_2"], per_side)
+  check.equal(cells.source_2, per_side)
+  check.that(cells[names[1] .. "_2"] or cells[names[1] .. "_3"], "the name of the source is lost")
+  for _, ending in ipairs { "msh", "inp", "unv", "exo", "bdf" } do
+    mesh:write(params.scratch .. "/roles." .. ending)
+  end
+end
+-- A face that is named as its own role has one group, as ever.
+local plain = cells_of(volume_of(cube { "source", "target" }):sweep { size = 0.5, layers = 3 })
+check.equal(plain.source, 4)
+check.equal(plain.target, 4)
+check.that(not plain.source_2 and not plain.target_2)
+check.done()
