@@ -136,7 +136,13 @@ double wall_area(const OpenVolume& volume)
 bool is_cut_across(const std::vector<StepPiece>& pieces)
 {
     return pieces.size() == 2 && std::ranges::all_of(pieces, [](const StepPiece& piece) {
-               return !piece.volume.faces(Role::source).empty() && !piece.volume.faces(Role::target).empty();
+               const auto is_cut = [&](FaceId face) {
+                   return piece.volume.model[face].origin == Origin::made_void;
+               };
+               const std::vector<FaceId> source = piece.volume.faces(Role::source),
+                                         target = piece.volume.faces(Role::target);
+               return !source.empty() && !target.empty() && std::ranges::all_of(source, is_cut) &&
+                      std::ranges::all_of(target, is_cut);
            });
 }
 
