@@ -56,6 +56,7 @@
 ---@field walls? lacuna.FaceRefs|"auto" "auto": every face reachable from the source's rim that is not the target
 ---@field faces? lacuna.FaceRefs instead of roles: these faces make the volume, and their roles are found
 ---@field reading? integer with roles to be found: which of the voids that were found, from 1
+---@field full_turn? boolean the walls are a ring, swept round its whole turn; no ends; default false
 ---@field class? lacuna.Class override
 ---@field name? string what the cells are called: their group, set or property in files; default "volume"
 ---@field material? string|integer of the cells, in decks; default: as the elements beside them

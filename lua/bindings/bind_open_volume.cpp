@@ -32,6 +32,7 @@ struct RoleArguments {
     bool auto_walls = false;
     bool roles_named = false;
     bool faces_named = false;
+    bool full_turn = false;
     int reading = 0; ///< the number of the reading to take; 0: there must be one
     std::optional<VolumeClass> override_class;
     std::string name, material;
@@ -62,6 +63,11 @@ void read_volume_faces(lua_State* L, int index, const Where& where, RoleArgument
 void read_reading(lua_State* L, int index, const Where& where, RoleArguments& arguments)
 {
     arguments.reading = read_whole(L, index, where, 1);
+}
+
+void read_full_turn(lua_State* L, int index, const Where& where, RoleArguments& arguments)
+{
+    arguments.full_turn = read_boolean(L, index, where);
 }
 
 void read_class(lua_State* L, int index, const Where& where, RoleArguments& arguments)
@@ -103,6 +109,7 @@ const Option<RoleArguments> kRoleOptions[] = {
     {"faces", read_volume_faces},
     {"reading", read_reading},
     {"class", read_class},
+    {"full_turn", read_full_turn},
     {"name", read_name},
     {"material", read_material},
 };
@@ -131,9 +138,13 @@ std::vector<std::string> find_walls(const topology::Model& model, topology::Role
 VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, const RunContext& context)
 {
     VolumeState state;
-    if (!arguments.roles_named) {
-        if (!arguments.faces_named)
-            for (std::size_t f = 0; f < model.faces.size(); ++f) arguments.faces.emplace_back(f);
+    if (!arguments.roles_named && !arguments.faces_named)
+        for (std::size_t f = 0; f < model.faces.size(); ++f) arguments.faces.emplace_back(f);
+    if (arguments.full_turn) {
+        if (!arguments.roles_named) arguments.roles.walls = arguments.faces;
+        state.volume = topology::open_volume(model, arguments.roles, context);
+        state.volume.full_turn = true;
+    } else if (!arguments.roles_named) {
         closure::Reading found = closure::find_reading(model, arguments.faces, arguments.reading, context);
         state.volume = std::move(found.volume);
         state.role_reasons = std::move(found.roles.reasons);
@@ -173,6 +184,11 @@ int open_volume(lua_State* L)
     if (arguments.roles_named && arguments.reading > 0)
         fail(L, "open_volume: 'reading' is the number of one that was found; with roles named there is none "
                 "to choose");
+    if (arguments.full_turn &&
+        (arguments.auto_walls || !arguments.roles.source.empty() || !arguments.roles.target.empty() ||
+         arguments.override_class || arguments.reading > 0))
+        fail(L, "open_volume: with full_turn = true there are walls alone, no source, target, class or "
+                "reading: name the walls by their tags or names, or none, for all faces");
     RunContext& context = push_context(L);
     auto& box = new_box<VolumeState>(L);
     guard(L, [&] {

@@ -503,6 +503,8 @@ void add_members(std::vector<Box<VolumeState>>& volumes, std::vector<const Sweep
         VolumeState& own = *volumes.emplace_back(std::make_shared<VolumeState>());
         own.volume = std::move(piece.volume);
         own.level = piece.level;
+        own.turn_from = piece.turn_from;
+        own.turn_to = piece.turn_to;
         own.name = name + "_" + std::to_string(++number);
         own.material = volume->material;
         options.push_back(&arguments);
@@ -522,6 +524,28 @@ void keep_known_faces(sweep::AssemblyMember& member)
     std::erase_if(member.options.intervals, [&](auto& interval) {
         return interval.of == surface::Interval::Of::wall && drop(interval.walls);
     });
+}
+
+/// A turn of fewer layers would have one of 120° and more, which no hexahedron spans.
+constexpr int kLeastPerTurn = 4;
+
+/// A piece of a full turn has its share of the layers asked for.
+void share_layers(const VolumeState& state, sweep::LayerSpec& layers)
+{
+    const double share = state.turn_to - state.turn_from;
+    if (share == 1) return;
+    if (!layers.heights.empty() || layers.bias != 1)
+        throw InvalidInput(
+            "sweep.full_turn_layers",
+            "layers of a full turn have no first and no last: give their count alone, or "
+            "sweep the pieces that volume:cut() gives with 'heights' or a 'bias' of their own");
+    if (layers.count == 0) return;
+    if (layers.count < kLeastPerTurn)
+        throw InvalidInput("sweep.full_turn_layers", "a full turn needs " + std::to_string(kLeastPerTurn) +
+                                                         " layers at least; asked for are " +
+                                                         std::to_string(layers.count));
+    const auto until = [&](double turn) { return static_cast<int>(std::lround(turn * layers.count)); };
+    layers.count = std::max(1, until(state.turn_to) - until(state.turn_from));
 }
 
 /// Layers asked for are those of the pieces that go from end to end.
@@ -544,6 +568,7 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<Box<VolumeSta
         members.push_back({&state.volume, options[m]->options, region});
         keep_known_faces(members.back());
         if (state.level > 0) members.back().options.layers = {};
+        share_layers(state, members.back().options.layers);
     }
     if (members.empty() && !left_out.empty())
         throw NotSweepable(left_out.front().code, left_out.front().message);

@@ -4,6 +4,7 @@
 #include <lacuna/closure/cut.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/turns.h>
+#include <lacuna/closure/full_turn.h>
 #include <lacuna/closure/void_geometry.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/facet_tree.h>
@@ -594,7 +595,7 @@ bool has_branches(const OpenVolume& volume) { return !BranchFinder(volume).run()
 std::vector<StepPiece> cut_branches(const OpenVolume& volume, const RunContext& context)
 {
     Branching found = BranchFinder(volume).run();
-    if (found.mouths.empty()) return {{volume, 0}};
+    if (found.mouths.empty()) return {{.volume = volume}};
     std::vector<StepPiece> result;
     for (const StepPiece& piece : BranchCutter(volume, std::move(found), context).run()) {
         for (StepPiece& own : cut_branches(piece.volume, context)) result.push_back(std::move(own));
@@ -602,10 +603,14 @@ std::vector<StepPiece> cut_branches(const OpenVolume& volume, const RunContext& 
     return result;
 }
 
-bool has_pieces(const OpenVolume& volume) { return has_steps(volume) || has_branches(volume); }
+bool has_pieces(const OpenVolume& volume)
+{
+    return volume.full_turn || has_steps(volume) || has_branches(volume);
+}
 
 std::vector<StepPiece> cut_into_pieces(const OpenVolume& volume, const RunContext& context)
 {
+    if (volume.full_turn) return cut_full_turn(volume, context);
     std::vector<StepPiece> result;
     for (const StepPiece& arm : cut_branches(volume, context)) {
         for (StepPiece& piece : cut_steps(arm.volume, context)) result.push_back(std::move(piece));

@@ -28,9 +28,9 @@ bool has_branches(const topology::OpenVolume& volume);
 /// @note  O(branches · facets log facets).
 std::vector<StepPiece> cut_branches(const topology::OpenVolume& volume, const RunContext& context = {});
 
-/// Whether a volume has to be cut to be swept, by its branches or steps.
+/// Whether a volume has to be cut to be swept, by its branches or steps, or as it runs round its whole turn.
 bool has_pieces(const topology::OpenVolume& volume);
-/// The pieces of a volume with branches or steps, or both; itself where it has neither.
+/// The pieces of a volume with branches or steps, or both, or of a full turn; itself where it has none.
 std::vector<StepPiece> cut_into_pieces(const topology::OpenVolume& volume, const RunContext& context = {});
 
 } // namespace lacuna::closure

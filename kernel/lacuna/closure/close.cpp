@@ -454,6 +454,10 @@ Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptio
               const RunContext& context)
 {
     check_cancelled(context);
+    if (volume.full_turn)
+        throw NotSweepable("closure.full_turn_whole",
+                           "the volume runs round its whole turn and has no ends to be closed between; sweep "
+                           "it, or close its pieces, which volume:cut() gives");
     const VolumeClass whole = classify(volume).value;
     check_options(volume, whole, options);
     if (!has_two_ends(whole)) return seal(volume, match, whole, options, context);

@@ -16,6 +16,8 @@ bool has_steps(const topology::OpenVolume& volume);
 struct StepPiece {
     topology::OpenVolume volume;
     int level = 0; ///< 0: it goes from end to end as the whole does; else above so many steps
+    /// Of a full turn: where the piece is, as shares of the turn in [0, 1]; else all of it.
+    double turn_from = 0, turn_to = 1;
 };
 
 /// Cut a volume whose source, target or both lie at several heights into pieces that can be swept.

@@ -97,9 +97,57 @@ void check_walls_touch(const OpenVolume& volume)
     }
 }
 
+/// Walls that end at a vertex and do not run along the edge, for messages.
+std::string walls_at(const OpenVolume& volume, VertexId vertex, EdgeId edge)
+{
+    std::string names;
+    for (const FaceId wall : volume.faces(Role::wall)) {
+        bool meets = false, along = false;
+        for (const Loop& loop : volume.model[wall].loops) {
+            for (const EdgeUse& use : loop.uses) {
+                meets = meets || use_from(volume.model, use) == vertex;
+                along = along || use.edge == edge;
+            }
+        }
+        if (meets && !along) names += (names.empty() ? "" : ", ") + name_of(volume.model, wall);
+    }
+    return names;
+}
+
+/// Ends of a pie share the edge it turns about, where layers have no height; along that edge it is a sweep.
+void check_no_shared_edge(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    std::vector<FaceId> owner(model.edges.size());
+    for (const FaceId face : volume.faces(Role::source)) {
+        for (const Loop& loop : model[face].loops)
+            for (const EdgeUse& use : loop.uses) owner[use.edge.index()] = face;
+    }
+    for (const FaceId face : volume.faces(Role::target)) {
+        for (const Loop& loop : model[face].loops) {
+            for (const EdgeUse& use : loop.uses) {
+                if (!owner[use.edge.index()].valid()) continue;
+                const std::string from = walls_at(volume, model[use.edge].from, use.edge),
+                                  to = walls_at(volume, model[use.edge].to, use.edge);
+                const bool across = !from.empty() && !to.empty() && from != to;
+                throw InvalidInput(
+                    "topology.ends_share_edge",
+                    "source " + name_of(model, owner[use.edge.index()]) + " and target " +
+                        name_of(model, face) + " share " + name_of(model, use.edge) +
+                        ", where layers between them have no height; " +
+                        (across ? "sweep along that edge, with " + from + " as source and " + to +
+                                      " as target and these two among the walls"
+                                : "sweep along that edge, with the faces at its two ends as source and "
+                                  "target, missing or not, and these two among the walls"));
+            }
+        }
+    }
+}
+
 /// Source and target are the two ends of a sweep: what belongs to both would have no height.
 void check_ends_apart(const OpenVolume& volume)
 {
+    check_no_shared_edge(volume);
     const Model& model = volume.model;
     std::vector<FaceId> owner(model.vertices.size());
     for (const FaceId face : volume.faces(Role::source)) {

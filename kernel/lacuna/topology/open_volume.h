@@ -33,6 +33,7 @@ struct OpenVolume {
     std::vector<Role> role; ///< of each face of `model`
     std::optional<VolumeClass> override_class;
     bool turned_round = false; ///< a target was given and no source: the two have changed places
+    bool full_turn = false;    ///< a ring of walls alone, swept round its whole turn onto its own start
 
     [[nodiscard]] std::vector<FaceId> faces(Role wanted) const;
     /// Of each vertex of the model, whether it is on a wall.

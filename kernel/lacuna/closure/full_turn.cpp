@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/full_turn.h>
+
+#include <lacuna/closure/cut.h>
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/topology/section.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// Planes tried through each main axis. Straight rings of up to as many sides are cut near a middle of one.
+constexpr int kDirections = 8;
+/// Sections that differ by less than this share are as good as each other: facets of round walls are nearer
+/// to the axis in their middles. A choice, not a measurement.
+constexpr double kAsShort = 0.02;
+
+struct Candidate {
+    geometry::Plane plane;
+    double length = 0; ///< of what it crosses of the walls [model length]
+};
+
+/// Where the walls are: their centroid, and the axes of their second moments of area.
+struct Middle {
+    Vec3 place = Vec3::Zero();
+    Eigen::Matrix3d axes;
+};
+
+Middle middle_of(const Model& model)
+{
+    double area = 0;
+    Middle middle;
+    const auto for_each = [&](const auto& use) {
+        for (const Face& face : model.faces) {
+            for (const Triangle& t : face.triangles) {
+                const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
+                use((a + b + c) / 3, (b - a).cross(c - a).norm() / 2);
+            }
+        }
+    };
+    for_each([&](const Vec3& p, double weight) {
+        middle.place += weight * p;
+        area += weight;
+    });
+    middle.place /= area;
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    for_each([&](const Vec3& p, double weight) {
+        moments += weight / area * (p - middle.place) * (p - middle.place).transpose();
+    });
+    middle.axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvectors();
+    return middle;
+}
+
+double section_length(const Model& model, const std::vector<FaceId>& faces, const geometry::Plane& plane)
+{
+    double length = 0;
+    const auto place = [&](const SectionPlace& at) -> Vec3 {
+        const Vec3& a = model.at(at.a);
+        if (at.b < 0) return a;
+        const double ha = geometry::height(plane, a), hb = geometry::height(plane, model.at(at.b));
+        return a + ha / (ha - hb) * (model.at(at.b) - a);
+    };
+    for (const SectionWalk& walk : section_walks(model, faces, plane, model.tolerance)) {
+        for (std::size_t i = walk.closed ? 0 : 1; i < walk.places.size(); ++i) {
+            const std::size_t before = (i + walk.places.size() - 1) % walk.places.size();
+            length += (place(walk.places[i]) - place(walk.places[before])).norm();
+        }
+    }
+    return length;
+}
+
+/// Planes that cross the walls, those that do along the shortest lines first.
+std::vector<Candidate> candidates_of(const Model& model, const RunContext& context)
+{
+    const std::vector<FaceId> faces = [&] {
+        std::vector<FaceId> all;
+        for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
+        return all;
+    }();
+    const Middle middle = middle_of(model);
+    std::vector<Candidate> found;
+    for (int a = 0; a < 3; ++a) {
+        const Vec3 axis = middle.axes.col(a);
+        // A round wall starts at a vertex: a plane near its seam, yet not through it, would leave a sliver.
+        Vec3 first = Vec3::Zero();
+        for (const Vertex& vertex : model.vertices) {
+            const Vec3 out = model.at(vertex.point) - middle.place;
+            first = out - axis.dot(out) * axis;
+            if (first.norm() > model.tolerance) break;
+        }
+        if (!(first.norm() > model.tolerance)) first = middle.axes.col((a + 1) % 3);
+        first.normalize();
+        for (int k = 0; k < kDirections; ++k) {
+            check_cancelled(context);
+            const double angle = std::numbers::pi * k / kDirections;
+            const Vec3 normal = std::cos(angle) * axis.cross(first) - std::sin(angle) * first;
+            Candidate candidate{geometry::plane_across(middle.place, normal)};
+            candidate.length = section_length(model, faces, candidate.plane);
+            if (candidate.length > 0) found.push_back(candidate);
+        }
+    }
+    // The order in which they were found decides between those as short as each other.
+    std::vector<Candidate> sorted;
+    while (!found.empty()) {
+        const double least = std::ranges::min_element(found, {}, &Candidate::length)->length;
+        const auto next = std::ranges::find_if(
+            found, [&](const Candidate& c) { return c.length <= (1 + kAsShort) * least; });
+        sorted.push_back(*next);
+        found.erase(next);
+    }
+    return sorted;
+}
+
+double wall_area(const OpenVolume& volume)
+{
+    double area = 0;
+    for (const FaceId wall : volume.faces(Role::wall)) {
+        for (const Triangle& t : volume.model[wall].triangles) {
+            const Vec3& a = volume.model.at(t[0]);
+            area += (volume.model.at(t[1]) - a).cross(volume.model.at(t[2]) - a).norm() / 2;
+        }
+    }
+    return area;
+}
+
+/// Whether a ring was cut across: both pieces end in both cuts.
+bool is_cut_across(const std::vector<StepPiece>& pieces)
+{
+    return pieces.size() == 2 && std::ranges::all_of(pieces, [](const StepPiece& piece) {
+               const auto is_cut = [&](FaceId face) {
+                   return piece.volume.model[face].origin == Origin::made_void;
+               };
+               const std::vector<FaceId> source = piece.volume.faces(Role::source),
+                                         target = piece.volume.faces(Role::target);
+               return !source.empty() && !target.empty() && std::ranges::all_of(source, is_cut) &&
+                      std::ranges::all_of(target, is_cut);
+           });
+}
+
+} // namespace
+
+std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext& context)
+{
+    for (std::size_t f = 0; f < volume.role.size(); ++f) {
+        if (volume.role[f] != Role::wall)
+            throw InvalidInput("closure.full_turn_ends",
+                               "a volume that runs round its whole turn has no ends, and " +
+                                   name_of(volume.model, FaceId(f)) + " is named as one: name walls alone");
+    }
+    std::string why;
+    for (const Candidate& candidate : candidates_of(volume.model, context)) {
+        try {
+            std::vector<StepPiece> pieces = cut_by_plane(volume, candidate.plane, context);
+            if (is_cut_across(pieces)) {
+                const double first = wall_area(pieces[0].volume), second = wall_area(pieces[1].volume);
+                pieces[0].turn_to = pieces[1].turn_from = first / (first + second);
+                return pieces;
+            }
+            if (why.empty())
+                why = "the plane that crosses the walls along the shortest lines cuts off " +
+                      std::to_string(pieces.size()) + " pieces, not two that each lie between two cuts";
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const Error& error) {
+            if (why.empty()) why = error.what();
+        }
+    }
+    throw NotSweepable("closure.full_turn",
+                       "no plane through the middle of the walls cuts the volume across in two places, as it "
+                       "does a ring (" +
+                           (why.empty() ? "none crosses a wall" : why) +
+                           "): name all walls of the ring and no others, or cut it with volume:cut { plane = "
+                           "… } and join the pieces with lacuna.assembly");
+}
+
+} // namespace lacuna::closure
