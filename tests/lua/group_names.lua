@@ -53,4 +53,16 @@ local plain = cells_of(volume_of(cube { "source", "target" }):sweep { size = 0.5
 check.equal(plain.source, 4)
 check.equal(plain.target, 4)
 check.that(not plain.source_2 and not plain.target_2)
+
+-- In a deck a face keeps its name where another's group would be called the same.
+local named = { "f1", "f2", "wall_4", "wall_3", "wall_6", "wall 5" }
+local cubes = cube(named)
+volume_of(cubes):sweep { size = 0.5, layers = 3 }:write(params.scratch .. "/clash.inp")
+local deck = lacuna.load(params.scratch .. "/clash.inp")
+for k, name in ipairs { "f1", "f2", "wall_4", "wall_3", "wall_6", "wall_5" } do
+  local given, back = cubes:face(named[k]).centroid, deck:face(name).centroid
+  for i = 1, 3 do
+    check.that(math.abs(given[i] - back[i]) < 1e-9, name .. " is on another face")
+  end
+end
 check.done()

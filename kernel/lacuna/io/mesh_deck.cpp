@@ -298,6 +298,13 @@ private:
             cells_ = cells_of_skin(mesh_);
             sides_ = sides_of_skin(mesh_, cells_);
         }
+        // A name that Abaqus holds as it is was given so, and keeps it: "wall:3" makes room for wall_3. Those
+        // with a colon are made up, and come last.
+        const auto rank = [&](const std::string& name) {
+            if (options_.format != DeckFormat::abaqus || abaqus_name(name) == name) return 0;
+            return name.find(':') == std::string::npos ? 1 : 2;
+        };
+        std::ranges::stable_sort(names, {}, rank);
         for (const std::string& name : names) add_group(name, quads[name]);
     }
 
