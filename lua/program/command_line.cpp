@@ -72,8 +72,8 @@ proved positive everywhere in it. The exit code is 1 when one is not.
     {"convert", "IN OUT", 2, false, "a mesh or deck from one format to another",
      R"(
 Reads a mesh, .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e .mesh .stl .obj, and writes it in the
-format that OUT's ending says: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e. Nodes, elements, their numbers,
-regions and sets are kept. What the format cannot hold is named on standard error.
+format that OUT's ending says: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e. Nodes, elements, their
+numbers, regions and sets are kept. What the format cannot hold is named on standard error.
 )"},
 };
 
