@@ -139,8 +139,8 @@ void read_plane(lua_State* L, int index, const Where& where, CutArguments& argum
     const Vec3 point = read_vector(L, lua_absindex(L, -2), where),
                normal = read_vector(L, lua_absindex(L, -1), where);
     lua_pop(L, 2);
-    if (!(normal.norm() > 0)) fail_option(L, where, "has a normal of no length");
-    arguments.plane = geometry::plane_across(point, normal.normalized());
+    if (!(normal.stableNorm() > 0)) fail_option(L, where, "has a normal of no length");
+    arguments.plane = geometry::plane_across(point, normal.stableNormalized());
 }
 
 /// A Face of any model, or one of the volume's own by tag, name or selector.

@@ -125,7 +125,9 @@ void read_parts(lua_State* L, int index, const Where& where, std::vector<std::st
         const bool is_part = lua_type(L, at) == LUA_TSTRING || lua_isinteger(L, at);
         if (!is_part) fail_value(L, element, expected, at);
         const lua_Integer number = lua_isinteger(L, at) ? lua_tointeger(L, at) : 0;
-        const char* name = lua_type(L, at) == LUA_TSTRING ? lua_tostring(L, at) : nullptr;
+        const char* name = lua_type(L, at) == LUA_TSTRING ? read_string(L, at, element) : nullptr;
+        if (name != nullptr && std::string_view(name).size() != lua_rawlen(L, at))
+            fail_value(L, element, expected, at);
         guard(L, [&] { parts.push_back(name != nullptr ? std::string(name) : std::to_string(number)); });
     };
     if (lua_type(L, index) != LUA_TTABLE) return add(index, where);

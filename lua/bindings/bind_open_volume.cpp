@@ -2,6 +2,7 @@
 // Volume: what topology/open_volume.h knows of it. Matching, closing and sweeping add their methods to the
 // class.
 #include "bindings/faces.h"
+#include "bindings/names.h"
 
 #include <lacuna/closure/branches.h>
 #include <lacuna/closure/readings.h>
@@ -75,13 +76,9 @@ void read_class(lua_State* L, int index, const Where& where, RoleArguments& argu
     arguments.override_class = read_word(L, index, where, kClasses);
 }
 
-/// What files can hold as a name: no quotes and no ends of lines.
 void read_name(lua_State* L, int index, const Where& where, RoleArguments& arguments)
 {
-    const char* name = read_string(L, index, where);
-    for (const char* c = name; *c != '\0'; ++c)
-        if (std::iscntrl(static_cast<unsigned char>(*c)) != 0 || *c == '"')
-            fail_value(L, where, "a name without quotes and control characters", index);
+    const char* name = read_plain_name(L, index, where);
     guard(L, [&] { arguments.name = name; });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Model and Face.
 #include "bindings/faces.h"
+#include "bindings/names.h"
 
 #include <lacuna/topology/face_facts.h>
 #include <lacuna/topology/face_radius.h>
@@ -24,7 +25,7 @@ struct AddedFace {
 
 void read_name(lua_State* L, int index, const Where& where, AddedFace& face)
 {
-    const char* name = read_string(L, index, where);
+    const char* name = read_plain_name(L, index, where);
     guard(L, [&] { face.name = name; });
 }
 

@@ -118,6 +118,9 @@ lacuna::InterpreterOptions options_of(const lacuna_options& asked)
 
 const char* const kNoMemory = "not enough memory"; // and not even enough to say so otherwise
 
+/// Whether the failure is known in words.
+bool failed(const lacuna_interpreter* interpreter) { return interpreter && interpreter->error; }
+
 } // namespace
 
 extern "C" {
@@ -178,37 +181,37 @@ void lacuna_cancel(lacuna_interpreter* interpreter)
 
 const char* lacuna_error_text(const lacuna_interpreter* interpreter)
 {
-    return interpreter->error ? interpreter->error->what() : kNoMemory;
+    return failed(interpreter) ? interpreter->error->what() : kNoMemory;
 }
 
 const char* lacuna_error_message(const lacuna_interpreter* interpreter)
 {
-    return interpreter->error ? interpreter->error->message.c_str() : kNoMemory;
+    return failed(interpreter) ? interpreter->error->message.c_str() : kNoMemory;
 }
 
 const char* lacuna_error_code(const lacuna_interpreter* interpreter)
 {
-    return interpreter->error ? interpreter->error->code().c_str() : "core.memory";
+    return failed(interpreter) ? interpreter->error->code().c_str() : "core.memory";
 }
 
 const char* lacuna_error_file(const lacuna_interpreter* interpreter)
 {
-    return interpreter->error ? interpreter->error->file.c_str() : "";
+    return failed(interpreter) ? interpreter->error->file.c_str() : "";
 }
 
 int lacuna_error_line(const lacuna_interpreter* interpreter)
 {
-    return interpreter->error ? interpreter->error->line : 0;
+    return failed(interpreter) ? interpreter->error->line : 0;
 }
 
 const char* lacuna_error_traceback(const lacuna_interpreter* interpreter)
 {
-    return interpreter->error ? interpreter->error->traceback.c_str() : "";
+    return failed(interpreter) ? interpreter->error->traceback.c_str() : "";
 }
 
 size_t lacuna_error_entity_count(const lacuna_interpreter* interpreter)
 {
-    return interpreter->error ? interpreter->error->entities.size() : 0;
+    return failed(interpreter) ? interpreter->error->entities.size() : 0;
 }
 
 const char* lacuna_error_entity(const lacuna_interpreter* interpreter, size_t at, int64_t* tag)

@@ -63,17 +63,17 @@ else: open it in a browser. Faces are picked by clicking and their roles copied;
 )"},
     {"check", "FILE", 1, true, "a mesh and its quality; exit code 1 when a cell is invalid",
      R"(
-Reads the hexahedra and wedges of a mesh: .msh .vtu .vtk .inp .bdf .nas .dat .unv .mesh. Prints counts, a
-histogram of the scaled Jacobian and a line a metric. A cell is valid when its Jacobian is proved positive
-everywhere in it. The exit code is 1 when one is not.
+Reads the hexahedra and wedges of a mesh: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e .mesh.
+Prints counts, a histogram of the scaled Jacobian and a line a metric. A cell is valid when its Jacobian is
+proved positive everywhere in it. The exit code is 1 when one is not.
 
   --json   every number that is printed, and the worst cells, for scripts
 )"},
     {"convert", "IN OUT", 2, false, "a mesh or deck from one format to another",
      R"(
-Reads a mesh, .msh .vtu .vtk .inp .bdf .nas .dat .unv .mesh .stl .obj, and writes it in the format that
-OUT's ending says: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e. Nodes, elements, their numbers, regions
-and sets are kept. What the format cannot hold is named on standard error.
+Reads a mesh, .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e .mesh .stl .obj, and writes it in the
+format that OUT's ending says: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e. Nodes, elements, their
+numbers, regions and sets are kept. What the format cannot hold is named on standard error.
 )"},
 };
 

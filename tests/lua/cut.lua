@@ -63,4 +63,11 @@ check.fails(function() v:cut {} end, "either")
 check.fails(function() v:cut { face = 77 } end, "face 77")
 check.fails(function() v:cut { face = { kind = "plane" } } end, "several")
 check.fails(function() v:cut { plan = 1 } end, "plan")
+
+-- A plane's normal may be of any length that is a number.
+for _, length in ipairs { 1e300, 1e-300 } do
+  local volume = lacuna.synthetic.prism { sides = 4 }
+    :open_volume { source = "source", target = "target", walls = "auto" }
+  check.equal(#volume:cut { plane = { { 0, 0, 0.7 }, { 0, 0, length } } }, 2)
+end
 check.done()

@@ -65,4 +65,17 @@ for k, name in ipairs { "f1", "f2", "wall_4", "wall_3", "wall_6", "wall_5" } do
     check.that(math.abs(given[i] - back[i]) < 1e-9, name .. " is on another face")
   end
 end
+
+-- A name may hold what XML marks tags with; what no file can hold is refused where it is given.
+local signs = cube { "f1 < 2", "f2 & 3", "a > b", "it's", "f5", "f6" }
+local faces = signs:faces()
+signs:open_volume { source = faces[1], target = faces[2], walls = "auto", name = "p > 5 & q < 6" }
+  :sweep { size = 0.5, layers = 2 }:write(params.scratch .. "/signs.vtu")
+check.equal(lacuna.check(params.scratch .. "/signs.vtu").hexes, 8)
+for _, name in ipairs { "a\nb", "a\0b", 'a"b', "" } do
+  check.fails(function() cube { name } end, "name")
+end
+for _, part in ipairs { "", "foam\0x" } do
+  check.fails(function() lacuna.load(params.scratch .. "/signs.vtu", { without = part }) end, "without")
+end
 check.done()

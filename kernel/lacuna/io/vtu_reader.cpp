@@ -114,7 +114,7 @@ private:
                 continue;
             }
             const std::string_view rest = cursor_.rest();
-            const std::size_t end = rest.find('>');
+            const std::size_t end = tag_end(rest);
             if (end == std::string_view::npos)
                 cursor_.fail_at(cursor_.position(), "the file ends within a tag");
             std::string_view inside = cursor_.bytes(end + 1).substr(0, end);
@@ -128,6 +128,22 @@ private:
             return true;
         }
         return false;
+    }
+
+    /// Where a tag ends: a `>` in the quotes of an attribute is part of its value.
+    static std::size_t tag_end(std::string_view text)
+    {
+        char quote = '\0';
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            const char c = text[i];
+            if (quote != '\0')
+                quote = c == quote ? '\0' : quote;
+            else if (c == '"' || c == '\'')
+                quote = c;
+            else if (c == '>')
+                return i;
+        }
+        return std::string_view::npos;
     }
 
     void read_attributes(std::string_view text, XmlTag& tag) const

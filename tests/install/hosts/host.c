@@ -54,5 +54,9 @@ int main(void)
     printf("%s: %s\n", lacuna_error_code(recipes), lacuna_error_message(recipes));
     const int right = status == LACUNA_FAILED && lines == 1 && cells.columns == 8 && nodes.rows > 0;
     lacuna_close(recipes);
+    /* Without an interpreter nothing runs, and what is asked of it says so. */
+    if (!*lacuna_error_text(NULL) || !*lacuna_error_message(NULL) || !*lacuna_error_code(NULL)) return 1;
+    if (*lacuna_error_file(NULL) || lacuna_error_line(NULL) || *lacuna_error_traceback(NULL)) return 1;
+    if (lacuna_error_entity_count(NULL) || lacuna_error_entity(NULL, 0, NULL)) return 1;
     return right ? 0 : 1;
 }
