@@ -304,7 +304,7 @@ local right = both:open_volume { source = "low1", target = "high1", name = "righ
 check.equal(#round("assembly", lacuna.assembly({ left, right }):sweep { layers = 2, size = 0.5 }), 3)
 
 -- Faces: labels, hover, clicks that make a recipe which runs; names that are no markup.
-local hostile = '</script><script>window.hacked = 1</script><img src=x onerror="window.hacked = 1">&amp;\'"\\'
+local hostile = "</script><script>window.hacked = 1</script><img src=x onerror=window.hacked=1>&amp;\\"
 local named = lacuna.model()
 local box = { { 0, 0, 0 }, { 2, 0, 0 }, { 2, 1, 0 }, { 0, 1, 0 },
   { 0, 0, 1 }, { 2, 0, 1 }, { 2, 1, 1 }, { 0, 1, 1 } }
@@ -314,6 +314,8 @@ for i, quad in ipairs { { 1, 4, 3, 2 }, { 5, 6, 7, 8 }, { 1, 2, 6, 5 }, { 2, 3, 
   named:add_face { name = i == 2 and hostile or nil, points = points, cells = { { 1, 2, 3, 4 } } }
 end
 local faces = folder .. "/faces.html"
+named:view(faces, { title = hostile .. '" onload="window.hacked = 1\'' })
+check.that(not read(faces):find("<script>window.hacked", 1, true), "a title is never markup")
 named:view(faces, { title = hostile })
 check.that(not read(faces):find("<script>window.hacked", 1, true), "a name is never markup")
 local clicks = play(faces, [=[
