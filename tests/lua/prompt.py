@@ -39,15 +39,23 @@ class Terminal:
         end = time.time() + PATIENCE
         while text not in self.told and time.time() < end:
             self.type("\x03")
-            if select.select([self.terminal], [], [], 0.3)[0]:
+            # A second one before the first is met would end the program.
+            if select.select([self.terminal], [], [], 4)[0]:
                 self.told += os.read(self.terminal, 4096).decode(errors="replace")
         self.wait_for(text)
         time.sleep(0.3)  # for the last one to be met before anything runs
         self.told = ""
 
     def close(self):
+        """Ctrl-D on an empty line until the program has ended: one while no key is waited for is lost."""
         end = time.time() + PATIENCE
         while time.time() < end:
+            try:
+                self.type("\r\x04")
+                if select.select([self.terminal], [], [], 0.3)[0]:
+                    self.told += os.read(self.terminal, 4096).decode(errors="replace")
+            except OSError:
+                pass  # it has ended
             done, status = os.waitpid(self.process, os.WNOHANG)
             if done:
                 return os.waitstatus_to_exitcode(status)
@@ -99,7 +107,7 @@ def main():
     terminal.wait_for("> ")
     terminal.type("'still ' .. 'here'\r")
     terminal.wait_for("still here")
-    terminal.type("\x04")
+    terminal.wait_for("> ")
     if terminal.close() != 0:
         sys.exit("Ctrl-D is no failure")
     if "still" not in history.read_text():
