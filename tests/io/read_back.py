@@ -9,6 +9,12 @@ import subprocess
 import sys
 import tempfile
 
+try:
+    import readers
+except ImportError as error:
+    print(f"left out: {error}")
+    sys.exit(77)
+
 RECIPE = """
 local lacuna = require "lacuna"
 local void = lacuna.synthetic.prism { sides = 6, holes = 1, twist = 30 }:open_volume()
@@ -75,27 +81,18 @@ def read_vtk(path):
     return found, grid.GetNumberOfCells(), hexes
 
 
-def installed(name):
-    try:
-        __import__(name)
-        return True
-    except ImportError:
-        print(f"left out: {name} is not installed")
-        return False
-
-
 def main():
-    readers = [(module, read, files) for module, read, files in
-               [("gmsh", read_gmsh, list(FIELDS)), ("meshio", read_meshio, sorted(set(FIELDS) - MESHIO_REFUSES)),
-                ("vtk", read_vtk, ["a.vtu", "a.vtk", "text.vtk"])] if installed(module)]
-    if not readers:
+    here = [(module, read, files) for module, read, files in
+            [("gmsh", read_gmsh, list(FIELDS)), ("meshio", read_meshio, sorted(set(FIELDS) - MESHIO_REFUSES)),
+             ("vtk", read_vtk, ["a.vtu", "a.vtk", "text.vtk"])] if readers.installed(module)]
+    if not here:
         return 77
     with tempfile.TemporaryDirectory() as folder:
         pathlib.Path(folder, "write.lua").write_text(RECIPE)
         run = subprocess.run([sys.argv[1], "write.lua"], cwd=folder, capture_output=True, text=True, check=True)
         words = run.stdout.split()
         hexes, least = int(words[0]), {"scaled_jacobian": float(words[1]), "shape": float(words[2])}
-        for module, read, files in readers:
+        for module, read, files in here:
             for name in files:
                 found, count, found_hexes = read(pathlib.Path(folder, name))
                 assert found_hexes == hexes, (module, name, found_hexes, hexes)

@@ -188,11 +188,8 @@ def main():
                               ("vtk", read_vtk, ["j.vtu", "j.vtk", "text.vtk", "numbered.vtu", "alone.vtu", "alone.vtk",
                                                  "alonetext.vtk"])):
         # meshio 5 reads no numbers with holes from a binary file of version 2.2.
-        try:
-            __import__(name)
+        if readers.installed(name):
             found_readers.append((name, read, files))
-        except ImportError:
-            print(f"left out: {name} is not installed")
     if not found_readers:
         return 77
     with tempfile.TemporaryDirectory() as folder:

@@ -13,6 +13,12 @@ import subprocess
 import sys
 import tempfile
 
+try:
+    import readers
+except ImportError as error:
+    print(f"left out: {error}")
+    sys.exit(77)
+
 RECIPE = """
 local lacuna = require "lacuna"
 local void = lacuna.synthetic.annulus { inner = 0.5, outer = 1, height = 1 }:open_volume()
@@ -141,22 +147,13 @@ def read_meshio(path):
     return hexes, len(mesh.points), volume
 
 
-def installed(name):
-    try:
-        __import__(name)
-        return True
-    except ImportError:
-        print(f"left out: {name} is not installed")
-        return False
-
-
 def main():
     # Gmsh's own readers of VTK and BDF take middle nodes in another order, or none (see its issues).
-    readers = [(read, endings) for name, read, endings in
-               [("gmsh", read_gmsh, {".msh", ".unv"}),
-                ("meshio", read_meshio, {".msh", ".vtu", ".vtk", ".inp", ".bdf"}),
-                ("vtk", read_vtk, {".vtu", ".vtk", ".exo"})] if installed(name)]
-    if not readers:
+    here = [(read, endings) for name, read, endings in
+            [("gmsh", read_gmsh, {".msh", ".unv"}),
+             ("meshio", read_meshio, {".msh", ".vtu", ".vtk", ".inp", ".bdf"}),
+             ("vtk", read_vtk, {".vtu", ".vtk", ".exo"})] if readers.installed(name)]
+    if not here:
         return 77
     with tempfile.TemporaryDirectory() as folder:
         pathlib.Path(folder, "write.lua").write_text(RECIPE)
@@ -169,7 +166,7 @@ def main():
             if path.suffix == ".lua":
                 continue
             hexes, count, volume = expected[path.stem.split("_")[0]]
-            for read, endings in readers:
+            for read, endings in here:
                 if path.suffix not in endings:
                     continue
                 found = read(path)

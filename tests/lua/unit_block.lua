@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: MIT
 -- What tests of decks share that fill a void of a block of N³ cells, 1 long each way, and have CalculiX solve
--- what was joined: local block = dofile(folder .. "unit_block.lua")(check, params.scratch, N).
+-- what was joined: local block = dofile(folder .. "unit_block.lua")(check, params.scratch, N). Decks of other
+-- shapes are read and solved by it too.
 return function(check, scratch, N)
   local block = {}
 
@@ -48,13 +49,14 @@ return function(check, scratch, N)
     return found
   end
 
-  -- Nodes and cells of an Abaqus deck by their numbers.
+  -- Nodes and cells of an Abaqus deck by their numbers, and the sets that its cells are put in.
   function block.deck(text)
-    local nodes, cells, into, open = {}, {}, nil, nil
+    local nodes, cells, sets, into, open = {}, {}, {}, nil, nil
     for line in text:gmatch("[^\n]+") do
       if line:sub(1, 1) == "*" then
         local word = line:match("^%*(%a+)")
         into = word == "NODE" and nodes or word == "ELEMENT" and cells or nil
+        if into == cells then sets[#sets + 1] = line:match("ELSET=([%w_]+)") end
       elseif into then
         local numbers = {}
         for word in line:gmatch("[^,%s]+") do numbers[#numbers + 1] = assert(tonumber(word)) end
@@ -67,7 +69,7 @@ return function(check, scratch, N)
         open = into == cells and line:find(",%s*$") and (open or into[numbers[1]]) or nil
       end
     end
-    return nodes, cells
+    return nodes, cells, sets
   end
 
   function block.size(list)
@@ -89,16 +91,23 @@ return function(check, scratch, N)
       2 * mu * e.xz, 2 * mu * e.yz }
   end
 
-  -- Have the deck solved under an affine displacement of the block's outside, which is the same stress in
-  -- every cell. Its step prints the stresses. Returns the number of places they were compared at.
-  function block.solve(class, text, nodes)
+  local function on_block(_, at)
+    for axis = 1, 3 do
+      if at[axis] < 1e-9 or at[axis] > 1 - 1e-9 then return true end
+    end
+    return false
+  end
+
+  -- Have the deck solved under an affine displacement of its outside, which is the same stress in every cell.
+  -- Its step prints the stresses. outer(node, place) tells what lies outside, that of the block by default.
+  -- Returns the number of places they were compared at.
+  function block.solve(class, text, nodes, outer)
+    outer = outer or on_block
     local name = "solve_" .. class
     local base = scratch .. "/" .. name
     local lines = { "*STATIC\n*BOUNDARY" }
     for tag, at in pairs(nodes) do
-      local outer = false
-      for axis = 1, 3 do outer = outer or at[axis] < 1e-9 or at[axis] > 1 - 1e-9 end
-      for axis, u in ipairs(outer and { affine(table.unpack(at)) } or {}) do
+      for axis, u in ipairs(outer(tag, at) and { affine(table.unpack(at)) } or {}) do
         lines[#lines + 1] = ("%d, %d, %d, %.12e"):format(tag, axis, axis, u)
       end
     end

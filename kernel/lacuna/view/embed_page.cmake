@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Join the style sheets and the scripts of the page:
 #   cmake -DOUT=x.cpp "-DSOURCES=a.css;b.js" -P embed_page.cmake
+include("${CMAKE_CURRENT_LIST_DIR}/../../../cmake/LacunaLiteral.cmake")
+
 set(text "// Made by embed_page.cmake from the files in page/.\n")
 string(APPEND text "#include <lacuna/view/detail/page_texts.h>\n\n")
 string(APPEND text "namespace lacuna::view {\n")
@@ -12,15 +14,8 @@ foreach(kind IN ITEMS css js)
       string(APPEND body "${part}")
     endif()
   endforeach()
-  string(LENGTH "${body}" length)
   string(APPEND text "\nconst std::string_view kPage_${kind} =\n")
-  # One string literal may hold no more than 64 KiB everywhere; pieces of 8 KiB are joined by the compiler.
-  set(at 0)
-  while(at LESS length)
-    string(SUBSTRING "${body}" ${at} 8192 piece)
-    string(APPEND text "R\"page_part(${piece})page_part\"\n")
-    math(EXPR at "${at} + 8192")
-  endwhile()
+  lacuna_append_literal(text body)
   string(APPEND text ";\n")
 endforeach()
 string(APPEND text "\n} // namespace lacuna::view\n")
