@@ -3,11 +3,10 @@
 #include "bindings/faces.h"
 
 #include <lacuna/closure/model_facts.h>
+#include <lacuna/core/number_text.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <sstream>
 
@@ -22,12 +21,7 @@ using Info = closure::ModelFacts;
 
 // --- text -----------------------------------------------------------------------------------------------
 
-std::string number(double value)
-{
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.4g", value);
-    return text.data();
-}
+std::string number(double value) { return with_digits(value, 4); }
 
 /// What is nothing but rounding beside `scale` is written as 0.
 std::string place(const Vec3& p, double scale)

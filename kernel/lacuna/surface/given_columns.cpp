@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/number_text.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/given_nodes.h>
 #include <lacuna/topology/give_mesh.h>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -26,9 +26,7 @@ std::string place_of(const Model& model, const Quad& quad)
 {
     Vec3 sum = Vec3::Zero();
     for (const Index n : quad) sum += model.at(n);
-    std::array<char, 96> text{};
-    std::snprintf(text.data(), text.size(), "(%.6g, %.6g, %.6g)", sum.x() / 4, sum.y() / 4, sum.z() / 4);
-    return text.data();
+    return place_with_digits(sum / 4, 6);
 }
 
 [[noreturn]] void refuse_rows(const std::string& wall, int rows, const std::string& other, int other_rows)

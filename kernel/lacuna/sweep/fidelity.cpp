@@ -2,14 +2,13 @@
 #include <lacuna/sweep/fidelity.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/number_text.h>
 #include <lacuna/surface/face_shape.h>
 #include <lacuna/sweep/detail/compare_face.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace lacuna::sweep {
@@ -50,12 +49,7 @@ FaceFidelity left_out(const Model& model, const Skin& skin, FaceId face, const D
     return result;
 }
 
-std::string at_place(const Vec3& p)
-{
-    std::array<char, 96> words{};
-    std::snprintf(words.data(), words.size(), "(%.4g, %.4g, %.4g)", p.x(), p.y(), p.z());
-    return words.data();
-}
+std::string at_place(const Vec3& p) { return place_with_digits(p, 4); }
 
 /// A length a little below `value`, in two digits.
 std::string rounded_down(double value)
@@ -170,16 +164,14 @@ void require(const Fidelity& fidelity, int layers, const FidelityOptions& option
 
 std::string in_words(const Fidelity& fidelity)
 {
-    std::array<char, 200> words{};
-    std::snprintf(words.data(), words.size(),
-                  "shape: volume %.6g of %.6g sealed (%+.2f %%), skin off by %.2g at most, %.2g on average",
-                  fidelity.volume, fidelity.sealed_volume,
-                  100 * (fidelity.volume / fidelity.sealed_volume - 1), fidelity.max_distance,
-                  fidelity.mean_distance);
+    const double more = 100 * (fidelity.volume / fidelity.sealed_volume - 1);
+    std::string line = "shape: volume " + with_digits(fidelity.volume, 6) + " of " +
+                       with_digits(fidelity.sealed_volume, 6) + " sealed (" + (more < 0 ? "" : "+") +
+                       with_decimals(more, 2) + " %), skin off by " + in_short(fidelity.max_distance) +
+                       " at most, " + in_short(fidelity.mean_distance) + " on average";
     const auto worst = std::max_element(
         fidelity.faces.begin(), fidelity.faces.end(),
         [](const FaceFidelity& a, const FaceFidelity& b) { return a.max_distance < b.max_distance; });
-    std::string line = words.data();
     const double rounding = 1e-9 * std::cbrt(std::abs(fidelity.sealed_volume));
     if (worst != fidelity.faces.end() && worst->max_distance > rounding)
         line += "; most on " + worst->name + " at " + at_place(worst->place);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/number_text.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
 
 #include <lacuna/surface/projector.h>
 #include <lacuna/sweep/improve.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <map>
 #include <span>
 #include <string>
@@ -59,14 +58,12 @@ private:
 
 std::string in_words(const Improved& improved)
 {
-    std::array<char, 240> words{};
-    std::snprintf(
-        words.data(), words.size(),
-        "%s: %zu cells, %zu nodes, least scaled Jacobian %.3f before, %.3f after, mean %.3f and %.3f%s",
-        improved.untangled ? "untangled" : "improved", improved.cells, improved.moved, improved.before,
-        improved.after, improved.mean_before, improved.mean_after,
-        improved.unfinished ? "; ended before it was done: improve = { seconds = … } gives it more" : "");
-    return words.data();
+    const auto value = [](double jacobian) { return with_decimals(jacobian, 3); };
+    return std::string(improved.untangled ? "untangled: " : "improved: ") + std::to_string(improved.cells) +
+           " cells, " + std::to_string(improved.moved) + " nodes, least scaled Jacobian " +
+           value(improved.before) + " before, " + value(improved.after) + " after, mean " +
+           value(improved.mean_before) + " and " + value(improved.mean_after) +
+           (improved.unfinished ? "; ended before it was done: improve = { seconds = … } gives it more" : "");
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/number_text.h>
 #include <lacuna/core/progress.h>
 #include <lacuna/quads/odd_region.h>
 #include <lacuna/quads/pave.h>
@@ -26,10 +27,8 @@
 #include <lacuna/topology/skin_groups.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <limits>
 #include <map>
@@ -129,13 +128,11 @@ void check_amount(const OpenVolume& volume, const surface::SizeField& size, cons
     if (quads < 1 || quads * levels < std::numeric_limits<Index>::max()) {
         if (levels < std::numeric_limits<Index>::max() / 16.0) return;
     }
-    std::array<char, 160> words{};
-    std::snprintf(
-        words.data(), words.size(),
-        "about %.2g quads on the source and %.0f layers make %.2g hexahedra, more than can be numbered",
-        quads, levels, std::max(quads, 1.0) * levels);
-    throw InvalidInput("sweep.too_many",
-                       std::string(words.data()) + "; ask for a larger 'size' or fewer 'layers'");
+    throw InvalidInput(
+        "sweep.too_many",
+        "about " + in_short(quads) + " quads on the source and " + with_decimals(levels, 0) +
+            " layers make " + in_short(std::max(quads, 1.0) * levels) +
+            " hexahedra, more than can be numbered; ask for a larger 'size' or fewer 'layers'");
 }
 
 /// The size asked for, or the rim's own spacing; smaller where the shape needs it.

@@ -9,10 +9,7 @@ namespace lacuna::sweep {
 
 std::string in_short(double value) { return with_digits(value, 2); }
 
-std::string place_in_short(const Vec3& p)
-{
-    return "(" + in_short(p.x()) + ", " + in_short(p.y()) + ", " + in_short(p.z()) + ")";
-}
+std::string place_in_short(const Vec3& p) { return place_with_digits(p, 2); }
 
 std::string in_full(double value)
 {

@@ -2,6 +2,7 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/number_text.h>
 #include <lacuna/topology/gaps.h>
 
 #include <algorithm>
@@ -65,11 +66,7 @@ std::string gap_in_words(const Model& model, const std::vector<FaceId>& part)
     if (found == all.end()) return "";
     Gap gap = *found;
     if (!is_own(gap.own)) std::swap(gap.own, gap.other);
-    const auto plain = [](double value) {
-        std::array<char, 32> text{};
-        std::snprintf(text.data(), text.size(), "%.3g", value);
-        return std::string(text.data());
-    };
+    const auto plain = [](double value) { return with_digits(value, 3); };
     const std::string enough = plain(sewing_tolerance(model, gap));
     return ": its " + name_of(model, gap.own) + " runs beside " + name_of(model, gap.other) + ", at most " +
            plain(gap.width) + " away, and the tolerance is " + plain(model.tolerance) +
