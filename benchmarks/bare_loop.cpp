@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The bound of a swept mesh: nodes and hexahedra of a grid, filled by a plain loop and written as binary MSH.
+/// The bound of a swept mesh: nodes and hexahedra of a grid filled by a plain loop, written as binary MSH.
 /// usage: bare_loop QUADS_X QUADS_Y LAYERS OUT.msh    Prints the seconds it took.
 #include <chrono>
 #include <cstdint>
