@@ -320,6 +320,43 @@ TEST_CASE("pipes, cones and elbows are off by the sag of their sides and no more
     MESSAGE(combinations << " round volumes");
 }
 
+TEST_CASE("walls that are made lie where they were sealed, as given ones do, at any size")
+{
+    int combinations = 0;
+    for (const double bend : {40.0, 90.0, 170.0}) {
+        for (const double twist : {0.0, 30.0}) {
+            for (const int gone : {0, 1}) { // the outer wall, or the bore's
+                PrismOptions shape{.sides = 0,
+                                   .height = 4.5,
+                                   .holes = 1,
+                                   .hole_sides = 0,
+                                   .cuts = 4,
+                                   .levels = 32,
+                                   .twist = twist,
+                                   .bend = bend};
+                shape.drop = [gone](const test::Part& part) {
+                    return part.role == Role::wall && part.loop == gone;
+                };
+                const auto volume = test::sealed(shape);
+                for (const double size : {0.25, 0.12}) {
+                    const Swept swept = sweep::sweep(volume, layers_of(static_cast<int>(4.5 / size), size));
+                    test::check_valid(swept.mesh);
+                    CAPTURE(bend);
+                    CAPTURE(twist);
+                    CAPTURE(gone);
+                    CAPTURE(size);
+                    for (const sweep::FaceFidelity& face : swept.fidelity.faces)
+                        CHECK(face.max_distance < 0.25 * size);
+                    CHECK(swept.fidelity.volume ==
+                          doctest::Approx(swept.fidelity.sealed_volume).epsilon(0.4 * size * size));
+                    ++combinations;
+                }
+            }
+        }
+    }
+    MESSAGE(combinations << " pipes with a wall missing");
+}
+
 TEST_CASE("quads given to the wrong face, a face left out, a fold and a node off its face are each found")
 {
     const auto volume = test::sealed({.sides = 4, .height = 2, .pieces = 2});

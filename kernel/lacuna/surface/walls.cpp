@@ -66,6 +66,7 @@ std::vector<std::vector<FaceId>> panel_faces(const Model& model, const LinkingSu
 /// Nodes first … last of a linking surface that stand on a void face which follows the given walls.
 struct FollowedPanel {
     std::size_t link, first, last;
+    FaceId face;
 };
 
 /// One linking surface being meshed.
@@ -141,7 +142,7 @@ private:
             const std::size_t last = i + 1 < panels.size() ? nodes_.line[i + 1] : count_;
             if (are_given(first, last)) continue;
             if (follows(panels[i])) {
-                followed_.push_back({0, first, last});
+                followed_.push_back({0, first, last, panels[i].front()});
                 set_faces(panels[i].front(), first, last);
                 continue;
             }
@@ -718,7 +719,7 @@ private:
             for (std::size_t i = 1; i < n; ++i) inside.push_back(grid[k * (n + 1) + i]);
         }
         const Face& f = model_[face];
-        if (f.origin == Origin::given && f.kind != "plane" && !inside.empty()) {
+        if (f.kind != "plane" && !inside.empty()) {
             const std::vector<Vec3> patch = inside;
             Projector(model_, {face}).project(inside, context_);
             double moved = 0;
@@ -842,9 +843,10 @@ Rows known_rows(const std::vector<WallMesh>& meshes, std::span<const LinkingNode
 }
 
 /// Put the nodes of followed panels where each row's known columns lead the source rim and the target rim,
-/// blended by height and moved to meet the panel's sides.
-void follow_rows(std::vector<WallMesh>& meshes, std::span<const LinkingNodes> nodes,
-                 const std::vector<FollowedPanel>& followed, std::size_t layers)
+/// blended by height and moved to meet the panel's sides, and from there on the face: it follows the walls as
+/// they were given, and the rows are those of the mesh.
+void follow_rows(std::vector<WallMesh>& meshes, const Model& model, std::span<const LinkingNodes> nodes,
+                 const std::vector<FollowedPanel>& followed, std::size_t layers, const RunContext& context)
 {
     const Rows rows = known_rows(meshes, nodes, followed, layers);
     for (std::size_t k = 1; k < layers; ++k) {
@@ -866,6 +868,20 @@ void follow_rows(std::vector<WallMesh>& meshes, std::span<const LinkingNodes> no
                                  static_cast<double>(panel.last - panel.first);
                 points[k * n + i] = led(i) + (1 - s) * left + s * right;
             }
+        }
+    }
+    for (const FollowedPanel& panel : followed) {
+        std::vector<Vec3>& points = meshes[panel.link].points;
+        const std::size_t n = nodes[panel.link].source_at.size();
+        std::vector<Vec3> inside;
+        for (std::size_t k = 1; k < layers; ++k) {
+            for (std::size_t i = panel.first + 1; i < panel.last; ++i) inside.push_back(points[k * n + i]);
+        }
+        if (inside.empty()) continue;
+        Projector(model, {panel.face}).project(inside, context);
+        std::size_t next = 0;
+        for (std::size_t k = 1; k < layers; ++k) {
+            for (std::size_t i = panel.first + 1; i < panel.last; ++i) points[k * n + i] = inside[next++];
         }
     }
 }
@@ -916,7 +932,7 @@ std::vector<WallMesh> mesh_walls(const OpenVolume& volume, std::span<const Linki
             followed.push_back(panel);
         }
     }
-    if (!followed.empty()) follow_rows(meshes, nodes, followed, heights.size() - 1);
+    if (!followed.empty()) follow_rows(meshes, volume.model, nodes, followed, heights.size() - 1, context);
     return meshes;
 }
 

@@ -19,10 +19,9 @@ namespace {
 
 /// Distance allowed over the side of a quad, where no length is given; see FidelityOptions.
 constexpr double kShareOfSide = 0.25;
-/// The same on void faces: their facets were made as the mesh's walls are, and neither is given.
-/// Bent, twisted
-/// and ruled ones were off by up to 0.46.
-constexpr double kShareOnVoid = 1;
+/// The same within two sides of a tip, where four quads are as many as can be: a whole side.
+constexpr double kShareAtTip = 1;
+
 /// A face the skin leaves out.
 FaceFidelity left_out(const Model& model, const Skin& skin, FaceId face, const DeviationLimit& limit)
 {
@@ -101,8 +100,7 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
         face.face = patch.face;
         face.quads = patch.quads.size();
         const bool made_void = model[patch.face].origin == Origin::made_void;
-        const DeviationLimit limit{options.max_deviation, made_void ? kShareOnVoid : kShareOfSide,
-                                   kShareOnVoid, !made_void};
+        const DeviationLimit limit{options.max_deviation, kShareOfSide, kShareAtTip, !made_void};
         if (patch.quads.empty()) {
             face = left_out(model, skin, patch.face, limit);
         } else if (!kept.contains(patch.face)) {
@@ -131,10 +129,8 @@ void require(const Fidelity& fidelity, int layers, const FidelityOptions& option
     }
     if (worst == nullptr) return;
     const bool given = options.max_deviation > 0;
-    const std::string limit = in_short(worst->allowed) + (given ? " (max_deviation)"
-                                                          : worst->made_void
-                                                              ? ", a quad's side there"
-                                                              : ", a quarter of a quad's side there");
+    const std::string limit = in_short(worst->allowed) +
+                              (given ? " (max_deviation)" : ", a quarter of a quad's side there");
     const std::string name = worst->name, place = at_place(worst->found_at);
     std::string message;
     switch (worst->misfit) {

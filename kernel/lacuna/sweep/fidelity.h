@@ -51,10 +51,9 @@ struct Fidelity {
 };
 
 struct FidelityOptions {
-    /// How far skin and face may be apart, >= 0 [model length]; 0: a quarter of the side of a quad there, on
-    /// void faces a whole side. Sides that stand for a twelfth of a turn are off by a fifteenth of their
-    /// length, quads on a sphere of such sides by an eighth; domes of coarse quads
-    /// by up to 0.23.
+    /// How far skin and face may be apart, >= 0 [model length]; 0: a quarter of the side of a quad there.
+    /// Sides that stand for a twelfth of a turn are off by a fifteenth of their length, quads on a sphere of
+    /// such sides by an eighth; domes of coarse quads by up to 0.23.
     double max_deviation = 0;
 };
 
