@@ -147,6 +147,7 @@ VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, 
         state.role_reasons = std::move(found.roles.reasons);
         state.classification = std::move(found.classification);
         state.closure = std::move(found.closure);
+        state.as_read = std::move(found.sealed);
     } else {
         if (arguments.auto_walls) state.role_reasons = find_walls(model, arguments.roles, context);
         state.volume = topology::open_volume(model, arguments.roles, context);
@@ -158,6 +159,7 @@ VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, 
                                "; to override the class, name the roles");
     if (!state.closure) {
         state.volume.override_class = arguments.override_class;
+        if (arguments.override_class) state.as_read.reset();
         state.classification = topology::classify(state.volume);
     }
     state.name = arguments.name;
@@ -250,6 +252,7 @@ int override_class(lua_State* L)
             state.volume.override_class = before;
             throw;
         }
+        state.as_read.reset();
     });
     lua_settop(L, 1);
     return 1;

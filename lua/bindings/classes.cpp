@@ -120,9 +120,25 @@ Busy::Busy(VolumeState& state, const char* method) : state_(state)
     state.busy = method;
 }
 
+namespace {
+
+bool asks_nothing(const closure::CloseOptions& options)
+{
+    const closure::CloseOptions none;
+    return options.edge_shape == none.edge_shape && options.void_edges.empty() && options.cap == none.cap;
+}
+
+} // namespace
+
 void match_volume(VolumeState& state, const matching::MatchOptions& options, const RunContext& context)
 {
-    if (!state.match) state.match = matching::match(state.volume, options, context);
+    if (state.match) return;
+    if (options == matching::MatchOptions{} && state.as_read) {
+        state.match = state.as_read->match;
+        return;
+    }
+    state.as_read.reset();
+    state.match = matching::match(state.volume, options, context);
 }
 
 void close_volume(VolumeState& state, const closure::CloseOptions& options, const RunContext& context)
@@ -134,6 +150,12 @@ void close_volume(VolumeState& state, const closure::CloseOptions& options, cons
         match_volume(state, by_hand, context);
     }
     report_progress(context, "closing");
+    if (state.as_read && asks_nothing(options)) {
+        state.closure = std::move(state.as_read->closure);
+        state.volume = std::move(state.as_read->volume);
+        state.as_read.reset();
+        return;
+    }
     topology::OpenVolume sealed = state.volume;
     state.closure = closure::close(sealed, state.match.value_or(matching::Match{}), options, context);
     state.volume = std::move(sealed);

@@ -8,6 +8,7 @@
 #include "bindings/stage_clock.h"
 
 #include <lacuna/closure/close.h>
+#include <lacuna/closure/readings.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/healing/split_facets.h>
 #include <lacuna/io/deck.h>
@@ -63,8 +64,9 @@ struct VolumeState {
     topology::Classification classification; ///< as the volume was given
     std::optional<matching::Match> match;
     std::optional<closure::Closure> closure;
-    std::string name; ///< of the region its cells are; empty: the default
-    int level = 0;    ///< of a piece cut at steps: 0 goes from end to end, others have what layers are left
+    std::optional<closure::SealedVolume> as_read; ///< where its roles were found: how it is closed by default
+    std::string name;                             ///< of the region its cells are; empty: the default
+    int level = 0; ///< of a piece cut at steps: 0 goes from end to end, others have what layers are left
     double turn_from = 0, turn_to = 1; ///< of a piece of a full turn: where it is, as shares of the turn
     std::string material;              ///< name or number of its material; empty: none was said
     std::vector<std::shared_ptr<const io::Deck>> decks; ///< those of the model it was made of

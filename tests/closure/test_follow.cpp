@@ -164,7 +164,7 @@ TEST_CASE("a follower carries source points to target points, rim to rim at both
                 .sides = 4, .height = 4, .cuts = 2, .levels = 24, .twist = twist, .taper = 0.8, .bend = bend};
             const auto prism = test::prism(whole);
             const auto volume = prism.open();
-            const closure::Follower follower(volume);
+            const closure::Follower follower(volume, matching::side_lines(volume));
             REQUIRE(follower.leads());
             const Vec3 a(0.3, 0.2, 0);
             const Vec3 b =

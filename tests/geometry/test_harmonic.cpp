@@ -122,6 +122,29 @@ TEST_CASE("linear functions come back on planar facets, however they lie")
     }
 }
 
+TEST_CASE("linear functions come back from more points than are solved for directly, slender facets too")
+{
+    for (const double slender : {1.0, 30.0}) {
+        CAPTURE(slender);
+        Sheet flat = sheet(7, 180, 0.25, 0);
+        for (Vec3& point : flat.points) point.x() *= slender;
+        HarmonicProblem problem = square_problem(flat);
+        for (std::size_t i = 0; i < flat.rim.size(); ++i) {
+            const Vec3& p = flat.points[std::size_t(flat.rim[i])];
+            problem.fixed_values.row(Eigen::Index(i)) << p.x() / slender + 2 * p.y(), p.y() - 7;
+        }
+        const Eigen::MatrixXd values = solve_harmonic(problem);
+        double worst = 0;
+        for (std::size_t i = 2; i < flat.points.size(); ++i) {
+            const Vec3& p = flat.points[i];
+            worst = std::max({worst, std::abs(values(Eigen::Index(i), 0) - p.x() / slender - 2 * p.y()),
+                              std::abs(values(Eigen::Index(i), 1) - p.y() + 7)});
+        }
+        CHECK(worst < 1e-8);
+        CHECK(solve_harmonic(problem) == values);
+    }
+}
+
 TEST_CASE("a bumpy sheet maps one to one onto the unit square, its rim bit for bit")
 {
     for (unsigned seed = 0; seed < 40; ++seed) {

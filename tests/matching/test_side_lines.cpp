@@ -112,7 +112,7 @@ TEST_CASE("sections of any walls lie on their levels of a straight prism, as man
                                              .bend = bend,
                                              .drop = without(false, false, false, gone)})
                                     .open();
-            const auto sections = matching::cut_sections(volume, 10);
+            const auto sections = matching::cut_sections(volume, matching::side_lines(volume), 10);
             CAPTURE(bend);
             CAPTURE(gone.size());
             REQUIRE(sections.levels.size() == 11);
@@ -168,6 +168,6 @@ TEST_CASE("a wall that is open at one level and closed at another has no section
     REQUIRE(model.faces.size() == 3);
     const OpenVolume volume = open_volume(model,
                                           {{FaceId(Index{0})}, {FaceId(Index{1})}, {FaceId(Index{2})}});
-    const auto sections = matching::cut_sections(volume, 10);
+    const auto sections = matching::cut_sections(volume, matching::side_lines(volume), 10);
     for (const auto& level : sections.levels) CHECK(level.empty());
 }

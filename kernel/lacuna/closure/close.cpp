@@ -135,7 +135,7 @@ VoidFilling parallel_cap(const OpenVolume& volume, const std::vector<Loop>& loop
     const Model& model = volume.model;
     OpenVolume capped = volume; // the walls say how they lead only between two ends
     add_void_face(capped, fill(volume, loops, nullptr, name, context), Role::target);
-    const Follower follower(capped, context);
+    const Follower follower(capped, matching::side_lines(capped, context), context);
     if (!follower.leads()) {
         throw NotClosed("closure.nothing_parallel",
                         name + " cannot be parallel to the given end: the walls do not say how it is "
@@ -283,9 +283,10 @@ void check_options(const OpenVolume& volume, VolumeClass value, const CloseOptio
 /// A volume being sealed as one of a class, in one way after another.
 class Sealer {
 public:
-    Sealer(const OpenVolume& volume, VolumeClass value, const CloseOptions& options,
-           const RunContext& context)
-        : volume_(volume), value_(value), options_(options), context_(context)
+    /// @param lines  those of the volume where they are known
+    Sealer(const OpenVolume& volume, const std::optional<std::vector<matching::SideLine>>& lines,
+           VolumeClass value, const CloseOptions& options, const RunContext& context)
+        : volume_(volume), lines_(lines), value_(value), options_(options), context_(context)
     {
         const bool has_walls = value == VolumeClass::II || value == VolumeClass::III;
         if (has_walls && options.edge_shape != EdgeShape::straight) look_at_walls();
@@ -315,7 +316,8 @@ public:
 private:
     void look_at_walls()
     {
-        if (!follower_) follower_.emplace(volume_, context_);
+        if (!follower_)
+            follower_.emplace(volume_, lines_ ? *lines_ : matching::side_lines(volume_, context_), context_);
     }
 
     [[nodiscard]] bool leads() const { return follower_ && follower_->leads(); }
@@ -398,6 +400,7 @@ private:
     }
 
     const OpenVolume& volume_;
+    const std::optional<std::vector<matching::SideLine>>& lines_;
     VolumeClass value_;
     const CloseOptions& options_;
     const RunContext& context_;
@@ -424,7 +427,7 @@ bool climbs_open_rims(const OpenVolume& volume, const matching::Match& match)
 Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value, const CloseOptions& options,
              const RunContext& context)
 {
-    Sealer sealer(volume, value, options, context);
+    Sealer sealer(volume, match.side_lines, value, options, context);
     Closure closure = sealer.seal(match);
     volume = sealer.take();
     return closure;

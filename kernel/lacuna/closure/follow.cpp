@@ -35,9 +35,10 @@ double radius_of(const topology::OpenVolume& volume, topology::Role end)
 
 } // namespace
 
-Follower::Follower(const topology::OpenVolume& volume, const RunContext& context)
+Follower::Follower(const topology::OpenVolume& volume, const std::vector<matching::SideLine>& lines,
+                   const RunContext& context)
 {
-    matching::Sections sections = matching::cut_sections(volume, kLevels, context);
+    matching::Sections sections = matching::cut_sections(volume, lines, kLevels, context);
     heights_ = std::move(sections.heights);
     const std::vector<std::vector<Vec3>>& levels = sections.levels;
     if (levels.front().empty()) return;

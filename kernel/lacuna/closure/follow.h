@@ -17,7 +17,9 @@ namespace lacuna::closure {
 /// target's to each (as the sweep itself places the inside of a layer, Roca and Sarrate 2010).
 class Follower {
 public:
-    explicit Follower(const topology::OpenVolume& volume, const RunContext& context = {});
+    /// @param lines  matching::side_lines() of the volume
+    Follower(const topology::OpenVolume& volume, const std::vector<matching::SideLine>& lines,
+             const RunContext& context = {});
 
     /// False where no given wall joins source and target: there is nothing to follow.
     [[nodiscard]] bool leads() const { return !from_source_.empty(); }

@@ -36,9 +36,7 @@ constexpr double kBentVoid = 0.5;
 constexpr std::size_t kMostListed = 8;
 
 /// A reading of the given faces, sealed.
-struct Sealed {
-    OpenVolume volume;
-    Closure closure;
+struct Sealed : SealedVolume {
     double enclosed = 0;
 };
 
@@ -99,11 +97,11 @@ bool fills_each_loop(const OpenVolume& open, std::size_t loops)
 std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunContext& context)
 {
     try {
-        Sealed sealed{open_volume(model, roles, context), {}};
-        matching::Match match;
+        Sealed sealed;
+        sealed.volume = open_volume(model, roles, context);
         if (!roles.source.empty() && !roles.target.empty())
-            match = matching::match(sealed.volume, {}, context);
-        sealed.closure = close(sealed.volume, match, {}, context);
+            sealed.match = matching::match(sealed.volume, {}, context);
+        sealed.closure = close(sealed.volume, sealed.match, {}, context);
         sealed.enclosed = enclosed_volume(sealed.volume);
         return sealed;
     } catch (const InvalidInput&) {
@@ -340,6 +338,7 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
     if (first.value != VolumeClass::I) sweeps = best_sweeps(found.sealed.volume.model, context);
     if (sweeps.empty()) {
         take_open(model, first, reading, context);
+        reading.sealed = std::move(found.sealed);
         return reading;
     }
     const auto ends_of = [&](const RoleCandidate& way) {
@@ -361,7 +360,9 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
     const auto same = std::find_if(found.ways.begin(), found.ways.end(), is_same);
     const long irregular = best->irregular;
     if (same != found.ways.end()) {
+        const bool as_sealed = same == found.ways.begin();
         take_open(model, *same, reading, context);
+        if (as_sealed) reading.sealed = std::move(found.sealed);
         reading.roles.irregular = irregular;
     } else if (found.sealed.closure.void_faces.empty()) {
         for (std::vector<FaceId>* list : {&best->roles.source, &best->roles.target, &best->roles.walls})

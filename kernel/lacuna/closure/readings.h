@@ -11,6 +11,14 @@
 
 namespace lacuna::closure {
 
+/// A volume as it is sealed where nothing is asked for: close() with this match and no options gives just
+/// that.
+struct SealedVolume {
+    matching::Match match;
+    topology::OpenVolume volume;
+    Closure closure;
+};
+
 /// A void that some faces can be read as, ready to be swept the best way.
 struct Reading {
     topology::RoleCandidate roles; ///< in faces of the model
@@ -18,6 +26,8 @@ struct Reading {
     topology::Classification classification;
     /// Set where an end is a face that only closing makes: `volume` is sealed then.
     std::optional<Closure> closure;
+    /// Set where `volume` is open and was sealed as it is to be read: that need not be done again.
+    std::optional<SealedVolume> sealed;
     double enclosed = 0;  ///< [model length³]
     std::size_t ways = 1; ///< how many readings of the faces enclose it
 };

@@ -5,6 +5,7 @@
 #include <lacuna/geometry/facet_tree.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace lacuna::closure {
 
@@ -24,10 +25,28 @@ int shared_points(const Triangle& a, const Triangle& b)
 std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunContext& context)
 {
     const Model& model = volume.model;
+    std::vector<Triangle> made;
+    for (const Face& face : model.faces) {
+        if (face.origin == Origin::made_void)
+            made.insert(made.end(), face.triangles.begin(), face.triangles.end());
+    }
+    if (made.empty()) return std::nullopt;
+    // Of given faces, which may be fine, only facets beside void ones can be crossed by these.
+    const geometry::FacetTree all_made(model.points, made);
+    std::vector<std::vector<Triangle>> facets(model.faces.size());
     std::vector<geometry::FacetTree> trees(model.faces.size());
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         check_cancelled(context);
-        trees[f] = geometry::FacetTree(model.points, model.faces[f].triangles);
+        const Face& face = model.faces[f];
+        const bool given = face.origin != Origin::made_void;
+        std::copy_if(face.triangles.begin(), face.triangles.end(), std::back_inserter(facets[f]),
+                     [&](const Triangle& t) {
+                         Eigen::AlignedBox3d box(model.at(t[0]));
+                         box.extend(model.at(t[1]));
+                         box.extend(model.at(t[2]));
+                         return !given || all_made.may_meet(box);
+                     });
+        trees[f] = geometry::FacetTree(model.points, facets[f]);
     }
     const auto corners = [&](const Triangle& t) {
         return std::array<Vec3, 3>{model.at(t[0]), model.at(t[1]), model.at(t[2])};
@@ -38,8 +57,8 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
             if (f == v || (f < v && model.faces[f].origin == Origin::made_void)) continue;
             const bool clear = trees[v].overlaps(trees[f], [&](Index a, Index b) {
                 check_cancelled(context);
-                const Triangle& mine = model.faces[v].triangles[static_cast<std::size_t>(a)];
-                const Triangle& theirs = model.faces[f].triangles[static_cast<std::size_t>(b)];
+                const Triangle& mine = facets[v][index(a)];
+                const Triangle& theirs = facets[f][index(b)];
                 // Neighbours along a shared side can only fold onto each other, which the enclosed volume
                 // shows.
                 if (shared_points(mine, theirs) >= 2) return true;

@@ -259,6 +259,23 @@ bool FacetTree::overlaps(const FacetTree& other, const std::function<bool(Index,
     return true;
 }
 
+bool FacetTree::may_meet(const Box& box) const
+{
+    if (node_.empty()) return false;
+    std::array<std::uint32_t, kMaxDepth> stack;
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const std::uint32_t at = stack[--depth];
+        const Node& node = node_[at];
+        if (!near(node.box, box, 0)) continue;
+        if (node.right == 0) return true;
+        stack[depth++] = node.right;
+        stack[depth++] = at + 1;
+    }
+    return false;
+}
+
 template <class Visit>
 bool FacetTree::along(const Vec3& origin, const Vec3& direction, const double& farthest,
                       const Visit& visit) const

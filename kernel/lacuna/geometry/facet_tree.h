@@ -41,6 +41,9 @@ public:
     bool overlaps(const FacetTree& other, const std::function<bool(Index, Index)>& visit,
                   double margin = 0) const;
 
+    /// Whether a box comes near some facet: false only where none of their boxes meets it.
+    [[nodiscard]] bool may_meet(const Eigen::AlignedBox3d& box) const;
+
     /// Where a ray meets a facet.
     struct RayHit {
         Index triangle = -1;

@@ -2,6 +2,7 @@
 #include <lacuna/geometry/harmonic.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/detail/multigrid.h>
 #include <lacuna/geometry/union_find.h>
 
 #include <Eigen/SparseCore>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace lacuna::geometry {
@@ -125,11 +127,22 @@ void check_anchored(const HarmonicProblem& problem, std::span<const Index> role)
                                    "fix at least one point of each connected part");
 }
 
-/// Sort by point and scale each point's weights to the sum 1, none below what rounding can bear.
-void normalise(std::vector<Weight>& weights)
+/// Bring the weights of each point together; they keep their order.
+std::vector<Weight> by_point(const std::vector<Weight>& weights, std::size_t points)
 {
-    std::stable_sort(weights.begin(), weights.end(),
-                     [](const Weight& a, const Weight& b) { return a.from < b.from; });
+    std::vector<std::size_t> next(points + 1, 0);
+    for (const Weight& w : weights) ++next[index(w.from) + 1];
+    for (std::size_t p = 0; p < points; ++p) next[p + 1] += next[p];
+    std::vector<Weight> sorted(weights.size());
+    for (const Weight& w : weights) sorted[next[index(w.from)]++] = w;
+    return sorted;
+}
+
+/// Scale each point's weights, which are together, to the sum 1, none below what rounding can bear.
+/// @return  what the sum was, of each point
+std::vector<double> normalise(std::vector<Weight>& weights, std::size_t points)
+{
+    std::vector<double> sums(points, 1);
     for (auto begin = weights.begin(); begin != weights.end();) {
         const auto end = std::find_if(begin, weights.end(),
                                       [&](const Weight& w) { return w.from != begin->from; });
@@ -137,8 +150,58 @@ void normalise(std::vector<Weight>& weights)
         for (auto w = begin; w != end; ++w) largest = std::max(largest, w->value);
         for (auto w = begin; w != end; ++w) sum += w->value = std::max(w->value, kHalfDigits * largest);
         for (auto w = begin; w != end; ++w) w->value /= sum;
+        sums[index(begin->from)] = sum;
         begin = end;
     }
+    return sums;
+}
+
+/// So many unknowns are solved for by multigrid, fewer by a factorisation. Measured on walls of cylinders,
+/// factorising and solving takes 0.06 s here and grows by the power 1.5, multigrid 0.03 s and linearly; below
+/// it results keep the bits they had.
+constexpr Eigen::Index kMany = 20000;
+
+/// The unknowns of a large system; nothing where multigrid does not settle.
+/// @param sums  of each row: its weights' sum, which all but evens out the two directions of a side
+std::optional<Eigen::MatrixXd> solve_by_multigrid(const std::vector<Eigen::Triplet<double>>& entries,
+                                                  const Eigen::MatrixXd& right, const Eigen::VectorXd& sums,
+                                                  const RunContext& context)
+{
+    Multigrid::Matrix matrix(right.rows(), right.rows());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    matrix = sums.asDiagonal() * matrix;
+    const Multigrid solver(std::move(matrix), context);
+    Eigen::MatrixXd solution(right.rows(), right.cols());
+    Eigen::VectorXd x;
+    for (Eigen::Index k = 0; k < right.cols(); ++k) {
+        if (!solver.solve(sums.cwiseProduct(right.col(k)), x, context)) return std::nullopt;
+        solution.col(k) = x;
+    }
+    return solution;
+}
+
+Eigen::MatrixXd solve_directly(const std::vector<Eigen::Triplet<double>>& entries,
+                               const Eigen::MatrixXd& right, const RunContext& context)
+{
+    Eigen::SparseMatrix<double> matrix(right.rows(), right.rows());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> solver;
+    solver.analyzePattern(matrix);
+    check_cancelled(context);
+    solver.factorize(matrix);
+    check_cancelled(context);
+    if (solver.info() != Eigen::Success)
+        throw BackendError("geometry.singular",
+                           "harmonic values cannot be solved for: " + solver.lastErrorMessage() +
+                               "; look for coordinates that are not numbers");
+    return solver.solve(right);
+}
+
+/// What does not quite settle must not leave the range of the fixed values, fixed × k, either.
+void keep_in_range(const Eigen::MatrixXd& fixed, Eigen::MatrixXd& values)
+{
+    for (Eigen::Index k = 0; k < values.cols(); ++k)
+        values.col(k) = values.col(k).cwiseMax(fixed.col(k).minCoeff()).cwiseMin(fixed.col(k).maxCoeff());
 }
 
 } // namespace
@@ -161,8 +224,8 @@ Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext&
     const auto size = static_cast<Eigen::Index>(point_of.size());
     if (size == 0 || columns == 0) return values;
 
-    std::vector<Weight> weights = corner_weights(problem);
-    normalise(weights);
+    std::vector<Weight> weights = by_point(corner_weights(problem), problem.points.size());
+    const std::vector<double> sums = normalise(weights, problem.points.size());
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(weights.size() + point_of.size());
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(size, columns);
@@ -176,20 +239,17 @@ Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext&
         else
             right.row(row) += w.value * values.row(w.to);
     }
-    Eigen::SparseMatrix<double> matrix(size, size);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-
     check_cancelled(context);
-    Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> solver;
-    solver.analyzePattern(matrix);
-    check_cancelled(context);
-    solver.factorize(matrix);
-    check_cancelled(context);
-    if (solver.info() != Eigen::Success)
-        throw BackendError("geometry.singular",
-                           "harmonic values cannot be solved for: " + solver.lastErrorMessage() +
-                               "; look for coordinates that are not numbers");
-    const Eigen::MatrixXd solution = solver.solve(right);
+    if (size >= kMany) {
+        Eigen::VectorXd row_sums(size);
+        for (Index row = 0; row < size; ++row) row_sums[row] = sums[index(point_of[index(row)])];
+        if (auto found = solve_by_multigrid(entries, right, row_sums, context)) {
+            if (problem.corner_turns.empty()) keep_in_range(problem.fixed_values, *found);
+            for (Index row = 0; row < size; ++row) values.row(point_of[index(row)]) = found->row(row);
+            return values;
+        }
+    }
+    const Eigen::MatrixXd solution = solve_directly(entries, right, context);
     for (Index row = 0; row < size; ++row) values.row(point_of[index(row)]) = solution.row(row);
     return values;
 }

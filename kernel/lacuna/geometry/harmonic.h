@@ -36,8 +36,9 @@ struct HarmonicProblem {
 /// @throw  InvalidInput "geometry.harmonic_input"  sizes that do not fit, an index that is out of range.
 /// @throw  BackendError "geometry.singular"  points that are joined to no fixed point; names one of them.
 /// @throw  Cancelled  between the steps; not within the factorisation.
-/// @note   Triangles of no area do no harm: weights are kept within what rounding can bear. One sparse
-///         factorisation and k solves, O(points^1.5) or so; deterministic.
+/// @note   Triangles of no area do no harm: weights are kept within what rounding can bear. Up to 20,000 free
+///         points one sparse factorisation and k solves; beyond that multigrid, linear in the points, and the
+///         factorisation where that does not settle. Deterministic.
 Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext& context = {});
 
 } // namespace lacuna::geometry

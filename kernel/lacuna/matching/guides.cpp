@@ -4,7 +4,6 @@
 #include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
-#include <lacuna/matching/side_lines.h>
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +57,34 @@ std::vector<Vec3> ways_up(const OpenVolume& volume, const std::vector<double>& h
     return sum;
 }
 
+/// The facets that each level passes through, in their order; nothing where some facet has no height. Near
+/// linear in the facets and in what is found.
+std::optional<std::vector<std::vector<Triangle>>> facets_at_levels(const OpenVolume& volume,
+                                                                   const std::vector<FaceId>& part,
+                                                                   const std::vector<double>& heights,
+                                                                   const std::vector<double>& levels)
+{
+    std::vector<std::vector<Triangle>> found(levels.size());
+    for (const FaceId face : part) {
+        for (const Triangle& t : volume.model[face].triangles) {
+            double least = heights[index(t[0])], most = least;
+            for (const Index p : t) {
+                const double height = heights[index(p)];
+                if (std::isnan(height)) return std::nullopt;
+                least = std::min(least, height);
+                most = std::max(most, height);
+            }
+            // A corner at a level is above it: those above the lowest corner and not above the highest.
+            for (auto level = std::upper_bound(levels.begin(), levels.end(), least);
+                 level != levels.end() && *level <= most; ++level)
+                found[static_cast<std::size_t>(level - levels.begin())].push_back(t);
+        }
+    }
+    return found;
+}
+
 /// The only level line at height t; nothing where there are several or none.
+/// @param triangles  those that the level passes through
 std::optional<LevelLine> level_line(const Model& model, const std::vector<Triangle>& triangles,
                                     const std::vector<double>& heights, double t, const std::vector<Vec3>& up,
                                     const std::map<FacetSide, std::size_t>& on_line)
@@ -76,7 +102,6 @@ std::optional<LevelLine> level_line(const Model& model, const std::vector<Triang
         FacetSide from{-1, -1}, to{-1, -1};
         for (std::size_t i = 0; i < 3; ++i) {
             const Index a = triangle[i], b = triangle[(i + 1) % 3];
-            if (std::isnan(heights[static_cast<std::size_t>(a)])) return std::nullopt;
             if (above(a) && !above(b)) from = side(a, b);
             if (!above(a) && above(b)) to = side(a, b);
         }
@@ -249,16 +274,16 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
                          const std::map<FacetSide, std::size_t>& on_line, int count,
                          const RunContext& context)
 {
-    std::vector<Triangle> triangles;
-    for (const FaceId face : part) {
-        const std::vector<Triangle>& more = volume.model[face].triangles;
-        triangles.insert(triangles.end(), more.begin(), more.end());
-    }
+    std::vector<double> levels;
+    for (int k = 0; k <= count; ++k)
+        levels.push_back(std::clamp(static_cast<double>(k) / count, kRim, 1 - kRim));
+    const auto facets = facets_at_levels(volume, part, heights, levels);
+    if (!facets) return {};
     std::vector<LevelLine> lines;
-    for (int k = 0; k <= count; ++k) {
+    for (std::size_t k = 0; k < levels.size(); ++k) {
         check_cancelled(context);
-        const double t = std::clamp(static_cast<double>(k) / count, kRim, 1 - kRim);
-        std::optional<LevelLine> line = level_line(volume.model, triangles, heights, t, up, on_line);
+        std::optional<LevelLine> line = level_line(volume.model, (*facets)[k], heights, levels[k], up,
+                                                   on_line);
         if (!line) return {};
         start_at_first_anchor(*line);
         if (k > 0 &&
@@ -280,11 +305,11 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
 
 } // namespace
 
-Sections cut_sections(const OpenVolume& volume, int count, const RunContext& context)
+Sections cut_sections(const OpenVolume& volume, const std::vector<SideLine>& lines, int count,
+                      const RunContext& context)
 {
     const Model& model = volume.model;
     Sections result;
-    const std::vector<SideLine> lines = side_lines(volume, context);
     result.heights = wall_heights(volume, lines, context);
     const std::vector<Vec3> up = ways_up(volume, result.heights);
     result.levels.resize(static_cast<std::size_t>(count) + 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/matching/side_lines.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <vector>
@@ -24,6 +25,8 @@ struct Sections {
 /// leaves open how it is turned. Open lines of walls that go only part of the way are cut to the side lines
 /// they share. Wall parts that a level cuts in several lines (holes), or that do not join
 /// both rims, are left out.
-Sections cut_sections(const topology::OpenVolume& volume, int count, const RunContext& context = {});
+/// @param lines  side_lines() of the volume
+Sections cut_sections(const topology::OpenVolume& volume, const std::vector<SideLine>& lines, int count,
+                      const RunContext& context = {});
 
 } // namespace lacuna::matching

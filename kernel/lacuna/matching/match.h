@@ -2,8 +2,10 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/matching/side_lines.h>
 #include <lacuna/topology/open_volume.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +20,7 @@ struct MatchOptions {
     std::vector<std::pair<int, int>> vertices; ///< (source, target) vertex tags
     std::vector<std::pair<int, int>> loops;    ///< (source, target) loop numbers
     std::vector<int> flip;                     ///< source loops whose direction on the target is turned round
+    friend bool operator==(const MatchOptions&, const MatchOptions&) = default;
 };
 
 /// A source loop and the target loop it is swept to.
@@ -45,6 +48,8 @@ struct Match {
     std::string method;
     double confidence = 1; ///< 0…1: 1 − best / second best residual; 1 where nothing had to be guessed
     std::vector<std::string> notes;
+    /// side_lines() of the volume as it was matched; nothing where the match was not found by match().
+    std::optional<std::vector<SideLine>> side_lines;
 };
 
 /// Match the rims of source and target.

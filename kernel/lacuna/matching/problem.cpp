@@ -36,11 +36,11 @@ void force(Problem& problem, int s, int t, const std::string& because)
 }
 
 /// Walls settle loops and vertices before anything is guessed.
-void read_walls(Problem& problem)
+void read_walls(Problem& problem, const std::vector<SideLine>& lines)
 {
     const OpenVolume& volume = problem.volume;
     const Model& model = volume.model;
-    for (const SideLine& line : side_lines(volume, problem.context)) {
+    for (const SideLine& line : lines) {
         problem.hard[line.source] = problem.walls[line.source] = line.target;
         force(problem, loop_with(problem.source, line.source), loop_with(problem.target, line.target),
               "by its walls");
@@ -140,7 +140,7 @@ bool Problem::has_hard(std::size_t s) const
     return std::any_of(vertices.begin(), vertices.end(), [&](VertexId v) { return hard.contains(v); });
 }
 
-Problem problem_of(const OpenVolume& volume, const MatchOptions& options, const Match& match,
+Problem problem_of(const OpenVolume& volume, const MatchOptions& options, Match& match,
                    const RunContext& context)
 {
     Problem problem{volume, options, context, {}, {}, {}, {}, {}, {}, {}, {}};
@@ -148,7 +148,8 @@ Problem problem_of(const OpenVolume& volume, const MatchOptions& options, const 
     for (const Rim& rim : match.source_loops) problem.source.push_back(shape_of(volume.model, rim));
     for (const Rim& rim : match.target_loops) problem.target.push_back(shape_of(volume.model, rim));
     problem.forced.assign(problem.source.size(), -1);
-    read_walls(problem);
+    match.side_lines = side_lines(volume, context);
+    read_walls(problem, *match.side_lines);
     read_options(problem);
     return problem;
 }

@@ -131,6 +131,22 @@ std::map<Index, double> heights_along(const Model& model, const std::vector<Side
     return heights;
 }
 
+/// The points that triangles use, rising, each numbered in `local`.
+std::vector<Index> points_of(const std::vector<Triangle>& triangles, std::vector<Index>& local)
+{
+    std::vector<Index> used;
+    for (const Triangle& t : triangles) {
+        for (const Index p : t) {
+            if (local[index(p)] >= 0) continue;
+            local[index(p)] = 0;
+            used.push_back(p);
+        }
+    }
+    std::sort(used.begin(), used.end());
+    for (std::size_t i = 0; i < used.size(); ++i) local[index(used[i])] = static_cast<Index>(i);
+    return used;
+}
+
 } // namespace
 
 std::vector<double> wall_heights(const OpenVolume& volume, const std::vector<SideLine>& lines,
@@ -141,37 +157,47 @@ std::vector<double> wall_heights(const OpenVolume& volume, const std::vector<Sid
     const std::vector<Index> low = rim_points(model, volume.faces(Role::source));
     const std::vector<Index> high = rim_points(model, volume.faces(Role::target));
     const std::map<Index, double> on_lines = heights_along(model, lines);
+    std::vector<Index> local(model.points.size(), -1); // of each point, its number in the part at hand
     for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
         std::vector<Triangle> triangles;
-        std::set<Index> used;
-        for (const FaceId face : part) {
+        for (const FaceId face : part)
             triangles.insert(triangles.end(), model[face].triangles.begin(), model[face].triangles.end());
-            for (const Triangle& t : model[face].triangles) used.insert(t.begin(), t.end());
-        }
+        const std::vector<Index> used = points_of(triangles, local);
+        const auto cleared = [&] {
+            for (const Index p : used) local[index(p)] = -1;
+        };
         geometry::HarmonicProblem problem;
         std::vector<double> values;
-        const auto fix = [&](const std::vector<Index>& points, double value) {
-            std::size_t count = 0;
-            for (const Index p : points) {
-                if (!used.contains(p)) continue;
-                problem.fixed.push_back(p);
-                values.push_back(value);
-                ++count;
-            }
-            return count > 0;
+        const auto fix = [&](Index p, double value) {
+            if (local[index(p)] < 0) return false;
+            problem.fixed.push_back(local[index(p)]);
+            values.push_back(value);
+            return true;
         };
-        const bool joins_source = fix(low, 0);
-        const bool joins_target = fix(high, 1);
-        if (!joins_source || !joins_target) continue;
-        for (const auto& [p, height] : on_lines) {
-            if (used.contains(p)) fix({p}, height);
+        const auto fix_all = [&](const std::vector<Index>& points, double value) {
+            bool any = false;
+            for (const Index p : points) any = fix(p, value) || any;
+            return any;
+        };
+        const bool joins_source = fix_all(low, 0);
+        const bool joins_target = fix_all(high, 1);
+        if (!joins_source || !joins_target) {
+            cleared();
+            continue;
         }
-        problem.points = model.points;
+        for (const auto& [p, height] : on_lines) fix(p, height);
+        std::vector<Vec3> points;
+        points.reserve(used.size());
+        for (const Index p : used) points.push_back(model.at(p));
+        for (Triangle& t : triangles)
+            for (Index& p : t) p = local[index(p)];
+        problem.points = points;
         problem.triangles = triangles;
         problem.fixed_values = Eigen::Map<const Eigen::MatrixXd>(values.data(),
                                                                  static_cast<Eigen::Index>(values.size()), 1);
         const Eigen::MatrixXd solution = geometry::solve_harmonic(problem, context);
-        for (const Index p : used) heights[static_cast<std::size_t>(p)] = solution(p, 0);
+        for (const Index p : used) heights[index(p)] = solution(local[index(p)], 0);
+        cleared();
     }
     return heights;
 }
@@ -230,26 +256,31 @@ std::vector<SideLine> side_lines(const OpenVolume& volume, const RunContext& con
         return vertices;
     };
     const std::set<VertexId> targets = rim_vertices(Role::target);
-    std::set<VertexId> waiting = rim_vertices(Role::source);
-
-    std::vector<SideLine> lines;
+    std::vector<Path> waiting; // the cheapest rise of each vertex of the source, by vertex
     std::set<VertexId> taken;
+    for (const VertexId start : rim_vertices(Role::source)) {
+        check_cancelled(context);
+        if (auto path = climb_from(start, graph, targets, taken, model)) waiting.push_back(std::move(*path));
+    }
+    std::vector<SideLine> lines;
     while (!waiting.empty()) {
-        std::optional<Path> best;
-        for (auto it = waiting.begin(); it != waiting.end();) {
-            check_cancelled(context);
-            std::optional<Path> path = climb_from(*it, graph, targets, taken, model);
-            if (!path) {
-                it = waiting.erase(it);
-                continue;
-            }
-            if (!best || path->cost < best->cost) best = std::move(path);
-            ++it;
-        }
-        if (!best) break;
-        waiting.erase(best->line.source);
-        for (const EdgeUse& use : best->line.uses) taken.insert(use_to(model, use));
+        check_cancelled(context);
+        const auto best = std::min_element(waiting.begin(), waiting.end(),
+                                           [](const Path& a, const Path& b) { return a.cost < b.cost; });
+        std::set<VertexId> gone; // what this line takes from others
+        for (const EdgeUse& use : best->line.uses) gone.insert(use_to(model, use));
+        taken.insert(gone.begin(), gone.end());
         lines.push_back(std::move(best->line));
+        waiting.erase(best);
+        // A rise that does not lose a vertex stays the cheapest.
+        std::erase_if(waiting, [&](Path& path) {
+            const bool loses = std::any_of(path.line.uses.begin(), path.line.uses.end(),
+                                           [&](EdgeUse use) { return gone.contains(use_to(model, use)); });
+            if (!loses) return false;
+            auto other = climb_from(path.line.source, graph, targets, taken, model);
+            if (other) path = std::move(*other);
+            return !other.has_value();
+        });
     }
     std::sort(lines.begin(), lines.end(),
               [](const SideLine& a, const SideLine& b) { return a.source < b.source; });

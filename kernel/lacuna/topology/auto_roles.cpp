@@ -7,6 +7,7 @@
 
 #include <lacuna/core/marks.h>
 #include <lacuna/geometry/union_find.h>
+#include <lacuna/topology/detail/directed_sides.h>
 #include <lacuna/topology/detail/patches.h>
 
 #include <algorithm>
@@ -321,9 +322,10 @@ private:
         double cost = 0;
         const auto parts = connected_parts(model_, all_faces());
         if (parts.empty()) return std::nullopt;
+        DirectedSides sides(model_.points.size());
         for (const std::vector<FaceId>& part : parts) {
             const std::vector<Rim> open = rims(model_, part);
-            if (open.size() != 2 || euler_number(model_, part) != 0) return std::nullopt;
+            if (open.size() != 2 || euler_number(model_, part, sides) != 0) return std::nullopt;
             const auto cap = cap_cost(open[0], open[1]);
             if (!cap) return std::nullopt;
             cost += *cap;

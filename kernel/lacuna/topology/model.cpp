@@ -3,6 +3,7 @@
 
 #include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
+#include <lacuna/topology/detail/directed_sides.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <algorithm>
@@ -35,35 +36,53 @@ SegmentMap segments_of_edges(const Model& model)
     return map;
 }
 
-/// The triangles of one face as half-edges 3·t + i, from corner i to corner i + 1.
-class FaceHalves {
+/// The segments of a model's edges, found by their ends.
+class EdgeSegments {
 public:
-    FaceHalves(const Model& model, const Face& face, const SegmentMap& segments)
-        : model_(model), face_(face), segments_(segments)
+    explicit EdgeSegments(const Model& model)
+        : at_(segments_of_edges(model)), on_edge_(model.points.size(), false)
     {
-        for (std::size_t t = 0; t < face.triangles.size(); ++t) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                const auto [found, fresh] = half_.try_emplace(directed_key(from(3 * t + i), to(3 * t + i)),
-                                                              3 * t + i);
-                if (!fresh) {
-                    throw InvalidInput("topology.not_manifold",
-                                       "the facets of " + name() +
-                                           " overlap or are not consistently oriented at the point " +
-                                           place(from(3 * t + i)) + "; mend the face or mesh it anew");
-                }
-            }
-        }
+        for (const Edge& edge : model.edges)
+            for (const Index p : edge.points) on_edge_[index(p)] = true;
     }
 
-    [[nodiscard]] std::size_t size() const { return 3 * face_.triangles.size(); }
-    [[nodiscard]] Index from(std::size_t half) const { return face_.triangles[half / 3][half % 3]; }
-    [[nodiscard]] Index to(std::size_t half) const { return face_.triangles[half / 3][(half + 1) % 3]; }
+    /// Null where none runs from one point to the other.
+    [[nodiscard]] const SegmentOnEdge* find(Index from, Index to) const
+    {
+        if (!on_edge_[index(from)] || !on_edge_[index(to)]) return nullptr; // so are most sides of facets
+        const auto found = at_.find(directed_key(from, to));
+        return found != at_.end() ? &found->second : nullptr;
+    }
+
+private:
+    SegmentMap at_;
+    std::vector<bool> on_edge_; ///< of each point of the model
+};
+
+/// The sides of one face's triangles, and which of them are its border.
+class FaceHalves {
+public:
+    /// @param sides  taken for this face's.
+    FaceHalves(const Model& model, const Face& face, const EdgeSegments& segments, DirectedSides& sides)
+        : model_(model), face_(face), segments_(segments), sides_(sides)
+    {
+        sides_.read(face.triangles);
+        const Index twice = sides_.first_repeated();
+        if (twice < 0) return;
+        throw InvalidInput("topology.not_manifold",
+                           "the facets of " + name() +
+                               " overlap or are not consistently oriented at the point " +
+                               place(from(index(twice))) + "; mend the face or mesh it anew");
+    }
+
+    [[nodiscard]] std::size_t size() const { return sides_.size(); }
+    [[nodiscard]] Index from(std::size_t half) const { return sides_.from(half); }
+    [[nodiscard]] Index to(std::size_t half) const { return sides_.to(half); }
 
     /// A half that belongs to the face's border: nothing beyond it, or a seam to cut along.
     [[nodiscard]] bool on_border(std::size_t half) const
     {
-        return segments_.contains(directed_key(from(half), to(half))) ||
-               !half_.contains(directed_key(to(half), from(half)));
+        return segments_.find(from(half), to(half)) != nullptr || sides_.across(half) < 0;
     }
 
     /// The border half that follows, found by turning through the fan of facets round the half's end.
@@ -71,7 +90,7 @@ public:
     {
         std::size_t next = half - half % 3 + (half + 1) % 3;
         for (std::size_t turns = 0; !on_border(next); ++turns) {
-            const std::size_t across = half_.at(directed_key(to(next), from(next)));
+            const std::size_t across = index(sides_.across(next));
             next = across - across % 3 + (across + 1) % 3;
             if (turns > size()) {
                 throw InvalidInput("topology.not_manifold",
@@ -84,13 +103,13 @@ public:
 
     [[nodiscard]] const SegmentOnEdge& on_edge(std::size_t half) const
     {
-        const auto found = segments_.find(directed_key(from(half), to(half)));
-        if (found == segments_.end()) {
+        const SegmentOnEdge* found = segments_.find(from(half), to(half));
+        if (found == nullptr) {
             throw InvalidInput("topology.loose_border",
                                "the border of " + name() + " leaves its edges at the point " +
                                    place(from(half)) + "; each boundary side must lie on an edge");
         }
-        return found->second;
+        return *found;
     }
 
     /// True when the half starts at an end of its edge.
@@ -115,8 +134,8 @@ private:
 
     const Model& model_;
     const Face& face_;
-    const SegmentMap& segments_;
-    std::unordered_map<std::uint64_t, std::size_t> half_;
+    const EdgeSegments& segments_;
+    DirectedSides& sides_;
 };
 
 double loop_length(const Model& model, const Loop& loop)
@@ -126,9 +145,10 @@ double loop_length(const Model& model, const Loop& loop)
     return sum;
 }
 
-std::vector<Loop> loops_of(const Model& model, const Face& face, const SegmentMap& segments)
+std::vector<Loop> loops_of(const Model& model, const Face& face, const EdgeSegments& segments,
+                           DirectedSides& sides)
 {
-    const FaceHalves halves(model, face, segments);
+    const FaceHalves halves(model, face, segments, sides);
     std::vector<bool> seen(halves.size(), false);
     std::vector<Loop> loops;
     for (std::size_t start = 0; start < halves.size(); ++start) {
@@ -285,8 +305,9 @@ FaceId add_void_face(Model& model, Geometry geometry)
 
 void build_loops(Model& model)
 {
-    const SegmentMap segments = segments_of_edges(model);
-    for (Face& face : model.faces) face.loops = loops_of(model, face, segments);
+    const EdgeSegments segments(model);
+    DirectedSides sides(model.points.size());
+    for (Face& face : model.faces) face.loops = loops_of(model, face, segments, sides);
 }
 
 std::vector<std::vector<FaceUse>> edge_uses(const Model& model)

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/edge_key.h>
 #include <lacuna/geometry/union_find.h>
+#include <lacuna/topology/detail/directed_sides.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,9 @@ class FacetsAtEdges {
 public:
     FacetsAtEdges(const Model& model, const RunContext& context) : model_(model)
     {
+        std::vector<bool> on_edge(model.points.size(), false);
         for (const Edge& edge : model.edges) {
+            for (const Index p : edge.points) on_edge[index(p)] = true;
             for (std::size_t i = 0; i + 1 < edge.points.size(); ++i)
                 beside_[edge_key(edge.points[i], edge.points[i + 1])];
         }
@@ -27,6 +30,7 @@ public:
             check_cancelled(context);
             for (const Triangle& t : model.faces[f].triangles) {
                 for (std::size_t i = 0; i < 3; ++i) {
+                    if (!on_edge[index(t[i])] || !on_edge[index(t[(i + 1) % 3])]) continue;
                     const auto found = beside_.find(edge_key(t[i], t[(i + 1) % 3]));
                     if (found != beside_.end()) add(found->second, FaceId(f), t);
                 }
@@ -89,7 +93,7 @@ void sort_once(std::vector<Id>& ids)
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
-void measure(const Model& model, SmoothPatch& patch)
+void measure(const Model& model, SmoothPatch& patch, DirectedSides& sides)
 {
     Vec3 sum = Vec3::Zero();
     for (const FaceId face : patch.faces) {
@@ -111,7 +115,7 @@ void measure(const Model& model, SmoothPatch& patch)
     sort_once(patch.edges);
     sort_once(patch.vertices);
     // An edge between its vertices has one side more than it has points.
-    patch.inner_euler = euler_number(model, patch.faces) - static_cast<long>(patch.vertices.size()) +
+    patch.inner_euler = euler_number(model, patch.faces, sides) - static_cast<long>(patch.vertices.size()) +
                         static_cast<long>(patch.edges.size());
 }
 
@@ -123,7 +127,8 @@ long quarter_turns(double angle)
 }
 
 /// Sums over a patch's facets: how their normals are spread, and the turns of its rims.
-void measure_facets(const Model& model, SmoothPatch& patch)
+/// @param is_vertex  of each point of the model, whether a vertex is there
+void measure_facets(const Model& model, const std::vector<bool>& is_vertex, SmoothPatch& patch)
 {
     std::unordered_map<Index, double> inside; // of the rims' vertices, by their points
     for (const Rim& rim : patch.rims)
@@ -134,6 +139,7 @@ void measure_facets(const Model& model, SmoothPatch& patch)
             const double length = twice.norm();
             if (length > 0) patch.spread += twice * twice.transpose() / (2 * length);
             for (std::size_t i = 0; i < 3; ++i) {
+                if (!is_vertex[index(t[i])]) continue;
                 const auto found = inside.find(t[i]);
                 if (found == inside.end()) continue;
                 const Vec3 a = model.at(t[(i + 1) % 3]) - model.at(t[i]);
@@ -179,10 +185,13 @@ std::vector<SmoothPatch> smooth_patches(const Model& model, const std::vector<st
     std::map<std::size_t, SmoothPatch> by_root;
     for (std::size_t f = 0; f < model.faces.size(); ++f) by_root[smooth.find(f)].faces.emplace_back(f);
     std::vector<SmoothPatch> patches;
+    DirectedSides sides(model.points.size());
+    std::vector<bool> is_vertex(model.points.size(), false);
+    for (const Vertex& vertex : model.vertices) is_vertex[index(vertex.point)] = true;
     for (auto& [root, patch] : by_root) {
         check_cancelled(context);
-        measure(model, patch);
-        measure_facets(model, patch);
+        measure(model, patch, sides);
+        measure_facets(model, is_vertex, patch);
         double sum = 0, length = 0;
         for (const Rim& rim : patch.rims) {
             for (const EdgeUse& use : rim.uses) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/open_volume.h>
 
-#include <lacuna/core/edge_key.h>
+#include <lacuna/topology/detail/directed_sides.h>
 
 #include <algorithm>
 #include <map>
@@ -80,22 +80,8 @@ std::vector<Loop> border_loops(const Model& model, FaceId face)
 
 long euler_number(const Model& model, const std::vector<FaceId>& faces)
 {
-    std::vector<Index> points;
-    std::vector<std::uint64_t> sides;
-    for (const FaceId face : faces) {
-        for (const Triangle& t : model[face].triangles) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                points.push_back(t[i]);
-                sides.push_back(edge_key(t[i], t[(i + 1) % 3]));
-            }
-        }
-    }
-    const auto triangles = static_cast<long>(sides.size() / 3);
-    const auto distinct = [](auto& list) {
-        std::sort(list.begin(), list.end());
-        return static_cast<long>(std::unique(list.begin(), list.end()) - list.begin());
-    };
-    return distinct(points) - distinct(sides) + triangles;
+    DirectedSides sides(model.points.size());
+    return euler_number(model, faces, sides);
 }
 
 std::vector<EdgeId> free_edges(const OpenVolume& volume)

@@ -32,9 +32,9 @@ struct Problem {
     [[nodiscard]] bool has_hard(std::size_t s) const;
 };
 
-/// @param match  its loops are set.
+/// @param match  its loops are set; gets its side lines.
 /// @throw InvalidInput, NotClosed  a recipe, or walls, that contradict each other; names tags and loops.
-Problem problem_of(const topology::OpenVolume& volume, const MatchOptions& options, const Match& match,
+Problem problem_of(const topology::OpenVolume& volume, const MatchOptions& options, Match& match,
                    const RunContext& context);
 
 } // namespace lacuna::matching

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/geometry/detail/multigrid.h>
+
+#include <lacuna/core/types.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lacuna::geometry {
+
+namespace {
+
+using Matrix = Multigrid::Matrix;
+using Vector = Eigen::VectorXd;
+
+/// Neighbours weaker than this beside the diagonals are not aggregated over: Vaněk's 0.08.
+constexpr double kStrong = 0.08;
+/// The step of damped Jacobi that smooths the aggregates: 4/3 over the largest eigenvalue of D⁻¹A, which is
+/// 2 at most where the rows are diagonally dominant.
+constexpr double kSmoothing = 2.0 / 3.0;
+/// A level of so many rows is solved densely. A choice: a millisecond.
+constexpr Eigen::Index kCoarsest = 200;
+/// Aggregation that leaves more than this share of the rows does not help. A choice.
+constexpr double kLeastGain = 0.7;
+/// Residual at which the solution has settled, of the right side's. Measured on walls of 10,000 to 700,000
+/// facets: values in [0, 1] are then off by less than 1e-9.
+constexpr double kSettled = 1e-11;
+/// More steps than this are not taken; five to eight are usual. A choice.
+constexpr int kMostSteps = 60;
+
+/// Rows of one level that become a row of the next: the number of each row's aggregate, -1 for rows that no
+/// strong neighbour has, which a sweep solves by itself.
+std::vector<Index> aggregates(const Matrix& matrix, Index& count)
+{
+    const Eigen::Index rows = matrix.rows();
+    const Vector diagonal = matrix.diagonal();
+    const auto each_strong = [&](Eigen::Index row, const auto& visit) {
+        for (Matrix::InnerIterator entry(matrix, row); entry; ++entry) {
+            if (entry.col() == row) continue;
+            const double least = kStrong * std::sqrt(diagonal[row] * diagonal[entry.col()]);
+            if (std::abs(entry.value()) > least) visit(static_cast<Index>(entry.col()), entry.value());
+        }
+    };
+    std::vector<Index> of(index(static_cast<Index>(rows)), -1);
+    count = 0;
+    for (Eigen::Index row = 0; row < rows; ++row) { // whole neighbourhoods
+        bool bare = true, any = false;
+        if (of[std::size_t(row)] >= 0) continue;
+        each_strong(row, [&](Index other, double) {
+            any = true;
+            bare = bare && of[index(other)] < 0;
+        });
+        if (!bare || !any) continue;
+        of[std::size_t(row)] = count;
+        each_strong(row, [&](Index other, double) { of[index(other)] = count; });
+        ++count;
+    }
+    std::vector<Index> joined = of; // what is left beside one
+    for (Eigen::Index row = 0; row < rows; ++row) {
+        if (of[std::size_t(row)] >= 0) continue;
+        double strongest = 0;
+        each_strong(row, [&](Index other, double value) {
+            if (of[index(other)] < 0 || std::abs(value) <= strongest) return;
+            strongest = std::abs(value);
+            joined[std::size_t(row)] = of[index(other)];
+        });
+    }
+    of = std::move(joined);
+    for (Eigen::Index row = 0; row < rows; ++row) { // and by itself
+        if (of[std::size_t(row)] >= 0) continue;
+        bool any = false;
+        each_strong(row, [&](Index other, double) {
+            if (of[index(other)] < 0) of[index(other)] = count;
+            any = true;
+        });
+        if (any) of[std::size_t(row)] = count++;
+    }
+    return of;
+}
+
+/// The smoothed aggregates, a column each. Weak entries count to the diagonal.
+Matrix prolongation(const Matrix& matrix, const std::vector<Index>& of, Index count)
+{
+    const Vector diagonal = matrix.diagonal();
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(of.size() * 3);
+    std::vector<std::pair<Index, double>> row_entries;
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+        row_entries.clear();
+        double centre = diagonal[row];
+        const auto add = [&](Index column, double value) {
+            if (column < 0) return;
+            for (auto& [known, sum] : row_entries) {
+                if (known != column) continue;
+                sum += value;
+                return;
+            }
+            row_entries.emplace_back(column, value);
+        };
+        for (Matrix::InnerIterator entry(matrix, row); entry; ++entry) {
+            if (entry.col() == row) continue;
+            const double least = kStrong * std::sqrt(diagonal[row] * diagonal[entry.col()]);
+            if (std::abs(entry.value()) > least)
+                add(of[std::size_t(entry.col())], entry.value());
+            else
+                centre += entry.value();
+        }
+        if (!(centre > 0)) centre = diagonal[row];
+        for (auto& [column, value] : row_entries) value *= -kSmoothing / centre;
+        add(of[std::size_t(row)], 1 - kSmoothing);
+        for (const auto& [column, value] : row_entries) entries.emplace_back(row, column, value);
+    }
+    Matrix up(matrix.rows(), count);
+    up.setFromTriplets(entries.begin(), entries.end());
+    return up;
+}
+
+/// One sweep over the rows from the first to the last, or back.
+template <bool Forward>
+void sweep_rows(const Matrix& matrix, const Vector& right, Vector& x)
+{
+    const Eigen::Index rows = matrix.rows();
+    const auto* start = matrix.outerIndexPtr();
+    const auto* column = matrix.innerIndexPtr();
+    const double* value = matrix.valuePtr();
+    for (Eigen::Index i = 0; i < rows; ++i) {
+        const Eigen::Index row = Forward ? i : rows - 1 - i;
+        double sum = right[row], centre = 1;
+        for (auto k = start[row]; k < start[row + 1]; ++k) {
+            if (column[k] == row)
+                centre = value[k];
+            else
+                sum -= value[k] * x[column[k]];
+        }
+        x[row] = sum / centre;
+    }
+}
+
+} // namespace
+
+Multigrid::Multigrid(Matrix matrix, const RunContext& context)
+{
+    levels_.push_back({std::move(matrix), {}, {}});
+    while (levels_.back().matrix.rows() > kCoarsest) {
+        check_cancelled(context);
+        Level& fine = levels_.back();
+        Index count = 0;
+        const std::vector<Index> of = aggregates(fine.matrix, count);
+        if (count == 0 || count > kLeastGain * static_cast<double>(of.size())) {
+            good_ = false;
+            return;
+        }
+        fine.up = prolongation(fine.matrix, of, count);
+        check_cancelled(context);
+        fine.down = fine.up.transpose();
+        Matrix coarse = fine.down * Matrix(fine.matrix * fine.up);
+        coarse.makeCompressed();
+        levels_.push_back({std::move(coarse), {}, {}});
+    }
+    coarsest_.compute(Eigen::MatrixXd(levels_.back().matrix));
+}
+
+void Multigrid::cycle(std::size_t level, const Vector& right, Vector& x) const
+{
+    const Level& here = levels_[level];
+    if (level + 1 == levels_.size()) {
+        x = coarsest_.solve(right);
+        return;
+    }
+    x.setZero(right.size());
+    sweep_rows<true>(here.matrix, right, x);
+    const Vector residual = right - here.matrix * x;
+    const Vector below = here.down * residual;
+    Vector step;
+    cycle(level + 1, below, step);
+    x += here.up * step;
+    sweep_rows<false>(here.matrix, right, x);
+}
+
+bool Multigrid::solve(const Vector& right, Vector& x, const RunContext& context) const
+{
+    x.setZero(right.size());
+    const double wanted = kSettled * right.norm();
+    if (!good_) return false;
+    if (wanted == 0) return right.allFinite();
+    const Matrix& matrix = levels_.front().matrix;
+    Vector residual = right, direction = right, other, near_direction, near_residual, change;
+    const Vector shadow = right;
+    double product = shadow.dot(residual);
+    for (int step = 0; step < kMostSteps; ++step) {
+        check_cancelled(context);
+        cycle(0, direction, near_direction);
+        change = matrix * near_direction;
+        const double along = product / shadow.dot(change);
+        residual -= along * change;
+        x += along * near_direction;
+        if (residual.norm() <= wanted) break;
+        cycle(0, residual, near_residual);
+        other = matrix * near_residual;
+        const double damped = other.dot(residual) / other.squaredNorm();
+        x += damped * near_residual;
+        residual -= damped * other;
+        const double size = residual.norm();
+        if (size <= wanted) break;
+        const double before = product;
+        product = shadow.dot(residual);
+        direction = residual + product / before * along / damped * (direction - damped * change);
+        if (!std::isfinite(size) || product == 0) return false;
+    }
+    // Sums drift: what counts is how well the values fit.
+    return (right - matrix * x).norm() <= 10 * wanted;
+}
+
+} // namespace lacuna::geometry
