@@ -72,8 +72,8 @@ for _, length in ipairs { 1e300, 1e-300 } do
   check.equal(#volume:cut { plane = { { 0, 0, 0.7 }, { 0, 0, length } } }, 2)
 end
 
--- A family: planes of any direction through prisms. Pieces fill the whole, nearly all are swept by themselves,
--- and most as one mesh; what is not is refused by name.
+-- A family: planes of any direction through prisms. Pieces fill the whole, nearly all are swept by
+-- themselves, and most as one mesh; what is not is refused by name.
 local state = 4711
 local function random(low, high)
   state = (state * 48271) % 2147483647
@@ -87,7 +87,8 @@ local function code_of(failed)
 end
 for _ = 1, params.members do
   local height = random(1, 4)
-  local oblique = open(lacuna.synthetic.prism { sides = math.floor(random(3, 8.999)), radius = 1, height = height })
+  local sides = math.floor(random(3, 8.999))
+  local oblique = open(lacuna.synthetic.prism { sides = sides, radius = 1, height = height })
   local pieces = oblique:cut { plane = { { random(-0.5, 0.5), random(-0.5, 0.5), random(0.1, height - 0.1) },
     { random(-1, 1), random(-1, 1), random(-1, 1) } } }
   oblique:close()

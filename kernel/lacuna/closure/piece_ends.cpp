@@ -30,8 +30,8 @@ constexpr double kOneEnd = -0.35;
 constexpr double kFlat = 0.1;
 /// What an end named by the user is worth beside ends that are flat and square to their walls. A choice.
 constexpr double kNamed = 0.1;
-/// What it costs that a cut is a wall of both pieces beside it that have other sides of it at their ends: more
-/// than any ends do. A choice.
+/// What it costs that a cut is a wall of both pieces beside it which have other sides of it at their ends:
+/// more than any ends do. A choice.
 constexpr double kUnlikeCut = 10;
 
 using FaceSet = std::uint64_t;

@@ -18,7 +18,7 @@ namespace lacuna::closure {
 /// one or more faces that hang together and whose normals differ by less than 110°; two are ends of a piece
 /// where each wall runs from one to the other between two neighbours. Of these the pair is taken whose ends
 /// are the flattest, the most square to their walls and the most alike; ends that were named count for more,
-/// and a cut that is a wall of both pieces beside it has the same sides at the ends of both where that can be.
+/// and a cut that is a wall of both pieces beside it has the same sides at the ends of both where it can.
 /// @return  how many pieces have other ends than before. Those without such ends, or with faces missing, are
 ///          left as they are.
 /// @throw Cancelled
