@@ -5,6 +5,7 @@
 
 #include <lacuna/closure/branches.h>
 #include <lacuna/closure/cut.h>
+#include <lacuna/closure/piece_ends.h>
 
 namespace lacuna::lua {
 
@@ -206,6 +207,7 @@ int cut(lua_State* L)
             cut = closure::cut_by_face(state.volume, arguments.of->model, arguments.face, context);
         else
             cut = closure::cut_into_pieces(state.volume, context);
+        if (arguments.plane || arguments.of) closure::read_ends(cut, context);
         for (closure::StepPiece& piece : cut) {
             pieces.push_back(std::make_shared<VolumeState>());
             VolumeState& own = *pieces.back();

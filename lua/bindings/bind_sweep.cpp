@@ -6,6 +6,7 @@
 
 #include <lacuna/cad/load.h>
 #include <lacuna/closure/branches.h>
+#include <lacuna/closure/piece_ends.h>
 #include <lacuna/io/deck_middles.h>
 
 #include <algorithm>
@@ -562,7 +563,10 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<Box<VolumeSta
         VolumeState& state = *volumes[m];
         busy.push_back(std::make_unique<Busy>(state, "sweep"));
         const std::string region = state.name.empty() ? "volume_" + std::to_string(m + 1) : state.name;
-        const auto close = [&] { close_volume(state, {}, context); };
+        const auto close = [&] {
+            close_volume(state, {}, context);
+            closure::check_ends(state.volume, region);
+        };
         if (!do_or_leave_out(left_out, region, *options[m], close)) continue;
         materials.push_back(state.material);
         members.push_back({&state.volume, options[m]->options, region});
@@ -620,6 +624,7 @@ int sweep_volume(lua_State* L)
         const Busy busy(state, "sweep");
         StageClock clock(context);
         close_volume(state, {}, context);
+        closure::check_ends(state.volume, state.name.empty() ? "the volume" : state.name);
         box = std::make_shared<MeshState>();
         if (!state.decks.empty()) take_given_middles(state, arguments.options.second_order);
         box->swept = sweep::sweep(state.volume, arguments.options, context);

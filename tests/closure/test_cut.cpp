@@ -5,6 +5,8 @@
 
 #include <lacuna/closure/branches.h>
 #include <lacuna/closure/cut.h>
+#include <lacuna/closure/piece_ends.h>
+#include <lacuna/core/error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -136,6 +138,52 @@ TEST_CASE("a plane cuts any prism into pieces that fill it, through nodes and ed
     for (const auto& [code, count] : refused) MESSAGE(code << ": " << count);
     CHECK(refused["closure.cut_touches"] <= 4);
     CHECK(cut >= 340);
+}
+
+TEST_CASE("a piece cut aslant gets two ends apart, and its faces and volume stay as they are")
+{
+    test::Dice dice(20261123);
+    int read = 0, ended = 0, all = 0;
+    for (int member = 0; member < 120; ++member) {
+        CAPTURE(member);
+        PrismOptions options;
+        options.sides = dice.whole(3, 8);
+        options.height = dice.between(1, 4);
+        const OpenVolume whole = test::prism(options).open();
+        const Vec3 normal(dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1));
+        const Vec3 origin(dice.between(-0.5, 0.5), dice.between(-0.5, 0.5),
+                          dice.between(0.1, options.height - 0.1));
+        const geometry::Plane plane = geometry::plane_across(origin, normal.normalized());
+        std::vector<StepPiece> pieces = closure::cut_by_plane(whole, plane);
+        const std::vector<StepPiece> before = pieces;
+        read += static_cast<int>(closure::read_ends(pieces));
+        check_cut(whole, pieces, plane);
+        CHECK(closure::read_ends(pieces) == 0); // it is settled
+        for (std::size_t p = 0; p < pieces.size(); ++p) {
+            const OpenVolume& piece = pieces[p].volume;
+            ++all;
+            CHECK(piece.model.faces.size() == before[p].volume.model.faces.size());
+            const std::vector<FaceId> source = piece.faces(Role::source), target = piece.faces(Role::target);
+            if (source.empty() || target.empty()) {
+                CHECK(piece.role == before[p].volume.role);
+                CHECK_THROWS_AS(closure::check_ends(piece, "it"), NotSweepable);
+                continue;
+            }
+            ++ended;
+            CHECK_NOTHROW(closure::check_ends(piece, "it"));
+            CHECK(rims(piece.model, source).size() == 1);
+            CHECK(rims(piece.model, target).size() == 1);
+            std::set<VertexId> met;
+            for (const Rim& rim : rims(piece.model, source))
+                for (const EdgeUse& use : rim.uses) met.insert(use_from(piece.model, use));
+            for (const Rim& rim : rims(piece.model, target)) {
+                for (const EdgeUse& use : rim.uses) CHECK(!met.contains(use_from(piece.model, use)));
+            }
+        }
+    }
+    MESSAGE(ended << " of " << all << " pieces have two ends, " << read << " of them read anew");
+    CHECK(ended > 0.9 * all);
+    CHECK(read > 0);
 }
 
 TEST_CASE("no prism has branches, whatever it lacks")

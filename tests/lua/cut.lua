@@ -3,6 +3,7 @@
 local lacuna = require "lacuna"
 local folder = arg[0]:match "^(.*[/\\])" or ""
 local check = dofile(folder .. "check.lua")
+local params = lacuna.params { members = 60 }
 
 local function open(model)
   return model:open_volume { source = "source", target = "target", walls = "auto" }
@@ -70,4 +71,66 @@ for _, length in ipairs { 1e300, 1e-300 } do
     :open_volume { source = "source", target = "target", walls = "auto" }
   check.equal(#volume:cut { plane = { { 0, 0, 0.7 }, { 0, 0, length } } }, 2)
 end
+
+-- A family: planes of any direction through prisms. Pieces fill the whole, nearly all are swept by
+-- themselves, and most as one mesh; what is not is refused by name.
+local state = 4711
+local function random(low, high)
+  state = (state * 48271) % 2147483647
+  return low + (high - low) * state / 2147483647
+end
+local count, swept, one, codes = 0, 0, 0, {}
+local function code_of(failed)
+  local code = tostring(failed):match "%[([%a_]+%.[%a_]+)%]"
+  check.that(code and code ~= "surface.loop_counts", tostring(failed))
+  codes[code] = (codes[code] or 0) + 1
+end
+for _ = 1, params.members do
+  local height = random(1, 4)
+  local sides = math.floor(random(3, 8.999))
+  local oblique = open(lacuna.synthetic.prism { sides = sides, radius = 1, height = height })
+  local pieces = oblique:cut { plane = { { random(-0.5, 0.5), random(-0.5, 0.5), random(0.1, height - 0.1) },
+    { random(-1, 1), random(-1, 1), random(-1, 1) } } }
+  oblique:close()
+  local sum = 0
+  for _, piece in ipairs(pieces) do
+    count = count + 1
+    local fine, found = pcall(piece.sweep, piece, { size = 0.4 })
+    if fine then
+      swept = swept + 1
+      check.equal(found:quality().certified, true)
+      check.near(found.fidelity.volume, found.fidelity.sealed_volume, 1e-9)
+      sum = sum + found.fidelity.volume
+    else
+      sum = nil
+      code_of(found)
+      break
+    end
+  end
+  local fine, found = pcall(function() return lacuna.assembly(pieces):sweep { size = 0.4 } end)
+  if fine then
+    one = one + 1
+    check.equal(found:quality().certified, true)
+    if sum then check.near(found.fidelity.volume, sum, 1e-9) end
+  else
+    code_of(found)
+  end
+end
+print(("%d of %d pieces swept alone, %d of %d volumes as one mesh"):format(swept, count, one, params.members))
+for code, times in pairs(codes) do print("", code, times) end
+check.that(swept >= 0.9 * count and one >= 0.7 * params.members)
+
+-- A corner of four faces has no two ends.
+local corner = open(lacuna.synthetic.prism { sides = 4, radius = 1, height = 1 })
+  :cut { plane = { { 0.8, 0, 0.9 }, { 1, 0, 1 } } }
+local function joins(options) return lacuna.assembly(corner):sweep(options) end
+check.fails(function() joins { size = 0.2 } end, "closure.no_ends", "volume_2 is closed by its 4 faces",
+  'face 2 "target"', 'void face 1 "cut_1"', "leave_out")
+local left = joins { size = 0.2, fallback = "leave_out" }
+check.equal(left.left_out[1].code, "closure.no_ends")
+check.fails(function()
+  local walls = { 2 }
+  for side = 1, 6 do walls[side + 1] = "wall_" .. side end
+  prism:open_volume { source = "source", walls = walls }:sweep { size = 0.4 }
+end, "closure.no_ends", 'face 1 "source"', 'face 2 "target"', "name the target among them")
 check.done()

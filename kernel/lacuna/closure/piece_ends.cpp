@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/piece_ends.h>
+
+#include <lacuna/core/error.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// Sets of faces are bits of a word. More faces than this are no piece of a few planes. A choice.
+constexpr std::size_t kMostFaces = 40;
+/// Ends that are looked at, the smallest sets first: all of a prism of twelve sides. A choice.
+constexpr std::size_t kMostEnds = 600;
+/// Faces of one end differ in their normals by less than this cosine, of 110°. A choice.
+constexpr double kOneEnd = -0.35;
+/// And are flat but for this share of their area.
+constexpr double kFlat = 0.1;
+/// What an end named by the user is worth beside ends that are flat and square to their walls. A choice.
+constexpr double kNamed = 0.1;
+/// What it costs that a cut is a wall of both pieces beside it which have other sides of it at their ends:
+/// more than any ends do. A choice.
+constexpr double kUnlikeCut = 10;
+
+using FaceSet = std::uint64_t;
+
+constexpr FaceSet one(std::size_t face) { return FaceSet{1} << face; }
+
+template <class Do>
+void for_each(FaceSet set, const Do& use)
+{
+    for (; set != 0; set &= set - 1) use(static_cast<std::size_t>(std::countr_zero(set)));
+}
+
+/// The faces of a closed skin, their neighbours and shapes.
+class Skin {
+public:
+    explicit Skin(const Model& model) : model_(model)
+    {
+        const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
+        const std::size_t count = model.faces.size();
+        faces_.resize(count);
+        std::vector<FaceSet> at(model.vertices.size(), 0);
+        for (std::size_t f = 0; f < count; ++f) {
+            OneFace& face = faces_[f];
+            face.area = face_area(model, FaceId(f));
+            face.normal = face_area_vector(model, FaceId(f)) / face.area;
+            for (const Loop& loop : border_loops(model, FaceId(f))) {
+                std::vector<Side>& sides = face.loops.emplace_back();
+                for (const EdgeUse& use : loop.uses) {
+                    at[use_from(model, use).index()] |= one(f);
+                    at[use_to(model, use).index()] |= one(f);
+                    for (const FaceUse& user : uses[use.edge.index()]) {
+                        if (user.face.index() == f) continue;
+                        sides.push_back({user.face.index(), edge_length(model, use.edge), use.edge});
+                        face.beside |= one(user.face.index());
+                    }
+                }
+            }
+        }
+        for (const FaceSet met : at) for_each(met, [&](std::size_t f) { faces_[f].touched |= met; });
+    }
+
+    /// Sets of faces that an end may be, small ones first.
+    [[nodiscard]] std::vector<FaceSet> ends() const
+    {
+        std::vector<FaceSet> found;
+        std::unordered_set<FaceSet> known;
+        const auto add = [&](FaceSet set) {
+            if (found.size() < kMostEnds && known.insert(set).second) found.push_back(set);
+        };
+        for (std::size_t f = 0; f < faces_.size(); ++f)
+            if (faces_[f].normal.norm() > 1 - kFlat) add(one(f));
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const FaceSet set = found[i];
+            FaceSet beside = 0;
+            for_each(set, [&](std::size_t f) { beside |= faces_[f].beside; });
+            for_each(beside & ~set, [&](std::size_t next) {
+                bool fits = faces_[next].normal.norm() > 1 - kFlat;
+                for_each(set, [&](std::size_t f) {
+                    fits = fits && faces_[f].normal.dot(faces_[next].normal) > kOneEnd;
+                });
+                if (fits) add(set | one(next));
+            });
+        }
+        return found;
+    }
+
+    /// Whether walls each run from end to end, so that all that is between two of them is a line of columns.
+    [[nodiscard]] bool are_ends(FaceSet source, FaceSet target) const
+    {
+        const FaceSet all = one(faces_.size()) - 1;
+        const FaceSet walls = all & ~source & ~target;
+        if (source == 0 || target == 0 || walls == 0 || (source & target) != 0) return false;
+        bool fits = true;
+        for_each(source, [&](std::size_t f) { fits = fits && (faces_[f].touched & target) == 0; });
+        for_each(walls, [&](std::size_t f) {
+            fits = fits && (faces_[f].beside & source) != 0 && (faces_[f].beside & target) != 0;
+        });
+        if (!fits) return false;
+        for_each(walls, [&](std::size_t f) { fits = fits && runs_between(faces_[f], source, target); });
+        return fits && rims_of(source) == rims_of(target) && rims_of(source) == parts_of(walls);
+    }
+
+    /// 0: flat ends, alike and square to their walls.
+    [[nodiscard]] double cost(FaceSet source, FaceSet target) const
+    {
+        return cost_of_end(source) + cost_of_end(target) +
+               std::abs(std::log(area_of(source) / area_of(target))) / 4;
+    }
+
+    [[nodiscard]] std::vector<FaceId> ids(FaceSet set) const
+    {
+        std::vector<FaceId> result;
+        for_each(set, [&](std::size_t f) { result.emplace_back(f); });
+        return result;
+    }
+
+    [[nodiscard]] std::vector<EdgeId> shared_edges(std::size_t f, FaceSet with) const
+    {
+        std::vector<EdgeId> result;
+        for (const std::vector<Side>& loop : faces_[f].loops) {
+            for (const Side& side : loop)
+                if ((with & one(side.face)) != 0) result.push_back(side.edge);
+        }
+        return result;
+    }
+
+private:
+    struct Side {
+        std::size_t face; ///< on its other side
+        double length;
+        EdgeId edge;
+    };
+    struct OneFace {
+        std::vector<std::vector<Side>> loops;
+        FaceSet beside = 0, touched = 0; ///< faces with an edge, and with a vertex in common
+        Vec3 normal = Vec3::Zero();      ///< on average: shorter than 1 where it bends
+        double area = 0;
+    };
+
+    /// Whether a face is a ring from end to end, or has four sides: one at either end, and one at each of two
+    /// walls or twice at the same.
+    static bool runs_between(const OneFace& face, FaceSet source, FaceSet target)
+    {
+        constexpr int kSource = -1, kTarget = -2;
+        const auto label = [&](const Side& side) {
+            return (source & one(side.face)) != 0   ? kSource
+                   : (target & one(side.face)) != 0 ? kTarget
+                                                    : static_cast<int>(side.face);
+        };
+        std::vector<std::vector<int>> runs;
+        for (const std::vector<Side>& loop : face.loops) {
+            std::vector<int>& own = runs.emplace_back();
+            for (const Side& side : loop)
+                if (own.empty() || own.back() != label(side)) own.push_back(label(side));
+            if (own.size() > 1 && own.front() == own.back()) own.pop_back();
+        }
+        if (runs.size() == 2)
+            return runs[0].size() == 1 && runs[1].size() == 1 && runs[0][0] < 0 && runs[1][0] < 0 &&
+                   runs[0][0] != runs[1][0];
+        if (runs.size() != 1 || runs.front().size() != 4) return false;
+        const std::vector<int>& sides = runs.front();
+        const auto at = static_cast<std::size_t>(std::ranges::find(sides, kSource) - sides.begin());
+        return at < 4 && sides[(at + 2) % 4] == kTarget && sides[(at + 1) % 4] >= 0 &&
+               sides[(at + 3) % 4] >= 0;
+    }
+
+    [[nodiscard]] std::size_t rims_of(FaceSet set) const { return rims(model_, ids(set)).size(); }
+    [[nodiscard]] std::size_t parts_of(FaceSet set) const { return connected_parts(model_, ids(set)).size(); }
+
+    [[nodiscard]] double area_of(FaceSet set) const
+    {
+        double area = 0;
+        for_each(set, [&](std::size_t f) { area += faces_[f].area; });
+        return area;
+    }
+
+    [[nodiscard]] double cost_of_end(FaceSet set) const
+    {
+        Vec3 sum = Vec3::Zero();
+        double slant = 0, length = 0;
+        for_each(set, [&](std::size_t f) {
+            sum += faces_[f].area * faces_[f].normal;
+            for (const std::vector<Side>& loop : faces_[f].loops) {
+                for (const Side& side : loop) {
+                    if ((set & one(side.face)) != 0) continue;
+                    const double leaning = faces_[f].normal.dot(faces_[side.face].normal);
+                    slant += side.length * leaning * leaning;
+                    length += side.length;
+                }
+            }
+        });
+        return 2 * (1 - sum.norm() / area_of(set)) + slant / length;
+    }
+
+    const Model& model_;
+    std::vector<OneFace> faces_;
+};
+
+FaceSet set_of(const std::vector<FaceId>& faces)
+{
+    FaceSet set = 0;
+    for (const FaceId face : faces) set |= one(face.index());
+    return set;
+}
+
+/// A way to sweep a piece.
+struct Ends {
+    FaceSet source = 0, target = 0; ///< nothing: no way is known
+    double cost = 0;
+    bool as_named = false;
+    /// Of each void face that is a wall, by its name, the edges that it has with ends, by origin and tag.
+    std::map<std::string, std::set<std::pair<Origin, int>>> wall;
+};
+
+/// How many cuts are walls of both pieces, but with other sides along their ends: rows of one are none of the
+/// other.
+std::size_t unlike(const Ends& a, const Ends& b)
+{
+    return static_cast<std::size_t>(std::ranges::count_if(a.wall, [&](const auto& wall) {
+        const auto other = b.wall.find(wall.first);
+        return other != b.wall.end() && other->second != wall.second;
+    }));
+}
+
+/// The ways to sweep a piece: as it is where that is one, and others; at least one, be it none.
+std::vector<Ends> ways_of(const OpenVolume& piece, const RunContext& context)
+{
+    const Model& model = piece.model;
+    if (model.faces.size() > kMostFaces || !free_edges(piece).empty()) return {Ends{.as_named = true}};
+    const Skin skin(model);
+    std::vector<Ends> ways;
+    const auto add = [&](FaceSet source, FaceSet target, double cost, bool as_named) {
+        Ends& own = ways.emplace_back(Ends{source, target, cost, as_named, {}});
+        for (std::size_t f = 0; f < model.faces.size(); ++f) {
+            const Face& face = model.faces[f];
+            if (face.origin != Origin::made_void || face.name.empty() || ((source | target) & one(f)) != 0)
+                continue;
+            auto& sides = own.wall[face.name];
+            for (const EdgeId edge : skin.shared_edges(f, source | target))
+                sides.emplace(model[edge].origin, model[edge].tag);
+        }
+    };
+    const FaceSet source = set_of(piece.faces(Role::source)), target = set_of(piece.faces(Role::target));
+    const bool fits = skin.are_ends(source, target);
+    if (fits) add(source, target, skin.cost(source, target) - 2 * kNamed, true);
+    const std::vector<FaceSet> ends = skin.ends();
+    for (std::size_t a = 0; a < ends.size(); ++a) {
+        check_cancelled(context);
+        for (std::size_t b = a + 1; b < ends.size(); ++b) {
+            if (!skin.are_ends(ends[a], ends[b])) continue;
+            const FaceSet both = ends[a] | ends[b];
+            if (fits && both == (source | target)) continue;
+            double cost = skin.cost(ends[a], ends[b]);
+            for (const FaceSet named : {source, target})
+                if (named != 0 && (named & both) == named) cost -= kNamed;
+            const bool turned = (ends[b] & source) != 0 || (ends[a] & target) != 0;
+            add(ends[turned ? b : a], ends[turned ? a : b], cost, false);
+        }
+    }
+    if (ways.empty()) ways.emplace_back();
+    return ways;
+}
+
+std::string names(const Model& model, const std::vector<FaceId>& faces)
+{
+    std::string text;
+    for (const FaceId face : faces) text += (text.empty() ? "" : ", ") + name_of(model, face);
+    return text;
+}
+
+} // namespace
+
+std::size_t read_ends(std::vector<StepPiece>& pieces, const RunContext& context)
+{
+    std::vector<std::vector<Ends>> ways;
+    bool all_fit = true;
+    for (const StepPiece& piece : pieces) {
+        ways.push_back(ways_of(piece.volume, context));
+        all_fit = all_fit && ways.back().front().as_named;
+    }
+    if (all_fit) return 0;
+    // Of each way of the first piece, the best of those that follow it.
+    std::vector<const Ends*> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Ends& first : ways.front()) {
+        check_cancelled(context);
+        std::vector<const Ends*> chosen{&first};
+        double sum = first.cost;
+        for (std::size_t p = 1; p < ways.size(); ++p) {
+            const auto worth = [&](const Ends& own) {
+                double cost = own.cost;
+                for (const Ends* other : chosen)
+                    cost += kUnlikeCut * static_cast<double>(unlike(own, *other));
+                return cost;
+            };
+            chosen.push_back(&*std::ranges::min_element(ways[p], {}, worth));
+            sum += worth(*chosen.back());
+        }
+        if (sum >= least) continue;
+        least = sum;
+        best = std::move(chosen);
+    }
+    std::size_t changed = 0;
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        if (best[p]->as_named || best[p]->source == 0) continue;
+        ++changed;
+        OpenVolume& piece = pieces[p].volume;
+        std::ranges::fill(piece.role, Role::wall);
+        for_each(best[p]->source, [&](std::size_t f) { piece.role[f] = Role::source; });
+        for_each(best[p]->target, [&](std::size_t f) { piece.role[f] = Role::target; });
+        piece.turned_round = false;
+    }
+    return changed;
+}
+
+void check_ends(const OpenVolume& volume, const std::string& what)
+{
+    const Model& model = volume.model;
+    if (!free_edges(volume).empty()) return;
+    const std::vector<FaceId> source = volume.faces(Role::source), target = volume.faces(Role::target),
+                              walls = volume.faces(Role::wall);
+    if (!source.empty() && !target.empty()) return;
+    const std::vector<FaceId>& only = source.empty() ? target : source;
+    const std::string missing = source.empty() ? "source" : "target",
+                      other = source.empty() ? "target" : "source";
+    const bool is_piece = std::ranges::any_of(
+        model.faces, [](const Face& face) { return face.origin == Origin::made_void && !face.name.empty(); });
+    throw NotSweepable(
+        "closure.no_ends",
+        what + " is closed by its " + std::to_string(model.faces.size()) + " faces and has no " + missing +
+            ": its " + other + " is " + (only.empty() ? std::string("missing too") : names(model, only)) +
+            ", and its walls are " + names(model, walls) + "; a sweep needs two ends that no corner joins" +
+            (is_piece
+                 ? ": move or tilt the plane so that the piece keeps a whole end or meets more walls, or "
+                   "leave the piece out with fallback = \"leave_out\""
+                 : ": name the " + missing + " among them"));
+}
+
+} // namespace lacuna::closure
