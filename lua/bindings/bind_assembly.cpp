@@ -142,6 +142,38 @@ int mesh_left_out(lua_State* L)
     return 1;
 }
 
+/// { { a =, b =, face_a =, face_b =, edge =, edge_of =, least =, width =, … }, … }: regions, tags, lengths
+void push_near_misses(lua_State* L, const AssemblyMeshState& state)
+{
+    const std::vector<sweep::NearMiss>& misses = state.swept.near_misses;
+    lua_createtable(L, static_cast<int>(misses.size()), 0);
+    for (std::size_t i = 0; i < misses.size(); ++i) {
+        const sweep::NearMiss& miss = misses[i];
+        lua_createtable(L, 0, 12);
+        set_string(L, "a", state.regions[miss.a].c_str());
+        set_string(L, "b", state.regions[miss.b].c_str());
+        lua_pushinteger(L, miss.tag_a);
+        lua_setfield(L, -2, "face_a");
+        lua_pushinteger(L, miss.tag_b);
+        lua_setfield(L, -2, "face_b");
+        if (miss.edge) {
+            lua_pushinteger(L, miss.edge_tag);
+            lua_setfield(L, -2, "edge");
+            set_string(L, "edge_of", state.regions[miss.edge_of].c_str());
+            set_number(L, "length", miss.length);
+        } else {
+            set_number(L, "area", miss.area);
+        }
+        set_number(L, "least", miss.least);
+        set_number(L, "width", miss.width);
+        set_number(L, "tolerance", miss.tolerance);
+        lua_pushboolean(L, static_cast<int>(miss.reach_in));
+        lua_setfield(L, -2, "reach_in");
+        set_string(L, "message", miss.message.c_str());
+        lua_rawseti(L, -2, to_lua(i));
+    }
+}
+
 int mesh_report(lua_State* L)
 {
     const auto& state = hold<AssemblyMeshState>(L, 1);
@@ -157,6 +189,8 @@ int mesh_report(lua_State* L)
             lua_rawseti(L, -2, next++);
         }
     }
+    push_near_misses(L, state);
+    lua_setfield(L, -2, "near_misses");
     set_report_meta(L, state.seconds);
     return 1;
 }

@@ -148,3 +148,28 @@ local pieces = stepped():cut()
 check.equal(#pieces, 2)
 check.near(lacuna.assembly(pieces):sweep { size = 0.5 }.fidelity.volume, 58, 1e-9)
 check.done()
+
+-- A gap a little wider than the tolerance is named, with the tolerance that closes it.
+local function slab(z, tolerance)
+  local model = lacuna.model { tolerance = tolerance }
+  local function quad(name, a, b, c, d)
+    model:add_face { name = name, points = { a, b, c, d }, cells = { { 1, 2, 3, 4 } } }
+  end
+  quad("source", { 0, 0, z }, { 1, 0, z }, { 1, 1, z }, { 0, 1, z })
+  quad("target", { 0, 0, z + 1 }, { 1, 0, z + 1 }, { 1, 1, z + 1 }, { 0, 1, z + 1 })
+  quad("side", { 0, 0, z }, { 1, 0, z }, { 1, 0, z + 1 }, { 0, 0, z + 1 })
+  return open(model, ("at_%.0f"):format(z))
+end
+local apart = lacuna.assembly { slab(0), slab(1.0001) }:sweep { size = 0.5 }
+local miss = apart.report.near_misses[1]
+check.equal(#apart.report.near_misses, 1)
+check.equal(miss.a .. " " .. miss.b, "at_0 at_1")
+check.equal(miss.face_a .. " " .. miss.face_b, "2 1")
+check.near(miss.width, 1e-4, 1e-9)
+check.near(miss.area, 1, 1e-9)
+check.that(not miss.reach_in and not miss.edge)
+check.that(tostring(apart.report):find(miss.message, 1, true), "the report has it")
+local wider = miss.tolerance
+local together = lacuna.assembly { slab(0, wider), slab(1.0001, wider) }:sweep { size = 0.5 }
+check.equal(#together.report.near_misses, 0)
+check.equal(apart.nodes - together.nodes, 9)

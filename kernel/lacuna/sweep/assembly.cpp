@@ -5,6 +5,7 @@
 #include <lacuna/sweep/detail/assembly_imprint.h>
 #include <lacuna/sweep/detail/assembly_nodes.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
+#include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/shared_middles.h>
 #include <lacuna/topology/give_mesh.h>
 
@@ -118,12 +119,17 @@ private:
                 imprinted_.push_back(*member.volume);
                 regions.push_back(member.region);
             }
-            imprints_ = imprint_faces(imprinted_, regions, found.partly, context_);
+            notes_ = imprint_faces(imprinted_, regions, found.partly, context_);
             for (std::size_t m = 0; m < members_.size(); ++m) members_[m].volume = &imprinted_[m];
-            result_.shared = shared_faces(members_, context_);
-            return;
+            found = faces_in_common(members_, context_);
+            refuse_partly_shared(found);
         }
         result_.shared = std::move(found.whole);
+        result_.near_misses = std::move(found.near);
+        for (const NearMiss& miss : result_.near_misses) {
+            notes_.push_back("near miss: " + miss.message);
+            log_line(context_, notes_.back());
+        }
     }
 
     [[nodiscard]] bool is_void(std::size_t m, FaceId face) const
@@ -269,7 +275,7 @@ private:
             }
             inputs_[m] = std::move(inputs);
         }
-        result_.report = imprints_;
+        result_.report = notes_;
         for (const std::size_t m : order_)
             result_.report.insert(result_.report.end(), shared_lines_[m].begin(), shared_lines_[m].end());
         return std::nullopt;
@@ -526,7 +532,7 @@ private:
 
     std::vector<AssemblyMember> members_;
     std::vector<OpenVolume> imprinted_; ///< the members' volumes, where faces of any had to be split
-    std::vector<std::string> imprints_; ///< of the report
+    std::vector<std::string> notes_;    ///< of the report: what was imprinted, near misses
     const RunContext& context_;
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> after_; ///< of each member, those that must come before it
