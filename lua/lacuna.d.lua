@@ -565,8 +565,8 @@ function lacuna.model(options) end
 ---@param defaults T
 ---@return T
 function lacuna.params(defaults) end
---- Volumes that share faces, to be meshed as one.
----@param volumes lacuna.Volume[]
+--- Volumes that share faces, to be meshed as one. Meshes among them stay as they are.
+---@param volumes (lacuna.Volume|lacuna.Mesh|lacuna.AssemblyMesh)[]
 ---@return lacuna.Assembly
 function lacuna.assembly(volumes) end
 --- Quality of the hexahedra of a mesh or deck in any format that is read.

@@ -89,6 +89,10 @@ private:
     void check_members() const
     {
         if (members_.empty()) throw InvalidInput("assembly.empty", "an assembly needs one volume at least");
+        if (std::ranges::all_of(members_, [](const AssemblyMember& m) { return m.fixed != nullptr; }))
+            throw InvalidInput("assembly.all_fixed",
+                               "all members of the assembly came with their meshes; it needs one volume at "
+                               "least that is to be swept");
         for (std::size_t m = 0; m < members_.size(); ++m) {
             if (members_[m].region == "volume")
                 throw InvalidInput(
@@ -172,9 +176,9 @@ private:
         });
     }
 
-    /// Members by what they wait for; of those that are free to come, `first` as listed, then those that came
-    /// with meshes, then those that share an end with one that is there, those whose walls are no one's ends
-    /// that wait, and by number.
+    /// Members by what they wait for; of those that are free to come, fixed ones, then `first` as listed,
+    /// those that came with meshes, those that share an end with one that is there, those whose walls are no
+    /// one's ends that wait, and by number.
     [[nodiscard]] std::vector<std::size_t> order_of(std::span<const std::size_t> first) const
     {
         std::vector<char> placed(members_.size(), 0);
@@ -196,6 +200,7 @@ private:
                     std::ranges::all_of(after_[m], [&](std::size_t other) { return placed[other] != 0; }))
                     next = m;
             };
+            for (std::size_t m = 0; m < members_.size(); ++m) take(m, members_[m].fixed != nullptr);
             for (const std::size_t m : first) take(m, true);
             for (std::size_t m = 0; m < members_.size(); ++m) take(m, came_with_mesh(m));
             const auto waits = [&](std::size_t m) { return has(m, false, true, false); };
@@ -304,6 +309,7 @@ private:
                    const std::vector<std::size_t>& touching)
     {
         const AssemblyMember& member = members_[m];
+        if (member.fixed != nullptr) return take_fixed(m, neighbours, touching);
         SweepOptions options = member.options;
         options.fallback = Fallback::none; // the whole is worked out anew
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
@@ -335,6 +341,14 @@ private:
         }
         check_kept(m, neighbours);
         if (options.order > 1) keep_middles(m, touching);
+    }
+
+    void take_fixed(std::size_t m, const std::vector<Neighbour>& neighbours,
+                    const std::vector<std::size_t>& touching)
+    {
+        result_.parts[m] = *members_[m].fixed;
+        check_kept(m, neighbours);
+        if (members_[m].options.order > 1) keep_middles(m, touching);
     }
 
     /// Members that are there and may touch another, by their boxes.
@@ -406,9 +420,10 @@ private:
     }
 
     /// Whether a member will mesh a face as its neighbour did: flat, with four edges whose nodes are planned,
-    /// and a grid there.
+    /// and a grid there that was made here.
     [[nodiscard]] bool is_alike(std::size_t m, const Neighbour& n) const
     {
+        if (members_[n.other].fixed != nullptr) return false;
         const Model& model = members_[m].volume->model;
         if (!is_flat(model, n.own) || !is_flat(members_[n.other].volume->model, n.there)) return false;
         const std::vector<Loop> loops = border_loops(model, n.own);

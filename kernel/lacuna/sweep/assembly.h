@@ -22,6 +22,9 @@ struct AssemblyMember {
     const topology::OpenVolume* volume = nullptr; ///< sealed
     SweepOptions options;
     std::string region; ///< its name, for messages and groups
+    /// Null, or the mesh it came with, which stays as it is: then `volume` is its skin, whose faces keep
+    /// their quads, and `faces` of it are those of `volume`. Of the options `order` alone counts.
+    const Swept* fixed = nullptr;
 };
 
 /// A face that two members have in common, each on its own side of it.
@@ -83,6 +86,7 @@ struct SweptAssembly {
 /// other, each keeping, node for node, what its neighbours' meshes are on the faces they share. Where a
 /// volume cannot keep what its neighbours have made, the order is changed so that it goes before them. A void
 /// face with the rim of a neighbour's given one is that face.
+/// A fixed member is a part as it came, before all others: they keep its quads where they share its faces.
 /// A member that cannot be meshed so is tried with wedges or left out, as its `fallback` says, and the whole
 /// is worked out anew without it: what it would have given others is not there.
 /// @throw NotSweepable  as `sweep()`, the region named; "assembly.layers"  volumes side by side for which
@@ -91,7 +95,8 @@ struct SweptAssembly {
 ///         "assembly.hanging_node"  a node of one mesh within a side of another's.
 /// Faces that are shared in part are split along each other's rims before; the faces of `shared` and of the
 /// parts are then those of the volumes as split, whose first faces are the members' own.
-/// @throw InvalidInput  as `shared_faces()` and `sweep()`; "assembly.part_of_face" where a face that is
+/// @throw InvalidInput  as `shared_faces()` and `sweep()`; "assembly.all_fixed"  no member is to be swept;
+///         "assembly.part_of_face" where a face that is
 ///         shared in part keeps its quads, or cannot be split.
 /// @post  conformal: every quad of a shared face is one of both volumes, no node of one lies within a side or
 ///        a quad of another, and each volume is proved as `sweep()` does, its shape against its own sealed

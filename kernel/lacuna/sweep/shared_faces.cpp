@@ -22,9 +22,10 @@ using namespace topology;
 
 namespace {
 
-/// Faces of which this share lies on the other are one if their rims are: facets of either fineness leave the
-/// rim of a curved face to each other.
-constexpr double kWhole = 0.98;
+/// Faces of which this share lies on the other are one if their rims are: chords of a rim that is coarse in
+/// one leave parts of a flat face uncovered, facets of either fineness leave the rim of a curved one to each
+/// other.
+constexpr double kMostly = 0.5;
 /// Faces that share less touch along their rims.
 constexpr double kNothing = 1e-3;
 /// Points of one rim may be off the chords of another by this times their sag: it is an estimate.
@@ -148,7 +149,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
         const double there = overlap->a.on / face_area(one.model(), one.face),
                      back = overlap->b.on / face_area(other.model(), other.face);
         if (there <= kNothing && back <= kNothing) return {};
-        same = there >= kWhole && back >= kWhole && rims_agree(a, one, b, other, tolerance, window);
+        same = there >= kMostly && back >= kMostly && rims_agree(a, one, b, other, tolerance, window);
         // Faces that bend away from each other along a common rim are near each other there, and no more.
         if (!same && limit > tolerance && std::max(there, back) < kAlongRim) return {};
         const auto percent = [](double share) {
