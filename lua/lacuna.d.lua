@@ -458,6 +458,25 @@ local Assembly = {}
 ---@return lacuna.AssemblyMesh
 function Assembly:sweep(options) end
 
+--- Where two volumes are a little further apart than the tolerance and share no nodes.
+---@class lacuna.NearMiss
+---@field a string region
+---@field b string region
+---@field face_a integer tag
+---@field face_b integer tag
+---@field edge? integer tag
+---@field edge_of? string region
+---@field least number length
+---@field width number length
+---@field area? number
+---@field length? number
+---@field tolerance number with which both models are one there
+---@field reach_in boolean
+---@field message string
+
+---@class lacuna.AssemblyReport: lacuna.Report
+---@field near_misses lacuna.NearMiss[]
+
 --- The mesh of an assembly, a region each.
 ---@class lacuna.AssemblyMesh
 ---@field left_out lacuna.LeftOut[] volumes and pieces that `fallback = "leave_out"` left out
@@ -468,7 +487,7 @@ function Assembly:sweep(options) end
 ---@field order 1|2
 ---@field layers table<string, integer> by region
 ---@field regions string[]
----@field report lacuna.Report
+---@field report lacuna.AssemblyReport
 local AssemblyMesh = {}
 ---@return lacuna.Quality
 function AssemblyMesh:quality() end
@@ -546,8 +565,8 @@ function lacuna.model(options) end
 ---@param defaults T
 ---@return T
 function lacuna.params(defaults) end
---- Volumes that share faces, to be meshed as one.
----@param volumes lacuna.Volume[]
+--- Volumes that share faces, to be meshed as one. Meshes among them stay as they are.
+---@param volumes (lacuna.Volume|lacuna.Mesh|lacuna.AssemblyMesh)[]
 ---@return lacuna.Assembly
 function lacuna.assembly(volumes) end
 --- Quality of the hexahedra of a mesh or deck in any format that is read.

@@ -33,7 +33,7 @@ WholeCells whole_cells(const sweep::SweptAssembly& swept)
 
 namespace {
 
-/// assembly = lacuna.assembly { volume, volume, ... }
+/// assembly = lacuna.assembly { volume or mesh, ... }
 int make_assembly(lua_State* L)
 {
     lua_settop(L, 1);
@@ -42,24 +42,39 @@ int make_assembly(lua_State* L)
             if (lua_type(L, -2) == LUA_TSTRING)
                 fail(L, "assembly: there is no option '%s'; give volumes alone", lua_tostring(L, -2));
     }
-    auto& volumes = temporary<std::vector<Box<VolumeState>>>(L);
-    read_array(L, 1, {"assembly", "volumes"}, "an array of volumes", [&](int at, const Where& where) {
-        Box<VolumeState>* const volume = test_box<VolumeState>(L, at);
-        if (volume == nullptr || !*volume) fail_value(L, where, "a Volume", at);
-        if (std::find(volumes.begin(), volumes.end(), *volume) != volumes.end())
-            fail_option(L, where, "is a volume that is in the array already");
-        guard(L, [&] { volumes.push_back(*volume); });
-    });
-    if (volumes.empty()) fail(L, "assembly: give volumes: lacuna.assembly { volume, volume, ... }");
+    auto& entries = temporary<std::vector<AssemblyState::Entry>>(L);
+    read_array(L, 1, {"assembly", "volumes"}, "an array of volumes and meshes",
+               [&](int at, const Where& where) {
+                   auto& entry = temporary<AssemblyState::Entry>(L);
+                   if (const Box<VolumeState>* volume = test_box<VolumeState>(L, at)) entry.volume = *volume;
+                   if (const Box<MeshState>* mesh = test_box<MeshState>(L, at)) entry.mesh = *mesh;
+                   if (const Box<AssemblyMeshState>* all = test_box<AssemblyMeshState>(L, at))
+                       entry.meshes = *all;
+                   if (!entry.volume && !entry.mesh && !entry.meshes)
+                       fail_value(L, where, "a Volume, a Mesh or an AssemblyMesh", at);
+                   if (std::find(entries.begin(), entries.end(), entry) != entries.end())
+                       fail_option(L, where,
+                                   entry.volume ? "is a volume that is in the array already"
+                                                : "is a mesh that is in the array already");
+                   guard(L, [&] { entries.push_back(entry); });
+               });
+    if (entries.empty()) fail(L, "assembly: give volumes: lacuna.assembly { volume, volume, ... }");
     auto& box = new_box<AssemblyState>(L);
-    guard(L, [&] { box = std::make_shared<AssemblyState>(AssemblyState{volumes}); });
+    guard(L, [&] { box = std::make_shared<AssemblyState>(AssemblyState{entries}); });
     return 1;
 }
 
 int assembly_to_string(lua_State* L)
 {
-    lua_pushfstring(L, "Assembly of %I volumes",
-                    static_cast<lua_Integer>(check<AssemblyState>(L, 1).volumes.size()));
+    const auto& entries = check<AssemblyState>(L, 1).entries;
+    const auto volumes = std::count_if(entries.begin(), entries.end(), [](const AssemblyState::Entry& entry) {
+        return entry.volume != nullptr;
+    });
+    lua_pushfstring(L, "Assembly of %I volumes", static_cast<lua_Integer>(volumes));
+    const auto meshes = static_cast<lua_Integer>(entries.size()) - static_cast<lua_Integer>(volumes);
+    if (meshes == 0) return 1;
+    lua_pushfstring(L, meshes == 1 ? " and %I mesh" : " and %I meshes", meshes);
+    lua_concat(L, 2);
     return 1;
 }
 
@@ -142,6 +157,38 @@ int mesh_left_out(lua_State* L)
     return 1;
 }
 
+/// { { a =, b =, face_a =, face_b =, edge =, edge_of =, least =, width =, … }, … }: regions, tags, lengths
+void push_near_misses(lua_State* L, const AssemblyMeshState& state)
+{
+    const std::vector<sweep::NearMiss>& misses = state.swept.near_misses;
+    lua_createtable(L, static_cast<int>(misses.size()), 0);
+    for (std::size_t i = 0; i < misses.size(); ++i) {
+        const sweep::NearMiss& miss = misses[i];
+        lua_createtable(L, 0, 12);
+        set_string(L, "a", state.regions[miss.a].c_str());
+        set_string(L, "b", state.regions[miss.b].c_str());
+        lua_pushinteger(L, miss.tag_a);
+        lua_setfield(L, -2, "face_a");
+        lua_pushinteger(L, miss.tag_b);
+        lua_setfield(L, -2, "face_b");
+        if (miss.edge) {
+            lua_pushinteger(L, miss.edge_tag);
+            lua_setfield(L, -2, "edge");
+            set_string(L, "edge_of", state.regions[miss.edge_of].c_str());
+            set_number(L, "length", miss.length);
+        } else {
+            set_number(L, "area", miss.area);
+        }
+        set_number(L, "least", miss.least);
+        set_number(L, "width", miss.width);
+        set_number(L, "tolerance", miss.tolerance);
+        lua_pushboolean(L, static_cast<int>(miss.reach_in));
+        lua_setfield(L, -2, "reach_in");
+        set_string(L, "message", miss.message.c_str());
+        lua_rawseti(L, -2, to_lua(i));
+    }
+}
+
 int mesh_report(lua_State* L)
 {
     const auto& state = hold<AssemblyMeshState>(L, 1);
@@ -157,6 +204,8 @@ int mesh_report(lua_State* L)
             lua_rawseti(L, -2, next++);
         }
     }
+    push_near_misses(L, state);
+    lua_setfield(L, -2, "near_misses");
     set_report_meta(L, state.seconds);
     return 1;
 }

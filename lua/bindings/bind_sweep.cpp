@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bindings/classes.h"
 #include "bindings/faces.h"
+#include "bindings/fixed_members.h"
 #include "bindings/io_paths.h"
 #include "bindings/options.h"
 
@@ -489,26 +490,31 @@ bool do_or_leave_out(std::vector<sweep::LeftOut>& left_out, const std::string& r
     }
 }
 
+/// A member of an assembly: a volume with its options, or a mesh that stays as it is.
+struct ToMesh {
+    Box<VolumeState> volume;
+    const SweepArguments* arguments = nullptr;
+    std::unique_ptr<FixedMember> fixed;
+};
+
 /// A volume of an assembly with its options, or the pieces of one with branches or steps.
-void add_members(std::vector<Box<VolumeState>>& volumes, std::vector<const SweepArguments*>& options,
-                 const Box<VolumeState>& volume, const std::string& name, const SweepArguments& arguments,
-                 const RunContext& context)
+void add_members(std::vector<ToMesh>& members, const Box<VolumeState>& volume, const std::string& name,
+                 const SweepArguments& arguments, const RunContext& context)
 {
     if (!closure::has_pieces(volume->volume)) {
-        volumes.push_back(volume);
-        options.push_back(&arguments);
+        members.push_back({volume, &arguments, nullptr});
         return;
     }
     int number = 0;
     for (closure::StepPiece& piece : closure::cut_into_pieces(volume->volume, context)) {
-        VolumeState& own = *volumes.emplace_back(std::make_shared<VolumeState>());
+        members.push_back({std::make_shared<VolumeState>(), &arguments, nullptr});
+        VolumeState& own = *members.back().volume;
         own.volume = std::move(piece.volume);
         own.level = piece.level;
         own.turn_from = piece.turn_from;
         own.turn_to = piece.turn_to;
         own.name = name + "_" + std::to_string(++number);
         own.material = volume->material;
-        options.push_back(&arguments);
     }
 }
 
@@ -550,8 +556,7 @@ void share_layers(const VolumeState& state, sweep::LayerSpec& layers)
 }
 
 /// Layers asked for are those of the pieces that go from end to end.
-std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<Box<VolumeState>>& volumes,
-                                                 const std::vector<const SweepArguments*>& options,
+std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<ToMesh>& all,
                                                  std::vector<sweep::LeftOut> left_out,
                                                  const RunContext& context)
 {
@@ -559,17 +564,27 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<Box<VolumeSta
     std::vector<std::string> materials;
     std::vector<std::unique_ptr<Busy>> busy;
     auto mesh = std::make_shared<AssemblyMeshState>();
-    for (std::size_t m = 0; m < volumes.size(); ++m) {
-        VolumeState& state = *volumes[m];
+    for (std::size_t m = 0; m < all.size(); ++m) {
+        const std::string number = "volume_" + std::to_string(m + 1);
+        if (const FixedMember* fixed = all[m].fixed.get()) {
+            const mesh::HexMesh& own = fixed->swept.mesh;
+            materials.push_back(fixed->material);
+            members.push_back(
+                {&fixed->skin.volume, {}, fixed->region.empty() ? number : fixed->region, &fixed->swept});
+            members.back().options.order = own.order();
+            members.back().options.second_order.serendipity = own.order() > 1 && !own.middles.full;
+            continue;
+        }
+        VolumeState& state = *all[m].volume;
         busy.push_back(std::make_unique<Busy>(state, "sweep"));
-        const std::string region = state.name.empty() ? "volume_" + std::to_string(m + 1) : state.name;
+        const std::string region = state.name.empty() ? number : state.name;
         const auto close = [&] {
             close_volume(state, {}, context);
             closure::check_ends(state.volume, region);
         };
-        if (!do_or_leave_out(left_out, region, *options[m], close)) continue;
+        if (!do_or_leave_out(left_out, region, *all[m].arguments, close)) continue;
         materials.push_back(state.material);
-        members.push_back({&state.volume, options[m]->options, region});
+        members.push_back({&state.volume, all[m].arguments->options, region});
         keep_known_faces(members.back());
         if (state.level > 0) members.back().options.layers = {};
         share_layers(state, members.back().options.layers);
@@ -596,11 +611,9 @@ int sweep_steps(lua_State* L, const Box<VolumeState>& volume, const SweepArgumen
     guard(L, [&] {
         const Busy busy(*volume, "sweep");
         StageClock clock(context);
-        std::vector<Box<VolumeState>> pieces;
-        std::vector<const SweepArguments*> options;
-        add_members(pieces, options, volume, volume->name.empty() ? "piece" : volume->name, arguments,
-                    context);
-        box = sweep_members(pieces, options, {}, context);
+        std::vector<ToMesh> pieces;
+        add_members(pieces, volume, volume->name.empty() ? "piece" : volume->name, arguments, context);
+        box = sweep_members(pieces, {}, context);
         box->seconds = clock.seconds();
     });
     return 1;
@@ -679,8 +692,8 @@ void check_volume_keys(lua_State* L, int index, const AssemblyState& assembly)
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
         if (lua_type(L, -2) == LUA_TSTRING) continue;
         const Box<VolumeState>* const key = test_box<VolumeState>(L, -2);
-        const auto& volumes = assembly.volumes;
-        if (key == nullptr || std::find(volumes.begin(), volumes.end(), *key) == volumes.end())
+        const auto is_key = [key](const AssemblyState::Entry& entry) { return entry.volume == *key; };
+        if (key == nullptr || !*key || std::ranges::none_of(assembly.entries, is_key))
             fail(L, "sweep: the keys of the options are words, or volumes of the assembly");
     }
 }
@@ -697,28 +710,34 @@ int sweep_assembly(lua_State* L)
     if (lua_type(L, 2) != LUA_TTABLE) fail_value(L, {"sweep", nullptr}, "a table of options", 2);
     check_volume_keys(L, 2, assembly);
     auto& arguments = temporary<std::vector<const SweepArguments*>>(L);
-    for (const Box<VolumeState>& volume : assembly.volumes) {
+    for (const AssemblyState::Entry& entry : assembly.entries) {
+        if (!entry.volume) continue;
         luaL_checkstack(L, 16, "too many volumes");
-        push_options_of(L, 2, volume);
-        const SweepArguments& own = push_arguments(L, lua_gettop(L), "sweep", *volume);
+        push_options_of(L, 2, entry.volume);
+        const SweepArguments& own = push_arguments(L, lua_gettop(L), "sweep", *entry.volume);
         guard(L, [&] { arguments.push_back(&own); });
     }
     RunContext& context = push_context(L);
-    context.threads = arguments.front()->threads;
+    if (!arguments.empty()) context.threads = arguments.front()->threads;
     lua_gc(L, LUA_GCCOLLECT);
     auto& box = new_box<AssemblyMeshState>(L);
     guard(L, [&] {
         StageClock clock(context);
-        std::vector<Box<VolumeState>> volumes;
-        std::vector<const SweepArguments*> options;
+        std::vector<ToMesh> members;
         std::vector<sweep::LeftOut> left_out;
-        for (std::size_t m = 0; m < assembly.volumes.size(); ++m) {
-            const Box<VolumeState>& volume = assembly.volumes[m];
-            const std::string name = volume->name.empty() ? "volume_" + std::to_string(m + 1) : volume->name;
-            const auto add = [&] { add_members(volumes, options, volume, name, *arguments[m], context); };
-            do_or_leave_out(left_out, name, *arguments[m], add);
+        auto own = arguments.begin();
+        for (std::size_t m = 0; m < assembly.entries.size(); ++m) {
+            const AssemblyState::Entry& entry = assembly.entries[m];
+            for (std::unique_ptr<FixedMember>& fixed : fixed_members(entry, context))
+                members.push_back({nullptr, nullptr, std::move(fixed)});
+            if (!entry.volume) continue;
+            const SweepArguments& options = **own++;
+            const std::string name = entry.volume->name.empty() ? "volume_" + std::to_string(m + 1)
+                                                                : entry.volume->name;
+            const auto add = [&] { add_members(members, entry.volume, name, options, context); };
+            do_or_leave_out(left_out, name, options, add);
         }
-        box = sweep_members(volumes, options, std::move(left_out), context);
+        box = sweep_members(members, std::move(left_out), context);
         box->seconds = clock.seconds();
     });
     return 1;

@@ -98,11 +98,6 @@ struct MeshState {
     StageSeconds seconds; ///< of the sweep
 };
 
-/// Volumes to be meshed as one.
-struct AssemblyState {
-    std::vector<std::shared_ptr<VolumeState>> volumes;
-};
-
 /// The mesh of an assembly.
 struct AssemblyMeshState {
     sweep::SweptAssembly swept;
@@ -111,6 +106,18 @@ struct AssemblyMeshState {
     std::vector<sweep::LeftOut> left_out;
     std::optional<quality::Quality> quality;
     StageSeconds seconds; ///< of the sweep
+};
+
+/// Volumes to be meshed as one, and meshes that stay as they are.
+struct AssemblyState {
+    /// One of the three.
+    struct Entry {
+        std::shared_ptr<VolumeState> volume;
+        std::shared_ptr<MeshState> mesh;
+        std::shared_ptr<AssemblyMeshState> meshes;
+        friend bool operator==(const Entry&, const Entry&) = default;
+    };
+    std::vector<Entry> entries;
 };
 
 /// The nodes and cells of all parts, numbered as one mesh.

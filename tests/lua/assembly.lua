@@ -148,3 +148,73 @@ local pieces = stepped():cut()
 check.equal(#pieces, 2)
 check.near(lacuna.assembly(pieces):sweep { size = 0.5 }.fidelity.volume, 58, 1e-9)
 check.done()
+
+-- A gap a little wider than the tolerance is named, with the tolerance that closes it.
+local function slab(z, tolerance, name)
+  local model = lacuna.model { tolerance = tolerance }
+  local function quad(name, a, b, c, d)
+    model:add_face { name = name, points = { a, b, c, d }, cells = { { 1, 2, 3, 4 } } }
+  end
+  quad("source", { 0, 0, z }, { 1, 0, z }, { 1, 1, z }, { 0, 1, z })
+  quad("target", { 0, 0, z + 1 }, { 1, 0, z + 1 }, { 1, 1, z + 1 }, { 0, 1, z + 1 })
+  quad("side", { 0, 0, z }, { 1, 0, z }, { 1, 0, z + 1 }, { 0, 0, z + 1 })
+  return open(model, name or ("at_%.0f"):format(z))
+end
+local apart = lacuna.assembly { slab(0), slab(1.0001) }:sweep { size = 0.5 }
+local miss = apart.report.near_misses[1]
+check.equal(#apart.report.near_misses, 1)
+check.equal(miss.a .. " " .. miss.b, "at_0 at_1")
+check.equal(miss.face_a .. " " .. miss.face_b, "2 1")
+check.near(miss.width, 1e-4, 1e-9)
+check.near(miss.area, 1, 1e-9)
+check.that(not miss.reach_in and not miss.edge)
+check.that(tostring(apart.report):find(miss.message, 1, true), "the report has it")
+local wider = miss.tolerance
+local together = lacuna.assembly { slab(0, wider), slab(1.0001, wider) }:sweep { size = 0.5 }
+check.equal(#together.report.near_misses, 0)
+check.equal(apart.nodes - together.nodes, 9)
+
+-- Meshes made before stay as they are: their cells, names and numbers of layers.
+local function layer(z, name) return slab(z, nil, name) end
+local first = layer(0, "first"):sweep { size = 0.4, layers = { count = 4, bias = 2 }, quads = "paved" }
+local both = lacuna.assembly { layer(1, "second"), first }
+check.equal(tostring(both), "Assembly of 1 volumes and 1 mesh")
+local two = both:sweep { size = 0.25 }
+check.equal(table.concat(two.regions, " "), "second first")
+check.equal(two.layers.first, 4)
+check.near(two.fidelity.volume, 2, 1e-9)
+check.equal(two:quality().certified, true)
+local function places_of(mesh)
+  local at = {}
+  for i = 1, mesh.nodes do at[("%.17g %.17g %.17g"):format(mesh:node(i))] = true end
+  return at
+end
+local function check_kept(mesh, before)
+  local at = places_of(mesh)
+  for i = 1, before.nodes do
+    check.that(at[("%.17g %.17g %.17g"):format(before:node(i))], "node " .. i .. " stays where it is")
+  end
+end
+check_kept(two, first)
+-- Again, with what came out; the mesh of an assembly is as many regions as it has.
+local three = lacuna.assembly { two, layer(2, "third") }:sweep { size = 0.5 }
+check.equal(table.concat(three.regions, " "), "second first third")
+check_kept(three, two)
+check.near(three.fidelity.volume, 3, 1e-9)
+local names = {}
+for _, group in ipairs(three:groups()) do
+  check.that(not names[group.name], group.name .. " is there once")
+  names[group.name] = group
+end
+check.equal(names.first.cells, first.hexes)
+check.that(names["second:source"] and names["third:target"] and names["first:source"])
+for _, ending in ipairs { ".msh", ".inp", ".vtu" } do
+  three:write(params.scratch .. "/fixed" .. ending)
+  check.equal(lacuna.check(params.scratch .. "/fixed" .. ending).hexes, three.hexes, ending)
+end
+check.fails(function() lacuna.assembly { first }:sweep { size = 1 } end, "swept")
+check.fails(function() lacuna.assembly { first, first } end, "array already")
+check.fails(function() lacuna.assembly { first, layer(1, "first") }:sweep { size = 1 } end, "first")
+check.fails(function() lacuna.assembly { first, 7 } end, "AssemblyMesh")
+check.fails(function() lacuna.assembly { first, layer(1) }:sweep { size = 1, [first] = { layers = 2 } } end,
+  "keys")

@@ -5,6 +5,7 @@
 #include <lacuna/sweep/detail/assembly_imprint.h>
 #include <lacuna/sweep/detail/assembly_nodes.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
+#include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/shared_middles.h>
 #include <lacuna/topology/give_mesh.h>
 
@@ -88,6 +89,10 @@ private:
     void check_members() const
     {
         if (members_.empty()) throw InvalidInput("assembly.empty", "an assembly needs one volume at least");
+        if (std::ranges::all_of(members_, [](const AssemblyMember& m) { return m.fixed != nullptr; }))
+            throw InvalidInput("assembly.all_fixed",
+                               "all members of the assembly came with their meshes; it needs one volume at "
+                               "least that is to be swept");
         for (std::size_t m = 0; m < members_.size(); ++m) {
             if (members_[m].region == "volume")
                 throw InvalidInput(
@@ -118,12 +123,17 @@ private:
                 imprinted_.push_back(*member.volume);
                 regions.push_back(member.region);
             }
-            imprints_ = imprint_faces(imprinted_, regions, found.partly, context_);
+            notes_ = imprint_faces(imprinted_, regions, found.partly, context_);
             for (std::size_t m = 0; m < members_.size(); ++m) members_[m].volume = &imprinted_[m];
-            result_.shared = shared_faces(members_, context_);
-            return;
+            found = faces_in_common(members_, context_);
+            refuse_partly_shared(found);
         }
         result_.shared = std::move(found.whole);
+        result_.near_misses = std::move(found.near);
+        for (const NearMiss& miss : result_.near_misses) {
+            notes_.push_back("near miss: " + miss.message);
+            log_line(context_, notes_.back());
+        }
     }
 
     [[nodiscard]] bool is_void(std::size_t m, FaceId face) const
@@ -166,9 +176,9 @@ private:
         });
     }
 
-    /// Members by what they wait for; of those that are free to come, `first` as listed, then those that came
-    /// with meshes, then those that share an end with one that is there, those whose walls are no one's ends
-    /// that wait, and by number.
+    /// Members by what they wait for; of those that are free to come, fixed ones, then `first` as listed,
+    /// those that came with meshes, those that share an end with one that is there, those whose walls are no
+    /// one's ends that wait, and by number.
     [[nodiscard]] std::vector<std::size_t> order_of(std::span<const std::size_t> first) const
     {
         std::vector<char> placed(members_.size(), 0);
@@ -190,6 +200,7 @@ private:
                     std::ranges::all_of(after_[m], [&](std::size_t other) { return placed[other] != 0; }))
                     next = m;
             };
+            for (std::size_t m = 0; m < members_.size(); ++m) take(m, members_[m].fixed != nullptr);
             for (const std::size_t m : first) take(m, true);
             for (std::size_t m = 0; m < members_.size(); ++m) take(m, came_with_mesh(m));
             const auto waits = [&](std::size_t m) { return has(m, false, true, false); };
@@ -269,7 +280,7 @@ private:
             }
             inputs_[m] = std::move(inputs);
         }
-        result_.report = imprints_;
+        result_.report = notes_;
         for (const std::size_t m : order_)
             result_.report.insert(result_.report.end(), shared_lines_[m].begin(), shared_lines_[m].end());
         return std::nullopt;
@@ -298,6 +309,7 @@ private:
                    const std::vector<std::size_t>& touching)
     {
         const AssemblyMember& member = members_[m];
+        if (member.fixed != nullptr) return take_fixed(m, neighbours, touching);
         SweepOptions options = member.options;
         options.fallback = Fallback::none; // the whole is worked out anew
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
@@ -329,6 +341,14 @@ private:
         }
         check_kept(m, neighbours);
         if (options.order > 1) keep_middles(m, touching);
+    }
+
+    void take_fixed(std::size_t m, const std::vector<Neighbour>& neighbours,
+                    const std::vector<std::size_t>& touching)
+    {
+        result_.parts[m] = *members_[m].fixed;
+        check_kept(m, neighbours);
+        if (members_[m].options.order > 1) keep_middles(m, touching);
     }
 
     /// Members that are there and may touch another, by their boxes.
@@ -400,9 +420,10 @@ private:
     }
 
     /// Whether a member will mesh a face as its neighbour did: flat, with four edges whose nodes are planned,
-    /// and a grid there.
+    /// and a grid there that was made here.
     [[nodiscard]] bool is_alike(std::size_t m, const Neighbour& n) const
     {
+        if (members_[n.other].fixed != nullptr) return false;
         const Model& model = members_[m].volume->model;
         if (!is_flat(model, n.own) || !is_flat(members_[n.other].volume->model, n.there)) return false;
         const std::vector<Loop> loops = border_loops(model, n.own);
@@ -526,7 +547,7 @@ private:
 
     std::vector<AssemblyMember> members_;
     std::vector<OpenVolume> imprinted_; ///< the members' volumes, where faces of any had to be split
-    std::vector<std::string> imprints_; ///< of the report
+    std::vector<std::string> notes_;    ///< of the report: what was imprinted, near misses
     const RunContext& context_;
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> after_; ///< of each member, those that must come before it

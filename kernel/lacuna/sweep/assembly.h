@@ -6,17 +6,25 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace lacuna::sweep {
 
+/// What is further apart than the tolerance and no further than this many times it is likely to have been
+/// meant to touch: CAD kernels leave gaps of up to about a thousandth of a model. A choice.
+inline constexpr double kNearMiss = 1000;
+
 /// One volume of an assembly.
 struct AssemblyMember {
     const topology::OpenVolume* volume = nullptr; ///< sealed
     SweepOptions options;
     std::string region; ///< its name, for messages and groups
+    /// Null, or the mesh it came with, which stays as it is: then `volume` is its skin, whose faces keep
+    /// their quads, and `faces` of it are those of `volume`. Of the options `order` alone counts.
+    const Swept* fixed = nullptr;
 };
 
 /// A face that two members have in common, each on its own side of it.
@@ -25,10 +33,29 @@ struct SharedFace {
     FaceId face_a, face_b;
 };
 
+/// A place where two members come near each other and share no nodes: faces over each other, or an edge of
+/// one along a face of the other.
+struct NearMiss {
+    std::size_t a = 0, b = 0;   ///< places in the list of members, a < b
+    FaceId face_a, face_b;      ///< that lie over each other, or that the edge bounds and runs along
+    std::optional<EdgeId> edge; ///< of the member `edge_of`, if it is an edge's
+    std::size_t edge_of = 0;    ///< a or b
+    int tag_a = 0, tag_b = 0, edge_tag = 0; ///< of the faces and the edge, as the person knows them
+    double least = 0, width = 0; ///< how far they are apart, at the least and at the most [model length]
+    bool reach_in = false;       ///< they are not apart there but reach into each other by that
+    double area = 0;             ///< over which faces are [model length²]
+    double length = 0;           ///< over which an edge is [model length]
+    double tolerance = 0;        ///< of both models with which the faces are one [model length]
+    std::string message;         ///< all of that in words
+};
+
 /// The faces that members have in common: the same surface within the tolerance, however it is faceted; or,
 /// of void faces, with the same rim.
 /// @throw InvalidInput "assembly.part_of_face"  a face that covers only part of another's;
-///                     "assembly.overlap"  two volumes on the same side of a face. Names them.
+///                     "assembly.overlap"  two volumes on the same side of a face, or reaching into each
+///                     other; "assembly.rims_apart"  one face whose rims are further apart than the
+///                     tolerance and nearer than `kNearMiss` times it; "assembly.crack"  faces that touch in
+///                     part, or along an edge, and part from there by as little. Names them.
 /// @note  O((facets) log) for faces whose boxes meet.
 std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, const RunContext& context = {});
 
@@ -45,9 +72,11 @@ struct SweptAssembly {
     /// Of each part's nodes, the number in the whole, from 0. Parts come one after the other; a node that
     /// an earlier part has keeps that one's number.
     std::vector<std::vector<Index>> number;
-    std::size_t nodes = 0;           ///< of the whole
-    std::vector<SharedFace> shared;  ///< whose quads are one; `a` and `b` are places in `parts`
-    std::vector<std::string> report; ///< a line for each shared face, and the order they were meshed in
+    std::size_t nodes = 0;             ///< of the whole
+    std::vector<SharedFace> shared;    ///< whose quads are one; `a` and `b` are places in `parts`
+    std::vector<NearMiss> near_misses; ///< `a` and `b` are places in `parts`
+    /// A line for each shared face and each near miss, and the order they were meshed in.
+    std::vector<std::string> report;
 };
 
 /// Sweep several sealed volumes so that the quads of faces they share are one.
@@ -57,6 +86,7 @@ struct SweptAssembly {
 /// other, each keeping, node for node, what its neighbours' meshes are on the faces they share. Where a
 /// volume cannot keep what its neighbours have made, the order is changed so that it goes before them. A void
 /// face with the rim of a neighbour's given one is that face.
+/// A fixed member is a part as it came, before all others: they keep its quads where they share its faces.
 /// A member that cannot be meshed so is tried with wedges or left out, as its `fallback` says, and the whole
 /// is worked out anew without it: what it would have given others is not there.
 /// @throw NotSweepable  as `sweep()`, the region named; "assembly.layers"  volumes side by side for which
@@ -65,7 +95,8 @@ struct SweptAssembly {
 ///         "assembly.hanging_node"  a node of one mesh within a side of another's.
 /// Faces that are shared in part are split along each other's rims before; the faces of `shared` and of the
 /// parts are then those of the volumes as split, whose first faces are the members' own.
-/// @throw InvalidInput  as `shared_faces()` and `sweep()`; "assembly.part_of_face" where a face that is
+/// @throw InvalidInput  as `shared_faces()` and `sweep()`; "assembly.all_fixed"  no member is to be swept;
+///         "assembly.part_of_face" where a face that is
 ///         shared in part keeps its quads, or cannot be split.
 /// @post  conformal: every quad of a shared face is one of both volumes, no node of one lies within a side or
 ///        a quad of another, and each volume is proved as `sweep()` does, its shape against its own sealed

@@ -148,11 +148,15 @@ void check_no_hanging_nodes(const SweptAssembly& assembly, std::span<const Assem
         const auto& [a, b] = segments[index(near.segment)];
         const double f = fraction_along(p, a, b);
         if ((p - ((1 - f) * a + f * b)).norm() > tolerance) continue;
-        throw NotSweepable("assembly.hanging_node",
-                           members[part].region + " has a node at " + place_in_short(p) + ", where " +
-                               members[side.part].region +
-                               " has none: they touch along an edge and share no face there; give them the "
-                               "same size along it");
+        std::string why =
+            "they touch along an edge and share no face there; give them the same size along it";
+        for (const NearMiss& miss : assembly.near_misses) {
+            if (miss.a == std::min(part, side.part) && miss.b == std::max(part, side.part))
+                why = miss.message;
+        }
+        throw NotSweepable("assembly.hanging_node", members[part].region + " has a node at " +
+                                                        place_in_short(p) + ", where " +
+                                                        members[side.part].region + " has none: " + why);
     }
 }
 

@@ -68,7 +68,7 @@ public:
         for (std::size_t e = 0; e < edges_.size(); ++e) classes_.unite(same_.find(e), e);
         for (std::size_t m = 0; m < members_.size(); ++m) {
             check_cancelled(context_);
-            join_by_sweep(m);
+            if (members_[m].fixed == nullptr) join_by_sweep(m);
         }
         join_opposite();
         for (std::size_t e = 0; e < edges_.size(); ++e)
@@ -203,6 +203,7 @@ private:
     /// @param rows  a face with two rims has as many nodes on both.
     void join_opposite(std::size_t m, FaceId face, bool rows)
     {
+        if (members_[m].fixed != nullptr) return; // it has its quads
         const std::vector<Loop> loops = border_loops(model(m), face);
         if (rows && loops.size() == 2 && loops[0].uses.size() == 1 && loops[1].uses.size() == 1)
             classes_.unite(number(m, loops[0].uses[0].edge), number(m, loops[1].uses[0].edge));

@@ -1,31 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/sweep/assembly.h>
+#include <lacuna/sweep/detail/shared_faces.h>
 
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 /// Faces that volumes share in part. Internal to this folder.
 namespace lacuna::sweep {
-
-/// A pair of faces of which one covers part of the other.
-struct PartlyShared {
-    SharedFace faces;
-    double limit = 0;  ///< how far the facets may be off each other [model length]
-    std::string words; ///< how much of each lies on the other
-};
-
-/// Faces that members have in common, as a whole or in part.
-struct FacesInCommon {
-    std::vector<SharedFace> whole;
-    std::vector<PartlyShared> partly;
-};
-
-/// @throw InvalidInput "assembly.overlap"  as `shared_faces()`
-FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context);
 
 /// Split both faces of each pair along the other's rim, so that what they share is one face of both.
 ///

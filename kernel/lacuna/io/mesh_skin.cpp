@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/mesh_skin.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/healing/split_facets.h>
+
+#include <string>
+
+namespace lacuna::io {
+
+MeshSkin skin_of(const mesh::HexMesh& mesh, const RunContext& context)
+{
+    healing::FacetSoup soup;
+    std::vector<Index> place(mesh.nodes.size(), -1);
+    for (std::size_t p = 0; p < mesh.patches.size(); ++p) soup.label_name.push_back(std::to_string(p));
+    soup.label_keeps_nodes.assign(mesh.patches.size(), 1);
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        const mesh::SkinQuad skin = skin_quad(mesh, i);
+        Quad quad = skin.nodes;
+        for (Index& n : quad) {
+            Index& own = place[index(n)];
+            if (own < 0) {
+                own = static_cast<Index>(soup.points.size());
+                soup.points.push_back(mesh.nodes[index(n)]);
+            }
+            n = own;
+        }
+        if (mesh::is_triangle(quad)) {
+            soup.triangles.push_back({quad[0], quad[1], quad[2]});
+            soup.triangle_label.push_back(skin.patch);
+        } else {
+            soup.quads.push_back(quad);
+            soup.quad_label.push_back(skin.patch);
+        }
+    }
+    healing::SplitOptions options;
+    options.whole_labels = true;
+    topology::Model model = healing::split_facets(soup, options, context);
+    topology::Roles roles;
+    MeshSkin skin;
+    skin.face.resize(mesh.patches.size());
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        topology::Face& face = model.faces[f];
+        const auto patch = static_cast<std::size_t>(std::stoul(face.name));
+        const mesh::SkinPatch& of = mesh.patches[patch];
+        face.name = of.groups.empty() ? "" : of.groups.front();
+        face.tag = of.face != 0 ? of.face : of.tag;
+        if (skin.face[patch].valid())
+            throw InvalidInput("io.skin_in_pieces", "the quads of patch " + std::to_string(of.tag) + " \"" +
+                                                        face.name + "\" of a mesh do not hang together");
+        skin.face[patch] = FaceId(f);
+        roles.walls.emplace_back(f);
+    }
+    for (std::size_t p = 0; p < skin.face.size(); ++p) {
+        if (!skin.face[p].valid())
+            throw InvalidInput("io.skin_in_pieces",
+                               "patch " + std::to_string(mesh.patches[p].tag) + " of a mesh has no quads");
+    }
+    skin.volume = topology::open_volume(model, roles, context);
+    return skin;
+}
+
+} // namespace lacuna::io

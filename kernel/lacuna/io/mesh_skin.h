@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <vector>
+
+namespace lacuna::io {
+
+/// The skin of a swept mesh as faces, one a patch, that keep their quads.
+struct MeshSkin {
+    topology::OpenVolume volume; ///< closed; all faces are walls; they have the patches' tags and names
+    std::vector<FaceId> face;    ///< of each patch
+};
+
+/// @throw InvalidInput "io.skin_in_pieces"  a patch whose quads do not hang together, or that has none.
+/// @note  O(skin log).
+MeshSkin skin_of(const mesh::HexMesh& mesh, const RunContext& context = {});
+
+} // namespace lacuna::io

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/near_misses.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/sweep/detail/words.h>
+#include <lacuna/topology/gaps.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+/// A gap of more than this part of the smaller member is one, whatever the tolerance. A choice: half of the
+/// largest tolerance a model can have.
+constexpr double kWidest = 5e-3;
+/// Share of what is within four windows that is within one: of faces that part from each other evenly a
+/// quarter is, of those that bend apart from where they touch a half.
+constexpr double kStaysNear = 0.6;
+/// An overlap that is a smaller part of both faces counts only where it is wider than the window.
+constexpr double kPart = 0.05;
+/// Vertices of one rim stand for those of another that are no further away than this times the rims are:
+/// corners of 30° are off by twice as far as their sides.
+constexpr double kCorner = 4;
+/// Faces of which this share of what touches is apart are joined in part.
+constexpr double kApart = 0.05;
+/// Where a face covers part of another, corners are laid onto that within the tolerance and along its rim
+/// within the tolerance too, so that they are off by up to the root of two times it.
+constexpr double kLaid = 1.5;
+/// Faces of which this share lies over the other are over each other as a whole.
+constexpr double kWhole = 0.98;
+/// Places an edge is asked at.
+constexpr int kAsked = 64;
+
+std::string name_in(const AssemblyMember& member, EdgeId edge)
+{
+    return name_of(member.volume->model, edge) + " of " + member.region;
+}
+
+std::vector<Vec3> line_of(const Model& model, EdgeId edge)
+{
+    std::vector<Vec3> line;
+    for (const Index p : model[edge].points) line.push_back(model.at(p));
+    return line;
+}
+
+std::set<EdgeId> edges_of(const Model& model, FaceId face)
+{
+    std::set<EdgeId> edges;
+    for (const Loop& loop : border_loops(model, face))
+        for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
+    return edges;
+}
+
+/// Vertices of a face's rim that are more than the starts of closed edges.
+std::vector<Vec3> corners_of(const Model& model, FaceId face)
+{
+    std::vector<Vec3> corners;
+    for (const EdgeId id : edges_of(model, face)) {
+        const Edge& edge = model[id];
+        if (edge.from == edge.to) continue;
+        corners.push_back(model.at(model[edge.from].point));
+        corners.push_back(model.at(model[edge.to].point));
+    }
+    return corners;
+}
+
+/// Whether two faces have an edge in common, within a tolerance.
+bool have_common_edge(const Model& a, FaceId face_a, const Model& b, FaceId face_b, double tolerance)
+{
+    for (const EdgeId e : edges_of(a, face_a)) {
+        const std::vector<Vec3> p = line_of(a, e);
+        const double slack = tolerance + geometry::sag(p);
+        for (const EdgeId f : edges_of(b, face_b)) {
+            const std::vector<Vec3> q = line_of(b, f);
+            const auto near = [&](const Vec3& u, const Vec3& v) { return (u - v).norm() <= slack; };
+            if (!(near(p.front(), q.front()) && near(p.back(), q.back())) &&
+                !(near(p.front(), q.back()) && near(p.back(), q.front())))
+                continue;
+            const auto middle = [](const std::vector<Vec3>& line) {
+                const std::vector<double> arc = geometry::arc_lengths(line);
+                return geometry::point_at(line, arc, arc.back() / 2);
+            };
+            if (near(middle(p), middle(q))) return true;
+        }
+    }
+    return false;
+}
+
+/// Finds the near misses of a pair of members.
+class PairSearch {
+public:
+    PairSearch(std::span<const AssemblyMember> members, std::span<const std::vector<double>> sag,
+               const NearPair& pair, const std::vector<std::vector<bool>>& shared)
+        : pair_(pair), one_(members[pair.a]), other_(members[pair.b]), sag_(sag), shared_(shared)
+    {
+    }
+
+    void find_faces(const std::set<std::pair<FaceId, FaceId>>& partly, std::vector<NearMiss>& found)
+    {
+        for (const auto& [faces, overlap] : pair_.overlaps) {
+            if (shared_[pair_.a][faces.first.index()] || shared_[pair_.b][faces.second.index()]) continue;
+            if (!stays_near(faces, overlap)) continue;
+            if (partly.contains(faces)) {
+                refuse_parted(faces, overlap);
+                continue;
+            }
+            NearMiss miss = made(faces.first, faces.second);
+            miss.least = overlap.least;
+            miss.reach_in = overlap.depth > overlap.gap;
+            miss.width = std::max(overlap.depth, overlap.gap);
+            miss.area = overlap.a.within;
+            say(miss);
+            const bool hinged = overlap.least <= pair_.tolerance && !is_curved(faces) &&
+                                have_common_edge(one_.volume->model, faces.first, other_.volume->model,
+                                                 faces.second, pair_.tolerance);
+            if (hinged)
+                throw InvalidInput("assembly.crack",
+                                   miss.message + ". They have an edge in common, so the two meshes would "
+                                                  "open along it as a crack");
+            if (miss.reach_in && overlap.depth > limit_of(faces))
+                throw InvalidInput("assembly.overlap",
+                                   miss.message + "; volumes of an assembly may touch, not overlap");
+            near_.insert(faces);
+            found.push_back(std::move(miss));
+        }
+    }
+
+    /// Edges of both members along faces of the other.
+    void find_edges(std::vector<NearMiss>& found, const RunContext& context)
+    {
+        find_edges(pair_.a, one_, pair_.b, other_, found, context);
+        find_edges(pair_.b, other_, pair_.a, one_, found, context);
+    }
+
+private:
+    using Faces = std::pair<FaceId, FaceId>;
+
+    [[nodiscard]] double limit_of(const Faces& faces) const
+    {
+        return pair_.tolerance + sag_[pair_.a][faces.first.index()] + sag_[pair_.b][faces.second.index()];
+    }
+    [[nodiscard]] bool is_curved(const Faces& faces) const { return limit_of(faces) > pair_.tolerance; }
+
+    [[nodiscard]] bool stays_near(const Faces& faces, const FaceOverlap& overlap) const
+    {
+        if (!(overlap.a.within >= kStaysNear * overlap.a.around) || !(overlap.a.within > 0)) return false;
+        if (overlap.a.within > pair_.window * overlap.box.diagonal().norm()) return true;
+        return overlap.a.within >= kPart * face_area(one_.volume->model, faces.first) ||
+               overlap.b.within >= kPart * face_area(other_.volume->model, faces.second);
+    }
+
+    /// Faces that lie on each other in part, and are off each other by little for the rest.
+    void refuse_parted(const Faces& faces, const FaceOverlap& overlap) const
+    {
+        if (is_curved(faces) || overlap.a.within - overlap.a.on <= kApart * overlap.a.within) return;
+        const double width = std::max(overlap.gap, overlap.depth);
+        throw InvalidInput("assembly.crack",
+                           name_in(one_, faces.first) + " and " + name_in(other_, faces.second) +
+                               " are one face for part of what they have over each other and up to " +
+                               in_short(width) + " apart for the rest, at " + place(overlap.box) +
+                               ", so the two meshes would open there as a crack; " + hint(faces, width));
+    }
+
+    static std::string place(const Eigen::AlignedBox3d& box) { return place_in_short(box.center()); }
+
+    [[nodiscard]] double joining(const Faces& faces, double width) const
+    {
+        const Model &a = one_.volume->model, &b = other_.volume->model;
+        const auto overlap = pair_.overlaps.find(faces);
+        const bool whole = overlap != pair_.overlaps.end() &&
+                           overlap->second.a.within >= kWhole * face_area(a, faces.first) &&
+                           overlap->second.b.within >= kWhole * face_area(b, faces.second);
+        return joining_tolerance(a, std::max(whole ? width : kLaid * width,
+                                             corners_apart(a, faces.first, b, faces.second, width)));
+    }
+    [[nodiscard]] std::string hint(const Faces& faces, double width) const
+    {
+        return "give both models tolerance = " + in_short(joining(faces, width));
+    }
+
+    [[nodiscard]] NearMiss made(FaceId face_a, FaceId face_b) const
+    {
+        NearMiss miss;
+        miss.a = pair_.a;
+        miss.b = pair_.b;
+        miss.face_a = face_a;
+        miss.face_b = face_b;
+        return miss;
+    }
+
+    void say(NearMiss& miss) const
+    {
+        const Faces faces{miss.face_a, miss.face_b};
+        miss.tag_a = one_.volume->model[miss.face_a].tag;
+        miss.tag_b = other_.volume->model[miss.face_b].tag;
+        if (miss.edge) miss.edge_tag = (miss.edge_of == miss.a ? one_ : other_).volume->model[*miss.edge].tag;
+        miss.tolerance = joining(faces, miss.width);
+        std::string who = name_in(one_, miss.face_a) + " and " + name_in(other_, miss.face_b);
+        std::string over = " over an area of " + in_short(miss.area);
+        if (miss.edge) {
+            const bool of_a = miss.edge_of == miss.a;
+            who = name_in(of_a ? one_ : other_, *miss.edge) + " and " +
+                  (of_a ? name_in(other_, miss.face_b) : name_in(one_, miss.face_a));
+            over = " over a length of " + in_short(miss.length);
+        }
+        miss.message = who + (miss.reach_in ? " reach into each other by up to " : " come within ") +
+                       in_short(miss.width) + over + " and share no nodes there; the tolerance is " +
+                       in_short(pair_.tolerance) + ". To join them " + hint(faces, miss.width);
+    }
+
+    void find_edges(std::size_t own, const AssemblyMember& of, std::size_t there, const AssemblyMember& at,
+                    std::vector<NearMiss>& found, const RunContext& context)
+    {
+        const Model &model = of.volume->model, &other = at.volume->model;
+        std::vector<Triangle> facets;
+        std::vector<FaceId> face_of;
+        for (std::size_t f = 0; f < other.faces.size(); ++f) {
+            facets.insert(facets.end(), other.faces[f].triangles.begin(), other.faces[f].triangles.end());
+            face_of.resize(facets.size(), FaceId(f));
+        }
+        std::optional<geometry::FacetTree> tree;
+        Eigen::AlignedBox3d box;
+        for (const Vec3& p : other.points) box.extend(p);
+        const double around = kAround * pair_.window;
+        box.min().array() -= around;
+        box.max().array() += around;
+        const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
+        for (std::size_t e = 0; e < model.edges.size(); ++e) {
+            check_cancelled(context);
+            const std::vector<Vec3> line = line_of(model, EdgeId(e));
+            Eigen::AlignedBox3d own_box;
+            for (const Vec3& p : line) own_box.extend(p);
+            if (!box.intersects(own_box) || uses[e].empty()) continue;
+            const bool taken = std::ranges::any_of(uses[e], [&](const FaceUse& use) {
+                return shared_[own][use.face.index()] || is_near(own, use.face);
+            });
+            if (taken) continue;
+            if (!tree) tree.emplace(other.points, facets);
+            const std::vector<double> arc = geometry::arc_lengths(line);
+            const double sag = geometry::sag(line);
+            double within = 0, most = 0, all = 0, least = std::numeric_limits<double>::infinity();
+            FaceId nearest;
+            for (int i = 0; i < kAsked; ++i) {
+                const Vec3 p = geometry::point_at(line, arc, arc.back() * (i + 0.5) / kAsked);
+                const auto hit = tree->closest(p, around * around);
+                if (hit.triangle < 0) continue;
+                const FaceId face = face_of[index(hit.triangle)];
+                const double distance = std::sqrt(hit.distance2);
+                all += arc.back() / kAsked;
+                if (distance > pair_.window || shared_[there][face.index()] ||
+                    distance <= pair_.tolerance + sag + sag_[there][face.index()])
+                    continue;
+                within += arc.back() / kAsked;
+                if (distance < least) nearest = face;
+                least = std::min(least, distance);
+                most = std::max(most, distance);
+            }
+            if (!(within > 0) || within < kStaysNear * all ||
+                (within < kCorner * pair_.window && within < kPart * arc.back()))
+                continue;
+            const FaceId face = uses[e].front().face;
+            NearMiss miss = own == pair_.a ? made(face, nearest) : made(nearest, face);
+            miss.edge = EdgeId(e);
+            miss.edge_of = own;
+            miss.least = least;
+            miss.width = most;
+            miss.length = within;
+            say(miss);
+            found.push_back(std::move(miss));
+        }
+    }
+
+    /// Whether a face of the member is over one of the other.
+    [[nodiscard]] bool is_near(std::size_t member, FaceId face) const
+    {
+        return std::ranges::any_of(near_, [&](const Faces& faces) {
+            return (member == pair_.a ? faces.first : faces.second) == face;
+        });
+    }
+
+    const NearPair& pair_;
+    const AssemblyMember &one_, &other_;
+    std::span<const std::vector<double>> sag_;
+    const std::vector<std::vector<bool>>& shared_; ///< of each member's faces: someone has it too
+    std::set<Faces> near_;
+};
+
+} // namespace
+
+double pair_tolerance(const AssemblyMember& a, const AssemblyMember& b)
+{
+    return std::max(a.volume->model.tolerance, b.volume->model.tolerance);
+}
+
+double near_window(const AssemblyMember& a, const AssemblyMember& b)
+{
+    const double tolerance = pair_tolerance(a, b);
+    const double smaller = std::min(a.volume->model.diagonal, b.volume->model.diagonal);
+    return std::max(tolerance, std::min(kNearMiss * tolerance, kWidest * smaller));
+}
+
+double corners_apart(const Model& a, FaceId face_a, const Model& b, FaceId face_b, double at_least)
+{
+    double apart = 0;
+    const std::vector<Vec3> own = corners_of(a, face_a), others = corners_of(b, face_b);
+    const auto add = [&](const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+        for (const Vec3& p : from) {
+            double nearest = std::numeric_limits<double>::infinity();
+            for (const Vec3& q : to) nearest = std::min(nearest, (p - q).norm());
+            if (nearest <= kCorner * at_least) apart = std::max(apart, nearest);
+        }
+    };
+    add(own, others);
+    add(others, own);
+    return apart;
+}
+
+double joining_tolerance(const Model& model, double width)
+{
+    Gap gap;
+    gap.width = width;
+    return sewing_tolerance(model, gap);
+}
+
+std::vector<NearMiss> near_misses(std::span<const AssemblyMember> members,
+                                  std::span<const std::vector<double>> sag, std::span<const NearPair> pairs,
+                                  const FacesInCommon& common, const RunContext& context)
+{
+    std::vector<std::vector<bool>> shared;
+    for (const AssemblyMember& member : members)
+        shared.emplace_back(member.volume->model.faces.size(), false);
+    for (const SharedFace& face : common.whole) {
+        shared[face.a][face.face_a.index()] = true;
+        shared[face.b][face.face_b.index()] = true;
+    }
+    std::vector<NearMiss> found;
+    for (const NearPair& pair : pairs) {
+        check_cancelled(context);
+        std::set<std::pair<FaceId, FaceId>> partly;
+        for (const PartlyShared& part : common.partly) {
+            const SharedFace& faces = part.faces;
+            if (faces.a == pair.a && faces.b == pair.b) partly.emplace(faces.face_a, faces.face_b);
+        }
+        PairSearch search(members, sag, pair, shared);
+        search.find_faces(partly, found);
+        search.find_edges(found, context);
+    }
+    return found;
+}
+
+} // namespace lacuna::sweep
