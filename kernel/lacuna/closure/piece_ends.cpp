@@ -223,7 +223,7 @@ struct Ends {
     double cost = 0;
     bool as_named = false;
     /// Of each void face that is a wall, by its name, the edges that it has with ends, by origin and tag.
-    std::map<std::string, std::set<std::pair<Origin, int>>> wall;
+    std::map<std::string, std::set<std::pair<Origin, int>>> wall{};
 };
 
 /// How many cuts are walls of both pieces, but with other sides along their ends: rows of one are none of the
