@@ -627,7 +627,7 @@ int sweep_volume(lua_State* L)
     VolumeState& state = *volume;
     SweepArguments& arguments = push_arguments(L, 2, "sweep", state);
     RunContext& context = push_context(L);
-    context.threads = arguments.threads;
+    if (arguments.threads != 0) context.threads = arguments.threads;
     bool steps = false;
     guard(L, [&] { steps = closure::has_pieces(state.volume); });
     if (steps) return sweep_steps(L, volume, arguments, context);
@@ -718,7 +718,7 @@ int sweep_assembly(lua_State* L)
         guard(L, [&] { arguments.push_back(&own); });
     }
     RunContext& context = push_context(L);
-    if (!arguments.empty()) context.threads = arguments.front()->threads;
+    if (!arguments.empty() && arguments.front()->threads != 0) context.threads = arguments.front()->threads;
     lua_gc(L, LUA_GCCOLLECT);
     auto& box = new_box<AssemblyMeshState>(L);
     guard(L, [&] {

@@ -165,6 +165,7 @@ RunContext& push_context(lua_State* L)
 {
     const Host& lent = host(L);
     auto& context = temporary<RunContext>(L);
+    context.threads = lent.threads;
     context.cancel = lent.cancel;
     if (lent.log)
         context.log = [&lent](std::string_view line) { lent.log(line); }; // one pointer: no allocation

@@ -21,6 +21,7 @@ struct Host {
     const std::atomic<bool>* cancel = nullptr;              ///< set by the host to stop kernel work
     std::function<void(std::string_view)> log;              ///< notes of the kernel, a line each
     std::function<void(std::string_view, double)> progress; ///< stage, share in [0, 1]
+    int threads = 0;                                        ///< for whom asks for none; 0: all cores
     bool sandboxed = false;                                 ///< files are written below `output_folder` alone
     std::shared_ptr<const io::Folder> output_folder;        ///< null with `sandboxed`: nothing is written
 };

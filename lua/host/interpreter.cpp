@@ -287,6 +287,7 @@ int Interpreter::State::print(lua_State* L)
 Interpreter::State::State(InterpreterOptions asked) : options(std::move(asked))
 {
     host.cancel = &stop;
+    host.threads = options.threads;
     host.sandboxed = options.sandbox;
     if (!options.output_folder.empty())
         host.output_folder = std::make_shared<const io::Folder>(options.output_folder);

@@ -15,9 +15,12 @@ namespace {
 
 const char* const kHelp = R"(usage: lacuna [option ...] RECIPE [key=value ...]
        lacuna [option ...] COMMAND FILE ...
+       lacuna [option ...] -j N RECIPE [key=value ...] RECIPE [key=value ...] ...
        lacuna [option ...] -i
 
   RECIPE [key=value ...]  run a recipe, with parameters changed; - reads it from standard input
+  -j N RECIPE ...         run recipes side by side, N at once, each in a process of its own; what each
+                          prints comes whole, in this order
   -i                      a prompt; help there says what there is
 )";
 
@@ -25,6 +28,7 @@ const char* const kOptionHelp = R"(
   --verbose               what the kernel notes as it works, on standard error
   --quiet                 no line of progress while standard error is a terminal
   --traceback             where in the recipe an error came from, call by call
+  --threads N             most threads where a recipe asks for none; default all cores, with -j its share
   --history FILE          of the prompt: lines typed are kept there; default $LACUNA_HISTORY, else nowhere
   --sandbox               no os, io or bytecode; limits on memory and time; no file is written
     --output-dir FOLDER   ... but below this folder
@@ -77,8 +81,9 @@ numbers, regions and sets are kept. What the format cannot hold is named on stan
 )"},
 };
 
-const char* const kFlags[] = {"--sandbox",   "--output-dir", "--memory",  "--seconds", "--verbose", "--quiet",
-                              "--traceback", "--history",    "--version", "--help",    "--json"};
+const char* const kFlags[] = {"--sandbox", "--output-dir", "--memory",    "--seconds",
+                              "--verbose", "--quiet",      "--traceback", "--history",
+                              "--version", "--help",       "--json",      "--threads"};
 
 const Command* find_command(const std::string& name)
 {
@@ -109,6 +114,14 @@ struct Words {
         if (empty() || all[next].starts_with("--")) throw BadUsage(flag + " wants a value");
         return take();
     }
+    int count_of(const std::string& flag)
+    {
+        constexpr double kMost = 1024;
+        const double value = positive_value_of(flag);
+        if (value != std::floor(value) || value > kMost)
+            throw BadUsage(flag + " wants a whole number from 1 to 1024, found " + all[next - 1]);
+        return static_cast<int>(value);
+    }
     double positive_value_of(const std::string& flag)
     {
         const std::string& word = value_of(flag);
@@ -131,6 +144,8 @@ bool read_flag(const std::string& word, Words& words, CommandLine& line, bool& l
         line.quiet = true;
     else if (word == "--traceback")
         line.traceback = true;
+    else if (word == "--threads")
+        line.threads = words.count_of(word);
     else if (word == "--history")
         line.history = words.value_of(word);
     else if (word == "--output-dir")
@@ -172,6 +187,23 @@ void read_command(const Command& command, Words& words, CommandLine& line)
         throw BadUsage(wants + "; found " + line.words[command.count] + " too");
 }
 
+/// Recipes, and behind each its parameters.
+void read_batch(Words& words, CommandLine& line)
+{
+    line.action = Action::batch;
+    line.jobs = words.count_of("-j");
+    while (!words.empty()) {
+        const std::string& word = words.take();
+        if (is_parameter(word) && !line.batch.empty())
+            line.batch.back().words.push_back(word);
+        else if (is_parameter(word) || word.starts_with("-"))
+            throw BadUsage("-j wants recipes, each with its key=value words behind it, found " + word);
+        else
+            line.batch.push_back({word, {}});
+    }
+    if (line.batch.empty()) throw BadUsage("recipes are wanted after -j");
+}
+
 /// The word that says what is to be done, and what belongs to it.
 void read_action(const std::string& word, Words& words, CommandLine& line)
 {
@@ -185,6 +217,8 @@ void read_action(const std::string& word, Words& words, CommandLine& line)
         }
     } else if (word == "-i")
         line.action = Action::prompt;
+    else if (word == "-j")
+        read_batch(words, line);
     else if (const Command* command = find_command(word))
         read_command(*command, words, line);
     else if (word != "-" && word.starts_with("-")) {

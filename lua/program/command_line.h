@@ -7,7 +7,13 @@
 
 namespace lacuna::program {
 
-enum class Action { run, prompt, command, version, help };
+enum class Action { run, batch, prompt, command, version, help };
+
+/// A recipe of several that are run side by side.
+struct Job {
+    std::string recipe;
+    std::vector<std::string> words; ///< key=value
+};
 
 /// What the command line asks for.
 struct CommandLine {
@@ -15,6 +21,9 @@ struct CommandLine {
     std::string file;               ///< of a run: the recipe, "-" for standard input
     std::string command;            ///< of a command, or of help: which; empty: all
     std::vector<std::string> words; ///< key=value words after the recipe; the files of a command
+    std::vector<Job> batch;         ///< of a batch, in its order
+    int jobs = 0;                   ///< of a batch: recipes at once
+    int threads = 0;                ///< of the kernel, where a recipe asks for none; 0: all cores
     bool json = false;              ///< of a command
     bool verbose = false;           ///< notes of the kernel on standard error
     bool quiet = false;             ///< no line of progress

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "program/batch.h"
 #include "program/chunks.h"
 #include "program/command_line.h"
 #include "program/progress_line.h"
@@ -46,6 +47,7 @@ void run_action(const CommandLine& line, lacuna::Interpreter& interpreter, Progr
     case Action::version:
         interpreter.run_string(kVersion, "lacuna");
         break;
+    case Action::batch:
     case Action::help:
         break;
     }
@@ -57,12 +59,14 @@ Exit run(const CommandLine& line)
         std::fputs(help_text(line.command).c_str(), stdout);
         return Exit::done;
     }
+    if (line.action == Action::batch) return run_batch(line);
     ProgressLine progress(!line.quiet);
     lacuna::InterpreterOptions options;
     progress.watch(options);
     options.sandbox = line.sandbox;
     options.output_folder = line.output_dir;
     options.traceback = line.traceback;
+    options.threads = line.threads;
     // What a format cannot hold, and what a mesh lacks, is said by notes.
     const bool all = line.verbose || line.command == "convert";
     options.log = [&progress, all](std::string_view text) {

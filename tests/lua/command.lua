@@ -34,6 +34,52 @@ expect({ "help", "nothing" }, 2, {}, { "nothing" })
 expect({ "convert", "a.msh" }, 2, {}, { "IN OUT" })
 expect({ "convert", "--json", "a.msh", "b.vtu" }, 2, {}, { "--json" })
 
+-- Recipes side by side: each with its own words, what they print in order, and one that fails or is ended
+-- changes nothing for the others.
+check.write(folder .. "/job.lua", [[
+local lacuna = require "lacuna"
+local params = lacuna.params { n = 1, how = "" }
+if params.n == 1 then
+  local until_then = os.clock() + 0.3
+  while os.clock() < until_then do end
+end
+print("job", params.n)
+io.stderr:write("note ", params.n, "\n")
+if params.how == "fails" then error("asked for") end
+if params.how == "killed" then os.execute("kill -9 $PPID") end
+if params.how == "hangs" then while true do end end
+]])
+local jobs = folder .. "/job.lua"
+for _, at_once in ipairs { "1", "2", "9" } do
+  local words = { "-j", at_once }
+  local expected = ""
+  for n = 1, 5 do
+    words[#words + 1], words[#words + 2] = jobs, "n=" .. n
+    expected = expected .. "job\t" .. n .. "\n"
+  end
+  local code, out, err = run(words)
+  check.equal(code, 0, err)
+  check.equal(out, expected)
+  check.equal(err, (expected:gsub("job\t", "note ")))
+end
+expect({ "-j", "2", jobs, "n=1", "how=fails", jobs, "n=2" }, 1, { "job\t1\njob\t2\n" },
+  { "asked for", "job.lua failed, exit code 1" })
+expect({ "-j", "2", jobs, "n=2", "how=killed", jobs, "n=3" }, 1, { "job\t3\n" }, { "ended by signal 9" })
+expect({ "--sandbox", "--seconds", "1", "-j", "2", jobs, jobs }, 1, {}, { "job.lua failed" })
+expect({ "-j", "2", folder .. "/no_such.lua", jobs }, 1, { "job\t1\n" }, { "no_such.lua" })
+for _, words in ipairs { { "-j" }, { "-j", "2" }, { "-j", "x", jobs }, { "-j", "1.5", jobs },
+  { "-j", "0", jobs }, { "-j", "2", "n=1", jobs }, { "-j", "2", "-" }, { "--threads", "1e9", jobs } } do
+  expect(words, 2, {}, { "lacuna: " })
+end
+do
+  local command = ("cd '%s' && timeout -s INT 1 '%s' -j 2 job.lua how=hangs job.lua how=hangs"):format(folder,
+    params.lacuna) .. " >/dev/null 2>&1"
+  local _, how, code = os.execute(command .. "; [ $? -eq 124 ]") -- timeout's own: it had to interrupt
+  check.that(how == "exit" and code == 0, "interrupted jobs end")
+  local left <close> = assert(io.popen("pgrep -f '[j]ob.lua how=hangs'"))
+  check.equal(left:read("a"), "", "no job outlives an interrupt")
+end
+
 -- Manual page and completions name every option and command that the help names.
 local _, help = run { "--help" }
 local program = arg[0]:match("^(.*/)") .. "../../lua/program/"

@@ -37,6 +37,7 @@ struct InterpreterOptions {
     std::uint64_t instructions = 0; ///< most steps of Lua a run may take, to 10,000; 0: no limit
     bool sandbox = false;           ///< no os, io, debug, package or bytecode; files only as follows
     std::string output_folder;      ///< with `sandbox`: files are written below it alone; empty: nowhere
+    int threads = 0;                ///< most that a sweep takes which asks for none itself; 0: all cores
     bool traceback = false;         ///< ScriptError::traceback is filled in
 };
 

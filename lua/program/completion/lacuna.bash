@@ -9,13 +9,13 @@ _lacuna()
     case $before in
         --output-dir) mapfile -t COMPREPLY < <(compgen -d -- "$word") && return ;;
         --history) mapfile -t COMPREPLY < <(compgen -f -- "$word") && return ;;
-        --memory | --seconds) return ;;
+        --memory | --seconds | --threads | -j) return ;;
     esac
-    local flags="--verbose --quiet --traceback --help"
+    local flags="--verbose --quiet --traceback --threads --help"
     case $command in
         help) mapfile -t COMPREPLY < <(compgen -W "info view check convert" -- "$word") && return ;;
         info | check) flags+=" --json" ;;
-        "") flags+=" --history --sandbox --output-dir --memory --seconds --version -i" ;;
+        "") flags+=" --history --sandbox --output-dir --memory --seconds --version -i -j" ;;
     esac
     if [[ $word == -* ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$flags" -- "$word")

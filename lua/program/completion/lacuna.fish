@@ -8,6 +8,8 @@ complete -c lacuna -n "not __fish_seen_subcommand_from $commands" -a help -d 'ab
 complete -c lacuna -n "__fish_seen_subcommand_from help" -f -a 'info view check convert'
 complete -c lacuna -n "__fish_seen_subcommand_from info check" -l json -d 'for scripts'
 complete -c lacuna -s i -d 'a prompt'
+complete -c lacuna -s j -x -d 'so many recipes side by side'
+complete -c lacuna -l threads -x -d 'most threads of a recipe'
 complete -c lacuna -l verbose -d 'what the kernel notes as it works'
 complete -c lacuna -l quiet -d 'no line of progress'
 complete -c lacuna -l traceback -d 'where in the recipe an error came from'
