@@ -5,6 +5,7 @@
 #include <lacuna/sweep/detail/assembly_imprint.h>
 #include <lacuna/sweep/detail/assembly_nodes.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
+#include <lacuna/sweep/detail/carry_lines.h>
 #include <lacuna/sweep/detail/shared_middles.h>
 #include <lacuna/topology/give_mesh.h>
 
@@ -77,7 +78,13 @@ public:
         find_shared();
         find_order();
         plan_ = plan_assembly(members_, result_.shared, context_);
-        sweep_all();
+        try {
+            sweep_all();
+        } catch (const MemberFailed& failed) {
+            if (!carry_lines()) throw;
+            log_line(context_, failed.what());
+            sweep_again();
+        }
         number_nodes(result_, pairs_);
         check_no_hanging_nodes(result_, members_);
         name_groups();
@@ -124,6 +131,34 @@ private:
             return;
         }
         result_.shared = std::move(found.whole);
+    }
+
+    /// Split ends along lines that neighbours need. @return  whether there are any
+    bool carry_lines()
+    {
+        if (imprinted_.empty()) {
+            for (const AssemblyMember& member : members_) imprinted_.push_back(*member.volume);
+            for (std::size_t m = 0; m < members_.size(); ++m) members_[m].volume = &imprinted_[m];
+        }
+        std::vector<std::string> lines;
+        try {
+            lines = sweep::carry_lines(members_, imprinted_, context_);
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const Error& error) { // what was wrong first says more
+            log_line(context_, error.what());
+        }
+        imprints_.insert(imprints_.end(), lines.begin(), lines.end());
+        return !lines.empty();
+    }
+
+    void sweep_again()
+    {
+        result_ = {};
+        inputs_.clear();
+        result_.shared = shared_faces(members_, context_);
+        plan_ = plan_assembly(members_, result_.shared, context_);
+        sweep_all();
     }
 
     [[nodiscard]] bool is_void(std::size_t m, FaceId face) const
