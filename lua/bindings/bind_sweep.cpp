@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bindings/classes.h"
 #include "bindings/faces.h"
+#include "bindings/full_turns.h"
 #include "bindings/io_paths.h"
 #include "bindings/options.h"
 
@@ -506,6 +507,7 @@ void add_members(std::vector<Box<VolumeState>>& volumes, std::vector<const Sweep
         own.level = piece.level;
         own.turn_from = piece.turn_from;
         own.turn_to = piece.turn_to;
+        if (piece.turn_to - piece.turn_from < 1) own.turn_of = name;
         own.name = name + "_" + std::to_string(++number);
         own.material = volume->material;
         options.push_back(&arguments);
@@ -556,7 +558,7 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<Box<VolumeSta
                                                  const RunContext& context)
 {
     std::vector<sweep::AssemblyMember> members;
-    std::vector<std::string> materials;
+    std::vector<std::string> materials, turn_of;
     std::vector<std::unique_ptr<Busy>> busy;
     auto mesh = std::make_shared<AssemblyMeshState>();
     for (std::size_t m = 0; m < volumes.size(); ++m) {
@@ -569,6 +571,7 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<Box<VolumeSta
         };
         if (!do_or_leave_out(left_out, region, *options[m], close)) continue;
         materials.push_back(state.material);
+        turn_of.push_back(state.turn_of);
         members.push_back({&state.volume, options[m]->options, region});
         keep_known_faces(members.back());
         if (state.level > 0) members.back().options.layers = {};
@@ -576,11 +579,14 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<Box<VolumeSta
     }
     if (members.empty() && !left_out.empty())
         throw NotSweepable(left_out.front().code, left_out.front().message);
-    mesh->swept = sweep::sweep_assembly(members, context);
+    mesh->swept = sweep_turns(members, turn_of, context);
+    std::vector<std::string> turns; // of each part
     for (const std::size_t m : mesh->swept.member) {
+        turns.push_back(turn_of[m]);
         mesh->regions.push_back(members[m].region);
         mesh->materials.push_back(materials[m]);
     }
+    join_turns(*mesh, turns);
     for (const sweep::LeftOut& out : left_out)
         mesh->swept.report.push_back("left out: " + out.message + " [" + out.code + "]");
     mesh->left_out = std::move(left_out);
