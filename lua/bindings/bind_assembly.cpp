@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Assembly: several volumes meshed as one, and its mesh. Sweeping and writing add their methods.
 #include "bindings/classes.h"
+#include "bindings/full_turns.h"
 #include "bindings/options.h"
 
 #include <algorithm>
@@ -121,7 +122,10 @@ int mesh_layers(lua_State* L)
     const auto& state = hold<AssemblyMeshState>(L, 1);
     lua_createtable(L, 0, static_cast<int>(state.regions.size()));
     for (std::size_t p = 0; p < state.regions.size(); ++p) {
-        lua_pushinteger(L, state.swept.parts[p].mesh.layers);
+        lua_getfield(L, -1, state.regions[p].c_str()); // pieces of a full turn are one region
+        const lua_Integer before = lua_tointeger(L, -1);
+        lua_pop(L, 1);
+        lua_pushinteger(L, before + state.swept.parts[p].mesh.layers);
         lua_setfield(L, -2, state.regions[p].c_str());
     }
     return 1;
@@ -131,9 +135,11 @@ int mesh_regions(lua_State* L)
 {
     const auto& state = hold<AssemblyMeshState>(L, 1);
     lua_createtable(L, static_cast<int>(state.regions.size()), 0);
+    lua_Integer next = 1;
     for (std::size_t p = 0; p < state.regions.size(); ++p) {
+        if (!begins_region(state, p)) continue;
         lua_pushstring(L, state.regions[p].c_str());
-        lua_rawseti(L, -2, to_lua(p));
+        lua_rawseti(L, -2, next++);
     }
     return 1;
 }
@@ -226,7 +232,19 @@ int mesh_fidelity(lua_State* L)
     lua_setfield(L, -2, "faces");
     lua_createtable(L, 0, static_cast<int>(state.regions.size()));
     for (std::size_t p = 0; p < state.regions.size(); ++p) {
-        push_fidelity(L, state.swept.parts[p].fidelity);
+        if (!begins_region(state, p)) continue;
+        sweep::Fidelity own = state.swept.parts[p].fidelity;
+        for (std::size_t q = p + 1; q < state.regions.size(); ++q) {
+            if (state.regions[q] != state.regions[p]) continue;
+            const sweep::Fidelity& other = state.swept.parts[q].fidelity;
+            const double all = own.sealed_volume + other.sealed_volume;
+            own.mean_distance =
+                (own.mean_distance * own.sealed_volume + other.mean_distance * other.sealed_volume) / all;
+            own.max_distance = std::max(own.max_distance, other.max_distance);
+            own.volume += other.volume;
+            own.sealed_volume = all;
+        }
+        push_fidelity(L, own);
         lua_setfield(L, -2, state.regions[p].c_str());
     }
     lua_setfield(L, -2, "regions");
@@ -305,7 +323,11 @@ int groups(lua_State* L)
         lua_rawseti(L, -2, next++);
     }
     for (std::size_t p = 0; p < state.regions.size(); ++p) {
-        push_group(L, state.regions[p], 3, state.swept.parts[p].mesh.cell_count());
+        if (!begins_region(state, p)) continue;
+        std::size_t cells = 0;
+        for (std::size_t q = p; q < state.regions.size(); ++q)
+            if (state.regions[q] == state.regions[p]) cells += state.swept.parts[q].mesh.cell_count();
+        push_group(L, state.regions[p], 3, cells);
         lua_rawseti(L, -2, next++);
     }
     push_group(L, "volume", 3, sum(state, &mesh::HexMesh::cell_count));

@@ -2,6 +2,7 @@
 #include "bindings/classes.h"
 #include "bindings/faces.h"
 #include "bindings/fixed_members.h"
+#include "bindings/full_turns.h"
 #include "bindings/io_paths.h"
 #include "bindings/options.h"
 
@@ -513,6 +514,7 @@ void add_members(std::vector<ToMesh>& members, const Box<VolumeState>& volume, c
         own.level = piece.level;
         own.turn_from = piece.turn_from;
         own.turn_to = piece.turn_to;
+        if (piece.turn_to - piece.turn_from < 1) own.turn_of = name;
         own.name = name + "_" + std::to_string(++number);
         own.material = volume->material;
     }
@@ -561,7 +563,7 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<ToMesh>& all,
                                                  const RunContext& context)
 {
     std::vector<sweep::AssemblyMember> members;
-    std::vector<std::string> materials;
+    std::vector<std::string> materials, turn_of;
     std::vector<std::unique_ptr<Busy>> busy;
     auto mesh = std::make_shared<AssemblyMeshState>();
     for (std::size_t m = 0; m < all.size(); ++m) {
@@ -569,6 +571,7 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<ToMesh>& all,
         if (const FixedMember* fixed = all[m].fixed.get()) {
             const mesh::HexMesh& own = fixed->swept.mesh;
             materials.push_back(fixed->material);
+            turn_of.emplace_back();
             members.push_back(
                 {&fixed->skin.volume, {}, fixed->region.empty() ? number : fixed->region, &fixed->swept});
             members.back().options.order = own.order();
@@ -584,6 +587,7 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<ToMesh>& all,
         };
         if (!do_or_leave_out(left_out, region, *all[m].arguments, close)) continue;
         materials.push_back(state.material);
+        turn_of.push_back(state.turn_of);
         members.push_back({&state.volume, all[m].arguments->options, region});
         keep_known_faces(members.back());
         if (state.level > 0) members.back().options.layers = {};
@@ -591,11 +595,14 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<ToMesh>& all,
     }
     if (members.empty() && !left_out.empty())
         throw NotSweepable(left_out.front().code, left_out.front().message);
-    mesh->swept = sweep::sweep_assembly(members, context);
+    mesh->swept = sweep_turns(members, turn_of, context);
+    std::vector<std::string> turns; // of each part
     for (const std::size_t m : mesh->swept.member) {
+        turns.push_back(turn_of[m]);
         mesh->regions.push_back(members[m].region);
         mesh->materials.push_back(materials[m]);
     }
+    join_turns(*mesh, turns);
     for (const sweep::LeftOut& out : left_out)
         mesh->swept.report.push_back("left out: " + out.message + " [" + out.code + "]");
     mesh->left_out = std::move(left_out);

@@ -68,6 +68,7 @@ struct VolumeState {
     std::string name;                             ///< of the region its cells are; empty: the default
     int level = 0; ///< of a piece cut at steps: 0 goes from end to end, others have what layers are left
     double turn_from = 0, turn_to = 1; ///< of a piece of a full turn: where it is, as shares of the turn
+    std::string turn_of;               ///< of a piece of a full turn: the region that all of it is
     std::string material;              ///< name or number of its material; empty: none was said
     std::vector<std::shared_ptr<const io::Deck>> decks; ///< those of the model it was made of
     double scale = 1;                                   ///< of its coordinates to theirs

@@ -10,6 +10,7 @@
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/geometry/union_find.h>
 #include <lacuna/topology/section.h>
+#include <lacuna/topology/side_points.h>
 
 #include <algorithm>
 #include <array>
@@ -34,8 +35,11 @@ constexpr double kConcave = 15;
 constexpr double kDeepest = 0.5;
 /// A branch leaves sideways where the main body's way has at least this share square to it. A choice.
 constexpr double kAlong = 0.1;
-/// Branches leave to one side where the ways they go differ by less than this cosine, of 30°. A choice.
+/// Branches leave to one side where the ways they go differ by less than this cosine, of 30°, or by a half
+/// turn but for that. A choice.
 constexpr double kSameSide = 0.87;
+/// Lines along a main body nearer than this share of its widest mouth are one. A choice.
+constexpr double kBeside = 0.1;
 /// Chords of the dip. A choice.
 constexpr int kChords = 16;
 
@@ -208,8 +212,8 @@ struct Reach {
 
 class BranchCutter {
 public:
-    BranchCutter(const OpenVolume& volume, Branching found, const RunContext& context)
-        : volume_(volume), found_(std::move(found)), context_(context)
+    BranchCutter(const OpenVolume& volume, Branching found, const RunContext& context, bool lined = false)
+        : volume_(volume), found_(std::move(found)), context_(context), lined_(lined)
     {
     }
 
@@ -220,15 +224,18 @@ public:
         for (const Mouth& mouth : found_.mouths)
             if (mouth.host == host) mouths.push_back(&mouth);
         set_axis(*mouths.front());
+        if (!lined_) {
+            const std::vector<geometry::Plane> planes = planes_along(mouths);
+            if (!planes.empty()) return with_lines(planes);
+        }
         std::ranges::sort(mouths, {}, [&](const Mouth* mouth) { return reach(*mouth).low; });
         // Those that lie across from each other, or overlap along the way, meet in one place.
         double high = reach(*mouths.front()).high;
         std::size_t count = 1;
         for (; count < mouths.size() && reach(*mouths[count]).low <= high + volume_.model.tolerance; ++count)
             high = std::max(high, reach(*mouths[count]).high);
-        refuse_turning(mouths);
         mouths.resize(count);
-        if (count == 1) {
+        if (count == 1 && found_.ends[mouths.front()->branch].size() < 2) {
             const std::vector<double> heights = sides_across(*mouths.front());
             if (!heights.empty()) return part_at(heights);
         }
@@ -292,19 +299,116 @@ private:
             refuse(mouth, "it leaves the main body along the way between that one's ends");
     }
 
-    /// The lines across mouths are in the mesh of the arms between them. An arm holds those of both its ends,
-    /// and hands none on: of three in a row, two that follow each other leave to the same side.
-    void refuse_turning(const std::vector<const Mouth*>& mouths) const
+    /// Planes along the main body through the middle of each mouth and of each line across its ends, where
+    /// these leave to several sides; nothing where all leave to one.
+    [[nodiscard]] std::vector<geometry::Plane> planes_along(const std::vector<const Mouth*>& mouths) const
     {
-        const auto turns = [&](std::size_t m) {
-            return way_out(*mouths[m]).dot(way_out(*mouths[m + 1])) < kSameSide;
-        };
-        for (std::size_t m = 0; m + 2 < mouths.size(); ++m) {
-            if (turns(m) && turns(m + 1))
-                refuse(*mouths[m + 1],
-                       "it leaves to another side than those before and after it, and no mesh "
-                       "of the arms between holds the lines across all three");
+        const Model& model = volume_.model;
+        std::vector<std::array<Vec3, 2>> across; // ends of lines across the ends of the main body
+        const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
+        for (std::size_t e = 0; e < uses.size(); ++e) {
+            const bool inner = uses[e].size() == 2 && uses[e][0].face != uses[e][1].face &&
+                               std::ranges::all_of(uses[e], [&](const FaceUse& use) {
+                                   return found_.region[use.face.index()] == mouths.front()->host &&
+                                          volume_.role[use.face.index()] != Role::wall;
+                               });
+            if (!inner) continue;
+            across.push_back(
+                {model.at(model.edges[e].points.front()), model.at(model.edges[e].points.back())});
         }
+        std::vector<geometry::Plane> planes;
+        const auto add = [&](Vec3 place, const Vec3& normal) {
+            const Vec3 square = normal - normal.dot(axis_) * axis_;
+            if (!(square.norm() > kAlong * normal.norm())) return;
+            Vec3 n = square.normalized();
+            const bool known = std::ranges::any_of(planes, [&](const geometry::Plane& plane) {
+                return std::abs(plane.normal.dot(n)) > kSameSide;
+            });
+            if (known) return;
+            // Through the ends of lines that it would pass by.
+            for (const auto& [a, b] : across) {
+                const auto is_near = [&](const Vec3& p) {
+                    return std::abs((p - place).dot(n)) <= kBeside * width();
+                };
+                const Vec3 turned = axis_.cross(b - a);
+                if (is_near(a) && is_near(b) && turned.norm() > kAlong * (b - a).norm())
+                    n = turned.normalized();
+                if (is_near(a) || is_near(b)) place = is_near(a) ? a : b;
+            }
+            planes.push_back(geometry::plane_across(place, n));
+        };
+        for (const Mouth* mouth : mouths) {
+            const Vec3 aside = axis_.cross(way_out(*mouth)).normalized();
+            const std::vector<Vec3> rim = rim_places(*mouth);
+            const auto [low, high] = std::ranges::minmax_element(rim, {},
+                                                                 [&](const Vec3& p) { return p.dot(aside); });
+            add((*low + *high) / 2, aside);
+        }
+        for (const auto& [a, b] : across) add((a + b) / 2, b - a);
+        if (planes.size() < 2) planes.clear();
+        return planes;
+    }
+
+    /// Cut the volume with lines on the walls of the main body in some planes: they say what goes with what
+    /// on the ends of arms whose rims are bent at mouths to several sides.
+    std::vector<StepPiece> with_lines(const std::vector<geometry::Plane>& planes) const
+    {
+        OpenVolume lined = volume_;
+        std::vector<char> is_host(found_.region.size(), 0);
+        for (const FaceId face : found_.faces[found_.mouths.front().host])
+            is_host[face.index()] = volume_.role[face.index()] == Role::wall ? 1 : 0;
+        for (const geometry::Plane& plane : planes) {
+            std::vector<FaceId> walls;
+            for (std::size_t f = 0; f < is_host.size(); ++f)
+                if (is_host[f] != 0) walls.emplace_back(f);
+            Model& model = lined.model;
+            std::vector<SectionWalk> walks = section_walks(model, walls, plane, model.tolerance);
+            std::erase_if(walks, [&](const SectionWalk& walk) {
+                return is_beside_line(model, walls, walk, plane, kBeside * width());
+            });
+            const WalkImprint made = imprint_walks(model, walks, plane, model.tolerance, context_);
+            for (std::size_t f = is_host.size(); f < made.parent.size(); ++f) {
+                is_host.push_back(is_host[made.parent[f].index()]);
+                lined.role.push_back(lined.role[made.parent[f].index()]);
+            }
+        }
+        build_loops(lined.model);
+        Branching again = BranchFinder(lined).run();
+        return BranchCutter(lined, std::move(again), context_, true).run();
+    }
+
+    /// Of the widest mouth.
+    [[nodiscard]] double width() const
+    {
+        double wide = 0;
+        for (const Mouth& mouth : found_.mouths) {
+            const std::vector<Vec3> rim = places(volume_.model, mouth.edges);
+            for (const Vec3& p : rim) wide = std::max(wide, (p - rim.front()).norm());
+        }
+        return wide;
+    }
+
+    /// Whether a line along the main body has an edge of its walls beside it.
+    [[nodiscard]] bool is_beside_line(const Model& model, const std::vector<FaceId>& walls,
+                                      const SectionWalk& walk, const geometry::Plane& plane,
+                                      double near) const
+    {
+        const Vec3 middle = geometry::from_plane(plane,
+                                                 place_of(model, walk.places[walk.places.size() / 2], plane));
+        for (const FaceId wall : walls) {
+            for (const Loop& loop : model[wall].loops) {
+                for (const EdgeUse& use : loop.uses) {
+                    const std::vector<Index>& points = model[use.edge].points;
+                    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+                        const Vec3 &a = model.at(points[i]), &b = model.at(points[i + 1]);
+                        if (std::abs((b - a).dot(axis_)) < kSameSide * (b - a).norm()) continue;
+                        const double f = std::clamp(fraction_along(middle, a, b), 0.0, 1.0);
+                        if ((middle - ((1 - f) * a + f * b)).norm() <= near) return true;
+                    }
+                }
+            }
+        }
+        return false;
     }
 
     /// Points round a mouth, in order.
@@ -384,11 +488,11 @@ private:
         return pieces;
     }
 
-    [[nodiscard]] Vec2 place_of(const SectionPlace& place, const geometry::Plane& plane) const
+    static Vec2 place_of(const Model& model, const SectionPlace& place, const geometry::Plane& plane)
     {
-        const Vec3& a = volume_.model.at(place.a);
+        const Vec3& a = model.at(place.a);
         if (place.b < 0) return geometry::to_plane(plane, a);
-        const Vec3& b = volume_.model.at(place.b);
+        const Vec3& b = model.at(place.b);
         const double ha = geometry::height(plane, a), hb = geometry::height(plane, b);
         return geometry::to_plane(plane, a + ha / (ha - hb) * (b - a));
     }
@@ -410,7 +514,8 @@ private:
         std::vector<std::vector<Vec2>> loops(1);
         for (std::size_t w = 0; w < walks.size(); ++w) {
             if (w >= open) loops.emplace_back();
-            for (const SectionPlace& place : walks[w].places) loops.back().push_back(place_of(place, plane));
+            for (const SectionPlace& place : walks[w].places)
+                loops.back().push_back(place_of(volume_.model, place, plane));
         }
         std::vector<SectionWalk> own(walks.begin(), rest.begin());
         for (const std::vector<std::size_t>& region : regions_of(loops)) {
@@ -585,6 +690,7 @@ private:
     const OpenVolume& volume_;
     Branching found_;
     const RunContext& context_;
+    bool lined_ = false;                               ///< walls have lines along the main body
     Vec3 centre_ = Vec3::Zero(), axis_ = Vec3::Zero(); ///< of the first mouth, and the way past it
 };
 

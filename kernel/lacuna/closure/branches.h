@@ -19,11 +19,13 @@ bool has_branches(const topology::OpenVolume& volume);
 ///
 /// Where a branch joins, three void faces meet in one line across its mouth that dips into the main body: one
 /// across the main body, and two from that line to either half of the mouth. Each arm ends in two of them.
-/// So the junction of a tee of equal tubes is that of three half ellipses. Branches that follow each other,
-/// and those of branches, are parted by planes first.
+/// So the junction of a tee of equal tubes is that of three half ellipses. What is left is cut on, and so are
+/// branches of branches. Where branches leave to several sides, or one leaves an arm across the line in its
+/// end, the main body's walls are split first by planes along it through the middle of each mouth: these
+/// lines say what goes with what on rims that are bent at mouths.
 /// @return  pieces in the order of the cuts; the volume itself where it has no branches.
 /// @throw NotSweepable "closure.branches"  a main body whose walls are missing at the mouth, or of more than
-///         two ends; mouths side by side; a place between that could be cut by hand is named. Else as
+///         two ends; mouths side by side; where it could be cut by hand is named. Else as
 ///         `cut_by_plane()`.
 /// @note  O(branches · facets log facets).
 std::vector<StepPiece> cut_branches(const topology::OpenVolume& volume, const RunContext& context = {});

@@ -16,7 +16,8 @@ namespace lacuna::closure {
 /// walls along the shortest lines and leaves two pieces with both cuts as ends. Each piece is the other's
 /// neighbour at both ends, so that `sweep::sweep_assembly()` makes one mesh of them that runs into itself.
 /// Where walls are missing, straight void edges lead across each gap, and each piece closes its part.
-/// @return  two pieces, whose `turn_from` and `turn_to` are their share of the turn by area of their walls.
+/// @return  two pieces, whose `turn_from` and `turn_to` are their share of the turn by the length of the way
+///          round, along the middles of the walls' sections.
 /// @throw NotSweepable "closure.full_turn"  no such plane; says what came of the shortest.
 ///         InvalidInput "closure.full_turn_ends"  a source or a target; names it.
 /// @note  O(facets · directions), and a cut for each plane tried.

@@ -177,6 +177,7 @@ private:
 
     void find_place()
     {
+        place_ = added_.region;
         std::vector<char> used(deck_.regions.size(), 0);
         if (!deck_.gap.names.empty())
             for (const DeckBlock& block : deck_.blocks)
@@ -473,6 +474,7 @@ Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& optio
     }
     std::vector<Index> point; // of each node of the whole
     std::map<Quad, DeckTag> skin_tags;
+    std::map<std::string, Index> regions; // parts of one name are one region
     MeshDeckOptions next = options;
     for (const mesh::MeshPart& part : parts) {
         std::vector<Index> points;
@@ -481,8 +483,11 @@ Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& optio
         AddedMesh added{.points = points, .skin_cells = cells, .skin_tags = &skin_tags, .own_sets = 0};
         for (std::size_t i = 0; cells && !interfaces && i < part.mesh->skin_count(); ++i)
             added.inner.push_back(uses.at(rising(part, i)) > 1 ? 1 : 0);
+        const std::string region = part.mesh->volume_groups.empty() ? "" : part.mesh->volume_groups.front();
+        if (const auto known = regions.find(region); known != regions.end()) added.region = known->second;
         const auto before = static_cast<Index>(deck.points.size());
         add_mesh(deck, *part.mesh, added, next);
+        if (!region.empty()) regions.try_emplace(region, static_cast<Index>(deck.regions.size()) - 1);
         for (auto p = before; p < static_cast<Index>(deck.points.size()); ++p) point.push_back(p);
         next.first_node = next.first_cell = 0;
     }

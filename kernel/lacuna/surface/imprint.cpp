@@ -137,8 +137,9 @@ struct Border {
 
 class Imprinter {
 public:
-    Imprinter(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size)
-        : size_(size), given_links_(links), inner_(inner_edges(volume, Role::target))
+    Imprinter(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
+              std::span<const KnownLine> known)
+        : size_(size), given_links_(links), known_(known), inner_(inner_edges(volume, Role::target))
     {
         result_.volume = std::make_unique<OpenVolume>(volume);
         for (std::size_t f = 0; f < volume.model.faces.size(); ++f) result_.source_of.emplace_back(f);
@@ -151,7 +152,7 @@ public:
         pair_rims();
         link_anew();
         base_ = *result_.volume;
-        map_.emplace(base_, result_.links);
+        map_.emplace(base_, result_.links, std::span<const ClosedPair>{}, known_);
         if (!map_->one_to_one()) {
             refuse(model(), inner_.front(), "source and target cannot be laid on each other one to one");
         }
@@ -235,7 +236,7 @@ private:
                 const VertexId vertex = use_from(before, link.target.uses()[i]);
                 if (!ends.contains(vertex)) continue;
                 const double at = target_coordinate(link, link.target.start(i)) * link.source.length();
-                const double exact = 1e-9 * link.source.length();
+                const double exact = std::max(1e-9 * link.source.length(), before.tolerance);
                 std::optional<std::size_t> near;
                 double least = std::numeric_limits<double>::infinity();
                 for (std::size_t u = 0; u < link.source.uses().size(); ++u) {
@@ -1006,6 +1007,7 @@ private:
 
     const SizeField& size_;
     std::span<const LinkingSurface> given_links_;
+    std::span<const KnownLine> known_;
     std::vector<EdgeId> inner_;
     std::vector<RimPair> pairs_;
     Imprint result_;
@@ -1052,9 +1054,10 @@ std::map<EdgeId, double> image_lengths(const Imprint& imprint)
     return lengths;
 }
 
-Imprint imprint_target(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size)
+Imprint imprint_target(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
+                       std::span<const KnownLine> known)
 {
-    return Imprinter(volume, links, size).run();
+    return Imprinter(volume, links, size, known).run();
 }
 
 } // namespace lacuna::surface

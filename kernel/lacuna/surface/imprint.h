@@ -18,6 +18,14 @@ struct EdgeImage {
     double from = 0, to = 1;
 };
 
+/// Chains of points within both ends that are known to be swept to each other: along the shares named of
+/// their lengths, evenly.
+struct KnownLine {
+    std::vector<Index> source, target;
+    double source_from = 0, source_to = 1;
+    double target_from = 0, target_to = 1;
+};
+
 /// A sealed volume whose source is split as its target is.
 struct Imprint {
     /// Faces, edges and vertices of the volume given keep their ids. Parts of split source faces come after,
@@ -43,10 +51,11 @@ std::vector<EdgeId> inner_edges(const topology::OpenVolume& volume, topology::Ro
 /// source's. Then the target's edges are cut against the source's. Edges and vertices of both that lie within
 /// a part of a quad's size of each other become one; the source faces are split along the others and their
 /// facets made anew.
+/// @param known  lines that an imprint before this one has put on either end: they are laid on each other.
 /// @throw NotSweepable "surface.not_imprinted"  names the target's edge: the ends cannot be laid on each
 ///        other one to one, an edge comes too close to another to be told from it, a source face keeps its
 ///        own quads.
 Imprint imprint_target(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
-                       const SizeField& size);
+                       const SizeField& size, std::span<const KnownLine> known = {});
 
 } // namespace lacuna::surface

@@ -19,6 +19,13 @@ double signed_area(const Vec2& a, const Vec2& b, const Vec2& c)
     return ((b - a).x() * (c - a).y() - (b - a).y() * (c - a).x()) / 2;
 }
 
+std::vector<double> running_lengths(const Model& model, const std::vector<Index>& chain)
+{
+    std::vector<Vec3> line;
+    for (const Index p : chain) line.push_back(model.at(p));
+    return geometry::arc_lengths(line);
+}
+
 /// Points of a closed chain, the first not repeated, and their running lengths, with the whole at the end.
 struct Rim {
     std::vector<Index> points;
@@ -44,11 +51,11 @@ Rim rim_of(const Model& model, const Chain& chain)
 } // namespace
 
 EndsMap::EndsMap(const OpenVolume& volume, std::span<const LinkingSurface> links,
-                 std::span<const ClosedPair> closed)
+                 std::span<const ClosedPair> closed, std::span<const KnownLine> known)
     : volume_(volume)
 {
     lay_source();
-    if (one_to_one_) lay_target(links, closed);
+    if (one_to_one_) lay_target(links, closed, known);
 }
 
 void EndsMap::lay_source()
@@ -72,7 +79,8 @@ void EndsMap::lay_source()
         face_locator_[face] = geometry::PlanarLocator(source_, model[face].triangles);
 }
 
-void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const ClosedPair> closed)
+void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const ClosedPair> closed,
+                         std::span<const KnownLine> known)
 {
     const Model& model = volume_.model;
     geometry::HarmonicProblem problem;
@@ -100,6 +108,19 @@ void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const 
             const geometry::PolylinePlace at = geometry::place_at(low_at, share * low_at.back());
             fixed[high[i]] = (1 - at.fraction) * source(low[at.segment]) +
                              at.fraction * source(low[at.segment + 1]);
+        }
+    }
+    for (const KnownLine& line : known) {
+        const std::vector<double> low = running_lengths(model, line.source),
+                                  high = running_lengths(model, line.target);
+        for (std::size_t i = 0; i < line.target.size(); ++i) {
+            const double share = (high[i] / high.back() - line.target_from) /
+                                 (line.target_to - line.target_from);
+            if (!(share >= 0 && share <= 1)) continue;
+            const double at = line.source_from + share * (line.source_to - line.source_from);
+            const geometry::PolylinePlace place = geometry::place_at(low, at * low.back());
+            fixed.emplace(line.target[i], (1 - place.fraction) * source(line.source[place.segment]) +
+                                              place.fraction * source(line.source[place.segment + 1]));
         }
     }
     problem.points = model.points;

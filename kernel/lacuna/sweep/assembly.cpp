@@ -5,6 +5,7 @@
 #include <lacuna/sweep/detail/assembly_imprint.h>
 #include <lacuna/sweep/detail/assembly_nodes.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
+#include <lacuna/sweep/detail/carry_lines.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/shared_middles.h>
 #include <lacuna/topology/give_mesh.h>
@@ -78,7 +79,13 @@ public:
         find_shared();
         find_order();
         plan_ = plan_assembly(members_, result_.shared, context_);
-        sweep_all();
+        try {
+            sweep_all();
+        } catch (const MemberFailed& failed) {
+            if (!carry_lines()) throw;
+            log_line(context_, failed.what());
+            sweep_again();
+        }
         number_nodes(result_, pairs_);
         check_no_hanging_nodes(result_, members_);
         name_groups();
@@ -134,6 +141,47 @@ private:
             notes_.push_back("near miss: " + miss.message);
             log_line(context_, notes_.back());
         }
+    }
+
+    /// Split ends along lines that neighbours need. @return  whether there are any
+    bool carry_lines()
+    {
+        if (imprinted_.empty()) {
+            for (const AssemblyMember& member : members_) imprinted_.push_back(*member.volume);
+            for (std::size_t m = 0; m < members_.size(); ++m) members_[m].volume = &imprinted_[m];
+        }
+        std::vector<std::string> lines;
+        try {
+            const std::vector<std::size_t> before = faces_of_fixed();
+            lines = sweep::carry_lines(members_, imprinted_, context_);
+            if (faces_of_fixed() != before) return false; // their quads stay as they are
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const Error& error) { // what was wrong first says more
+            log_line(context_, error.what());
+        }
+        notes_.insert(notes_.end(), lines.begin(), lines.end());
+        return !lines.empty();
+    }
+
+    [[nodiscard]] std::vector<std::size_t> faces_of_fixed() const
+    {
+        std::vector<std::size_t> counts;
+        for (const AssemblyMember& member : members_) {
+            if (member.fixed != nullptr) counts.push_back(member.volume->model.faces.size());
+        }
+        return counts;
+    }
+
+    void sweep_again()
+    {
+        SweptAssembly again;
+        again.near_misses = std::move(result_.near_misses);
+        result_ = std::move(again);
+        inputs_.clear();
+        result_.shared = faces_in_common(members_, context_).whole;
+        plan_ = plan_assembly(members_, result_.shared, context_);
+        sweep_all();
     }
 
     [[nodiscard]] bool is_void(std::size_t m, FaceId face) const

@@ -643,17 +643,16 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunC
     }
     const SweepOptions options = with_layer_intervals(volume, asked);
     Swept best = sweep_as_asked(volume, options, context);
-    for (SweepOptions rest = options; loses_volume(best.fidelity, options);) {
-        rest.curvature = sides_for_volume(options.volume_share, rest.curvature);
-        if (rest.curvature > kMostPerTurn) break;
+    SweepOptions rest = options;
+    while (const std::optional<int> sides = sides_for_lost_volume(best.fidelity, rest)) {
+        rest.curvature = *sides;
         try {
             Swept next = sweep_compared(volume, rest, context);
-            const double before = volume_lost(best.fidelity), after = volume_lost(next.fidelity);
             const double enough = std::min(best.min_scaled_jacobian, options.improving.good_enough);
-            if (after > kLessLost * before || next.min_scaled_jacobian < enough) break;
+            if (!is_closer(next.fidelity, best.fidelity) || next.min_scaled_jacobian < enough) break;
             next.report.push_back("shape: " + std::to_string(rest.curvature) +
                                   " sides for a full turn instead of " + std::to_string(options.curvature) +
-                                  ", by which the volume was " + in_short(100 * before) +
+                                  ", by which the volume was " + in_short(100 * volume_lost(best.fidelity)) +
                                   " % less than what was sealed");
             best = std::move(next);
         } catch (const NotSweepable& error) {
@@ -666,6 +665,18 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunC
 }
 
 } // namespace
+
+std::optional<int> sides_for_lost_volume(const Fidelity& fidelity, const SweepOptions& options)
+{
+    if (!loses_volume(fidelity, options)) return std::nullopt;
+    const int sides = sides_for_volume(options.volume_share, options.curvature);
+    return sides > kMostPerTurn ? std::nullopt : std::optional(sides);
+}
+
+bool is_closer(const Fidelity& after, const Fidelity& before)
+{
+    return volume_lost(after) <= kLessLost * volume_lost(before);
+}
 
 Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {

@@ -20,6 +20,7 @@ struct AddedMesh {
     std::map<Quad, DeckTag>* skin_tags = nullptr;
     /// Sets from this one on are those of meshes added before, and join this one's of the same names.
     std::size_t own_sets = std::numeric_limits<std::size_t>::max();
+    Index region = -1; ///< of the deck, that the cells are more of; -1: one of their own
     /// Of each quad of the skin, whether it is left out of the elements; empty: none is.
     std::vector<char> inner{};
     /// Of the elements beside the mesh, and the name of their region; empty: none is known.

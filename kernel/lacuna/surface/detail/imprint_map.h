@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/geometry/flatten.h>
+#include <lacuna/surface/imprint.h>
 #include <lacuna/surface/linking_surface.h>
 #include <lacuna/surface/projector.h>
 
@@ -28,8 +29,9 @@ class EndsMap {
 public:
     /// @param volume  referred to; must outlive the map.
     /// @param closed  edges that are laid on each other.
+    /// @param known   lines that are.
     EndsMap(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
-            std::span<const ClosedPair> closed = {});
+            std::span<const ClosedPair> closed = {}, std::span<const KnownLine> known = {});
 
     /// Whether both ends lie in the plane one to one.
     [[nodiscard]] bool one_to_one() const { return one_to_one_; }
@@ -42,7 +44,8 @@ public:
 
 private:
     void lay_source();
-    void lay_target(std::span<const LinkingSurface> links, std::span<const ClosedPair> closed);
+    void lay_target(std::span<const LinkingSurface> links, std::span<const ClosedPair> closed,
+                    std::span<const KnownLine> known);
 
     const topology::OpenVolume& volume_;
     std::vector<Vec2> source_, target_; ///< of each model point

@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/carry_lines.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/surface/imprint.h>
+#include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/seeds.h>
+#include <lacuna/sweep/detail/both_ways.h>
+#include <lacuna/topology/split_edge.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+/// Lines pass from one end of each volume to the other once. A choice: as many volumes one after the other.
+constexpr int kRounds = 64;
+
+/// Hands the parts of a split face on to the volume that has the whole.
+class FaceCopier {
+public:
+    /// @param whole  one face, or the parts of one.
+    FaceCopier(const Model& from, std::vector<FaceId> parts, OpenVolume& to, std::vector<FaceId> whole)
+        : from_(from),
+          parts_(std::move(parts)),
+          to_(to.model),
+          role_(to.role),
+          whole_(std::move(whole)),
+          near_(from.tolerance)
+    {
+    }
+
+    /// Give the rim there the vertices that it has here. @return  whether it got any.
+    bool copy_vertices()
+    {
+        const std::size_t before = to_.vertices.size();
+        copy_rim();
+        return to_.vertices.size() > before;
+    }
+
+    /// @return  the parts there, in the same order.
+    std::vector<FaceId> run()
+    {
+        copy_rim();
+        copy_edges();
+        std::vector<FaceId> copied = copy_faces();
+        build_loops(to_);
+        return copied;
+    }
+
+private:
+    [[noreturn]] void refuse() const
+    {
+        throw NotSweepable("surface.not_imprinted", name_of(to_, whole_.front()) +
+                                                        " has other points on its rim than its neighbour's");
+    }
+
+    [[nodiscard]] std::vector<EdgeId> rim_of_whole() const
+    {
+        std::vector<EdgeId> edges;
+        for (const Rim& rim : rims(to_, whole_)) {
+            for (const EdgeUse& use : rim.uses) edges.push_back(use.edge);
+        }
+        return edges;
+    }
+
+    [[nodiscard]] bool is_vertex(const Model& model, Index point) const
+    {
+        return std::ranges::any_of(model.vertices, [&](const Vertex& v) { return v.point == point; });
+    }
+
+    /// Points on the rim that the whole has not yet become vertices of it, as have those that are vertices.
+    void copy_rim()
+    {
+        for (const Rim& rim : rims(from_, parts_)) {
+            std::vector<Index> walk;
+            for (const EdgeUse& use : rim.uses) {
+                const std::vector<Index> points = use_points(from_, use);
+                walk.insert(walk.end(), points.begin(), points.end() - 1);
+            }
+            for (const Index p : walk) {
+                if (const Index there = on_rim(from_.at(p)); there >= 0) place_[p] = there;
+            }
+            const auto known = std::ranges::find_if(walk, [&](Index p) { return place_.contains(p); });
+            if (known == walk.end()) refuse();
+            std::ranges::rotate(walk, known);
+            for (std::size_t i = 0; i < walk.size(); ++i) {
+                if (!place_.contains(walk[i])) insert(walk, i);
+                if (is_vertex(from_, walk[i])) make_vertex(place_.at(walk[i]));
+            }
+        }
+    }
+
+    [[nodiscard]] Index on_rim(const Vec3& p) const
+    {
+        for (const EdgeId edge : rim_of_whole()) {
+            for (const Index q : to_[edge].points)
+                if ((to_.at(q) - p).norm() <= near_) return q;
+        }
+        return -1;
+    }
+
+    [[nodiscard]] std::vector<double> arc_of(EdgeId edge) const
+    {
+        std::vector<Vec3> line;
+        for (const Index p : to_[edge].points) line.push_back(to_.at(p));
+        return geometry::arc_lengths(line);
+    }
+
+    /// A point between the one before it, which is there, and the next that is.
+    void insert(const std::vector<Index>& walk, std::size_t i)
+    {
+        const Index before = place_.at(walk[i - 1]);
+        std::size_t k = i + 1;
+        while (!place_.contains(walk[k % walk.size()])) ++k;
+        const Index after = place_.at(walk[k % walk.size()]);
+        const Vec3& p = from_.at(walk[i]);
+        for (const EdgeId edge : rim_of_whole()) {
+            const std::vector<Index>& points = to_[edge].points;
+            for (std::size_t s = 0; s + 1 < points.size(); ++s) {
+                const bool along = points[s] == before && points[s + 1] == after;
+                if (!along && !(points[s] == after && points[s + 1] == before)) continue;
+                const std::vector<double> arc = arc_of(edge);
+                const double low = (p - to_.at(points[s])).norm(), high = (p - to_.at(points[s + 1])).norm();
+                const double at = arc[s] + low / (low + high) * (arc[s + 1] - arc[s]);
+                const EdgeSplit made = split_edge(to_, edge, at / arc.back());
+                place_[walk[i]] = to_[made.vertex].point;
+                to_.points[index(to_[made.vertex].point)] = p;
+                if (const auto param = param_of(walk[i], to_[edge].curve))
+                    to_[edge].params.back() = to_[made.behind].params.front() = *param;
+                return;
+            }
+        }
+        refuse();
+    }
+
+    /// The parameter of a vertex on a curve.
+    [[nodiscard]] std::optional<double> param_of(
+        Index point, const std::shared_ptr<const geometry::ExactCurve>& curve) const
+    {
+        for (const Edge& edge : from_.edges) {
+            if (curve == nullptr || edge.curve != curve) continue;
+            if (edge.points.back() == point) return edge.params.back();
+            if (edge.points.front() == point) return edge.params.front();
+        }
+        return std::nullopt;
+    }
+
+    void make_vertex(Index point)
+    {
+        if (is_vertex(to_, point)) return;
+        for (const EdgeId edge : rim_of_whole()) {
+            const std::vector<Index>& points = to_[edge].points;
+            const auto at = std::ranges::find(points, point);
+            if (at == points.end()) continue;
+            const std::vector<double> arc = arc_of(edge);
+            split_edge(to_, edge, arc[static_cast<std::size_t>(at - points.begin())] / arc.back());
+            return;
+        }
+    }
+
+    Index place_of(Index point)
+    {
+        const auto [found, fresh] = place_.try_emplace(point, static_cast<Index>(to_.points.size()));
+        if (fresh) to_.points.push_back(from_.at(point));
+        return found->second;
+    }
+
+    VertexId vertex_of(VertexId vertex)
+    {
+        const Index point = place_of(from_[vertex].point);
+        for (std::size_t v = 0; v < to_.vertices.size(); ++v)
+            if (to_.vertices[v].point == point) return VertexId(v);
+        return add_void_vertex(to_, point);
+    }
+
+    /// The edges between parts.
+    void copy_edges()
+    {
+        const std::vector<std::vector<FaceUse>> uses = edge_uses(from_);
+        const auto is_part = [&](const FaceUse& use) {
+            return std::ranges::find(parts_, use.face) != parts_.end();
+        };
+        for (std::size_t e = 0; e < uses.size(); ++e) {
+            if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
+            if (!is_part(uses[e][0]) || !is_part(uses[e][1])) continue;
+            const Edge& edge = from_.edges[e];
+            std::vector<Index> points;
+            for (const Index p : edge.points) points.push_back(place_of(p));
+            const VertexId start = vertex_of(edge.from), end = vertex_of(edge.to);
+            const EdgeId made = add_void_edge(to_, start, end, std::move(points));
+            to_[made].params = edge.params;
+            to_[made].curve = edge.curve;
+        }
+    }
+
+    std::vector<FaceId> copy_faces()
+    {
+        Vec3 area = Vec3::Zero();
+        for (const FaceId part : parts_) area += face_area_vector(from_, part);
+        const bool turned = area.dot(face_area_vector(to_, whole_.front())) < 0;
+        const Face before = to_[whole_.front()];
+        std::vector<FaceId> copied;
+        for (const FaceId part : parts_) {
+            Face face = before;
+            face.triangles = from_[part].triangles;
+            face.uv = from_[part].uv;
+            for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+                for (Index& p : face.triangles[t]) p = place_of(p);
+                if (!turned) continue;
+                std::swap(face.triangles[t][1], face.triangles[t][2]);
+                if (!face.uv.empty()) std::swap(face.uv[t][1], face.uv[t][2]);
+            }
+            if (copied.empty()) {
+                copied.push_back(whole_.front());
+                to_[whole_.front()] = std::move(face);
+                continue;
+            }
+            copied.emplace_back(to_.faces.size());
+            to_.faces.push_back(std::move(face));
+            role_.push_back(role_[whole_.front().index()]);
+        }
+        return copied;
+    }
+
+    const Model& from_;
+    std::vector<FaceId> parts_;
+    Model& to_;
+    std::vector<Role>& role_;
+    std::vector<FaceId> whole_;
+    double near_;
+    std::map<Index, Index> place_; ///< of points of the parts
+};
+
+class LineCarrier {
+public:
+    LineCarrier(std::span<const AssemblyMember> members, std::span<OpenVolume> volumes,
+                const RunContext& context)
+        : members_(members),
+          volumes_(volumes),
+          context_(context),
+          shared_(shared_faces(members, context)),
+          known_(members.size()),
+          pairs_(members.size())
+    {
+    }
+
+    std::vector<std::string> run()
+    {
+        share_vertices();
+        bool changed = true;
+        for (int round = 0; changed; ++round) {
+            if (round == kRounds)
+                throw NotSweepable("sweep.lines_go_round",
+                                   "lines that ends need on what they share add others all the time");
+            changed = false;
+            for (std::size_t m = 0; m < volumes_.size(); ++m) {
+                check_cancelled(context_);
+                if (split_end(m, Role::source)) changed = true;
+                if (split_end(m, Role::target)) changed = true;
+            }
+        }
+        std::vector<std::string> report;
+        for (const std::size_t m : split_)
+            report.push_back("imprinted: ends of " + members_[m].region +
+                             " are split along lines that go on through their neighbours");
+        return report;
+    }
+
+private:
+    /// Faces that are shared have the same vertices on their rims in both volumes.
+    void share_vertices()
+    {
+        const auto copy = [&](std::size_t from, FaceId face, std::size_t to, FaceId there) {
+            if (!FaceCopier(volumes_[from].model, {face}, volumes_[to], {there}).copy_vertices())
+                return false;
+            split_.insert(to);
+            return true;
+        };
+        for (bool changed = true; changed;) {
+            changed = false;
+            check_cancelled(context_);
+            for (const SharedFace& face : shared_) {
+                if (copy(face.a, face.face_a, face.b, face.face_b)) changed = true;
+                if (copy(face.b, face.face_b, face.a, face.face_a)) changed = true;
+            }
+        }
+    }
+
+    /// Split an end that a member has in common with others as the opposite one is.
+    bool split_end(std::size_t m, Role end)
+    {
+        OpenVolume volume = end == Role::source ? volumes_[m] : turned_round(volumes_[m]);
+        if (surface::inner_edges(volume, Role::target).empty()) return false;
+        const auto is_at_end = [&](std::size_t member, FaceId face) {
+            return member == m && volume.role[face.index()] == Role::source;
+        };
+        if (std::ranges::none_of(shared_, [&](const SharedFace& face) {
+                return is_at_end(face.a, face.face_a) || is_at_end(face.b, face.face_b);
+            }))
+            return false;
+        const double spacing = surface::rim_spacing(volume);
+        surface::SizeField size = members_[m].options.size;
+        if (!size) size = [spacing](const Vec3&) { return spacing; };
+        const std::vector<surface::KnownLine> known = known_lines(m, end);
+        surface::Imprint imprint = surface::imprint_target(
+            volume, surface::linking_surfaces(volume, surface::Turning::each, known_pairs(m, end, volume)),
+            size, known);
+if (imprint.volume->model.faces.size() == volume.model.faces.size()) return false;
+        keep_images(m, end, imprint);
+        split_.insert(m);
+        volumes_[m] = end == Role::source ? std::move(*imprint.volume)
+                                          : turned_round(std::move(*imprint.volume));
+        std::map<FaceId, std::vector<FaceId>> parts;
+        for (std::size_t f = 0; f < imprint.source_of.size(); ++f)
+            parts[imprint.source_of[f]].emplace_back(f);
+        const std::vector<SharedFace> before = std::exchange(shared_, {});
+        for (const SharedFace& face : before) hand_on(m, face, parts);
+        share_vertices();
+        return true;
+    }
+
+    /// Lines of a member's ends that go with each other, and vertices, seen from the end that is split.
+    [[nodiscard]] std::vector<surface::KnownLine> known_lines(std::size_t m, Role end) const
+    {
+        std::vector<surface::KnownLine> lines = known_[m];
+        if (end == Role::source) return lines;
+        for (surface::KnownLine& line : lines) {
+            std::swap(line.source, line.target);
+            std::swap(line.source_from, line.target_from);
+            std::swap(line.source_to, line.target_to);
+        }
+        return lines;
+    }
+
+    [[nodiscard]] std::vector<surface::RimPair> known_pairs(std::size_t m, Role end,
+                                                            const OpenVolume& volume) const
+    {
+        const auto on_rim = [&](Role role) {
+            std::set<VertexId> met;
+            for (const Rim& rim : rims(volume.model, volume.faces(role))) {
+                for (const EdgeUse& use : rim.uses) met.insert(use_from(volume.model, use));
+            }
+            return met;
+        };
+        const std::set<VertexId> source = on_rim(Role::source), target = on_rim(Role::target);
+        std::vector<surface::RimPair> pairs;
+        for (surface::RimPair pair : pairs_[m]) {
+            if (end == Role::target) std::swap(pair.source, pair.target);
+            if (source.contains(pair.source) && target.contains(pair.target)) pairs.push_back(pair);
+        }
+        return pairs;
+    }
+
+    void keep_images(std::size_t m, Role end, const surface::Imprint& imprint)
+    {
+        const Model& model = imprint.volume->model;
+        for (const auto& [edge, image] : imprint.images) {
+            surface::KnownLine line{
+                model[edge].points, model[image.target].points, 0, 1, image.from, image.to};
+            if (line.source.front() == line.source.back() || line.target.front() == line.target.back())
+                continue;
+            for (const auto& [vertex, at] :
+                 {std::pair(model[edge].from, image.from), std::pair(model[edge].to, image.to)}) {
+                if (at != 0 && at != 1) continue;
+                surface::RimPair pair{vertex, at == 0 ? model[image.target].from : model[image.target].to};
+                if (end == Role::target) std::swap(pair.source, pair.target);
+                const auto same = [&](const surface::RimPair& known) {
+                    return known.source == pair.source || known.target == pair.target;
+                };
+                if (std::ranges::none_of(pairs_[m], same)) pairs_[m].push_back(pair);
+            }
+            if (end == Role::target) {
+                std::swap(line.source, line.target);
+                std::swap(line.source_from, line.target_from);
+                std::swap(line.source_to, line.target_to);
+            }
+            known_[m].push_back(std::move(line));
+        }
+    }
+
+    void hand_on(std::size_t m, const SharedFace& face, const std::map<FaceId, std::vector<FaceId>>& parts_of)
+    {
+        const bool is_a = face.a == m, is_b = face.b == m;
+        const FaceId own = is_a ? face.face_a : face.face_b;
+        const auto parts = parts_of.find(own);
+        if ((!is_a && !is_b) || parts == parts_of.end() || parts->second.size() < 2) {
+            shared_.push_back(face);
+            return;
+        }
+        const std::size_t other = is_a ? face.b : face.a;
+        const FaceId whole = is_a ? face.face_b : face.face_a;
+        FaceCopier(volumes_[other].model, {whole}, volumes_[m], parts->second).copy_vertices();
+        const std::vector<FaceId> there =
+            FaceCopier(volumes_[m].model, parts->second, volumes_[other], {whole}).run();
+        split_.insert(other);
+        for (std::size_t p = 0; p < there.size(); ++p) {
+            const FaceId part = parts->second[p];
+            shared_.push_back({face.a, face.b, is_a ? part : there[p], is_a ? there[p] : part});
+        }
+    }
+
+    std::span<const AssemblyMember> members_;
+    std::span<OpenVolume> volumes_;
+    const RunContext& context_;
+    std::vector<SharedFace> shared_;
+    std::vector<std::vector<surface::KnownLine>> known_; ///< of each member, by its source and target
+    std::vector<std::vector<surface::RimPair>> pairs_;
+    std::set<std::size_t> split_;
+};
+
+} // namespace
+
+std::vector<std::string> carry_lines(std::span<const AssemblyMember> members, std::span<OpenVolume> volumes,
+                                     const RunContext& context)
+{
+    return LineCarrier(members, volumes, context).run();
+}
+
+} // namespace lacuna::sweep
