@@ -3,7 +3,9 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/number_text.h>
+#include <lacuna/geometry/polyline.h>
 #include <lacuna/surface/detail/face_sides.h>
+#include <lacuna/surface/edge_nodes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -266,6 +268,28 @@ RimRows rim_rows(const OpenVolume& volume, std::span<const LinkingSurface> links
         return volume.role[entry.first.index()] == Role::wall;
     });
     return any ? RimReader(volume, tables).read(links) : RimRows{};
+}
+
+std::vector<double> row_places(const Model& model, EdgeId edge, bool at_end, const RimRows::End& end,
+                               std::span<const double> heights)
+{
+    const std::vector<Vec3> line = edge_line(model, edge);
+    const std::vector<double> arc = geometry::arc_lengths(line);
+    const Vec3& corner = model.at(model[end.corner].point);
+    std::vector<double> places;
+    const std::size_t sides = line.size() - 1;
+    double below = 0;
+    for (std::size_t k = 0; k < sides && places.size() < heights.size(); ++k) {
+        const std::size_t from = at_end ? sides - k : k, to = at_end ? from - 1 : from + 1;
+        const double above = (line[to] - corner).dot(end.inward);
+        while (places.size() < heights.size() && above >= heights[places.size()] && above > below) {
+            const double share = (heights[places.size()] - below) / (above - below);
+            places.push_back((arc[from] + share * (arc[to] - arc[from])) / arc.back());
+        }
+        below = above;
+    }
+    if (at_end) std::reverse(places.begin(), places.end());
+    return places;
 }
 
 } // namespace lacuna::surface

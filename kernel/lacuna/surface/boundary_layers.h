@@ -91,4 +91,11 @@ inline constexpr double kRowsEnd = 135, kRowsBreak = 225;
 RimRows rim_rows(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                  const LayerTables& tables);
 
+/// Where rows that end on an edge cut it: fractions of its length as it runs, rising; fewer than there are
+/// heights where it is too short for them.
+/// @param at_end   the rows end at its end, else at its start.
+/// @param heights  of the rows, over the edge they run along, rising [model length].
+std::vector<double> row_places(const topology::Model& model, EdgeId edge, bool at_end,
+                               const RimRows::End& end, std::span<const double> heights);
+
 } // namespace lacuna::surface

@@ -263,24 +263,8 @@ private:
         SeedPiece& piece = at_end ? pieces.back() : pieces.front();
         if (piece.fixed) return; // whether its nodes will do shows when the rows are placed
         const std::vector<double>& heights = seeds_.rows.heights[static_cast<std::size_t>(end.table)];
-        const std::vector<Vec3> line = edge_line(model_, edge);
-        const std::vector<double> arc = geometry::arc_lengths(line);
-        const Vec3& corner = model_.at(model_[end.corner].point);
-        std::vector<double> places;
-        const std::size_t sides = line.size() - 1;
-        double below = 0;
-        for (std::size_t k = 0; k < sides && places.size() < heights.size(); ++k) {
-            const std::size_t from = at_end ? sides - k : k, to = at_end ? from - 1 : from + 1;
-            const double above = (line[to] - corner).dot(end.inward);
-            while (places.size() < heights.size() && above >= heights[places.size()] && above > below) {
-                const double share = (heights[places.size()] - below) / (above - below);
-                places.push_back((arc[from] + share * (arc[to] - arc[from])) / arc.back());
-            }
-            below = above;
-        }
-        if (at_end) std::reverse(places.begin(), places.end());
         std::vector<double>& own = at_end ? piece.high : piece.low;
-        own = std::move(places);
+        own = row_places(model_, edge, at_end, end, heights);
         const double low = piece.low.empty() ? piece.from : piece.low.back();
         const double high = piece.high.empty() ? piece.to : piece.high.front();
         if (own.size() < heights.size() || !(low < high)) {

@@ -46,6 +46,25 @@ constexpr double kRounding = 1e-12;
 /// The facets of a flat face have areas that add up to the face's but for this share.
 constexpr double kFlat = 1e-9;
 
+/// A refusal without its advice to load without a mesh, for a member that came with none: the quads it speaks
+/// of are those of neighbours that were meshed before.
+std::string without_load_hint(std::string why)
+{
+    bool any = false;
+    for (const std::string hint :
+         {"; load with keep_mesh = false", ", or load with keep_mesh = false",
+          ", or load one with keep_mesh = false", ", or load it with keep_mesh = false",
+          "; quads = \"paved\" meshes it anew, as does loading with keep_mesh = false"}) {
+        for (std::size_t at = why.find(hint); at != std::string::npos; at = why.find(hint)) {
+            any = true;
+            const std::string rest = why.substr(at + hint.size());
+            const bool other = hint.front() == ';' && rest.starts_with(", or ");
+            why = why.substr(0, at) + (other ? "; " + rest.substr(5) : rest);
+        }
+    }
+    return any ? why + " (the quads and nodes it came with are those of its neighbours there)" : why;
+}
+
 /// A member's own mesh of a shared face came out unlike its neighbour's.
 struct UnlikeNeighbour : Error {
     using Error::Error;
@@ -224,9 +243,17 @@ private:
         });
     }
 
+    /// Whether source and target are several faces each: such a member imprints one on the other while no one
+    /// has meshed them.
+    [[nodiscard]] bool is_split_at_both_ends(std::size_t m) const
+    {
+        const OpenVolume& volume = *members_[m].volume;
+        return volume.faces(Role::source).size() > 1 && volume.faces(Role::target).size() > 1;
+    }
+
     /// Members by what they wait for; of those that are free to come, fixed ones, then `first` as listed,
-    /// those that came with meshes, those that share an end with one that is there, those whose walls are no
-    /// one's ends that wait, and by number.
+    /// those that came with meshes, those with boundary layers, those with both ends in parts, those that
+    /// share an end with one that is there, those whose walls are no one's ends that wait, and by number.
     [[nodiscard]] std::vector<std::size_t> order_of(std::span<const std::size_t> first) const
     {
         std::vector<char> placed(members_.size(), 0);
@@ -251,6 +278,11 @@ private:
             for (std::size_t m = 0; m < members_.size(); ++m) take(m, members_[m].fixed != nullptr);
             for (const std::size_t m : first) take(m, true);
             for (std::size_t m = 0; m < members_.size(); ++m) take(m, came_with_mesh(m));
+            for (std::size_t m = 0; m < members_.size(); ++m)
+                take(m, !members_[m].options.boundary_layers.empty());
+            for (std::size_t m = 0; m < members_.size(); ++m)
+                take(m,
+                     is_split_at_both_ends(m) && !has(m, false, false, true) && !has(m, false, true, true));
             const auto waits = [&](std::size_t m) { return has(m, false, true, false); };
             for (std::size_t m = 0; m < members_.size(); ++m)
                 take(m, has(m, false, false, true) && !waits(m));
@@ -322,7 +354,8 @@ private:
             } catch (const Cancelled&) {
                 throw;
             } catch (const Error& error) {
-                Failed failed{m, error.code(), members_[m].region + ": " + error.what()};
+                const std::string why = came_with_mesh(m) ? error.what() : without_load_hint(error.what());
+                Failed failed{m, error.code(), members_[m].region + ": " + why};
                 if (!neighbours.empty()) return failed;
                 throw MemberFailed(m, failed.code, failed.why);
             }

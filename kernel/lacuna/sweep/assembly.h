@@ -90,8 +90,10 @@ struct SweptAssembly {
 /// A member that cannot be meshed so is tried with wedges or left out, as its `fallback` says, and the whole
 /// is worked out anew without it: what it would have given others is not there.
 /// @throw NotSweepable  as `sweep()`, the region named; "assembly.layers"  volumes side by side for which
-///         other numbers of layers are asked; "assembly.round"  volumes each of which lacks a face that the
-///         next one has; "assembly.not_shared"  a shared face on which two meshes differ;
+///         other numbers of layers are asked; "assembly.layers_differ", "assembly.layers_rows"  boundary
+///         layers of several volumes that cannot be on one edge, or for which it has too few sides;
+///         "assembly.round"  volumes each of which lacks a face that the next one has;
+///         "assembly.not_shared"  a shared face on which two meshes differ;
 ///         "assembly.hanging_node"  a node of one mesh within a side of another's.
 /// Faces that are shared in part are split along each other's rims before; the faces of `shared` and of the
 /// parts are then those of the volumes as split, whose first faces are the members' own.

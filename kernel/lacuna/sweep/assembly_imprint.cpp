@@ -338,10 +338,12 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
                                          onto_b = lines_across(a, b, within);
     for (const auto& [side, lines] : {std::pair(&a, &onto_a), std::pair(&b, &onto_b)}) {
         if (lines->empty() || side->model()[side->face].given_quads.empty()) continue;
-        throw InvalidInput("assembly.part_of_face",
-                           names + ": " + name_of(side->model(), side->face) +
-                               " came with quads, which stay as they are and cannot be split; load it with "
-                               "keep_mesh = false");
+        throw InvalidInput(
+            "assembly.part_of_face",
+            names + ": " + name_of(side->model(), side->face) +
+                " came with quads, which stay as they are and cannot be split along the rim of "
+                "the other; mesh the two faces alike, or, of a mesh from a file, load it with "
+                "keep_mesh = false");
     }
     Parts parts{split_along(a, onto_a, context), split_along(b, onto_b, context)};
     if (parts.a.empty() || parts.b.empty())

@@ -5,9 +5,12 @@
 #include <lacuna/surface/linking_surface.h>
 #include <lacuna/surface/seeds.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
+#include <lacuna/sweep/detail/edge_rows.h>
+#include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/topology/give_mesh.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -32,6 +35,9 @@ constexpr double kSameCentre = 0.2;
 constexpr double kMostNodes = 2e7;
 /// Edges that a segment of a rim reaches by less than this part of its length are not its own.
 constexpr double kInset = 1e-3;
+/// Rows of two members are the same where they differ by less than this part of their thickness: what rows
+/// keep to in one volume.
+constexpr double kSameRows = 0.02;
 /// Rounds of making ends even. Each bumps a class; a choice, far above what families of blocks need.
 constexpr int kRounds = 64;
 
@@ -74,6 +80,7 @@ public:
         for (std::size_t e = 0; e < edges_.size(); ++e)
             if (stacked_.contains(same_.find(e))) common_[e] = false;
         find_kept();
+        find_rows();
         count();
         make_even();
         AssemblyPlan plan;
@@ -82,6 +89,13 @@ public:
     }
 
 private:
+    /// Rows of boundary layers at an end of an edge, and whose they are.
+    struct RowsHere {
+        std::vector<double> places; ///< running lengths from that end
+        std::size_t member = 0;
+        FaceId face;
+    };
+
     [[nodiscard]] const Model& model(std::size_t m) const { return members_[m].volume->model; }
     [[nodiscard]] std::size_t number(std::size_t m, EdgeId edge) const { return first_[m] + edge.index(); }
 
@@ -268,6 +282,86 @@ private:
         }
     }
 
+    /// Whether a member's edge runs as the one that stands for it does.
+    [[nodiscard]] bool runs_along(std::size_t e) const
+    {
+        const MemberEdge &own = edges_[e], &first = edges_[same_.find(e)];
+        return (own.from - first.from).norm() <= (own.from - first.to).norm();
+    }
+
+    /// Where rows of boundary layers end on edges: one of several members has them for all.
+    void find_rows()
+    {
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            for (EdgeRows& rows : edge_rows(members_[m])) {
+                const std::size_t e = number(m, rows.edge);
+                if (edges_[e].closed || kept_[e] == Kept::quads) continue; // its nodes are there
+                if (!runs_along(e)) std::swap(rows.end[0], rows.end[1]);
+                std::array<RowsHere, 2>& here = rows_[same_.find(e)];
+                for (std::size_t k = 0; k < 2; ++k) {
+                    if (rows.end[k].places.empty()) continue;
+                    if (!here[k].places.empty() && !are_alike(here[k].places, rows.end[k].places))
+                        refuse_rows(here[k], m, rows.end[k].face, e);
+                    if (here[k].places.empty()) here[k] = {rows.end[k].places, m, rows.end[k].face};
+                }
+                const double taken = (here[0].places.empty() ? 0 : here[0].places.back()) +
+                                     (here[1].places.empty() ? 0 : here[1].places.back());
+                if (taken >= edges_[e].length) rows_.erase(same_.find(e)); // the sweep says how much there is
+            }
+        }
+    }
+
+    static bool are_alike(const std::vector<double>& a, const std::vector<double>& b)
+    {
+        if (a.size() != b.size()) return false;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            const double thick = a[i] - (i > 0 ? a[i - 1] : 0);
+            if (std::abs(a[i] - b[i]) > kSameRows * thick) return false;
+        }
+        return true;
+    }
+
+    [[noreturn]] void refuse_rows(const RowsHere& there, std::size_t m, FaceId face, std::size_t e) const
+    {
+        const AssemblyMember& own = members_[m];
+        throw NotSweepable("assembly.layers_differ",
+                           "boundary layers of " + name_in(members_[there.member], there.face) + " and of " +
+                               name_in(own, face) + " are unlike and both end on " +
+                               name_of(model(m), edges_[e].edge) + " of " + own.region +
+                               ", which is an edge of both; give both faces one table");
+    }
+
+    /// Sides that rows take of an edge and what is left of its length, both as it is.
+    [[nodiscard]] std::pair<int, double> beside_rows(std::size_t e) const
+    {
+        const auto found = rows_.find(same_.find(e));
+        if (found == rows_.end()) return {0, edges_[e].length};
+        int taken = 0;
+        double left = edges_[e].length;
+        for (const RowsHere& end : found->second) {
+            taken += static_cast<int>(end.places.size());
+            if (!end.places.empty()) left -= end.places.back();
+        }
+        return {taken, left};
+    }
+
+    /// Nodes for rows need that many sides.
+    void check_rows() const
+    {
+        for (const auto& [e, ends] : rows_) {
+            const int taken = beside_rows(e).first, count = count_.at(classes_.find(e));
+            if (taken < count) continue;
+            const RowsHere& end = ends[ends[0].places.empty() ? 1 : 0];
+            throw NotSweepable(
+                "assembly.layers_rows",
+                "boundary layers of " + name_in(members_[end.member], end.face) + " take " +
+                    std::to_string(taken) + " sides of " + name_of(model(edges_[e].member), edges_[e].edge) +
+                    " of " + members_[edges_[e].member].region + ", which has " + std::to_string(count) +
+                    " by the layers or nodes asked for or given; ask for fewer rows or more "
+                    "layers");
+        }
+    }
+
     /// A number for each class.
     void count()
     {
@@ -294,7 +388,11 @@ private:
             const std::size_t of = classes_.find(e);
             double& sides = most[of];
             if (asked.contains(of) || kept_[e] != kept.at(of)) continue;
-            sides = std::max(sides, kept_[e] == Kept::no ? wanted(edges_[e]) : sides_of(e));
+            const auto [taken, left] = beside_rows(e);
+            sides = std::max(sides, kept_[e] != Kept::no ? sides_of(e)
+                                    : taken == 0         ? wanted(edges_[e])
+                                                 : taken + std::max(1.0, std::round(wanted(edges_[e]) * left /
+                                                                                    edges_[e].length)));
         }
         for (const auto& [of, how] : kept) {
             if (how == Kept::quads) asked_.insert(of);
@@ -314,6 +412,7 @@ private:
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             if (edges_[e].closed) count_[classes_.find(e)] = std::max(count_[classes_.find(e)], 4);
         }
+        check_rows();
     }
 
     /// Ends of which every edge is shared, or came with nodes, have an even number of sides in all.
@@ -391,7 +490,23 @@ private:
                 if (side.reversed == along) turn_round(at);
             }
         }
+        if (const auto found = rows_.find(same_.find(e)); found != rows_.end())
+            at = with_rows(found->second, edge.length, runs_along(e), count);
         return surface::edge_points(model(edge.member), edge.edge, at);
+    }
+    /// Shares of an edge's length: the rows of its ends, and even sides between.
+    static std::vector<double> with_rows(const std::array<RowsHere, 2>& ends, double length, bool along,
+                                         int count)
+    {
+        const std::vector<double>&low = ends[along ? 0 : 1].places, &high = ends[along ? 1 : 0].places;
+        std::vector<double> at{0};
+        for (const double place : low) at.push_back(place / length);
+        const double from = at.back(), to = high.empty() ? 1 : 1 - high.back() / length;
+        const int between = count - static_cast<int>(low.size() + high.size());
+        for (int i = 1; i < between; ++i) at.push_back(from + (to - from) * i / between);
+        for (std::size_t k = high.size(); k-- > 0;) at.push_back(1 - high[k] / length);
+        at.push_back(1);
+        return at;
     }
     static void turn_round(std::vector<double>& at)
     {
@@ -503,12 +618,13 @@ private:
     mutable geometry::UnionFind same_{0}, classes_{0};
     /// What stays of the nodes an edge came with: none, the rim of a shape, that of quads.
     enum class Kept : std::uint8_t { no, rim, quads };
-    std::vector<Kept> kept_;                            ///< of each edge
-    std::map<std::size_t, std::size_t> kept_one_;       ///< of the same edges, one that came with nodes
-    std::set<std::size_t> rims_;                        ///< classes whose number is that of a shape's rim
-    std::vector<bool> common_;                          ///< of each edge: other members have it too
-    std::map<std::size_t, std::vector<EdgeUse>> sides_; ///< of each member: side lines of one edge
-    std::map<std::size_t, int> count_;                  ///< of each class
+    std::vector<Kept> kept_;                              ///< of each edge
+    std::map<std::size_t, std::array<RowsHere, 2>> rows_; ///< of the same edges, as the first of them runs
+    std::map<std::size_t, std::size_t> kept_one_;         ///< of the same edges, one that came with nodes
+    std::set<std::size_t> rims_;                          ///< classes whose number is that of a shape's rim
+    std::vector<bool> common_;                            ///< of each edge: other members have it too
+    std::map<std::size_t, std::vector<EdgeUse>> sides_;   ///< of each member: side lines of one edge
+    std::map<std::size_t, int> count_;                    ///< of each class
     std::set<std::size_t> stacked_;        ///< edges that are parts of side lines in some member, by `same_`
     std::set<std::size_t> asked_;          ///< classes whose number a person asked for
     std::map<std::size_t, int> bumps_;     ///< how often a class got more

@@ -20,6 +20,9 @@ namespace {
 constexpr int kSamples = 32;
 /// Sizes along the sweep that differ by a smaller share are one, and layers are even: less than can be seen.
 constexpr double kSameSize = 1e-3;
+/// Heights that walls give are those of an end's rows where each is off by less than this part of its
+/// thickness: what rows keep to.
+constexpr double kSameRow = 0.02;
 
 /// What is known of the columns between both rims, in the mean.
 struct Columns {
@@ -118,6 +121,23 @@ const std::vector<double>* end_table(const OpenVolume& volume, const surface::La
     return nullptr;
 }
 
+/// Whether heights that walls give have the rows of the ends already.
+bool has_rows(const std::vector<double>& heights, const std::vector<double>* low,
+              const std::vector<double>* high, double length)
+{
+    const std::size_t below = low != nullptr ? low->size() : 0, above = high != nullptr ? high->size() : 0;
+    if (heights.size() < below + above + 2) return false;
+    const auto has = [&](const std::vector<double>* rows, const auto& at) {
+        for (std::size_t j = 0; rows != nullptr && j < rows->size(); ++j) {
+            const double thick = (*rows)[j] - (j > 0 ? (*rows)[j - 1] : 0);
+            if (std::abs(at(j + 1) * length - (*rows)[j]) > kSameRow * thick) return false;
+        }
+        return true;
+    };
+    return has(low, [&](std::size_t j) { return heights[j]; }) &&
+           has(high, [&](std::size_t j) { return 1 - heights[heights.size() - 1 - j]; });
+}
+
 /// The layers between those of the ends, over the whole of what these leave: from 0 to 1.
 std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions& options, int taken)
 {
@@ -173,6 +193,8 @@ std::vector<double> plan_heights(const OpenVolume& volume, const std::vector<sur
     const double from = below / columns.length, to = 1 - above / columns.length;
     const int taken = static_cast<int>((low != nullptr ? low->size() : 0) +
                                        (high != nullptr ? high->size() : 0));
+    if (!asked.empty() && options.layers.heights.empty() && has_rows(asked, low, high, columns.length))
+        return asked;
     std::vector<double> between;
     if (!asked.empty()) {
         between = layers_between(volume, options, taken);

@@ -22,10 +22,11 @@ struct AssemblyPlan {
 /// and the one of the target's it is swept to; the side lines of a member; opposite edges of a four-sided
 /// wall. A class gets the number that was asked for, else the most that any of its edges wants by its size.
 /// Where an end of which all edges are shared has an odd number of sides in all, its longest class gets one
-/// more. Nodes stand evenly, those of side lines as the layers are spread.
+/// more. Nodes stand evenly, those of side lines as the layers are spread, and where rows of boundary layers
+/// end on an edge, at the rows' heights.
 /// @throw NotSweepable "assembly.layers"  other numbers of layers asked for in members whose side lines are
-///     of
-///         one class; names them.
+///         of one class; "assembly.layers_differ"  rows of two members that are unlike and end on one edge;
+///         "assembly.layers_rows"  more rows on an edge than it has sides. Names them.
 AssemblyPlan plan_assembly(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
                            const RunContext& context = {});
 

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/edge_rows.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/surface/boundary_layers.h>
+#include <lacuna/surface/linking_surface.h>
+#include <lacuna/sweep/detail/both_ways.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+using RowsOfEdges = std::map<EdgeId, EdgeRows>;
+
+/// Places from the start of an edge, or from its end, are asked for there.
+void add(RowsOfEdges& rows, EdgeId edge, bool at_end, std::vector<double> places, FaceId face)
+{
+    EdgeRows& own = rows[edge];
+    own.edge = edge;
+    own.end[at_end ? 1 : 0] = {std::move(places), face};
+}
+
+/// Rows along walls, on the edges of the source.
+void add_rows_of_walls(const OpenVolume& volume, const surface::LayerTables& tables, RowsOfEdges& rows)
+{
+    const surface::RimRows rim = surface::rim_rows(volume, surface::linking_surfaces(volume), tables);
+    for (const auto& [at, end] : rim.ends) {
+        const auto& [edge, at_end] = at;
+        const std::vector<double>& heights = rim.heights[static_cast<std::size_t>(end.table)];
+        std::vector<double> places = surface::row_places(volume.model, edge, at_end, end, heights);
+        if (places.size() < heights.size()) continue;
+        const double length = edge_length(volume.model, edge);
+        if (at_end) {
+            std::ranges::reverse(places);
+            for (double& place : places) place = 1 - place;
+        }
+        for (double& place : places) place *= length;
+        add(rows, edge, at_end, std::move(places), end.wall);
+    }
+}
+
+/// Rows along ends, on the side lines.
+void add_rows_of_ends(const OpenVolume& volume, const surface::LayerTables& tables, RowsOfEdges& rows)
+{
+    for (const Role role : {Role::source, Role::target}) {
+        const auto found = std::ranges::find_if(
+            tables.of, [&](const auto& entry) { return volume.role[entry.first.index()] == role; });
+        if (found == tables.of.end()) continue;
+        for (const surface::LinkingSurface& link : surface::linking_surfaces(volume)) {
+            for (const surface::LinkingLine& line : link.lines) {
+                if (line.line.uses.size() != 1) continue;
+                const EdgeUse use = line.line.uses.front(); // it runs from source to target
+                add(rows, use.edge, use.reversed == (role == Role::source),
+                    tables.heights[static_cast<std::size_t>(found->second)], found->first);
+            }
+        }
+    }
+}
+
+} // namespace
+
+std::vector<EdgeRows> edge_rows(const AssemblyMember& member)
+{
+    std::vector<EdgeRows> result;
+    if (member.fixed != nullptr || member.options.boundary_layers.empty()) return result;
+    RowsOfEdges rows;
+    try {
+        const surface::LayerTables tables = surface::layer_tables(*member.volume,
+                                                                  member.options.boundary_layers);
+        add_rows_of_walls(*member.volume, tables, rows);
+        add_rows_of_walls(turned_round(*member.volume), tables, rows);
+        add_rows_of_ends(*member.volume, tables, rows);
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error&) {
+        return result; // the member's sweep says so, with its name
+    }
+    for (auto& [edge, own] : rows) result.push_back(std::move(own));
+    return result;
+}
+
+} // namespace lacuna::sweep
