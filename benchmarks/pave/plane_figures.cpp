@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "plane_figures.h"
 
+#include <lacuna/quads/measure_plane.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -53,16 +55,8 @@ private:
 
 int least_irregular(std::span<const double> angles, int euler)
 {
-    constexpr double kEither = 0.15; // see above
-    int low = 4 * euler, high = 4 * euler;
-    for (const double angle : angles) {
-        const double fit = angle / (kPi / 2);
-        const int fewest = std::max(1, static_cast<int>(std::ceil(fit - 0.5 - kEither)));
-        const int most = std::max(fewest, static_cast<int>(std::floor(fit + 0.5 + kEither)));
-        low -= 2 - fewest;
-        high -= 2 - most;
-    }
-    return low > 0 ? low : std::max(0, -high);
+    constexpr double kEither = 0.15; // see the header
+    return quads::least_irregular(angles, euler, kEither);
 }
 
 int least_irregular(const test::PlaneDomain& domain)

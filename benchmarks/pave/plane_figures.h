@@ -10,18 +10,11 @@
 
 namespace lacuna::bench {
 
-/// The least number of irregular interior nodes that topology allows, of three and of five quads.
-///
-/// The sum rule: over interior nodes the sum of 4 − quads, and over boundary nodes the sum of 2 − quads, are
-/// 4 times the Euler number together. Boundary nodes have the quads that right angles fit in their angle; one
-/// within 15 % of half way between two numbers has either, whichever is better. Nodes of six quads, which
-/// count twice, are not reckoned with.
-/// @param angles  inside the region, at its boundary nodes; straight ones may be left out [radian]
-/// @param euler   2 less the number of loops
-int least_irregular(std::span<const double> angles, int euler);
-
-/// The same of an outline, whose corners are where its curves meet.
+/// `quads::least_irregular()` of an outline, whose corners are where its curves meet: one within 15 % of a
+/// right angle of half way between two numbers of quads has either.
 int least_irregular(const test::PlaneDomain& domain);
+/// The same by the angles of a mesh's own rim.
+int least_irregular(std::span<const double> angles, int euler);
 
 /// A map of the plane onto itself about a point: p → centre + turn · (p − centre).
 struct Symmetry {

@@ -57,6 +57,18 @@ double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
 }
 /// A score from which no further weights are tried: all but perfect. A choice, not a measurement.
 constexpr double kGoodEnough = 3.3;
+/// What is kept without another trial: a worst quad, right sizes and right rows as these, and hardly more
+/// irregular nodes than topology asks for. Choices, not measurements.
+constexpr double kFineWorst = 0.75, kFineSizes = 0.95, kFineRows = 0.9, kNearLeast = 1.25, kFewMore = 2;
+
+bool is_near_least(const PlanarQuads& mesh, const PlanarRegion& region, int least)
+{
+    const PlaneQuality quality = measure_plane(mesh, region);
+    const auto irregular = static_cast<double>(quality.irregular + quality.boundary_irregular);
+    return irregular <= kNearLeast * least + kFewMore && quality.size_share() > kFineSizes &&
+           quality.row_share() > kFineRows;
+}
+
 /// Of the attempts with other weights, those that begin with the fewest irregular nodes are finished, so many.
 constexpr std::size_t kMostFinished = 2;
 
@@ -123,6 +135,7 @@ AttemptChooser::AttemptChooser(const PlanarRegion& region, const PaveOptions& op
     : region_(region),
       options_(options),
       context_(context),
+      least_irregular_(least_irregular(region)),
       setting_{region_, options_, size_with_boundary(region), flat_below(region)}
 {
 }
@@ -139,6 +152,7 @@ void AttemptChooser::consider(Attempt made)
     const double score = judge_score(made);
     if (score <= best_score_) return;
     best_score_ = score;
+    is_near_least_ = made.worst > kFineWorst && is_near_least(made.mesh, region_, least_irregular_);
     best_ = std::move(made);
 }
 
@@ -169,7 +183,7 @@ void AttemptChooser::pave_in(RowStyle style) { finish(begin(style)); }
 
 bool AttemptChooser::is_small() const { return best_.mesh.quads.size() <= kSmall; }
 
-bool AttemptChooser::is_good_enough() const { return best_score_ >= kGoodEnough; }
+bool AttemptChooser::is_good_enough() const { return best_score_ >= kGoodEnough || is_near_least_; }
 
 void AttemptChooser::try_default_weights()
 {

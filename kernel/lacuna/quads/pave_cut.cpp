@@ -164,7 +164,7 @@ private:
         for (std::size_t i = 0; i < n_; ++i) {
             if (angles_[i] > kBentAbove) bent.push_back(i);
         }
-        stride_ = std::max<std::size_t>(1, n_ / kSpread);
+        stride_ = (n_ + kSpread - 1) / kSpread;
         std::vector<std::size_t> places;
         for (std::size_t i = 0; i < n_; i += stride_) places.push_back(i);
         const std::size_t skip = bent.size() / kFeatures + 1;

@@ -52,12 +52,14 @@ private:
     const PlanarRegion& region_;
     PaveOptions options_;
     const RunContext& context_;
+    int least_irregular_; ///< that topology allows
     AttemptSetting setting_;
     Attempt best_;
     double best_score_ = -2;
     std::size_t made_ = 0;                ///< quads, in all attempts
     std::vector<std::uint64_t> finished_; ///< names of the attempts as they began
     bool is_good_grid_ = false;
+    bool is_near_least_ = false; ///< the best attempt
 };
 
 /// The rows of weights that small regions are also cut with, in the order they are tried.
