@@ -112,31 +112,30 @@ public:
     }
 
 private:
+    /// The cheapest free line. Only lines cheaper than the cheapest so far are looked at.
     std::optional<Cut> find_among(const std::vector<std::size_t>& places, double longest)
     {
-        std::vector<Choice> choices;
+        // Nodes nearer than half an edge of the line would make a quad of half the size; a choice. Where all
+        // lines pass some node that near, the cheapest of them is taken.
+        constexpr double kAway = 0.5;
+        std::optional<Choice> best, near_miss;
         for (std::size_t s = 0; s < places.size(); ++s) {
+            const std::size_t i = places[s];
+            const Vec2& from = at(i);
             for (std::size_t t = s + 1; t < places.size(); ++t) {
-                const std::size_t i = places[s], j = places[t];
-                const double arc = arc_[j] - arc_[i];
-                if ((at(j) - at(i)).norm() > longest * std::min(arc, arc_[n_] - arc)) continue;
-                if (const auto choice = judge(i, j)) choices.push_back(*choice);
+                const std::size_t j = places[t];
+                const double arc = arc_[j] - arc_[i], shorter = std::min(arc, arc_[n_] - arc);
+                const double most = longest * shorter, squared = (at(j) - from).squaredNorm();
+                if (squared > most * most) continue;
+                const auto choice = judge(i, j, best ? best->cost : std::numeric_limits<double>::infinity());
+                if (!choice || !is_clear(partial_, cycle_, cycle_[i], cycle_[j])) continue;
+                if (keeps_away(*choice, kAway))
+                    best = choice;
+                else if (!near_miss || choice->cost < near_miss->cost)
+                    near_miss = choice;
             }
         }
-        // A heap, best on top: mostly the first or second is free.
-        const auto later = [](const Choice& a, const Choice& b) {
-            return std::tie(a.cost, a.cut.from, a.cut.to) > std::tie(b.cost, b.cut.from, b.cut.to);
-        };
-        std::make_heap(choices.begin(), choices.end(), later);
-        // Nodes nearer than half an edge of the line would make a quad of half the size; a choice.
-        constexpr double kAway = 0.5;
-        std::optional<Choice> near_miss;
-        for (auto end = choices.end(); end != choices.begin(); --end) {
-            std::pop_heap(choices.begin(), end, later);
-            const Choice& choice = *(end - 1);
-            if (is_free(choice, kAway)) return refine(choice, kAway).cut;
-            if (!near_miss && is_free(choice, 0)) near_miss = choice;
-        }
+        if (best) return refine(*best, kAway).cut;
         if (near_miss) return refine(*near_miss, 0).cut;
         return std::nullopt;
     }
@@ -150,10 +149,16 @@ private:
 
     [[nodiscard]] bool is_free(const Choice& c, double away) const
     {
+        return is_clear(partial_, cycle_, cycle_[c.cut.from], cycle_[c.cut.to]) &&
+               (away == 0 || keeps_away(c, away));
+    }
+
+    /// Whether a line keeps so many of its edges from all nodes that it passes.
+    [[nodiscard]] bool keeps_away(const Choice& c, double away) const
+    {
         const Index a = cycle_[c.cut.from], b = cycle_[c.cut.to];
         const double edge = (partial_.at(b) - partial_.at(a)).norm() / static_cast<double>(c.cut.edges);
-        return is_clear(partial_, cycle_, a, b) &&
-               (away == 0 || keeps_away(partial_, cycle_, a, b, away * edge));
+        return quads::paving::keeps_away(partial_, cycle_, a, b, away * edge);
     }
 
     [[nodiscard]] std::vector<std::size_t> candidates()
@@ -174,16 +179,24 @@ private:
         return places;
     }
 
-    [[nodiscard]] std::optional<Choice> judge(std::size_t i, std::size_t j) const
+    /// @return nothing where there can be no line, nor one that costs less than `most`
+    [[nodiscard]] std::optional<Choice> judge(std::size_t i, std::size_t j, double most) const
     {
         if (cycle_[i] == cycle_[j]) return std::nullopt;
+        const CutWeights& weights = partial_.weights;
         const Vec2 along = at(j) - at(i);
+        const double length = along.norm(), arc = arc_[j] - arc_[i];
+        Choice choice{{i, j, 0}, weights.length * length / std::min(arc, arc_[n_] - arc)};
+        for (const std::size_t end : {i, j}) choice.cost -= angles_[end] > kBentAbove ? weights.bent : 0.0;
+        if (choice.cost >= most) return std::nullopt;
         const double heading = std::atan2(along.y(), along.x());
         const double part_i = whole_turn(heading - heading_[i]);
         if (part_i < kLeastAngle || part_i > angles_[i] - kLeastAngle) return std::nullopt;
         const double part_j = whole_turn(heading + std::numbers::pi - heading_[j]);
         if (part_j < kLeastAngle || part_j > angles_[j] - kLeastAngle) return std::nullopt;
-        const double length = along.norm();
+        choice.cost += end_cost(angles_[i], part_i, weights) * firmness(i) +
+                       end_cost(angles_[j], part_j, weights) * firmness(j);
+        if (choice.cost >= most) return std::nullopt;
         // Edges go as the mean of one over the size.
         const double wanted = length * (pace_[i] + 1 / partial_.size((at(i) + at(j)) / 2) + pace_[j]) / 3;
         const std::size_t between = j - i, rest = n_ - between;
@@ -198,15 +211,12 @@ private:
             edges + rest < 4)
             return std::nullopt;
         if (edges == 1 && partial_.linked(cycle_[i], cycle_[j])) return std::nullopt;
-        const double arc = arc_[j] - arc_[i];
-        Choice choice{{i, j, edges}, 0};
-        const CutWeights& weights = partial_.weights;
-        choice.cost = end_cost(angles_[i], part_i, weights) * firmness(i) +
-                      end_cost(angles_[j], part_j, weights) * firmness(j) +
-                      weights.length * length / std::min(arc, arc_[n_] - arc);
         const double ratio = std::abs(std::log2(static_cast<double>(edges) / wanted));
-        choice.cost += ratio * ratio / 2 + weights.mismatch * mismatch(choice.cut, part_i, part_j);
-        for (const std::size_t end : {i, j}) choice.cost -= angles_[end] > kBentAbove ? weights.bent : 0.0;
+        choice.cut.edges = edges;
+        choice.cost += ratio * ratio / 2;
+        if (choice.cost >= most) return std::nullopt;
+        choice.cost += weights.mismatch * mismatch(choice.cut, part_i, part_j);
+        if (choice.cost >= most) return std::nullopt;
         return choice;
     }
 
@@ -275,8 +285,8 @@ private:
                     std::size_t i = shifted(start.cut.from, di), j = shifted(start.cut.to, dj);
                     if (i > j) std::swap(i, j);
                     if (i == j) continue;
-                    const auto choice = judge(i, j);
-                    if (choice && choice->cost < best.cost && is_free(*choice, away)) best = *choice;
+                    const auto choice = judge(i, j, best.cost);
+                    if (choice && is_free(*choice, away)) best = *choice;
                 }
             }
         }
@@ -288,8 +298,8 @@ private:
                 std::size_t i = place, j = first ? start.cut.to : start.cut.from;
                 if (i == j) continue;
                 if (i > j) std::swap(i, j);
-                const auto choice = judge(i, j);
-                if (choice && choice->cost < best.cost && is_free(*choice, away)) best = *choice;
+                const auto choice = judge(i, j, best.cost);
+                if (choice && is_free(*choice, away)) best = *choice;
             }
         }
         return best;
