@@ -3,6 +3,7 @@
 
 #include <lacuna/geometry/predicates.h>
 #include <lacuna/quads/detail/patch_template.h>
+#include <lacuna/quads/detail/pave_fit.h>
 
 #include <limits>
 #include <span>
@@ -341,47 +342,39 @@ std::optional<LoopBridge> best_bridge(const PartialMesh& partial, const std::vec
                                       std::size_t a, std::size_t b)
 {
     const Cycle &one = loops[a], &two = loops[b];
-    const auto judge = [&](std::size_t i, std::size_t j) -> std::optional<LoopBridge> {
+    const std::vector<double> angles_one = angles_of(partial, one), angles_two = angles_of(partial, two);
+    std::optional<LoopBridge> best;
+    // Only bridges cheaper than the cheapest so far are looked at; none costs less than its length.
+    const auto consider = [&](std::size_t i, std::size_t j) {
         const Vec2 &p = partial.at(one[i]), &q = partial.at(two[j]);
-        const double angle_i = inner_angle(partial, one, i);
+        if (best && (q - p).squaredNorm() >= best->cost * best->cost) return;
         const double part_i = turn_between(partial.at(one[(i + 1) % one.size()]) - p, q - p);
-        if (part_i >= angle_i) return std::nullopt;
-        const double angle_j = inner_angle(partial, two, j);
+        if (part_i >= angles_one[i]) return;
         const double part_j = turn_between(partial.at(two[(j + 1) % two.size()]) - q, p - q);
-        if (part_j >= angle_j) return std::nullopt;
+        if (part_j >= angles_two[j]) return;
         const double length = (q - p).norm();
         LoopBridge bridge{a, b, {i, j, 1}, 0};
-        bridge.cost = length * (1 + 0.3 * (end_cost(angle_i, part_i, partial.weights) +
-                                           end_cost(angle_j, part_j, partial.weights)));
+        bridge.cost = length * (1 + 0.3 * (end_cost(angles_one[i], part_i, partial.weights) +
+                                           end_cost(angles_two[j], part_j, partial.weights)));
+        if (best && bridge.cost >= best->cost) return;
+        if (one[i] == two[j] || std::any_of(loops.begin(), loops.end(), [&](const Cycle& loop) {
+                return !is_clear(partial, loop, one[i], two[j]);
+            }))
+            return;
         const double wanted = length / local_size(partial, p, q);
         bridge.cut.edges = static_cast<std::size_t>(std::max(1L, std::lround(wanted)));
-        return bridge;
+        best = bridge;
     };
-    const auto is_free = [&](const LoopBridge& bridge) {
-        const Index p = one[bridge.cut.from], q = two[bridge.cut.to];
-        return p != q && std::all_of(loops.begin(), loops.end(),
-                                     [&](const Cycle& loop) { return is_clear(partial, loop, p, q); });
-    };
-    std::vector<LoopBridge> choices;
     for (const std::size_t i : spread(one.size())) {
-        for (const std::size_t j : spread(two.size())) {
-            if (const auto bridge = judge(i, j)) choices.push_back(*bridge);
-        }
+        for (const std::size_t j : spread(two.size())) consider(i, j);
     }
-    std::sort(choices.begin(), choices.end(), [](const LoopBridge& x, const LoopBridge& y) {
-        return std::tie(x.cost, x.cut.from, x.cut.to) < std::tie(y.cost, y.cut.from, y.cut.to);
-    });
-    const auto found = std::find_if(choices.begin(), choices.end(), is_free);
-    if (found == choices.end()) return std::nullopt;
+    if (!best) return std::nullopt;
     // The nodes between those tried.
     const std::size_t n = one.size(), m = two.size(), reach_n = stride_of(n), reach_m = stride_of(m);
-    LoopBridge best = *found;
+    const Cut found = best->cut;
     for (std::size_t di = 0; di <= 2 * reach_n; ++di) {
-        for (std::size_t dj = 0; dj <= 2 * reach_m; ++dj) {
-            const auto bridge = judge((found->cut.from + n + di - reach_n) % n,
-                                      (found->cut.to + m + dj - reach_m) % m);
-            if (bridge && bridge->cost < best.cost && is_free(*bridge)) best = *bridge;
-        }
+        for (std::size_t dj = 0; dj <= 2 * reach_m; ++dj)
+            consider((found.from + n + di - reach_n) % n, (found.to + m + dj - reach_m) % m);
     }
     return best;
 }
