@@ -46,7 +46,7 @@ constexpr std::array<CutWeights, 7> kCutWeights{{
 /// many. The weights are choices.
 double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
 {
-    constexpr double kGood = 0.6, kBest = 0.85, kFewNodes = 1500;
+    constexpr double kGood = 0.6, kBest = 0.85, kFewNodes = 500;
     const PlaneQuality quality = measure_plane(mesh, region);
     const double least = quality.min_scaled_jacobian;
     const double irregular = static_cast<double>(quality.irregular) /
