@@ -69,12 +69,11 @@ bool is_near_least(const PlanarQuads& mesh, const PlanarRegion& region, int leas
            quality.row_share() > kFineRows;
 }
 
-/// Of the attempts with other weights, those that begin with the fewest irregular nodes are finished, so
-/// many.
-constexpr std::size_t kMostFinished = 2;
-/// Below so many quads only the first rows of weights are begun, for the time. Measured on the named outlines
-/// and 40 of the held family (`benchmarks/pave/`): all seven leave no fewer irregular nodes there.
-constexpr std::size_t kFewQuads = 1000, kFewRows = 4;
+/// Below so many quads the time counts as much as the last hundredth of the score: only the first rows of
+/// weights are begun, and of those attempts the ones that begin with the fewest irregular nodes finished.
+/// Measured on the named outlines and 40 of the held family (`benchmarks/pave/`): a third of the time of all
+/// rows, and no more irregular nodes.
+constexpr std::size_t kFewQuads = 1500, kFewRows = 4, kFewFinished = 2;
 
 /// A number that tells meshes apart: a hash of points and quads in their order.
 std::uint64_t name_of(const PlanarQuads& mesh)
@@ -217,16 +216,19 @@ void AttemptChooser::try_all_weights()
         Attempt attempt;
     };
     std::vector<Begun> begun;
-    const std::size_t rows = best_.mesh.quads.size() < kFewQuads ? kFewRows : cut_weight_rows().size();
+    const bool few = best_.mesh.quads.size() < kFewQuads;
+    const std::size_t rows = few ? kFewRows : cut_weight_rows().size();
     for (const CutWeights& weights : cut_weight_rows().first(rows)) {
         Attempt attempt = begin(best_.style, weights);
         if (attempt.worst < -1) continue;
         const PlaneQuality quality = measure_plane(attempt.mesh, region_);
         begun.push_back({quality.irregular + quality.boundary_irregular, std::move(attempt)});
     }
-    std::stable_sort(begun.begin(), begun.end(),
-                     [](const Begun& a, const Begun& b) { return a.irregular < b.irregular; });
-    if (begun.size() > kMostFinished) begun.resize(kMostFinished);
+    if (few) {
+        std::stable_sort(begun.begin(), begun.end(),
+                         [](const Begun& a, const Begun& b) { return a.irregular < b.irregular; });
+        begun.resize(std::min(begun.size(), kFewFinished));
+    }
     for (Begun& next : begun) {
         const std::size_t most = best_.worst > kPoor ? kMostMade : kMostMadePoor;
         if (made_ < most && !is_good_enough()) finish(std::move(next.attempt));

@@ -170,7 +170,7 @@ private:
         for (std::size_t i = 0; i < n_; ++i) {
             if (angles_[i] > kBentAbove) bent.push_back(i);
         }
-        stride_ = (n_ + kSpread - 1) / kSpread;
+        stride_ = n_ <= kSpread ? 1 : std::max<std::size_t>(2, n_ / kSpread);
         std::vector<std::size_t> places;
         for (std::size_t i = 0; i < n_; i += stride_) places.push_back(i);
         const std::size_t skip = bent.size() / kFeatures + 1;

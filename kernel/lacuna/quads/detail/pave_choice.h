@@ -21,8 +21,8 @@ public:
     void try_default_weights();
     /// The score of the style that was best so far, with other weights of the cuts; nothing is kept.
     [[nodiscard]] double score_with(const CutWeights& weights) const;
-    /// Every row of `cut_weight_rows()`, as long as the region is small and there is something to gain. Only
-    /// those that begin with the fewest irregular nodes are finished.
+    /// The rows of `cut_weight_rows()`, as long as the region is small and there is something to gain; of a
+    /// very small one only the most promising.
     void try_all_weights();
     /// Triangles, where nothing else fills the region well.
     void try_triangles();
