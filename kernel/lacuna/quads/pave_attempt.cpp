@@ -73,6 +73,19 @@ void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContex
     judge(attempt);
 }
 
+void clean_and_smooth(Attempt& attempt, const AttemptSetting& setting, bool thorough,
+                      const RunContext& context)
+{
+    const std::size_t fixed = setting.region.points.size();
+    if (setting.options.clean)
+        clean_quads(attempt.mesh, fixed, {.size = setting.size, .thorough = thorough}, context);
+    if (setting.options.smooth) {
+        smooth_plane(attempt.mesh.points, attempt.mesh.quads, fixed, {.size = setting.size}, context);
+        correct_row_heights(attempt.mesh, setting.region, setting.size);
+    }
+    judge(attempt);
+}
+
 /// Pave rows from the loops, cut the rest and fill it.
 void pave_and_fill(Attempt& attempt, PartialMesh& partial, const PlanarRegion& region, RowStyle style,
                    const RunContext& context)
@@ -142,19 +155,16 @@ Attempt begin_attempt(const AttemptSetting& setting, RowStyle style, const CutWe
     return attempt;
 }
 
-void finish_attempt(Attempt& attempt, const AttemptSetting& setting, const RunContext& context)
+void finish_attempt(Attempt& attempt, const AttemptSetting& setting, bool thorough, const RunContext& context)
 {
     if (attempt.worst < -1) return; // there are no quads, or they do not conform
-    const PlanarRegion& region = setting.region;
-    const std::size_t fixed = region.points.size();
     if (setting.options.smooth) open_folds(attempt, setting, context);
-    if (attempt.worst <= 0) return;
-    if (setting.options.clean) clean_quads(attempt.mesh, fixed, {.size = setting.size}, context);
-    if (setting.options.smooth) {
-        smooth_plane(attempt.mesh.points, attempt.mesh.quads, fixed, {.size = setting.size}, context);
-        correct_row_heights(attempt.mesh, region, setting.size);
-    }
-    judge(attempt);
+    if (attempt.worst > 0) clean_and_smooth(attempt, setting, thorough, context);
+}
+
+void clean_again(Attempt& attempt, const AttemptSetting& setting, const RunContext& context)
+{
+    if (setting.options.clean && attempt.worst > 0) clean_and_smooth(attempt, setting, true, context);
 }
 
 } // namespace lacuna::quads::paving

@@ -166,7 +166,8 @@ Attempt AttemptChooser::begin(RowStyle style, const CutWeights& weights) const
 
 void AttemptChooser::complete(Attempt& attempt) const
 {
-    finish_attempt(attempt, setting_, context_);
+    const bool few = attempt.mesh.quads.size() < kFewQuads;
+    finish_attempt(attempt, setting_, !few, context_);
     if (attempt.worst > setting_.flat) return;
     std::ostringstream text;
     text << "quads fold near (" << attempt.where.x() << ", " << attempt.where.y() << "): paving differently";
@@ -233,6 +234,14 @@ void AttemptChooser::try_all_weights()
         const std::size_t most = best_.worst > kPoor ? kMostMade : kMostMadePoor;
         if (made_ < most && !is_good_enough()) finish(std::move(next.attempt));
     }
+}
+
+void AttemptChooser::clean_best()
+{
+    if (best_.worst <= setting_.flat || best_.mesh.quads.size() >= kFewQuads || is_good_enough()) return;
+    Attempt again = best_;
+    clean_again(again, setting_, context_);
+    consider(std::move(again));
 }
 
 void AttemptChooser::try_triangles()

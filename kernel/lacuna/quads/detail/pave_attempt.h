@@ -42,6 +42,11 @@ Attempt begin_attempt(const AttemptSetting& setting, RowStyle style, const CutWe
                       const RunContext& context);
 
 /// Open folds, clean and smooth.
-void finish_attempt(Attempt& attempt, const AttemptSetting& setting, const RunContext& context);
+/// @param thorough  of the cleaning, see `CleanOptions`
+void finish_attempt(Attempt& attempt, const AttemptSetting& setting, bool thorough,
+                    const RunContext& context);
+
+/// Clean and smooth, with all patience, what was finished with less.
+void clean_again(Attempt& attempt, const AttemptSetting& setting, const RunContext& context);
 
 } // namespace lacuna::quads::paving

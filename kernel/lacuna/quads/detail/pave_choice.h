@@ -24,6 +24,8 @@ public:
     /// The rows of `cut_weight_rows()`, as long as the region is small and there is something to gain; of a
     /// very small one only the most promising.
     void try_all_weights();
+    /// Clean the best attempt with more patience, where none of its kind was cleaned so.
+    void clean_best();
     /// Triangles, where nothing else fills the region well.
     void try_triangles();
 
