@@ -29,9 +29,9 @@ struct SearchLimits {
 /// lasts. Choices, not measurements.
 constexpr std::array<SearchLimits, 3> kStages{
     {{3, 60, 2, 1, 1.8}, {12, 100'000, 2, 1, 1.8}, {12, 100'000, 4, 2, 3}}};
-/// Quads that may be tried however small the mesh, with patience and without. The first is a choice.
-/// The second was measured on the named outlines and 40 of the held family (`benchmarks/pave/`): below 1,000 quads more
-/// than three times as many remove no more irregular nodes.
+/// Quads that may be tried however small the mesh, with patience and without. The first is a choice. The
+/// second was measured on the named outlines and 40 of the held family (`benchmarks/pave/`): below 1,000
+/// quads more than three times as many remove no more irregular nodes.
 constexpr long kLeastBudget = 50'000, kQuickBudget = 15'000;
 /// Rings of quads around a patch that are smoothed with it. A choice, not a measurement.
 constexpr int kRings = 2;
