@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <unordered_map>
 
 namespace lacuna::bench {
 
@@ -22,11 +23,10 @@ constexpr double kShortest = 0.6, kLongest = 1.6;
 
 class Meter {
 public:
-    Meter(const SurfaceQuads& mesh, const SeededFace& seeded)
-        : points_(mesh.points), quads_(mesh.quads), asked_(seeded.size)
+    Meter(const SurfaceQuads& mesh, const topology::Model& model, FaceId face, double size)
+        : points_(mesh.points), quads_(mesh.quads), asked_(size)
     {
-        const topology::Model& model = seeded.model;
-        const std::vector<Triangle>& facets = model[seeded.face].triangles;
+        const std::vector<Triangle>& facets = model[face].triangles;
         const geometry::FacetTree tree(model.points, facets);
         for (const Vec3& p : points_) {
             const Triangle& t = facets[static_cast<std::size_t>(tree.closest(p).triangle)];
@@ -45,6 +45,7 @@ public:
 
     quads::PlaneQuality measure()
     {
+        rim_angles_.clear();
         quads::PlaneQuality result;
         result.quads = quads_.size();
         result.points = points_.size();
@@ -75,6 +76,7 @@ public:
         }
         for (std::size_t p = 0; p < points_.size(); ++p) {
             if (rim[p] != 0) {
+                rim_angles_.push_back(turn[p]);
                 const double wanted = std::max(1.0, std::round(turn[p] / (std::numbers::pi / 2)));
                 if (valence[p] != static_cast<Index>(wanted)) ++result.boundary_irregular;
                 continue;
@@ -100,6 +102,34 @@ public:
             if (rim[p] == 0) nodes.push_back(points_[p]);
         }
         return nodes;
+    }
+
+    /// @pre  `measure()` was asked
+    [[nodiscard]] int least_irregular(std::size_t loops) const
+    {
+        return bench::least_irregular(rim_angles_, 2 - static_cast<int>(loops));
+    }
+    [[nodiscard]] std::size_t rim_sides() const
+    {
+        return static_cast<std::size_t>(std::count(opposite_.begin(), opposite_.end(), mesh::kRimSide));
+    }
+
+    /// Closed walks along the rim.
+    [[nodiscard]] std::size_t rim_loops() const
+    {
+        std::unordered_map<Index, Index> next;
+        for (std::size_t s = 0; s < opposite_.size(); ++s) {
+            if (opposite_[s] == mesh::kRimSide) next[quads_[s / 4][s % 4]] = quads_[s / 4][(s + 1) % 4];
+        }
+        std::size_t loops = 0;
+        for (; !next.empty(); ++loops) {
+            for (auto at = next.begin(); at != next.end();) {
+                const Index to = at->second;
+                next.erase(at);
+                at = next.find(to);
+            }
+        }
+        return loops;
     }
 
     std::string find_fault(std::size_t rim_sides, std::size_t loops, double least)
@@ -152,6 +182,7 @@ private:
     std::vector<Quad> quads_;
     std::vector<Vec3> normals_;
     std::vector<Index> opposite_;
+    std::vector<double> rim_angles_;
     double asked_;
 };
 
@@ -185,11 +216,24 @@ double off_surface(const std::vector<Vec3>& points, const std::string& file)
 
 SurfaceQuality measure_surface(const SurfaceQuads& mesh, const SeededFace& seeded)
 {
-    Meter meter(mesh, seeded);
+    Meter meter(mesh, seeded.model, seeded.face, seeded.size);
     SurfaceQuality result;
     result.quads = meter.measure();
+    result.least_irregular = meter.least_irregular(seeded.loops.size());
     result.off_surface = off_surface(meter.inside(), seeded.file);
     result.fault = meter.find_fault(seeded.rim.size(), seeded.loops.size(), result.quads.min_scaled_jacobian);
+    return result;
+}
+
+SurfaceQuality measure_face(const SurfaceQuads& mesh, const topology::Model& model, FaceId face, double size)
+{
+    Meter meter(mesh, model, face, size);
+    SurfaceQuality result;
+    result.quads = meter.measure();
+    // A seam makes one loop of two, so the loops are those of the quads.
+    const std::size_t loops = meter.rim_loops();
+    result.least_irregular = meter.least_irregular(loops);
+    result.fault = meter.find_fault(meter.rim_sides(), loops, result.quads.min_scaled_jacobian);
     return result;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gmsh_quads.h"
+#include "plane_figures.h"
 
 #include <lacuna/quads/measure_plane.h>
 #include <lacuna/surface/fill_face.h>
@@ -46,10 +47,13 @@ SurfaceQuads gmsh_quads(const SeededFace& seeded, const GmshWay& way);
 /// taken across the boundary side in the plane of the quad's corner normals.
 struct SurfaceQuality {
     quads::PlaneQuality quads;
-    double off_surface = 0; ///< largest distance of an inner node from the exact surface [model length]
-    std::string fault;      ///< what makes them no mesh of the face; empty where nothing does
+    int least_irregular = 0; ///< by the sum rule, from the angles of the mesh's own rim
+    double off_surface = 0;  ///< largest distance of an inner node from the exact surface [model length]
+    std::string fault;       ///< what makes them no mesh of the face; empty where nothing does
 };
 
 SurfaceQuality measure_surface(const SurfaceQuads& mesh, const SeededFace& seeded);
+/// The same of any face of a model, for one size all over; how far off the surface is not looked at.
+SurfaceQuality measure_face(const SurfaceQuads& mesh, const topology::Model& model, FaceId face, double size);
 
 } // namespace lacuna::bench

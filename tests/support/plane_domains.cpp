@@ -58,6 +58,22 @@ std::vector<PlaneCurve> circle(const Vec2& centre, double radius, bool hole)
     return curves;
 }
 
+/// A box about the origin with round corners; a corner as wide as the box is high makes half circles of two.
+std::vector<PlaneCurve> rounded_box(double half_width, double half_height, double radius)
+{
+    std::vector<PlaneCurve> curves;
+    const std::array<Vec2, 4> centre{
+        Vec2(half_width - radius, half_height - radius), Vec2(radius - half_width, half_height - radius),
+        Vec2(radius - half_width, radius - half_height), Vec2(half_width - radius, radius - half_height)};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double start = static_cast<double>(i) * kPi / 2;
+        curves.push_back(arc(centre[i], radius, start, start + kPi / 2));
+        const Vec2 next = on_circle(centre[(i + 1) % 4], radius, start + kPi / 2);
+        if ((next - curves.back().to).norm() > 1e-9) curves.push_back(line(curves.back().to, next));
+    }
+    return curves;
+}
+
 PlaneDomain plate_with_holes()
 {
     PlaneDomain plate{"plate", {polygon({{-1.5, -1}, {1.5, -1}, {1.5, 1}, {-1.5, 1}})}, {}};
@@ -146,26 +162,6 @@ PlaneDomain saddle_plan()
     return {"saddle plan", {rim}, [](const Vec2& p) { return std::pow(1 + p.squaredNorm(), -0.25); }};
 }
 
-/// A fine polyline of a curve.
-std::vector<Vec2> fine(const PlaneCurve& curve)
-{
-    if (curve.kind == PlaneCurve::Kind::free) return curve.through;
-    constexpr int kPieces = 256;
-    std::vector<Vec2> points{curve.from};
-    const Vec2 start = curve.from - curve.centre, end = curve.to - curve.centre;
-    double turn = std::atan2(start.x() * end.y() - start.y() * end.x(), start.dot(end));
-    if (curve.clockwise && turn > 0) turn -= 2 * kPi;
-    if (!curve.clockwise && turn < 0) turn += 2 * kPi;
-    for (int i = 1; i < kPieces; ++i) {
-        const double t = static_cast<double>(i) / kPieces;
-        points.push_back(curve.kind == PlaneCurve::Kind::line
-                             ? Vec2(curve.from + t * (curve.to - curve.from))
-                             : Vec2(curve.centre + Eigen::Rotation2Dd(t * turn) * start));
-    }
-    points.push_back(curve.to);
-    return points;
-}
-
 bool inside(const std::vector<std::vector<Vec2>>& loops, const Vec2& p)
 {
     return std::count_if(loops.begin(), loops.end(),
@@ -182,7 +178,7 @@ double quads_at_size_one(const PlaneDomain& domain)
     for (const auto& curves : domain.loops) {
         loops.emplace_back();
         for (const PlaneCurve& curve : curves) {
-            const std::vector<Vec2> points = fine(curve);
+            const std::vector<Vec2> points = fine_line(curve);
             loops.back().insert(loops.back().end(), points.begin(), points.end() - 1);
             for (const Vec2& p : points) box.extend(p);
         }
@@ -211,7 +207,7 @@ double quads_at_size_one(const PlaneDomain& domain)
 /// Nodes of a curve but its last: an even number of sides, each as long as the others measured by the size.
 int seed_curve(const PlaneDomain& domain, const PlaneCurve& curve, double size, std::vector<Vec2>& nodes)
 {
-    const std::vector<Vec2> points = fine(curve);
+    const std::vector<Vec2> points = fine_line(curve);
     std::vector<double> run{0};
     for (std::size_t i = 1; i < points.size(); ++i) {
         const double asked = domain.relative_size ? domain.relative_size((points[i] + points[i - 1]) / 2) : 1;
@@ -233,6 +229,25 @@ int seed_curve(const PlaneDomain& domain, const PlaneCurve& curve, double size, 
 
 } // namespace
 
+std::vector<Vec2> fine_line(const PlaneCurve& curve)
+{
+    if (curve.kind == PlaneCurve::Kind::free) return curve.through;
+    constexpr int kPieces = 256;
+    std::vector<Vec2> points{curve.from};
+    const Vec2 start = curve.from - curve.centre, end = curve.to - curve.centre;
+    double turn = std::atan2(start.x() * end.y() - start.y() * end.x(), start.dot(end));
+    if (curve.clockwise && turn > 0) turn -= 2 * kPi;
+    if (!curve.clockwise && turn < 0) turn += 2 * kPi;
+    for (int i = 1; i < kPieces; ++i) {
+        const double t = static_cast<double>(i) / kPieces;
+        points.push_back(curve.kind == PlaneCurve::Kind::line
+                             ? Vec2(curve.from + t * (curve.to - curve.from))
+                             : Vec2(curve.centre + Eigen::Rotation2Dd(t * turn) * start));
+    }
+    points.push_back(curve.to);
+    return points;
+}
+
 std::vector<PlaneDomain> plane_domains()
 {
     return {{"disc", {circle({0, 0}, 1, false)}, {}},
@@ -244,10 +259,43 @@ std::vector<PlaneDomain> plane_domains()
             saddle_plan()};
 }
 
+std::vector<PlaneDomain> common_outlines()
+{
+    PlaneDomain flange{"flange", {circle({0, 0}, 1, false)}, {}};
+    for (int i = 0; i < 4; ++i)
+        flange.loops.push_back(circle(on_circle({0, 0}, 0.66, (2 * i + 1) * kPi / 4), 0.12, true));
+    return {
+        {"ring", {circle({0, 0}, 1, false), circle({0, 0}, 0.4, true)}, {}},
+        {"eccentric ring", {circle({0, 0}, 1, false), circle({0.3, 0}, 0.35, true)}, {}},
+        {"rounded rectangle", {rounded_box(1.5, 1, 0.4)}, {}},
+        {"slot", {rounded_box(1.5, 0.5, 0.5)}, {}},
+        {"U", {polygon({{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 2}, {0, 2}})}, {}},
+        {"T",
+         {polygon({{-0.4, 0}, {0.4, 0}, {0.4, 2}, {1.5, 2}, {1.5, 2.8}, {-1.5, 2.8}, {-1.5, 2}, {-0.4, 2}})},
+         {}},
+        {"cross",
+         {polygon({{-0.5, -1.5},
+                   {0.5, -1.5},
+                   {0.5, -0.5},
+                   {1.5, -0.5},
+                   {1.5, 0.5},
+                   {0.5, 0.5},
+                   {0.5, 1.5},
+                   {-0.5, 1.5},
+                   {-0.5, 0.5},
+                   {-1.5, 0.5},
+                   {-1.5, -0.5},
+                   {-0.5, -0.5}})},
+         {}},
+        std::move(flange)};
+}
+
 PlaneDomain plane_domain(const std::string& name)
 {
-    for (PlaneDomain& domain : plane_domains()) {
-        if (domain.name == name) return domain;
+    for (const auto& list : {plane_domains(), common_outlines()}) {
+        for (const PlaneDomain& domain : list) {
+            if (domain.name == name) return domain;
+        }
     }
     throw std::invalid_argument("no domain is called " + name);
 }

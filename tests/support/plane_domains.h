@@ -36,8 +36,14 @@ struct SeededDomain {
 /// disc, plate with five holes, gear with bore, L, comb, aerofoil channel, and the plan of a B-spline saddle
 /// with sizes corrected for its slope.
 std::vector<PlaneDomain> plane_domains();
-/// The one of that name.
+/// Outlines that small meshes are judged on: ring, eccentric ring, rounded rectangle, slot, U, T, cross, and
+/// flange, a disc with four bolt holes.
+std::vector<PlaneDomain> common_outlines();
+/// The one of that name, of either list.
 PlaneDomain plane_domain(const std::string& name);
+
+/// A fine polyline of a curve, ends included.
+std::vector<Vec2> fine_line(const PlaneCurve& curve);
 
 /// Nodes for about `quads` quads. The size asked is the region's.
 SeededDomain seed_domain(const PlaneDomain& domain, double quads);

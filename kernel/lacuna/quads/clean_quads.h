@@ -15,6 +15,7 @@ struct CleanOptions {
     double least = 0.6; ///< below it no change may make a quad worse than the worst was: scaled Jacobian [-]
     int largest_patch = 400; ///< quads refilled at once, >= 4
     int passes = 4;          ///< over all irregular points, >= 1
+    bool thorough = true;    ///< look again with more patience; where not, 15,000 below for 50,000
     double effort = 3;       ///< quads in fillings tried: so many times those of the mesh, and 50,000
 };
 

@@ -40,17 +40,30 @@ bool stands_well(std::span<const Vec2> points, const Quad& quad, std::size_t sid
     return true;
 }
 
-/// Boundary nodes whose number of quads is not that of the right angles in their corner.
-std::size_t boundary_irregular(const PlanarRegion& region, const std::vector<Index>& valence)
+/// The angle inside the region at each of its boundary nodes, loop after loop.
+std::vector<double> boundary_angles(const PlanarRegion& region)
 {
-    std::size_t count = 0;
+    std::vector<double> angles;
     for (const std::vector<Index>& loop : region.loops) {
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const Vec2& here = at(region.points, loop[i]);
-            const Vec2 after = at(region.points, loop[(i + 1) % loop.size()]) - here;
-            const Vec2 before = at(region.points, loop[(i + loop.size() - 1) % loop.size()]) - here;
-            const auto wanted = std::max(1.0, std::round(turn_between(after, before) / kRight));
-            if (valence[index(loop[i])] != static_cast<Index>(wanted)) ++count;
+            angles.push_back(
+                turn_between(at(region.points, loop[(i + 1) % loop.size()]) - here,
+                             at(region.points, loop[(i + loop.size() - 1) % loop.size()]) - here));
+        }
+    }
+    return angles;
+}
+
+/// Boundary nodes whose number of quads is not that of the right angles in their corner.
+std::size_t boundary_irregular(const PlanarRegion& region, const std::vector<Index>& valence)
+{
+    const std::vector<double> angles = boundary_angles(region);
+    std::size_t count = 0, i = 0;
+    for (const std::vector<Index>& loop : region.loops) {
+        for (const Index p : loop) {
+            const double wanted = std::max(1.0, std::round(angles[i++] / kRight));
+            if (valence[index(p)] != static_cast<Index>(wanted)) ++count;
         }
     }
     return count;
@@ -156,6 +169,24 @@ PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
     if (result.quads > 0) result.mean_scaled_jacobian = jacobians / static_cast<double>(result.quads);
     if (result.edges > 0) result.mean_edge_ratio = ratios / static_cast<double>(result.edges);
     return result;
+}
+
+int least_irregular(std::span<const double> angles, int euler, double either)
+{
+    int low = 4 * euler, high = 4 * euler;
+    for (const double angle : angles) {
+        const double fit = angle / kRight;
+        const int fewest = std::max(1, static_cast<int>(std::ceil(fit - 0.5 - either)));
+        const int most = std::max(fewest, static_cast<int>(std::floor(fit + 0.5 + either)));
+        low -= 2 - fewest;
+        high -= 2 - most;
+    }
+    return std::max({0, low, -high});
+}
+
+int least_irregular(const PlanarRegion& region)
+{
+    return least_irregular(boundary_angles(region), 2 - static_cast<int>(region.loops.size()));
 }
 
 std::string find_fault(const PlanarQuads& mesh, const PlanarRegion& region)

@@ -47,6 +47,19 @@ private:
 /// @pre  `find_fault()` finds none but folded corners.
 PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region);
 
+/// The least number of irregular interior nodes that topology allows, where all have three or five quads.
+///
+/// The sum rule: over interior nodes the sum of 4 − quads, and over boundary nodes the sum of 2 − quads, are
+/// 4 times the Euler number together. Boundary nodes have the quads that right angles fit in their angle; one
+/// within `either` right angles of half way between two numbers has either, whichever is better.
+/// @param angles  inside the region, at its boundary nodes; straight ones may be left out [radian]
+/// @param euler   of the region: 2 less its loops
+int least_irregular(std::span<const double> angles, int euler, double either = 0);
+
+/// The same of a region. No mesh has fewer when boundary nodes with other quads than fit in their angle count
+/// as well.
+int least_irregular(const PlanarRegion& region);
+
 /// The first reason why quads are no valid mesh of the region, in words; empty where they are one.
 ///
 /// Looked for: boundary points moved or missing; corners that are no points or occur twice; sides used by

@@ -45,31 +45,44 @@ bool is_conforming(const PlanarQuads& mesh)
 
 /// Open folded quads by moving nodes, then with more nodes (pillows). Quads that stay inverted are removed
 /// together with two rings of neighbours, and the cavity is remeshed.
-void open_folds(Attempt& attempt, const PlanarRegion& region, const PartialMesh& partial,
-                const PaveOptions& options, const RunContext& context)
+void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContext& context)
 {
+    const std::size_t fixed = setting.region.points.size();
     for (int round = 0; round < 2; ++round) {
         Attempt tried = attempt;
-        if (round > 0) pillow_folds(tried.mesh, partial.flat);
-        raise_flat_quads(tried.mesh, partial.fixed);
+        if (round > 0) pillow_folds(tried.mesh, setting.flat);
+        raise_flat_quads(tried.mesh, fixed);
         judge(tried);
-        if (tried.worst <= partial.flat && round == 0 && options.clean) {
-            clean_quads(tried.mesh, partial.fixed, {.size = partial.size}, context);
-            raise_flat_quads(tried.mesh, partial.fixed);
+        if (tried.worst <= setting.flat && round == 0 && setting.options.clean) {
+            clean_quads(tried.mesh, fixed, {.size = setting.size}, context);
+            raise_flat_quads(tried.mesh, fixed);
             judge(tried);
         }
-        if (tried.worst <= partial.flat) {
+        if (tried.worst <= setting.flat) {
             // Untangling alone: what opens here is smoothed with the rest later.
-            smooth_plane(tried.mesh.points, tried.mesh.quads, partial.fixed,
-                         {.size = partial.size, .sweeps = 0, .repairs = 0}, context);
+            smooth_plane(tried.mesh.points, tried.mesh.quads, fixed,
+                         {.size = setting.size, .sweeps = 0, .repairs = 0}, context);
             judge(tried);
         }
         const bool better = round == 0 || tried.worst > attempt.worst;
         if (better) attempt = std::move(tried);
-        if (!better || attempt.worst > partial.flat) break;
+        if (!better || attempt.worst > setting.flat) break;
     }
     if (attempt.worst > 0) return;
-    attempt.report.refilled = refill_cavities(attempt.mesh, region, 0, partial.size);
+    attempt.report.refilled = refill_cavities(attempt.mesh, setting.region, 0, setting.size);
+    judge(attempt);
+}
+
+void clean_and_smooth(Attempt& attempt, const AttemptSetting& setting, bool thorough,
+                      const RunContext& context)
+{
+    const std::size_t fixed = setting.region.points.size();
+    if (setting.options.clean)
+        clean_quads(attempt.mesh, fixed, {.size = setting.size, .thorough = thorough}, context);
+    if (setting.options.smooth) {
+        smooth_plane(attempt.mesh.points, attempt.mesh.quads, fixed, {.size = setting.size}, context);
+        correct_row_heights(attempt.mesh, setting.region, setting.size);
+    }
     judge(attempt);
 }
 
@@ -122,32 +135,36 @@ void judge(Attempt& attempt)
     }
 }
 
-Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style,
-                 const CutWeights& weights, double flat, const RunContext& context)
+Attempt begin_attempt(const AttemptSetting& setting, RowStyle style, const CutWeights& weights,
+                      const RunContext& context)
 {
+    const PlanarRegion& region = setting.region;
     Attempt attempt;
     attempt.style = style;
-    PartialMesh partial{region.points, {}, region.points.size(), size_with_boundary(region), flat, {},
-                        weights};
     if (style == RowStyle::triangles) {
         attempt.mesh = quads_of_triangles(region);
         attempt.report.used = "triangles";
         if (attempt.mesh.quads.empty()) return attempt;
     } else {
+        PartialMesh partial{region.points, {}, region.points.size(), setting.size, setting.flat, {}, weights};
         pave_and_fill(attempt, partial, region, style, context);
     }
     if (!is_conforming(attempt.mesh)) return attempt;
     if (style != RowStyle::triangles) open_corners(attempt.mesh, region);
     judge(attempt);
-    if (options.smooth) open_folds(attempt, region, partial, options, context);
-    if (attempt.worst <= 0) return attempt;
-    if (options.clean) clean_quads(attempt.mesh, partial.fixed, {.size = partial.size}, context);
-    if (options.smooth) {
-        smooth_plane(attempt.mesh.points, attempt.mesh.quads, partial.fixed, {.size = partial.size}, context);
-        correct_row_heights(attempt.mesh, region, partial.size);
-    }
-    judge(attempt);
     return attempt;
+}
+
+void finish_attempt(Attempt& attempt, const AttemptSetting& setting, bool thorough, const RunContext& context)
+{
+    if (attempt.worst < -1) return; // there are no quads, or they do not conform
+    if (setting.options.smooth) open_folds(attempt, setting, context);
+    if (attempt.worst > 0) clean_and_smooth(attempt, setting, thorough, context);
+}
+
+void clean_again(Attempt& attempt, const AttemptSetting& setting, const RunContext& context)
+{
+    if (setting.options.clean && attempt.worst > 0) clean_and_smooth(attempt, setting, true, context);
 }
 
 } // namespace lacuna::quads::paving

@@ -3,6 +3,7 @@
 
 #include <lacuna/geometry/predicates.h>
 #include <lacuna/quads/detail/patch_template.h>
+#include <lacuna/quads/detail/pave_fit.h>
 
 #include <limits>
 #include <span>
@@ -112,31 +113,30 @@ public:
     }
 
 private:
+    /// The cheapest free line. Only lines cheaper than the cheapest so far are looked at.
     std::optional<Cut> find_among(const std::vector<std::size_t>& places, double longest)
     {
-        std::vector<Choice> choices;
+        // Nodes nearer than half an edge of the line would make a quad of half the size; a choice. Where all
+        // lines pass some node that near, the cheapest of them is taken.
+        constexpr double kAway = 0.5;
+        std::optional<Choice> best, near_miss;
         for (std::size_t s = 0; s < places.size(); ++s) {
+            const std::size_t i = places[s];
+            const Vec2& from = at(i);
             for (std::size_t t = s + 1; t < places.size(); ++t) {
-                const std::size_t i = places[s], j = places[t];
-                const double arc = arc_[j] - arc_[i];
-                if ((at(j) - at(i)).norm() > longest * std::min(arc, arc_[n_] - arc)) continue;
-                if (const auto choice = judge(i, j)) choices.push_back(*choice);
+                const std::size_t j = places[t];
+                const double arc = arc_[j] - arc_[i], shorter = std::min(arc, arc_[n_] - arc);
+                const double most = longest * shorter, squared = (at(j) - from).squaredNorm();
+                if (squared > most * most) continue;
+                const auto choice = judge(i, j, best ? best->cost : std::numeric_limits<double>::infinity());
+                if (!choice || !is_clear(partial_, cycle_, cycle_[i], cycle_[j])) continue;
+                if (keeps_away(*choice, kAway))
+                    best = choice;
+                else if (!near_miss || choice->cost < near_miss->cost)
+                    near_miss = choice;
             }
         }
-        // A heap, best on top: mostly the first or second is free.
-        const auto later = [](const Choice& a, const Choice& b) {
-            return std::tie(a.cost, a.cut.from, a.cut.to) > std::tie(b.cost, b.cut.from, b.cut.to);
-        };
-        std::make_heap(choices.begin(), choices.end(), later);
-        // Nodes nearer than half an edge of the line would make a quad of half the size; a choice.
-        constexpr double kAway = 0.5;
-        std::optional<Choice> near_miss;
-        for (auto end = choices.end(); end != choices.begin(); --end) {
-            std::pop_heap(choices.begin(), end, later);
-            const Choice& choice = *(end - 1);
-            if (is_free(choice, kAway)) return refine(choice, kAway).cut;
-            if (!near_miss && is_free(choice, 0)) near_miss = choice;
-        }
+        if (best) return refine(*best, kAway).cut;
         if (near_miss) return refine(*near_miss, 0).cut;
         return std::nullopt;
     }
@@ -150,10 +150,16 @@ private:
 
     [[nodiscard]] bool is_free(const Choice& c, double away) const
     {
+        return is_clear(partial_, cycle_, cycle_[c.cut.from], cycle_[c.cut.to]) &&
+               (away == 0 || keeps_away(c, away));
+    }
+
+    /// Whether a line keeps so many of its edges from all nodes that it passes.
+    [[nodiscard]] bool keeps_away(const Choice& c, double away) const
+    {
         const Index a = cycle_[c.cut.from], b = cycle_[c.cut.to];
         const double edge = (partial_.at(b) - partial_.at(a)).norm() / static_cast<double>(c.cut.edges);
-        return is_clear(partial_, cycle_, a, b) &&
-               (away == 0 || keeps_away(partial_, cycle_, a, b, away * edge));
+        return quads::paving::keeps_away(partial_, cycle_, a, b, away * edge);
     }
 
     [[nodiscard]] std::vector<std::size_t> candidates()
@@ -164,7 +170,7 @@ private:
         for (std::size_t i = 0; i < n_; ++i) {
             if (angles_[i] > kBentAbove) bent.push_back(i);
         }
-        stride_ = std::max<std::size_t>(1, n_ / kSpread);
+        stride_ = n_ <= kSpread ? 1 : std::max<std::size_t>(2, n_ / kSpread);
         std::vector<std::size_t> places;
         for (std::size_t i = 0; i < n_; i += stride_) places.push_back(i);
         const std::size_t skip = bent.size() / kFeatures + 1;
@@ -174,16 +180,24 @@ private:
         return places;
     }
 
-    [[nodiscard]] std::optional<Choice> judge(std::size_t i, std::size_t j) const
+    /// @return nothing where there can be no line, nor one that costs less than `most`
+    [[nodiscard]] std::optional<Choice> judge(std::size_t i, std::size_t j, double most) const
     {
         if (cycle_[i] == cycle_[j]) return std::nullopt;
+        const CutWeights& weights = partial_.weights;
         const Vec2 along = at(j) - at(i);
+        const double length = along.norm(), arc = arc_[j] - arc_[i];
+        Choice choice{{i, j, 0}, weights.length * length / std::min(arc, arc_[n_] - arc)};
+        for (const std::size_t end : {i, j}) choice.cost -= angles_[end] > kBentAbove ? weights.bent : 0.0;
+        if (choice.cost >= most) return std::nullopt;
         const double heading = std::atan2(along.y(), along.x());
         const double part_i = whole_turn(heading - heading_[i]);
         if (part_i < kLeastAngle || part_i > angles_[i] - kLeastAngle) return std::nullopt;
         const double part_j = whole_turn(heading + std::numbers::pi - heading_[j]);
         if (part_j < kLeastAngle || part_j > angles_[j] - kLeastAngle) return std::nullopt;
-        const double length = along.norm();
+        choice.cost += end_cost(angles_[i], part_i, weights) * firmness(i) +
+                       end_cost(angles_[j], part_j, weights) * firmness(j);
+        if (choice.cost >= most) return std::nullopt;
         // Edges go as the mean of one over the size.
         const double wanted = length * (pace_[i] + 1 / partial_.size((at(i) + at(j)) / 2) + pace_[j]) / 3;
         const std::size_t between = j - i, rest = n_ - between;
@@ -198,15 +212,12 @@ private:
             edges + rest < 4)
             return std::nullopt;
         if (edges == 1 && partial_.linked(cycle_[i], cycle_[j])) return std::nullopt;
-        const double arc = arc_[j] - arc_[i];
-        Choice choice{{i, j, edges}, 0};
-        const CutWeights& weights = partial_.weights;
-        choice.cost = end_cost(angles_[i], part_i, weights) * firmness(i) +
-                      end_cost(angles_[j], part_j, weights) * firmness(j) +
-                      weights.length * length / std::min(arc, arc_[n_] - arc);
         const double ratio = std::abs(std::log2(static_cast<double>(edges) / wanted));
-        choice.cost += ratio * ratio / 2 + weights.mismatch * mismatch(choice.cut, part_i, part_j);
-        for (const std::size_t end : {i, j}) choice.cost -= angles_[end] > kBentAbove ? weights.bent : 0.0;
+        choice.cut.edges = edges;
+        choice.cost += ratio * ratio / 2;
+        if (choice.cost >= most) return std::nullopt;
+        choice.cost += weights.mismatch * mismatch(choice.cut, part_i, part_j);
+        if (choice.cost >= most) return std::nullopt;
         return choice;
     }
 
@@ -275,8 +286,8 @@ private:
                     std::size_t i = shifted(start.cut.from, di), j = shifted(start.cut.to, dj);
                     if (i > j) std::swap(i, j);
                     if (i == j) continue;
-                    const auto choice = judge(i, j);
-                    if (choice && choice->cost < best.cost && is_free(*choice, away)) best = *choice;
+                    const auto choice = judge(i, j, best.cost);
+                    if (choice && is_free(*choice, away)) best = *choice;
                 }
             }
         }
@@ -288,8 +299,8 @@ private:
                 std::size_t i = place, j = first ? start.cut.to : start.cut.from;
                 if (i == j) continue;
                 if (i > j) std::swap(i, j);
-                const auto choice = judge(i, j);
-                if (choice && choice->cost < best.cost && is_free(*choice, away)) best = *choice;
+                const auto choice = judge(i, j, best.cost);
+                if (choice && is_free(*choice, away)) best = *choice;
             }
         }
         return best;
@@ -331,47 +342,39 @@ std::optional<LoopBridge> best_bridge(const PartialMesh& partial, const std::vec
                                       std::size_t a, std::size_t b)
 {
     const Cycle &one = loops[a], &two = loops[b];
-    const auto judge = [&](std::size_t i, std::size_t j) -> std::optional<LoopBridge> {
+    const std::vector<double> angles_one = angles_of(partial, one), angles_two = angles_of(partial, two);
+    std::optional<LoopBridge> best;
+    // Only bridges cheaper than the cheapest so far are looked at; none costs less than its length.
+    const auto consider = [&](std::size_t i, std::size_t j) {
         const Vec2 &p = partial.at(one[i]), &q = partial.at(two[j]);
-        const double angle_i = inner_angle(partial, one, i);
+        if (best && (q - p).squaredNorm() >= best->cost * best->cost) return;
         const double part_i = turn_between(partial.at(one[(i + 1) % one.size()]) - p, q - p);
-        if (part_i >= angle_i) return std::nullopt;
-        const double angle_j = inner_angle(partial, two, j);
+        if (part_i >= angles_one[i]) return;
         const double part_j = turn_between(partial.at(two[(j + 1) % two.size()]) - q, p - q);
-        if (part_j >= angle_j) return std::nullopt;
+        if (part_j >= angles_two[j]) return;
         const double length = (q - p).norm();
         LoopBridge bridge{a, b, {i, j, 1}, 0};
-        bridge.cost = length * (1 + 0.3 * (end_cost(angle_i, part_i, partial.weights) +
-                                           end_cost(angle_j, part_j, partial.weights)));
+        bridge.cost = length * (1 + 0.3 * (end_cost(angles_one[i], part_i, partial.weights) +
+                                           end_cost(angles_two[j], part_j, partial.weights)));
+        if (best && bridge.cost >= best->cost) return;
+        if (one[i] == two[j] || std::any_of(loops.begin(), loops.end(), [&](const Cycle& loop) {
+                return !is_clear(partial, loop, one[i], two[j]);
+            }))
+            return;
         const double wanted = length / local_size(partial, p, q);
         bridge.cut.edges = static_cast<std::size_t>(std::max(1L, std::lround(wanted)));
-        return bridge;
+        best = bridge;
     };
-    const auto is_free = [&](const LoopBridge& bridge) {
-        const Index p = one[bridge.cut.from], q = two[bridge.cut.to];
-        return p != q && std::all_of(loops.begin(), loops.end(),
-                                     [&](const Cycle& loop) { return is_clear(partial, loop, p, q); });
-    };
-    std::vector<LoopBridge> choices;
     for (const std::size_t i : spread(one.size())) {
-        for (const std::size_t j : spread(two.size())) {
-            if (const auto bridge = judge(i, j)) choices.push_back(*bridge);
-        }
+        for (const std::size_t j : spread(two.size())) consider(i, j);
     }
-    std::sort(choices.begin(), choices.end(), [](const LoopBridge& x, const LoopBridge& y) {
-        return std::tie(x.cost, x.cut.from, x.cut.to) < std::tie(y.cost, y.cut.from, y.cut.to);
-    });
-    const auto found = std::find_if(choices.begin(), choices.end(), is_free);
-    if (found == choices.end()) return std::nullopt;
+    if (!best) return std::nullopt;
     // The nodes between those tried.
     const std::size_t n = one.size(), m = two.size(), reach_n = stride_of(n), reach_m = stride_of(m);
-    LoopBridge best = *found;
+    const Cut found = best->cut;
     for (std::size_t di = 0; di <= 2 * reach_n; ++di) {
-        for (std::size_t dj = 0; dj <= 2 * reach_m; ++dj) {
-            const auto bridge = judge((found->cut.from + n + di - reach_n) % n,
-                                      (found->cut.to + m + dj - reach_m) % m);
-            if (bridge && bridge->cost < best.cost && is_free(*bridge)) best = *bridge;
-        }
+        for (std::size_t dj = 0; dj <= 2 * reach_m; ++dj)
+            consider((found.from + n + di - reach_n) % n, (found.to + m + dj - reach_m) % m);
     }
     return best;
 }

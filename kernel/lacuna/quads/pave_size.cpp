@@ -40,8 +40,15 @@ public:
             low_ = low_.cwiseMin(side.middle);
             high = high.cwiseMax(side.middle);
         }
-        constexpr double kAcross = 128; // cells along the longer side of the box, for the time; a choice
-        cell_ = std::max((high - low_).maxCoeff() / kAcross, std::numeric_limits<double>::min());
+        // Cells of half the shortest side, and no more than so many along the longer side of the box, for the
+        // time. Choices, not measurements.
+        constexpr double kAcross = 128, kOfSide = 0.5;
+        const double shortest =
+            std::min_element(sides.begin(), sides.end(), [](const auto& a, const auto& b) {
+                return a.length < b.length;
+            })->length;
+        cell_ = std::max(
+            {(high - low_).maxCoeff() / kAcross, kOfSide * shortest, std::numeric_limits<double>::min()});
         low_ -= Vec2::Constant(cell_);
         nx_ = static_cast<int>((high.x() - low_.x()) / cell_) + 2;
         ny_ = static_cast<int>((high.y() - low_.y()) / cell_) + 2;

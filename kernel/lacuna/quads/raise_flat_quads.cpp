@@ -5,6 +5,8 @@
 #include <lacuna/quads/detail/plane_stars.h>
 #include <lacuna/quads/measure_plane.h>
 
+#include <algorithm>
+
 namespace lacuna::quads::paving {
 namespace {
 
@@ -50,11 +52,13 @@ void raise_flat_quads(PlanarQuads& mesh, std::size_t fixed)
 {
     constexpr double kFlat = 0.15; // better quads are left to the smoother; a choice, not a measurement
     constexpr int kSweeps = 12;    // at most; a choice too
+    const auto is_flat = [&](const Quad& quad) { return scaled_jacobian(mesh.points, quad) <= kFlat; };
+    if (std::none_of(mesh.quads.begin(), mesh.quads.end(), is_flat)) return;
     const Stars stars(mesh.points.size(), mesh.quads);
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
         std::vector<char> flat(mesh.points.size(), 0);
         for (const Quad& quad : mesh.quads) {
-            if (scaled_jacobian(mesh.points, quad) > kFlat) continue;
+            if (!is_flat(quad)) continue;
             for (const Index p : quad) flat[index(p)] = 1;
         }
         bool moved = false;

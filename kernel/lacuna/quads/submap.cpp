@@ -135,7 +135,15 @@ std::optional<PlanarQuads> submap(const PlanarRegion& region, bool round_loops, 
     grid.place_inner(mesh.points, first);
     const std::vector<Quad> cells = grid.quads();
     mesh.quads.insert(mesh.quads.end(), cells.begin(), cells.end());
-    smooth_plane(mesh.points, mesh.quads, fixed, {.size = partial.size}, context);
+    smooth_plane(mesh.points, mesh.quads, fixed, {.size = partial.size, .repairs = 0}, context);
+    // Poor quads are repaired one by one where they are few: a grid that is poor all over stays so.
+    constexpr double kFewPoor = 0.1; // of the quads; a choice, not a measurement
+    const SmoothPlaneOptions repairs{.size = partial.size, .sweeps = 0, .untangle = false};
+    const auto poor = std::count_if(mesh.quads.begin(), mesh.quads.end(), [&](const Quad& quad) {
+        return scaled_jacobian(mesh.points, quad) < repairs.good_enough;
+    });
+    if (static_cast<double>(poor) <= kFewPoor * static_cast<double>(mesh.quads.size()))
+        smooth_plane(mesh.points, mesh.quads, fixed, repairs, context);
     if (!find_fault(mesh, region).empty()) return std::nullopt;
     return mesh;
 }

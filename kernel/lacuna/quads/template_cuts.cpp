@@ -130,8 +130,10 @@ public:
         }
     }
 
-    /// Add the cuts between two positions.
-    void add(std::size_t from, std::size_t to, EdgeRange edges, std::vector<TemplateCut>& found) const
+    /// Add the cuts between two positions with numbers of edges that fit.
+    template <class Fits>
+    void add(std::size_t from, std::size_t to, EdgeRange edges, const Fits& fits,
+             std::vector<TemplateCut>& found) const
     {
         const Vec2 across = loop_[to] - loop_[from];
         const double length = across.norm(), fitting = length / spacing_;
@@ -146,8 +148,9 @@ public:
         };
         const double slant = (slant_at(from) + slant_at(to)) / 2;
         if (slant > kMostSlant) return;
-        for (int k = edges.low; k <= edges.high; k += 2)
-            found.push_back({from, to, k, std::abs(std::log(fitting / k)) + slant});
+        for (int k = edges.low; k <= edges.high; k += 2) {
+            if (fits(k)) found.push_back({from, to, k, std::abs(std::log(fitting / k)) + slant});
+        }
     }
 
 private:
@@ -159,6 +162,59 @@ private:
     std::vector<Along> along_; ///< from the position before to the one after
     double spacing_ = 0;
 };
+
+/// Whether one pair of irregular nodes fills a patch of four sides, or none.
+bool needs_one_pair(const SideCounts& counts)
+{
+    const auto& side = counts.side;
+    return std::abs(side[0] - side[2]) == std::abs(side[1] - side[3]) && can_fill(counts);
+}
+
+/// The cuts of a patch of three or five sides that leave one part with as many sides and one irregular node,
+/// and one of four sides with a pair of them.
+std::vector<TemplateCut> find_odd_cuts(std::span<const Vec2> loop, std::span<const std::size_t> corners)
+{
+    constexpr int kTried = 16; // places tried along a side, for the time; a choice, not a measurement
+    const std::size_t n = corners.size(), between = n / 2;
+    const SideCounts counts = side_counts(loop.size(), corners);
+    const CutRanker ranker(loop);
+    std::vector<TemplateCut> found;
+    const auto steps = [](int edges) { return 1 + edges / kTried; };
+    std::array<int, kMostSides> feet{};
+    for (std::size_t side = 0; side < n; ++side) {
+        const std::size_t other = (side + between) % n;
+        // The part from the cut's start to its end has between + 2 sides, the other one n - between + 2.
+        SideCounts first{{}, between + 2}, second{{}, n - between + 2};
+        for (std::size_t i = 1; i < between; ++i) first.side[i] = counts.side[(side + i) % n];
+        for (std::size_t i = 1; i < n - between; ++i) second.side[i] = counts.side[(other + i) % n];
+        const SideCounts &odd = n == 3 ? first : second, &four = n == 3 ? second : first;
+        for (int a = 1; a < counts.side[side]; a += steps(counts.side[side])) {
+            for (int b = 1; b < counts.side[other]; b += steps(counts.side[other])) {
+                first.side[0] = counts.side[side] - a;
+                first.side[between] = b;
+                second.side[0] = counts.side[other] - b;
+                second.side[n - between] = a;
+                ranker.add((corners[side] + static_cast<std::size_t>(a)) % loop.size(),
+                           (corners[other] + static_cast<std::size_t>(b)) % loop.size(),
+                           {1, static_cast<int>(loop.size())},
+                           [&](int edges) {
+                               first.side[between + 1] = second.side[n - between + 1] = edges;
+                               return needs_one_pair(four) && spoke_feet(odd, true, feet);
+                           },
+                           found);
+            }
+        }
+    }
+    return found;
+}
+
+void keep_best(std::vector<TemplateCut>& cuts, std::size_t most)
+{
+    const auto best = cuts.begin() + static_cast<std::ptrdiff_t>(std::min(most, cuts.size()));
+    std::partial_sort(cuts.begin(), best, cuts.end(),
+                      [](const TemplateCut& x, const TemplateCut& y) { return x.fault < y.fault; });
+    cuts.erase(best, cuts.end());
+}
 
 } // namespace
 
@@ -205,7 +261,12 @@ std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const s
     if (n < 2 || n > 6 || loop.size() % 2 != 0) return found;
     const SideCounts counts = side_counts(loop.size(), corners);
     if (needs_no_cut(counts)) found.push_back({});
-    if (!found.empty() || n % 2 != 0) return found;
+    if (!found.empty()) return found;
+    if (n % 2 != 0) {
+        found = find_odd_cuts(loop, corners);
+        keep_best(found, most);
+        return found;
+    }
     const CutRanker ranker(loop);
     // One or three corners lie between the two sides cut: a part of four sides would only be a strip.
     const std::size_t between = n / 2 - (n == 4 ? 1 : 0);
@@ -220,25 +281,21 @@ std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const s
                 const EdgeRange edges = tightest.at(b);
                 if (edges.low > edges.high) continue;
                 ranker.add((corners[side] + static_cast<std::size_t>(a)) % loop.size(),
-                           (corners[other] + static_cast<std::size_t>(b)) % loop.size(), edges, found);
+                           (corners[other] + static_cast<std::size_t>(b)) % loop.size(), edges,
+                           [](int) { return true; }, found);
             }
         }
     }
     // Sides that face each other have half as many cuts, so half as many are kept.
-    const std::size_t kept = std::min(pairs < n ? (most + 1) / 2 : most, found.size());
-    const auto best = found.begin() + static_cast<std::ptrdiff_t>(kept);
-    std::partial_sort(found.begin(), best, found.end(),
-                      [](const TemplateCut& x, const TemplateCut& y) { return x.fault < y.fault; });
-    found.erase(best, found.end());
+    keep_best(found, pairs < n ? (most + 1) / 2 : most);
     return found;
 }
 
 int fewest_irregular(std::size_t loop, std::span<const std::size_t> corners)
 {
     if (corners.size() < 2 || corners.size() > 6) return std::numeric_limits<int>::max();
-    const bool even = corners.size() % 2 == 0;
-    if (!needs_no_cut(side_counts(loop, corners))) return even ? 2 : std::numeric_limits<int>::max();
-    return even ? 0 : 1;
+    const bool even = corners.size() % 2 == 0, whole = needs_no_cut(side_counts(loop, corners));
+    return (even ? 0 : 1) + (whole ? 0 : 2);
 }
 
 } // namespace lacuna::quads

@@ -43,7 +43,8 @@ struct TemplateCut {
 };
 
 /// The cuts with which a loop of two to six corners is filled with the fewest irregular nodes, the likeliest
-/// first: straight and square to the sides where possible. One "cut" without edges where none is needed.
+/// first: straight and square to the sides where possible. One "cut" without edges where none is needed. Of
+/// three or five corners, where one irregular node does not do, some of those with which three do.
 ///
 /// @param loop     in order, the patch on the left.
 /// @param corners  positions in the loop, rising.
@@ -75,6 +76,7 @@ bool can_fill(const SideCounts& counts);
 ///      ways. Two or four irregular
 ///          nodes, near the middle.
 ///      2, 4 or 6 sides, with a cut: two parts of 3 and 3, 3 and 5 or 5 and 5 sides. Two irregular nodes.
+///      3 or 5 sides, with a cut: parts of 3 and 4 or 4 and 5 sides. Three irregular nodes.
 ///
 /// At a corner there is one quad of the patch, at other points of the loop two. Grids are transfinite, so
 /// that they follow the spacing of the loop.

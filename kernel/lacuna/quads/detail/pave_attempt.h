@@ -29,9 +29,24 @@ struct Attempt {
 /// Find the worst quad.
 void judge(Attempt& attempt);
 
-/// Fill a region in one way, by rows, cuts and patches or by triangles; then open folds, clean and smooth.
-/// @param flat  quads with a smaller sine count as folded.
-Attempt try_pave(const PlanarRegion& region, const PaveOptions& options, RowStyle style,
-                 const CutWeights& weights, double flat, const RunContext& context);
+/// What is the same for all attempts at a region.
+struct AttemptSetting {
+    const PlanarRegion& region;
+    const PaveOptions& options;
+    std::function<double(const Vec2&)> size; ///< of the region, with its boundary's
+    double flat = 0;                         ///< quads with a smaller sine count as folded
+};
+
+/// Fill a region in one way, by rows, cuts and patches or by triangles; nothing is improved yet.
+Attempt begin_attempt(const AttemptSetting& setting, RowStyle style, const CutWeights& weights,
+                      const RunContext& context);
+
+/// Open folds, clean and smooth.
+/// @param thorough  of the cleaning, see `CleanOptions`
+void finish_attempt(Attempt& attempt, const AttemptSetting& setting, bool thorough,
+                    const RunContext& context);
+
+/// Clean and smooth, with all patience, what was finished with less.
+void clean_again(Attempt& attempt, const AttemptSetting& setting, const RunContext& context);
 
 } // namespace lacuna::quads::paving

@@ -4,7 +4,9 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/quads/detail/pave_attempt.h>
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 namespace lacuna::quads::paving {
 
@@ -19,8 +21,11 @@ public:
     void try_default_weights();
     /// The score of the style that was best so far, with other weights of the cuts; nothing is kept.
     [[nodiscard]] double score_with(const CutWeights& weights) const;
-    /// Every row of `cut_weight_rows()`, as long as the region is small and there is something to gain.
+    /// The rows of `cut_weight_rows()`, as long as the region is small and there is something to gain; of a
+    /// very small one only the most promising.
     void try_all_weights();
+    /// Clean the best attempt with more patience, where none of its kind was cleaned so.
+    void clean_best();
     /// Triangles, where nothing else fills the region well.
     void try_triangles();
 
@@ -29,25 +34,34 @@ public:
     /// Of the best attempt: see `score_of()` in the source; -2 before there is one.
     [[nodiscard]] double score() const { return best_score_; }
     /// Quads with a smaller sine count as folded.
-    [[nodiscard]] double flat() const { return flat_; }
+    [[nodiscard]] double flat() const { return setting_.flat; }
     /// Whether nothing else need be tried.
     [[nodiscard]] bool is_done() const { return is_good_grid_; }
 
 private:
     void consider(Attempt made);
-    [[nodiscard]] Attempt pave_in(RowStyle style, const CutWeights& weights = {}) const;
+    /// Finish an attempt that was begun, unless an equal one was before, and consider it.
+    void finish(Attempt begun);
+    void pave_in(RowStyle style);
+    [[nodiscard]] Attempt begin(RowStyle style, const CutWeights& weights = {}) const;
+    /// Finish an attempt in place.
+    void complete(Attempt& attempt) const;
     /// The score of an attempt; one with a fault is marked as such.
     double judge_score(Attempt& made) const;
     [[nodiscard]] bool is_small() const;
+    [[nodiscard]] bool is_good_enough() const;
 
     const PlanarRegion& region_;
     PaveOptions options_;
     const RunContext& context_;
-    double flat_;
+    int least_irregular_; ///< that topology allows
+    AttemptSetting setting_;
     Attempt best_;
     double best_score_ = -2;
-    std::size_t made_ = 0; ///< quads, in all attempts
+    std::size_t made_ = 0;                ///< quads, in all attempts
+    std::vector<std::uint64_t> finished_; ///< names of the attempts as they began
     bool is_good_grid_ = false;
+    bool is_near_least_ = false; ///< the best attempt
 };
 
 /// The rows of weights that small regions are also cut with, in the order they are tried.
