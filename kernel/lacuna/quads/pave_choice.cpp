@@ -46,7 +46,7 @@ constexpr std::array<CutWeights, 7> kCutWeights{{
 /// many. The weights are choices.
 double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
 {
-    constexpr double kGood = 0.6, kBest = 0.85, kFewNodes = 500;
+    constexpr double kGood = 0.6, kBest = 0.85, kFewNodes = 900;
     const PlaneQuality quality = measure_plane(mesh, region);
     const double least = quality.min_scaled_jacobian;
     const double irregular = static_cast<double>(quality.irregular) /
@@ -59,7 +59,7 @@ double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
 constexpr double kGoodEnough = 3.3;
 /// What is kept without another trial: a worst quad, right sizes and right rows as these, and hardly more
 /// irregular nodes than topology asks for. Choices, not measurements.
-constexpr double kFineWorst = 0.75, kFineSizes = 0.95, kFineRows = 0.8, kNearLeast = 1.25, kFewMore = 2;
+constexpr double kFineWorst = 0.82, kFineSizes = 0.95, kFineRows = 0.9, kNearLeast = 1.25, kFewMore = 2;
 
 bool is_near_least(const PlanarQuads& mesh, const PlanarRegion& region, int least)
 {
