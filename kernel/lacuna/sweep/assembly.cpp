@@ -397,6 +397,10 @@ private:
         std::vector<Neighbour> alike, handed;
         for (const Neighbour& n : neighbours) (is_alike(m, n) ? alike : handed).push_back(n);
         if (options.order > 1) give_middles(touching, options.second_order);
+        for (const SharedFace& face : result_.shared) {
+            if (face.a == m) options.beside.between.insert(face.face_a);
+            if (face.b == m) options.beside.between.insert(face.face_b);
+        }
         options.beside.settle = [&](mesh::HexMesh& mesh, const std::vector<FaceId>& faces) {
             return settle(m, alike, mesh, faces);
         };

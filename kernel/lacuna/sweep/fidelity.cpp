@@ -19,8 +19,13 @@ namespace {
 
 /// Distance allowed over the side of a quad, where no length is given; see FidelityOptions.
 constexpr double kShareOfSide = 0.25;
-/// The same within two sides of a tip, where four quads are as many as can be: a whole side.
+/// The same within two sides of a tip, where four quads are as many as can be, and between two volumes: a
+/// whole side.
 constexpr double kShareAtTip = 1;
+
+/// The mesh's volume may be off by this share of the sealed one. Sides that stand for an eighth of a turn lose a
+/// tenth of a disc. A choice, not a measurement.
+constexpr double kMostOfVolume = 0.1;
 
 /// A face the skin leaves out.
 FaceFidelity left_out(const Model& model, const Skin& skin, FaceId face, const DeviationLimit& limit)
@@ -100,7 +105,9 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
         face.face = patch.face;
         face.quads = patch.quads.size();
         const bool made_void = model[patch.face].origin == Origin::made_void;
-        const DeviationLimit limit{options.max_deviation, kShareOfSide, kShareAtTip, !made_void};
+        const bool between = made_void && options.between.contains(patch.face);
+        const DeviationLimit limit{options.max_deviation, between ? kShareAtTip : kShareOfSide, kShareAtTip,
+                                   !made_void};
         if (patch.quads.empty()) {
             face = left_out(model, skin, patch.face, limit);
         } else if (!kept.contains(patch.face)) {
@@ -127,10 +134,13 @@ void require(const Fidelity& fidelity, int layers, const FidelityOptions& option
         if (face.misfit == Misfit::none) continue;
         if (worst == nullptr || face.found * worst->allowed > worst->found * face.allowed) worst = &face;
     }
-    if (worst == nullptr) return;
     const bool given = options.max_deviation > 0;
-    const std::string limit = in_short(worst->allowed) +
-                              (given ? " (max_deviation)" : ", a quarter of a quad's side there");
+    if (worst == nullptr) return;
+    const bool whole_side = worst->allowed > (kShareOfSide + kShareAtTip) / 2 * worst->side;
+    const std::string limit = in_short(worst->allowed) + (given ? " (max_deviation)"
+                                                          : whole_side
+                                                              ? ", a quad's side there"
+                                                              : ", a quarter of a quad's side there");
     const std::string name = worst->name, place = at_place(worst->found_at);
     std::string message;
     switch (worst->misfit) {
@@ -156,6 +166,20 @@ void require(const Fidelity& fidelity, int layers, const FidelityOptions& option
         break;
     }
     throw NotSweepable("sweep.deviation", message);
+}
+
+void require_volume(const Fidelity& fidelity, int layers)
+{
+    const double off = fidelity.volume / fidelity.sealed_volume - 1;
+    if (!(std::abs(off) > kMostOfVolume)) return;
+    const auto worst = std::ranges::max_element(fidelity.faces, {}, &FaceFidelity::max_distance);
+    throw NotSweepable("sweep.deviation",
+                       "the mesh's volume is " + in_short(100 * std::abs(off)) + " % " +
+                           (off < 0 ? "less" : "more") + " than what was sealed, and more than " +
+                           in_short(100 * kMostOfVolume) + " % are taken for another shape; its skin is " +
+                           in_short(worst->max_distance) + " off " + worst->name + " at " +
+                           at_place(worst->place) + ". Ask for more than " + std::to_string(layers) +
+                           " layers or a smaller 'size', or say by max_deviation how far it may be off");
 }
 
 std::string in_words(const Fidelity& fidelity)

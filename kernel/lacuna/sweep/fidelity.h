@@ -55,6 +55,9 @@ struct FidelityOptions {
     /// Sides that stand for a twelfth of a turn are off by a fifteenth of their length, quads on a sphere of
     /// such sides by an eighth; domes of coarse quads by up to 0.23.
     double max_deviation = 0;
+    /// Void faces between two volumes of an assembly: both have the same quads there, and the place of these
+    /// changes nothing of the whole. They may be off by a whole side.
+    std::set<FaceId> between{};
 };
 
 /// Compare the skin of a mesh with the sealed skin, face by face.
@@ -78,6 +81,11 @@ Fidelity compare(const topology::OpenVolume& volume, const mesh::HexMesh& mesh,
 ///        place, the distance found and allowed, and for straight sides on a bend the size, or the number of
 ///        layers, by which their sag would be as small as that.
 void require(const Fidelity& fidelity, int layers, const FidelityOptions& options = {});
+
+/// Chords of long sides stay within a quarter of their own length of a face that turns by a right angle under
+/// them: what they cut off in all tells.
+/// @throw NotSweepable "sweep.deviation"  the mesh's volume is more than a tenth off the sealed one.
+void require_volume(const Fidelity& fidelity, int layers);
 
 /// One line for a person: volumes and distances, and the face that is furthest off.
 std::string in_words(const Fidelity& fidelity);

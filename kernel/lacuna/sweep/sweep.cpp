@@ -529,7 +529,7 @@ void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, 
                                                       in_full(options.min_scaled_jacobian));
     }
     swept.fidelity = compare(shape, finer_skin(swept.mesh), result.faces, kept, quality.volume,
-                             {options.max_deviation}, context);
+                             {options.max_deviation, options.beside.between}, context);
     for (FaceFidelity& face : swept.fidelity.faces) {
         face.quads /= 4;
         face.side *= 2;
@@ -553,7 +553,7 @@ Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, cons
         elevate_and_compare(shape, kept, result, options, context);
     } else {
         swept.fidelity = compare(shape, swept.mesh, result.faces, kept, result.proof.quality.volume,
-                                 {options.max_deviation}, context);
+                                 {options.max_deviation, options.beside.between}, context);
     }
     swept.report.push_back(in_words(swept.fidelity));
     swept.faces = std::move(result.faces);
@@ -660,7 +660,9 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunC
             break;
         }
     }
-    require(best.fidelity, best.mesh.layers, {options.max_deviation});
+    require(best.fidelity, best.mesh.layers, {options.max_deviation, options.beside.between});
+    // Of order 2, given middle nodes may bulge from straight facets.
+    if (options.max_deviation <= 0 && options.order == 1) require_volume(best.fidelity, best.mesh.layers);
     return best;
 }
 

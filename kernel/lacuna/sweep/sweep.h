@@ -62,6 +62,8 @@ struct Beside {
     std::function<std::set<FaceId>(mesh::HexMesh&, const std::vector<FaceId>&)> settle;
     /// The shape that the skin is compared with, of the volume's faces; null: the volume itself.
     const topology::OpenVolume* shape = nullptr;
+    /// Faces between this volume and others, which are skin of neither; see `FidelityOptions`.
+    std::set<FaceId> between{};
 };
 
 /// What becomes of a volume that cannot be meshed with hexahedra alone.
