@@ -218,3 +218,18 @@ check.fails(function() lacuna.assembly { first, layer(1, "first") }:sweep { size
 check.fails(function() lacuna.assembly { first, 7 } end, "AssemblyMesh")
 check.fails(function() lacuna.assembly { first, layer(1) }:sweep { size = 1, [first] = { layers = 2 } } end,
   "keys")
+
+-- A volume whose faces came with quads keeps them, however much finer its neighbour is to be.
+do
+  local path = params.scratch .. "/kept.inp"
+  slab(0, nil, "kept"):sweep { layers = 2, size = 0.5 }:write(path)
+  for _, size in ipairs { 0.5, 0.2 } do
+    local kept = lacuna.load(path):open_volume { source = "source", target = "target", walls = "auto",
+      name = "kept" }
+    local mesh = lacuna.assembly { kept, slab(1) }:sweep { size = size }
+    check.equal(mesh.layers.kept, 2)
+    check.equal(mesh.layers.at_1, size == 0.5 and 2 or 5)
+    check.near(mesh.fidelity.volume, 2, 1e-9)
+    check.equal(mesh.hexes, 4 * (2 + mesh.layers.at_1))
+  end
+end

@@ -8,6 +8,8 @@
 #include <lacuna/sweep/detail/carry_lines.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/shared_middles.h>
+#include <lacuna/sweep/detail/volume_share.h>
+#include <lacuna/sweep/detail/words.h>
 #include <lacuna/topology/give_mesh.h>
 
 #include <algorithm>
@@ -105,9 +107,11 @@ public:
             log_line(context_, failed.what());
             sweep_again();
         }
+        const std::vector<std::string> shape = keep_volumes();
         number_nodes(result_, pairs_);
         check_no_hanging_nodes(result_, members_);
         name_groups();
+        result_.report.insert(result_.report.end(), shape.begin(), shape.end());
         return std::move(result_);
     }
 
@@ -243,12 +247,27 @@ private:
         });
     }
 
-    /// Whether source and target are several faces each: such a member imprints one on the other while no one
-    /// has meshed them.
-    [[nodiscard]] bool is_split_at_both_ends(std::size_t m) const
+    /// Of each member, whether source and target are several faces each, or another of which they are waits
+    /// for it: such a member imprints one end on the other while no one has meshed them.
+    [[nodiscard]] std::vector<bool> split_at_both_ends() const
     {
-        const OpenVolume& volume = *members_[m].volume;
-        return volume.faces(Role::source).size() > 1 && volume.faces(Role::target).size() > 1;
+        std::vector<bool> early(members_.size(), false);
+        std::vector<std::size_t> open;
+        const auto add = [&](std::size_t m) {
+            if (early[m]) return;
+            early[m] = true;
+            open.push_back(m);
+        };
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            const OpenVolume& volume = *members_[m].volume;
+            if (volume.faces(Role::source).size() > 1 && volume.faces(Role::target).size() > 1) add(m);
+        }
+        while (!open.empty()) {
+            const std::size_t m = open.back();
+            open.pop_back();
+            for (const std::size_t before : after_[m]) add(before);
+        }
+        return early;
     }
 
     /// Members by what they wait for; of those that are free to come, fixed ones, then `first` as listed,
@@ -258,6 +277,7 @@ private:
     {
         std::vector<char> placed(members_.size(), 0);
         std::vector<std::size_t> order;
+        const std::vector<bool> early = split_at_both_ends();
         const auto has = [&](std::size_t m, bool wall, bool other_wall, bool there) {
             return std::ranges::any_of(result_.shared, [&](const SharedFace& face) {
                 if (face.a != m && face.b != m) return false;
@@ -281,8 +301,7 @@ private:
             for (std::size_t m = 0; m < members_.size(); ++m)
                 take(m, !members_[m].options.boundary_layers.empty());
             for (std::size_t m = 0; m < members_.size(); ++m)
-                take(m,
-                     is_split_at_both_ends(m) && !has(m, false, false, true) && !has(m, false, true, true));
+                take(m, early[m] && !has(m, false, false, true) && !has(m, false, true, true));
             const auto waits = [&](std::size_t m) { return has(m, false, true, false); };
             for (std::size_t m = 0; m < members_.size(); ++m)
                 take(m, has(m, false, false, true) && !waits(m));
@@ -314,6 +333,106 @@ private:
             first.insert(first.begin(), failed->member);
         }
         throw MemberFailed(reason->member, reason->code, reason->why);
+    }
+
+    /// Everything that is there after all members were swept.
+    struct Made {
+        SweptAssembly result;
+        AssemblyPlan plan;
+        std::vector<AssemblyMember> members;
+        std::vector<std::size_t> order;
+        std::vector<std::vector<SharedNodes>> pairs;
+    };
+    void restore(Made& made)
+    {
+        result_ = std::move(made.result);
+        plan_ = std::move(made.plan);
+        members_ = std::move(made.members);
+        order_ = std::move(made.order);
+        pairs_ = std::move(made.pairs);
+    }
+
+    /// Members of order 1 that lose more of their volume on bends than they may: their own sweeps give bends
+    /// more sides, but not those that others have too.
+    [[nodiscard]] std::vector<std::size_t> losing() const
+    {
+        std::vector<std::size_t> found;
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            const AssemblyMember& member = members_[m];
+            if (member.fixed == nullptr && member.options.order == 1 && !plan_.nodes[m].empty() &&
+                loses_volume(result_.parts[m].fidelity, member.options))
+                found.push_back(m);
+        }
+        return found;
+    }
+    [[nodiscard]] double lost_by(std::span<const std::size_t> members) const
+    {
+        double lost = 0, sealed = 0;
+        for (const std::size_t m : members) {
+            lost += result_.parts[m].fidelity.sealed_volume - result_.parts[m].fidelity.volume;
+            sealed += result_.parts[m].fidelity.sealed_volume;
+        }
+        return lost / sealed;
+    }
+    [[nodiscard]] double least_jacobian() const
+    {
+        double least = 1;
+        for (const Swept& part : result_.parts) least = std::min(least, part.min_scaled_jacobian);
+        return least;
+    }
+
+    /// The whole with more sides for a full turn in members that lose volume, as far as that helps, as in a
+    /// single sweep. @return  lines for the report
+    std::vector<std::string> keep_volumes()
+    {
+        std::vector<std::string> lines;
+        for (std::vector<std::size_t> few = losing(); !few.empty(); few = losing()) {
+            std::string names;
+            for (const std::size_t m : few) names += (names.empty() ? "" : ", ") + members_[m].region;
+            const double before = lost_by(few), worst = least_jacobian();
+            Made made{std::move(result_), plan_, members_, order_, std::move(pairs_)};
+            result_ = {};
+            pairs_.clear();
+            result_.shared = made.result.shared;
+            result_.near_misses = made.result.near_misses;
+            int sides = 0;
+            for (const std::size_t m : few) {
+                SweepOptions& options = members_[m].options;
+                options.curvature = sides_for_volume(options.volume_share, options.curvature);
+                sides = std::max(sides, options.curvature);
+            }
+            const std::string what = "shape: " + names + " lost " + in_short(100 * before) +
+                                     " % of the sealed volume on bends; with " + std::to_string(sides) +
+                                     " sides for a full turn ";
+            std::string why = sweep_anew(sides);
+            if (why.empty() && lost_by(few) > kLessLost * before) why = "it is no less";
+            if (why.empty() &&
+                least_jacobian() < std::min(worst, members_[few[0]].options.improving.good_enough))
+                why = "cells are worse";
+            if (!why.empty()) {
+                restore(made);
+                lines.push_back(what + why + ", so it stays");
+                break;
+            }
+            lines.push_back(what + "it is " + in_short(100 * lost_by(few)) + " %");
+        }
+        return lines;
+    }
+
+    /// @return  why that is not possible; empty: it is done
+    std::string sweep_anew(int sides)
+    {
+        if (sides > kMostPerTurn) return "there would be too many";
+        inputs_.clear();
+        try {
+            plan_ = plan_assembly(members_, result_.shared, context_);
+            sweep_all();
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const Error& error) {
+            return std::string("it is refused, ") + error.what();
+        }
+        return "";
     }
 
     void note_order(const std::vector<std::size_t>& order)

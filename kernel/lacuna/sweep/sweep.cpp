@@ -21,6 +21,7 @@
 #include <lacuna/sweep/detail/normals.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
+#include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/sweep/layers.h>
 #include <lacuna/sweep/morph.h>
@@ -32,7 +33,6 @@
 #include <exception>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <set>
 
 namespace lacuna::sweep {
@@ -504,11 +504,6 @@ ProvedSweep sweep_one_way(const OpenVolume& volume, const surface::SizeField& si
                                     : sweep_between(volume, links, heights, size, options, outline, context);
 }
 
-/// A turn needs no more sides than this for its volume: an inscribed polygon of so many is off by 0.07 %.
-constexpr int kMostPerTurn = 100;
-/// More sides help where they leave less than this of the volume's error. A choice, not a measurement.
-constexpr double kLessLost = 0.75;
-
 /// Middle nodes, proved, and the curved skin compared with the sealed one: as four straight quads each, which
 /// are off by a quarter of what the quad's own straight sides would be, at most.
 void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, ProvedSweep& result,
@@ -558,23 +553,6 @@ Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, cons
     swept.report.push_back(in_words(swept.fidelity));
     swept.faces = std::move(result.faces);
     return std::move(swept);
-}
-
-/// Share of the sealed volume that is missing in the mesh.
-double volume_lost(const Fidelity& fidelity) { return 1 - fidelity.volume / fidelity.sealed_volume; }
-
-bool loses_volume(const Fidelity& fidelity, const SweepOptions& options)
-{
-    return options.volume_share > 0 && options.curvature > 0 && volume_lost(fidelity) > options.volume_share;
-}
-
-/// Sides for a full turn that lose six tenths of the share allowed: the rest is for the layers' bends. A
-/// polygon of n sides in a circle lacks about 2 π² / 3 n² of its area.
-int sides_for_volume(double share, int before)
-{
-    constexpr double kOfShare = 0.6;
-    const double wanted = std::sqrt(2 * std::numbers::pi * std::numbers::pi / (3 * kOfShare * share));
-    return std::max(before + before / 4 + 1, static_cast<int>(std::ceil(wanted)));
 }
 
 /// Of order 2, a cell whose least scaled Jacobian is below this is worth a sweep with more sides for a turn.
