@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 using namespace lacuna;
 using test::PlaneGrid;
@@ -91,6 +92,25 @@ TEST_CASE("points with other than four quads are counted inside, and by their an
     PlaneGrid flat = test::plane_grid(3, 3);
     test::map(flat, [](const Vec2& p) { return p.x() + p.y() > 0 ? p : Vec2(0.49, 0.49); });
     CHECK(quads::measure_plane(flat.mesh, flat.region).boundary_irregular == 1);
+}
+
+TEST_CASE("the sum rule tells the least irregular nodes: four in a disc, none in a ring or an L")
+{
+    const double right = std::numbers::pi / 2;
+    const std::vector<double> four(4, right), bent{right, right, right, right, right, 3 * right};
+    CHECK(quads::least_irregular({}, 1) == 4);
+    CHECK(quads::least_irregular({}, 0) == 0);
+    CHECK(quads::least_irregular(four, 1) == 0);
+    CHECK(quads::least_irregular(bent, 1) == 0);
+    // A plate with five round holes.
+    CHECK(quads::least_irregular(four, -4) == 20);
+    // Corners of a hexagon are nearer to one quad than to two, but not by much.
+    const std::vector<double> hexagon(6, 4 * right / 3);
+    CHECK(quads::least_irregular(hexagon, 1) == 2);
+    CHECK(quads::least_irregular(hexagon, 1, 0.2) == 0);
+    // Of a region by the angles of its loops.
+    const PlaneGrid grid = test::plane_grid(5, 3);
+    CHECK(quads::least_irregular(grid.region) == 0);
 }
 
 TEST_CASE("every kind of damage is found and named")

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "support/outline_family.h"
+
 #include <lacuna/quads/pave.h>
 
 #include <lacuna/core/error.h>
@@ -8,6 +10,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <numbers>
 #include <string>
 
@@ -203,6 +206,44 @@ TEST_CASE("common shapes are paved with good quads, few irregular nodes and rows
     }
     CHECK(check_paved(disc(0.05)).row_share() > 0.95);
     CHECK(check_paved(plate(0.05)).row_share() > 0.85);
+}
+
+TEST_CASE("no paved region has fewer irregular nodes than the sum rule allows, and few have many more")
+{
+    constexpr std::uint32_t kSeed = 5;
+    constexpr int kOutlines = 24;
+    int least = 0, found = 0;
+    for (int number = 0; number < kOutlines; ++number) {
+        CAPTURE(number);
+        const test::SeededDomain seeded = test::family_region(kSeed, number);
+        const quads::PlanarQuads mesh = quads::pave(seeded.region).mesh;
+        std::vector<int> valence(mesh.points.size(), 0);
+        for (const Quad& quad : mesh.quads) {
+            for (const Index p : quad) ++valence[index(p)];
+        }
+        // How far nodes are from regular, those on the boundary by the right angles that fit in theirs.
+        int off = 0;
+        for (std::size_t p = seeded.region.points.size(); p < mesh.points.size(); ++p)
+            off += std::abs(valence[p] - 4);
+        for (const auto& loop : seeded.region.loops) {
+            for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
+                const Vec2& here = seeded.region.points[index(loop[i])];
+                const Vec2 after = seeded.region.points[index(loop[(i + 1) % n])] - here;
+                const Vec2 before = seeded.region.points[index(loop[(i + n - 1) % n])] - here;
+                double angle = std::atan2(after.x() * before.y() - after.y() * before.x(), after.dot(before));
+                if (angle < 0) angle += 2 * std::numbers::pi;
+                const double right = std::numbers::pi / 2;
+                off += std::abs(valence[index(loop[i])] -
+                                std::max(1, static_cast<int>(std::round(angle / right))));
+            }
+        }
+        const int bound = quads::least_irregular(seeded.region);
+        CHECK(off >= bound);
+        least += bound;
+        found += off;
+    }
+    MESSAGE("irregular nodes: " << found << ", " << least << " at least");
+    CHECK(found <= 3 * least + 20 * kOutlines);
 }
 
 TEST_CASE("a four-sided region of equal opposite counts is a grid, however it is bent")
