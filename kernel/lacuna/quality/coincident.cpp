@@ -129,7 +129,7 @@ void sort_into_bins(std::size_t points, const ChunkHashes* hashes, std::size_t f
         }
     }
     bins.start[width] = total;
-    bins.entries = {}; // first: growing would hold both
+    std::vector<Entry>().swap(bins.entries); // growing would hold both
     bins.entries.resize(total);
     parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
@@ -212,8 +212,8 @@ std::optional<Pair> find_coincident(std::span<const Vec3> points, double toleran
     const Grid grid(bounds, tolerance);
     const auto hashes = hashes_of(points, grid, context);
 
-    // Many points are looked at an eighth of the bins at a time, which takes an eighth of the memory.
-    const std::size_t width = points.size() > kFew ? kBins / 8 : kBins;
+    // Many points are looked at a sixteenth of the bins at a time, which takes a sixteenth of the memory.
+    const std::size_t width = points.size() > kFew ? kBins / 16 : kBins;
     std::vector<std::optional<Pair>> found(kBins);
     Bins bins;
     for (std::size_t first = 0; first < kBins; first += width) {

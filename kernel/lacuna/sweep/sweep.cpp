@@ -402,7 +402,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
                                                       mesher_for_all(options), context);
     report_progress(context, "walls");
     std::vector<surface::WallMesh> walls;
-    const RimColumns columns = columns_of(split, links, given.columns, source, heights, walls, context);
+    RimColumns columns = columns_of(split, links, given.columns, source, heights, walls, context);
     if (outline == Outline::mean && !options.wedges)
         source = laid_between(split, std::move(source), columns, size, mesher_of(options), context);
     for (std::string& note : source.notes) result.report.push_back("source " + note);
@@ -464,6 +464,9 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
         mesh.rim.push_back({side.from, side.to});
     const std::vector<FaceId> faces = set_patches(volume, source, ends, walls, mesh);
+    // The proof needs room: what the nodes were made of goes.
+    walls = {};
+    columns = {};
     for (const FaceId wall : volume.faces(Role::wall)) {
         if (volume.model[wall].origin != Origin::given ||
             std::find(faces.begin(), faces.end(), wall) != faces.end())
