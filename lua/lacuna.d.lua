@@ -111,6 +111,9 @@
 ---@field interior? "auto"|"affine"|"residual"|"normals" how layers are placed; all but "auto" for comparison
 ---@field threads? integer default: all cores
 
+---@class lacuna.SweepToOptions: lacuna.SweepOptions
+---@field write? { version?: 4.1|2.2, binary?: boolean, quality?: boolean|lacuna.MetricName|lacuna.MetricName[] } how the file is written; default as mesh:write
+
 ---@class lacuna.WriteOptions
 ---@field version? 4.1|2.2
 ---@field binary? boolean
@@ -342,8 +345,11 @@ function Volume:model() end
 ---@param options lacuna.SweepOptions
 ---@return lacuna.Mesh|lacuna.AssemblyMesh
 function Volume:sweep(options) end
----@param path string a .msh
----@param options lacuna.SweepOptions
+--- Sweep and write a layer at a time, in memory that the number of layers hardly matters to: the bytes of
+--- sweep(options):write(path). The report has nodes, hexes, wedges, layers, min_scaled_jacobian, streamed and
+--- seconds by stage.
+---@param path string .msh, .vtu or .vtk
+---@param options lacuna.SweepToOptions
 ---@return table report
 function Volume:sweep_to(path, options) end
 --- The facets of the sealed volume, watertight and outward.

@@ -4,12 +4,14 @@
 #include "bindings/io_paths.h"
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
+#include "bindings/write_mesh.h"
 
 #include <lacuna/cad/load.h>
 #include <lacuna/core/progress.h>
 #include <lacuna/io/deck.h>
 #include <lacuna/io/deck_file.h>
 #include <lacuna/io/facets.h>
+#include <lacuna/io/layered.h>
 #include <lacuna/io/leave_out.h>
 #include <lacuna/io/load_facets.h>
 #include <lacuna/io/msh.h>
@@ -19,8 +21,6 @@
 #include <algorithm>
 
 namespace lacuna::lua {
-
-namespace {
 
 struct WriteArguments {
     io::MshOptions msh;
@@ -35,6 +35,8 @@ struct WriteArguments {
     bool gmsh_options = false; ///< a file beside a .msh that says how Gmsh shows it
     bool interfaces = false;   ///< of an assembly: quads between its volumes too
 };
+
+namespace {
 
 /// Metrics to be written. Version 2.2 is for readers that know no other, some of which (meshio 5) refuse a
 /// file with $ElementData: there only where it is asked for.
@@ -159,6 +161,13 @@ const Option<WriteArguments> kWriteOptions[] = {
     {"element", read_element},
     {"interfaces", boolean<&WriteArguments::interfaces>},
     {"gmsh_options", boolean<&WriteArguments::gmsh_options>},
+};
+
+/// Of files that are written a layer at a time.
+const Option<WriteArguments> kLayeredOptions[] = {
+    {"version", read_version},
+    {"binary", read_binary},
+    {"quality", read_quality},
 };
 
 /// The decks that models were read from as one; `merged` holds it where there are several.
@@ -321,6 +330,28 @@ int write(lua_State* L)
         write_options_beside(lent, path, arguments);
     });
     return 0;
+}
+
+/// Values of a metric, of some layers at a time.
+io::LayeredField layered_field(const mesh::LayeredMesh& layered, quality::Metric metric,
+                               const RunContext& context)
+{
+    return {quality::metric_name(metric), [layered, metric, &context](int first, int last) {
+                mesh::HexMesh part;
+                part.nodes_per_layer = layered.mesh.nodes_per_layer;
+                part.layers = last - first;
+                part.quads = layered.mesh.quads;
+                part.nodes.resize(mesh::corner_count(part));
+                layered.nodes.place(first, last + 1, part.nodes, context);
+                return quality::metric_values(part, metric, context);
+            }};
+}
+
+/// Whether a metric compares each cell with the mean of all, which is not known before all are made.
+bool is_of_all(quality::Metric metric)
+{
+    return metric == quality::Metric::relative_size_squared || metric == quality::Metric::shape_and_size ||
+           metric == quality::Metric::shear_and_size;
 }
 
 /// The parts of an assembly's mesh in one deck, or with the decks they fill voids of.
@@ -520,6 +551,52 @@ const luaL_Reg kVolumeMethods[] = {{"write_facets", write_facets}, {nullptr, nul
 const luaL_Reg kFunctions[] = {{"check", check_file}, {"load", load}, {nullptr, nullptr}};
 
 } // namespace
+
+WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath& path)
+{
+    auto& arguments = temporary<WriteArguments>(L);
+    read_options(L, index, "sweep_to: write", kLayeredOptions, arguments);
+    guard(L, [&] {
+        const std::string ending = io::ending_of(path.text());
+        if (ending != ".msh" && ending != ".vtu" && ending != ".vtk")
+            throw InvalidInput("lua.not_layered",
+                               "sweep_to: " + path.text() +
+                                   ": files written a layer at a time end in .msh, .vtu or "
+                                   ".vtk; for others use volume:sweep(options):write(path)");
+        format_of(path.text(), arguments); // refuses options that it has not
+        for (const quality::Metric metric : metrics_of(arguments))
+            if (is_of_all(metric))
+                throw InvalidInput("lua.not_layered",
+                                   std::string("sweep_to: quality: ") + quality::metric_name(metric) +
+                                       " compares each cell with the mean of all, which is not known while "
+                                       "cells are written; use volume:sweep(options):write(path)");
+    });
+    return arguments;
+}
+
+void write_layered(const sweep::Swept& swept, const io::OutputPath& path, WriteArguments& arguments,
+                   const RunContext& context)
+{
+    const mesh::HexMesh& mesh = swept.mesh;
+    report_progress(context, "writing " + path.text());
+    if (!swept.layers) {
+        for (const quality::Metric metric : metrics_of(arguments))
+            arguments.msh.fields.push_back(
+                {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
+        return format_of(path.text(), arguments).write(mesh, path, arguments, context);
+    }
+    const mesh::LayeredMesh layered{mesh, *swept.layers};
+    std::vector<io::LayeredField> fields;
+    for (const quality::Metric metric : metrics_of(arguments))
+        fields.push_back(layered_field(layered, metric, context));
+    const std::string ending = io::ending_of(path.text());
+    if (ending == ".msh")
+        io::write_msh(layered, path, arguments.msh, fields, context);
+    else if (ending == ".vtu")
+        io::write_vtu(layered, path, fields, context);
+    else
+        io::write_vtk(layered, path, {arguments.msh.binary}, fields, context);
+}
 
 void bind_io(lua_State* L)
 {

@@ -5,6 +5,7 @@
 #include "bindings/full_turns.h"
 #include "bindings/io_paths.h"
 #include "bindings/options.h"
+#include "bindings/write_mesh.h"
 
 #include <lacuna/cad/load.h>
 #include <lacuna/closure/branches.h>
@@ -655,14 +656,77 @@ int sweep_volume(lua_State* L)
     return 1;
 }
 
+/// Take `write` out of a table of options: a copy without it stands at `index` then, and it on top.
+void push_write_options(lua_State* L, int index)
+{
+    if (lua_type(L, index) != LUA_TTABLE) {
+        lua_pushnil(L);
+        return;
+    }
+    lua_newtable(L);
+    for (lua_pushnil(L); lua_next(L, index) != 0;) {
+        lua_pushvalue(L, -2);
+        lua_insert(L, -2);
+        lua_rawset(L, -4);
+    }
+    lua_pushliteral(L, "write");
+    lua_rawget(L, -2);
+    lua_pushliteral(L, "write");
+    lua_pushnil(L);
+    lua_rawset(L, -4);
+    lua_insert(L, -2);
+    lua_replace(L, index);
+    if (lua_type(L, -1) != LUA_TNIL && lua_type(L, -1) != LUA_TTABLE)
+        fail_value(L, {"sweep_to", "write"}, "a table of options { version =, binary =, quality = }", -1);
+}
+
 /// report = volume:sweep_to(path, options)
 int sweep_to(lua_State* L)
 {
     lua_settop(L, 3);
-    const VolumeState& state = *hold_box<VolumeState>(L, 1);
-    push_output_path(L, 2, "sweep_to");
-    push_arguments(L, 3, "sweep_to", state);
-    fail(L, "sweep_to is not available yet; use volume:sweep(options):write(path)");
+    VolumeState& state = *hold_box<VolumeState>(L, 1);
+    const io::OutputPath& path = push_output_path(L, 2, "sweep_to");
+    push_write_options(L, 3);
+    WriteArguments& file = push_layered_write(L, lua_gettop(L), path);
+    SweepArguments& arguments = push_arguments(L, 3, "sweep_to", state);
+    RunContext& context = push_context(L);
+    context.threads = arguments.threads;
+    lua_gc(L, LUA_GCCOLLECT);
+    auto& swept = temporary<sweep::Swept>(L);
+    auto& seconds = temporary<StageSeconds>(L);
+    guard(L, [&] {
+        const Busy busy(state, "sweep_to");
+        if (closure::has_pieces(state.volume))
+            throw InvalidInput("lua.not_layered",
+                               "sweep_to: a volume with branches or steps is swept in pieces, which are one "
+                               "mesh only when all are made; use volume:sweep(options):write(path)");
+        StageClock clock(context);
+        close_volume(state, {}, context);
+        if (!state.decks.empty()) take_given_middles(state, arguments.options.second_order);
+        arguments.options.layered = true;
+        swept = sweep::sweep(state.volume, arguments.options, context);
+        if (!state.name.empty()) swept.mesh.volume_groups = {state.name};
+        if (!swept.layers)
+            swept.report.push_back(
+                "sweep_to: the whole mesh was held in memory, since its nodes are more than "
+                "placed layers: moved to improve cells, of order 2 or of boundary layers");
+        write_layered(swept, path, file, context);
+        seconds = clock.seconds();
+    });
+    lua_createtable(L, static_cast<int>(swept.report.size()), 8);
+    for (std::size_t i = 0; i < swept.report.size(); ++i) {
+        lua_pushlstring(L, swept.report[i].data(), swept.report[i].size());
+        lua_rawseti(L, -2, to_lua(i));
+    }
+    const mesh::HexMesh& mesh = swept.mesh;
+    set_count(L, "nodes", mesh::corner_count(mesh) + mesh.middles.nodes.size());
+    set_count(L, "hexes", mesh.hex_count());
+    set_count(L, "wedges", mesh.wedge_count());
+    set_count(L, "layers", static_cast<std::size_t>(mesh.layers));
+    set_number(L, "min_scaled_jacobian", swept.min_scaled_jacobian);
+    set_boolean(L, "streamed", swept.layers.has_value());
+    set_report_meta(L, seconds);
+    return 1;
 }
 
 // --- several volumes as one ---------------------------------------------------------------------------

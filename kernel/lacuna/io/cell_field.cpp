@@ -2,6 +2,7 @@
 #include <lacuna/io/cell_field.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/io/detail/node_reader.h>
 #include <lacuna/mesh/quad_mesh.h>
 
 #include <algorithm>
@@ -37,6 +38,18 @@ std::vector<std::uint32_t> quads_of_rim(const mesh::HexMesh& mesh)
 
 } // namespace
 
+void check_field_name(const std::string& name, std::set<std::string>& names)
+{
+    const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+        return c > 32 && c != 127 && c != '"' && c != '<' && c != '&';
+    });
+    if (name.empty() || !plain)
+        throw InvalidInput("io.field_name",
+                           "the cell field '" + name + "' must have a name without blanks, quotes, < and &");
+    if (name == "entity" || !names.insert(name).second)
+        throw InvalidInput("io.field_name", "two cell fields are named '" + name + "'");
+}
+
 void check_fields(const mesh::HexMesh& mesh, const std::vector<CellField>& fields)
 {
     std::set<std::string> names;
@@ -45,14 +58,7 @@ void check_fields(const mesh::HexMesh& mesh, const std::vector<CellField>& field
             throw InvalidInput("io.field_size", "the cell field '" + field.name + "' has " +
                                                     std::to_string(field.values.size()) + " values for " +
                                                     std::to_string(mesh.cell_count()) + " cells");
-        const bool plain = std::all_of(field.name.begin(), field.name.end(), [](unsigned char c) {
-            return c > 32 && c != 127 && c != '"' && c != '<' && c != '&';
-        });
-        if (field.name.empty() || !plain)
-            throw InvalidInput("io.field_name", "the cell field '" + field.name +
-                                                    "' must have a name without blanks, quotes, < and &");
-        if (field.name == "entity" || !names.insert(field.name).second)
-            throw InvalidInput("io.field_name", "two cell fields are named '" + field.name + "'");
+        check_field_name(field.name, names);
     }
 }
 

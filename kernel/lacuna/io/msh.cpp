@@ -5,6 +5,7 @@
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/msh_content.h>
 #include <lacuna/io/detail/msh_shapes.h>
+#include <lacuna/io/detail/node_reader.h>
 #include <lacuna/io/detail/sections.h>
 
 #include <array>
@@ -135,15 +136,6 @@ std::string counts_of(std::size_t blocks, std::size_t count)
     return text;
 }
 
-Section coordinates(const std::vector<Vec3>& nodes)
-{
-    static_assert(sizeof(Vec3) == 3 * sizeof(double));
-    return {{}, nodes.size(), sizeof(Vec3), [&nodes](std::size_t begin, std::size_t end, char* out) {
-                std::memcpy(out, nodes[begin].data(), (end - begin) * sizeof(Vec3));
-                return out + (end - begin) * sizeof(Vec3);
-            }};
-}
-
 void add_binary_elements(std::vector<Section>& sections, const Elements& elements)
 {
     const std::vector<Block> blocks = elements.blocks();
@@ -163,9 +155,9 @@ void add_binary_elements(std::vector<Section>& sections, const Elements& element
     sections.push_back({"\n$EndElements\n", 0, 0, {}});
 }
 
-std::vector<Section> binary_41(const mesh::HexMesh& mesh, const MshContent& content)
+std::vector<Section> binary_41(const mesh::HexMesh& mesh, const NodeReader& reader, const MshContent& content)
 {
-    const std::size_t nodes = mesh.node_count();
+    const std::size_t nodes = reader.count();
     std::vector<Section> sections;
     sections.push_back({msh_opening(content.names, "4.1", true) + binary_entities(content) + "$Nodes\n" +
                             counts_of(1, nodes) + block_head(3, kVolumeTag, 0, nodes),
@@ -174,8 +166,9 @@ std::vector<Section> binary_41(const mesh::HexMesh& mesh, const MshContent& cont
                                 out = put(out, static_cast<std::uint64_t>(i + 1));
                             return out;
                         }});
-    sections.push_back(coordinates(mesh.nodes));
-    sections.push_back(coordinates(mesh.middles.nodes));
+    sections.push_back({{}, nodes, sizeof(Vec3), [&reader](std::size_t begin, std::size_t end, char* out) {
+                            return reader.copy(begin, end, out);
+                        }});
     sections.push_back({"\n$EndNodes\n", 0, 0, {}});
     add_binary_elements(sections, {mesh, content});
     return sections;
@@ -262,9 +255,9 @@ void add_text_elements(std::vector<Section>& sections, const Elements& elements,
     sections.push_back({"$EndElements\n", 0, 0, {}});
 }
 
-std::vector<Section> text_41(const mesh::HexMesh& mesh, const MshContent& content)
+std::vector<Section> text_41(const mesh::HexMesh& mesh, const NodeReader& reader, const MshContent& content)
 {
-    const std::size_t nodes = mesh.node_count();
+    const std::size_t nodes = reader.count();
     std::vector<Section> sections;
     sections.push_back({msh_opening(content.names, "4.1", false) + text_entities(content) + "$Nodes\n" +
                             words({1, nodes, 1, nodes}) + words({3, kVolumeTag, 0, nodes}),
@@ -275,10 +268,11 @@ std::vector<Section> text_41(const mesh::HexMesh& mesh, const MshContent& conten
                             }
                             return out;
                         }});
-    sections.push_back({{}, nodes, 3 * kNumberBytes, [&mesh](std::size_t begin, std::size_t end, char* out) {
-                            for (std::size_t i = begin; i < end; ++i) out = put_point(out, mesh.node(i));
-                            return out;
-                        }});
+    sections.push_back(
+        {{}, nodes, 3 * kNumberBytes, [&reader](std::size_t begin, std::size_t end, char* out) {
+             reader.each(begin, end, [&](std::size_t, const Vec3& node) { out = put_point(out, node); });
+             return out;
+         }});
     const Elements elements{mesh, content};
     const auto head = [](const Block& block) {
         const bool volume = block.surface == nullptr;
@@ -295,17 +289,17 @@ std::vector<Section> text_41(const mesh::HexMesh& mesh, const MshContent& conten
 
 // ---- Version 2.2: an element carries one physical group and its entity
 
-std::vector<Section> text_22(const mesh::HexMesh& mesh, const MshContent& content)
+std::vector<Section> text_22(const mesh::HexMesh& mesh, const NodeReader& reader, const MshContent& content)
 {
     std::vector<Section> sections;
-    sections.push_back({msh_opening(content.names, "2.2", false) + "$Nodes\n" + words({mesh.node_count()}),
-                        mesh.node_count(), 4 * kNumberBytes,
-                        [&mesh](std::size_t begin, std::size_t end, char* out) {
-                            for (std::size_t i = begin; i < end; ++i) {
+    sections.push_back({msh_opening(content.names, "2.2", false) + "$Nodes\n" + words({reader.count()}),
+                        reader.count(), 4 * kNumberBytes,
+                        [&reader](std::size_t begin, std::size_t end, char* out) {
+                            reader.each(begin, end, [&](std::size_t i, const Vec3& node) {
                                 out = put_text(out, static_cast<long long>(i) + 1);
                                 *out++ = ' ';
-                                out = put_point(out, mesh.node(i));
-                            }
+                                out = put_point(out, node);
+                            });
                             return out;
                         }});
     const auto middle = [&](const Block& block) {
@@ -339,16 +333,16 @@ std::string head_22(int type, std::size_t count)
     return text;
 }
 
-std::vector<Section> binary_22(const mesh::HexMesh& mesh, const MshContent& content)
+std::vector<Section> binary_22(const mesh::HexMesh& mesh, const NodeReader& reader, const MshContent& content)
 {
     std::vector<Section> sections;
-    sections.push_back({msh_opening(content.names, "2.2", true) + "$Nodes\n" + words({mesh.node_count()}),
-                        mesh.node_count(), sizeof(int) + sizeof(Vec3),
-                        [&mesh](std::size_t begin, std::size_t end, char* out) {
-                            for (std::size_t i = begin; i < end; ++i) {
+    sections.push_back({msh_opening(content.names, "2.2", true) + "$Nodes\n" + words({reader.count()}),
+                        reader.count(), sizeof(int) + sizeof(Vec3),
+                        [&reader](std::size_t begin, std::size_t end, char* out) {
+                            reader.each(begin, end, [&](std::size_t i, const Vec3& node) {
                                 out = put(out, static_cast<int>(i) + 1);
-                                for (const double value : mesh.node(i)) out = put(out, value);
-                            }
+                                for (const double value : node) out = put(out, value);
+                            });
                             return out;
                         }});
     const Elements elements{mesh, content};
@@ -375,10 +369,11 @@ std::vector<Section> binary_22(const mesh::HexMesh& mesh, const MshContent& cont
 /// Section of one field: the skin with the values of its cells, then the cells. Gmsh and meshio
 /// both read values by number of element; meshio takes a field only where every element has one.
 void add_field(std::vector<Section>& sections, const MshContent& content, const mesh::CellKinds& kinds,
-               const std::vector<std::uint32_t>& skin_cells, const CellField& field, bool binary)
+               const std::vector<std::uint32_t>& skin_cells, std::size_t cells, const FieldReader& field,
+               bool binary)
 {
     const auto head = [&](std::size_t elements) {
-        return "$ElementData\n1\n\"" + field.name + "\"\n1\n0\n3\n0\n1\n" + std::to_string(elements) + "\n";
+        return "$ElementData\n1\n\"" + field.name() + "\"\n1\n0\n3\n0\n1\n" + std::to_string(elements) + "\n";
     };
     const auto put_value = [binary](char* out, std::size_t number, double value) {
         if (binary) return put(put(out, static_cast<std::int32_t>(number)), value);
@@ -391,20 +386,19 @@ void add_field(std::vector<Section>& sections, const MshContent& content, const 
     const std::size_t bytes = binary ? sizeof(std::int32_t) + sizeof(double) : 2 * kNumberBytes;
     const std::size_t skin = content.skin.size();
     sections.push_back(
-        {head(skin + field.values.size()), skin, bytes,
+        {head(skin + cells), skin, bytes,
          [&content, &skin_cells, &field, put_value](std::size_t begin, std::size_t end, char* out) {
              for (std::size_t i = begin; i < end; ++i)
-                 out = put_value(out, i + 1, field.values[skin_cells[content.skin[i]]]);
+                 out = put_value(out, i + 1, field.behind_skin(content.skin[i], skin_cells[content.skin[i]]));
              return out;
          }});
-    sections.push_back({{},
-                        field.values.size(),
-                        bytes,
-                        [&field, kinds, skin, put_value](std::size_t begin, std::size_t end, char* out) {
-                            for (std::size_t i = begin; i < end; ++i)
-                                out = put_value(out, skin + 1 + i, field.values[kinds.cell(i)]);
-                            return out;
-                        }});
+    sections.push_back(
+        {{}, cells, bytes, [&field, kinds, skin, put_value](std::size_t begin, std::size_t end, char* out) {
+             FieldReader::Cursor at(field);
+             for (std::size_t i = begin; i < end; ++i)
+                 out = put_value(out, skin + 1 + i, at.cell(kinds.cell(i)));
+             return out;
+         }});
     sections.push_back({binary ? "\n$EndElementData\n" : "$EndElementData\n", 0, 0, {}});
 }
 
@@ -418,28 +412,47 @@ void tell_lost_groups(const MshContent& content, const RunContext& context)
         log_line(context, "MSH 2.2 holds one group an element: the volume keeps the first of its groups");
 }
 
+void write(const mesh::HexMesh& mesh, const NodeReader& nodes, const std::vector<FieldReader>& fields,
+           const OutputPath& path, const MshOptions& options, const RunContext& context)
+{
+    const bool old = options.version == 2.2;
+    const MshContent content = msh_content(mesh, nodes);
+    if (old) tell_lost_groups(content, context);
+    std::vector<Section> sections =
+        options.binary ? (old ? binary_22(mesh, nodes, content) : binary_41(mesh, nodes, content))
+                       : (old ? text_22(mesh, nodes, content) : text_41(mesh, nodes, content));
+    std::vector<std::uint32_t> skin_cells;
+    if (!fields.empty()) skin_cells = cells_of_skin(mesh);
+    for (const FieldReader& field : fields)
+        add_field(sections, content, mesh::CellKinds(mesh), skin_cells, mesh.cell_count(), field,
+                  options.binary);
+    WholeFile file(path);
+    write_sections(file, sections, options.binary ? Sizes::exact : Sizes::varying, context);
+    file.commit();
+}
+
+void check_version(const MshOptions& options)
+{
+    if (options.version != 2.2 && options.version != 4.1)
+        throw InvalidInput("io.unknown_version", "MSH version " + text_of(options.version) +
+                                                     " cannot be written; known are 4.1 and 2.2");
+}
+
 } // namespace
 
 void write_msh(const mesh::HexMesh& mesh, const OutputPath& path, const MshOptions& options,
                const RunContext& context)
 {
-    const bool old = options.version == 2.2;
-    if (!old && options.version != 4.1)
-        throw InvalidInput("io.unknown_version", "MSH version " + text_of(options.version) +
-                                                     " cannot be written; known are 4.1 and 2.2");
-    check_fields(mesh, options.fields);
-    const MshContent content = msh_content(mesh);
-    if (old) tell_lost_groups(content, context);
-    std::vector<Section> sections = options.binary
-                                        ? (old ? binary_22(mesh, content) : binary_41(mesh, content))
-                                        : (old ? text_22(mesh, content) : text_41(mesh, content));
-    std::vector<std::uint32_t> skin_cells;
-    if (!options.fields.empty()) skin_cells = cells_of_skin(mesh);
-    for (const CellField& field : options.fields)
-        add_field(sections, content, mesh::CellKinds(mesh), skin_cells, field, options.binary);
-    WholeFile file(path);
-    write_sections(file, sections, options.binary ? Sizes::exact : Sizes::varying, context);
-    file.commit();
+    check_version(options);
+    write(mesh, NodeReader(mesh), readers_of(mesh, options.fields), path, options, context);
+}
+
+void write_msh(const mesh::LayeredMesh& layered, const OutputPath& path, const MshOptions& options,
+               const std::vector<LayeredField>& fields, const RunContext& context)
+{
+    check_version(options);
+    const NodeReader nodes(layered, context);
+    write(layered.mesh, nodes, readers_of(layered, fields, context), path, options, context);
 }
 
 } // namespace lacuna::io

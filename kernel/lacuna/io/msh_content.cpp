@@ -110,7 +110,7 @@ std::string msh_opening(const std::vector<PhysicalName>& names, const char* vers
     return text + "$EndPhysicalNames\n";
 }
 
-MshContent msh_content(const mesh::HexMesh& mesh)
+MshContent msh_content(const mesh::HexMesh& mesh, const NodeReader& nodes)
 {
     check_skin(mesh);
     MshContent content;
@@ -127,7 +127,7 @@ MshContent msh_content(const mesh::HexMesh& mesh)
         const auto patch = static_cast<std::size_t>(quad.patch);
         content.skin[next[patch]++] = static_cast<std::uint32_t>(i);
         if (mesh::is_triangle(quad.nodes)) ++triangles[patch];
-        for (const Index node : skin_nodes(mesh, i).all()) boxes[patch].extend(mesh.node(index(node)));
+        for (const Index node : skin_nodes(mesh, i).all()) boxes[patch].extend(nodes.on_skin(node));
     }
 
     GroupTags groups;

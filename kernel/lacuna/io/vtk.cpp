@@ -3,6 +3,7 @@
 
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/msh_content.h>
+#include <lacuna/io/detail/node_reader.h>
 #include <lacuna/io/detail/vtk_file.h>
 
 #include <algorithm>
@@ -72,20 +73,28 @@ struct Cells {
 
 /// Fields of cells and skin, what of the skin is looked up by the cell a quad belongs to.
 struct Fields {
-    const std::vector<CellField>& fields;
+    const std::vector<FieldReader>& fields;
     std::vector<std::uint32_t> skin_cells;
     mesh::CellKinds kinds;
+    std::size_t cells;
 
-    Fields(const mesh::HexMesh& mesh, const std::vector<CellField>& given) : fields(given), kinds(mesh)
+    Fields(const mesh::HexMesh& mesh, const std::vector<FieldReader>& given)
+        : fields(given), kinds(mesh), cells(mesh.cell_count())
     {
-        check_fields(mesh, given);
         if (!given.empty()) skin_cells = cells_of_skin(mesh);
     }
-    /// Of cell `i` of the file.
-    [[nodiscard]] double value(const CellField& field, std::size_t i) const
+    /// Call `put_value(out, value)` for the cells [begin, end) of the file.
+    template <class PutValue>
+    char* put_values(const FieldReader& field, std::size_t begin, std::size_t end, char* out,
+                     const PutValue& put_value) const
     {
-        const std::size_t cells = field.values.size();
-        return field.values[i < cells ? kinds.cell(i) : skin_cells[kinds.skin(i - cells)]];
+        FieldReader::Cursor at(field);
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::size_t quad = i < cells ? 0 : kinds.skin(i - cells);
+            out = put_value(out,
+                            i < cells ? at.cell(kinds.cell(i)) : field.behind_skin(quad, skin_cells[quad]));
+        }
+        return out;
     }
 };
 
@@ -106,9 +115,8 @@ VtkTable groups_of(const mesh::HexMesh& mesh)
 
 // ---- XML
 
-std::vector<VtuArray> vtu_arrays(const Cells& cells, const Fields& fields)
+std::vector<VtuArray> vtu_arrays(const Cells& cells, const NodeReader& nodes, const Fields& fields)
 {
-    const mesh::HexMesh& mesh = cells.mesh;
     const std::size_t count = cells.count();
     const auto section = [](std::size_t records, std::size_t bytes, Fill fill) {
         return Section{{}, records, bytes, std::move(fill)};
@@ -116,9 +124,9 @@ std::vector<VtuArray> vtu_arrays(const Cells& cells, const Fields& fields)
     std::vector<Section> connectivity;
     for (const Cells::Kind& kind : cells.kind) {
         const auto put_nodes = [&cells, first = kind.first](std::size_t i, char* out) {
-            const mesh::CellNodes nodes = cells.nodes_of(first + i);
-            std::memcpy(out, nodes.node.data(), nodes.count * sizeof(Index));
-            return out + nodes.count * sizeof(Index);
+            const mesh::CellNodes own = cells.nodes_of(first + i);
+            std::memcpy(out, own.node.data(), own.count * sizeof(Index));
+            return out + own.count * sizeof(Index);
         };
         connectivity.push_back(section(kind.count, kind.nodes * sizeof(Index), each(put_nodes)));
     }
@@ -131,16 +139,15 @@ std::vector<VtuArray> vtu_arrays(const Cells& cells, const Fields& fields)
     const auto put_entity = [&cells](std::size_t i, char* out) {
         return put(out, static_cast<std::int32_t>(cells.entity(i)));
     };
-    const auto put_point = [&mesh](std::size_t i, char* out) {
-        std::memcpy(out, mesh.node(i).data(), sizeof(Vec3));
-        return out + sizeof(Vec3);
+    const auto put_points = [&nodes](std::size_t begin, std::size_t end, char* out) {
+        return nodes.copy(begin, end, out);
     };
     using Place = VtuArray::Place;
     std::vector<VtuArray> arrays{
         {Place::points,
          "type=\"Float64\" NumberOfComponents=\"3\"",
-         mesh.node_count() * sizeof(Vec3),
-         {section(mesh.node_count(), sizeof(Vec3), each(put_point))}},
+         nodes.count() * sizeof(Vec3),
+         {section(nodes.count(), sizeof(Vec3), put_points)}},
         {Place::cells, "type=\"Int32\" Name=\"connectivity\"", cells.nodes() * sizeof(Index),
          std::move(connectivity)},
         {Place::cells, "type=\"Int64\" Name=\"offsets\"", count * 8, {section(count, 8, each(put_offset))}},
@@ -149,21 +156,23 @@ std::vector<VtuArray> vtu_arrays(const Cells& cells, const Fields& fields)
          "type=\"Int32\" Name=\"entity\"",
          count * 4,
          {section(count, 4, each(put_entity))}}};
-    for (const CellField& field : fields.fields) {
-        const auto put_value = [&fields, &field](std::size_t i, char* out) {
-            return put(out, fields.value(field, i));
+    for (const FieldReader& field : fields.fields) {
+        const auto put_values = [&fields, &field](std::size_t begin, std::size_t end, char* out) {
+            return fields.put_values(field, begin, end, out,
+                                     [](char* at, double value) { return put(at, value); });
         };
         arrays.push_back({Place::cell_data,
-                          "type=\"Float64\" Name=\"" + field.name + "\"",
+                          "type=\"Float64\" Name=\"" + field.name() + "\"",
                           count * sizeof(double),
-                          {section(count, sizeof(double), each(put_value))}});
+                          {section(count, sizeof(double), put_values)}});
     }
     return arrays;
 }
 
 // ---- Legacy
 
-std::vector<Section> vtk_sections(const Cells& cells, const Fields& fields, bool binary)
+std::vector<Section> vtk_sections(const Cells& cells, const NodeReader& nodes, const Fields& fields,
+                                  bool binary)
 {
     const mesh::HexMesh& mesh = cells.mesh;
     const std::size_t count = cells.count();
@@ -171,9 +180,12 @@ std::vector<Section> vtk_sections(const Cells& cells, const Fields& fields, bool
     const auto bytes = [binary](std::size_t numbers, std::size_t each_bytes) {
         return binary ? numbers * each_bytes : numbers * kNumberBytes + 1;
     };
-    const auto put_point = [&mesh, binary](std::size_t i, char* out) {
-        for (const double value : mesh.node(i)) out = put_number(out, value, binary);
-        return end_line(out, binary);
+    const auto put_points = [&nodes, binary](std::size_t begin, std::size_t end, char* out) {
+        nodes.each(begin, end, [&](std::size_t, const Vec3& node) {
+            for (const double value : node) out = put_number(out, value, binary);
+            out = end_line(out, binary);
+        });
+        return out;
     };
     const auto put_type = [&cells, binary](std::size_t i, char* out) {
         return end_line(put_number(out, static_cast<std::int32_t>(cells.kind_of(i).type), binary), binary);
@@ -182,14 +194,14 @@ std::vector<Section> vtk_sections(const Cells& cells, const Fields& fields, bool
         return end_line(put_number(out, static_cast<std::int32_t>(cells.entity(i)), binary), binary);
     };
     std::string head = vtk_head(groups_of(mesh), binary);
-    head.append("POINTS ").append(std::to_string(mesh.node_count())).append(" double\n");
-    std::vector<Section> sections{{head, mesh.node_count(), bytes(3, 8), each(put_point)}};
+    head.append("POINTS ").append(std::to_string(nodes.count())).append(" double\n");
+    std::vector<Section> sections{{head, nodes.count(), bytes(3, 8), put_points}};
     std::string text = "\nCELLS " + number + " " + std::to_string(cells.nodes() + count) + "\n";
     for (const Cells::Kind& kind : cells.kind) {
         const auto put_cell = [&cells, first = kind.first, binary](std::size_t i, char* out) {
-            const mesh::CellNodes nodes = cells.nodes_of(first + i);
-            out = put_number(out, static_cast<std::int32_t>(nodes.count), binary);
-            for (const Index node : nodes.all()) out = put_number(out, node, binary);
+            const mesh::CellNodes own = cells.nodes_of(first + i);
+            out = put_number(out, static_cast<std::int32_t>(own.count), binary);
+            for (const Index node : own.all()) out = put_number(out, node, binary);
             return end_line(out, binary);
         };
         sections.push_back({text, kind.count, bytes(kind.nodes + 1, 4), each(put_cell)});
@@ -198,15 +210,40 @@ std::vector<Section> vtk_sections(const Cells& cells, const Fields& fields, bool
     sections.push_back({"\nCELL_TYPES " + number + "\n", count, bytes(1, 4), each(put_type)});
     sections.push_back({"\nCELL_DATA " + number + "\nSCALARS entity int 1\nLOOKUP_TABLE default\n", count,
                         bytes(1, 4), each(put_entity)});
-    for (const CellField& field : fields.fields) {
-        const auto put_value = [&fields, &field, binary](std::size_t i, char* out) {
-            return end_line(put_number(out, fields.value(field, i), binary), binary);
+    for (const FieldReader& field : fields.fields) {
+        const auto put_values = [&fields, &field, binary](std::size_t begin, std::size_t end, char* out) {
+            return fields.put_values(field, begin, end, out, [binary](char* at, double value) {
+                return end_line(put_number(at, value, binary), binary);
+            });
         };
-        sections.push_back({"\nSCALARS " + field.name + " double 1\nLOOKUP_TABLE default\n", count,
-                            bytes(1, 8), each(put_value)});
+        sections.push_back({"\nSCALARS " + field.name() + " double 1\nLOOKUP_TABLE default\n", count,
+                            bytes(1, 8), put_values});
     }
     sections.push_back({"\n", 0, 0, {}});
     return sections;
+}
+
+void write_xml(const mesh::HexMesh& mesh, const NodeReader& nodes, const std::vector<FieldReader>& readers,
+               const OutputPath& path, const RunContext& context)
+{
+    const Fields fields(mesh, readers);
+    const Cells cells(mesh);
+    const std::vector<Section> sections = vtu_file(nodes.count(), cells.count(),
+                                                   vtu_arrays(cells, nodes, fields), groups_of(mesh));
+    WholeFile file(path);
+    write_sections(file, sections, Sizes::exact, context);
+    file.commit();
+}
+
+void write_legacy(const mesh::HexMesh& mesh, const NodeReader& nodes, const std::vector<FieldReader>& readers,
+                  const OutputPath& path, bool binary, const RunContext& context)
+{
+    const Fields fields(mesh, readers);
+    const Cells cells(mesh);
+    WholeFile file(path);
+    write_sections(file, vtk_sections(cells, nodes, fields, binary), binary ? Sizes::exact : Sizes::varying,
+                   context);
+    file.commit();
 }
 
 } // namespace
@@ -215,25 +252,30 @@ void write_vtu(const mesh::HexMesh& mesh, const OutputPath& path, const VtuOptio
                const RunContext& context)
 {
     check_skin(mesh);
-    const Fields fields(mesh, options.fields);
-    const Cells cells(mesh);
-    const std::vector<Section> sections = vtu_file(mesh.node_count(), cells.count(),
-                                                   vtu_arrays(cells, fields), groups_of(mesh));
-    WholeFile file(path);
-    write_sections(file, sections, Sizes::exact, context);
-    file.commit();
+    write_xml(mesh, NodeReader(mesh), readers_of(mesh, options.fields), path, context);
+}
+
+void write_vtu(const mesh::LayeredMesh& layered, const OutputPath& path,
+               const std::vector<LayeredField>& fields, const RunContext& context)
+{
+    check_skin(layered.mesh);
+    const NodeReader nodes(layered, context);
+    write_xml(layered.mesh, nodes, readers_of(layered, fields, context), path, context);
 }
 
 void write_vtk(const mesh::HexMesh& mesh, const OutputPath& path, const VtkOptions& options,
                const RunContext& context)
 {
     check_skin(mesh);
-    const Fields fields(mesh, options.fields);
-    const Cells cells(mesh);
-    WholeFile file(path);
-    write_sections(file, vtk_sections(cells, fields, options.binary),
-                   options.binary ? Sizes::exact : Sizes::varying, context);
-    file.commit();
+    write_legacy(mesh, NodeReader(mesh), readers_of(mesh, options.fields), path, options.binary, context);
+}
+
+void write_vtk(const mesh::LayeredMesh& layered, const OutputPath& path, const VtkOptions& options,
+               const std::vector<LayeredField>& fields, const RunContext& context)
+{
+    check_skin(layered.mesh);
+    const NodeReader nodes(layered, context);
+    write_legacy(layered.mesh, nodes, readers_of(layered, fields, context), path, options.binary, context);
 }
 
 } // namespace lacuna::io

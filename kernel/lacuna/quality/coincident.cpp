@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t kChunk = 16384; // points a task takes at once
 constexpr int kBinBits = 10;          // points are sorted into bins small enough for the first-level cache
 constexpr std::size_t kBins = std::size_t(1) << kBinBits;
+/// Up to so many points the entries of all bins are made at once: 32 MB. A choice.
+constexpr std::size_t kFew = std::size_t(1) << 22;
 
 std::size_t chunk_count(std::size_t points) { return (points + kChunk - 1) / kChunk; }
 
@@ -31,10 +33,8 @@ struct Grid {
     double tolerance;
     double per_length;
 
-    Grid(const Eigen::AlignedBox3d& bounds)
+    Grid(const Eigen::AlignedBox3d& bounds, double within) : tolerance(within)
     {
-        const double diagonal = bounds.diagonal().norm();
-        tolerance = 1e-9 * diagonal;
         const double size = 1024 * tolerance;
         per_length = 1 / size;
         corner = bounds.min() - size * Vec3(0.381966, 0.618034, 0.271828);
@@ -74,24 +74,20 @@ struct Grid {
     }
 };
 
-/// Entries of all points, bin after bin; in an order that does not depend on threads.
-struct Bins {
-    std::vector<Entry> entries;
-    std::vector<std::size_t> start;
-};
-
-/// What the first pass over a chunk leaves for the second.
+/// What the first pass over a chunk leaves for the others.
 struct ChunkHashes {
     std::array<std::uint32_t, kChunk> first; ///< of each point
     std::vector<Entry> more;                 ///< of points near another cube
     std::array<std::uint32_t, kBins> count{};
 };
 
-Bins sort_into_bins(std::span<const Vec3> points, const Grid& grid, const RunContext& context)
+std::size_t bin_of(std::uint32_t hash) { return hash >> (32 - kBinBits); }
+
+std::unique_ptr<ChunkHashes[]> hashes_of(std::span<const Vec3> points, const Grid& grid,
+                                         const RunContext& context)
 {
     const std::size_t chunks = chunk_count(points.size());
-    const auto bin_of = [](std::uint32_t hash) { return hash >> (32 - kBinBits); };
-    const auto hashes = std::make_unique<ChunkHashes[]>(chunks);
+    auto hashes = std::make_unique_for_overwrite<ChunkHashes[]>(chunks);
     parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
             ChunkHashes& chunk = hashes[c];
@@ -108,31 +104,44 @@ Bins sort_into_bins(std::span<const Vec3> points, const Grid& grid, const RunCon
             }
         }
     });
+    return hashes;
+}
 
-    Bins bins;
-    bins.start.resize(kBins + 1);
+/// Entries of some bins, bin after bin; in an order that does not depend on threads.
+struct Bins {
+    std::vector<Entry> entries;
+    std::vector<std::size_t> start; ///< of each bin from the first, and the end
+};
+
+/// Sort the entries of bins [first, last).
+void sort_into_bins(std::size_t points, const ChunkHashes* hashes, std::size_t first, std::size_t last,
+                    Bins& bins, const RunContext& context)
+{
+    const std::size_t chunks = chunk_count(points), width = last - first;
+    bins.start.assign(width + 1, 0);
     std::size_t total = 0;
-    std::vector<std::array<std::size_t, kBins>> next(chunks);
-    for (std::size_t b = 0; b < kBins; ++b) {
+    std::vector<std::size_t> next(chunks * width); // a row a chunk
+    for (std::size_t b = 0; b < width; ++b) {
         bins.start[b] = total;
         for (std::size_t c = 0; c < chunks; ++c) {
-            next[c][b] = total;
-            total += hashes[c].count[b];
+            next[c * width + b] = total;
+            total += hashes[c].count[first + b];
         }
     }
-    bins.start[kBins] = total;
+    bins.start[width] = total;
+    std::vector<Entry>().swap(bins.entries); // growing would hold both
     bins.entries.resize(total);
     parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
-            const auto enter = [&](const Entry& entry) {
-                bins.entries[next[c][bin_of(entry.hash)]++] = entry;
+            const auto enter = [&](std::uint32_t hash, Index point) {
+                const std::size_t b = bin_of(hash) - first;
+                if (b < width) bins.entries[next[c * width + b]++] = {hash, point};
             };
-            for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points.size()); ++p)
-                enter({hashes[c].first[p - c * kChunk], static_cast<Index>(p)});
-            for (const Entry& entry : hashes[c].more) enter(entry);
+            for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points); ++p)
+                enter(hashes[c].first[p - c * kChunk], static_cast<Index>(p));
+            for (const Entry& entry : hashes[c].more) enter(entry.hash, entry.point);
         }
     });
-    return bins;
 }
 
 using Pair = std::array<Index, 2>;
@@ -192,20 +201,32 @@ Eigen::AlignedBox3d finite_bounds(std::span<const Vec3> points, const RunContext
 std::optional<Pair> find_coincident(std::span<const Vec3> points, const Eigen::AlignedBox3d& bounds,
                                     const RunContext& context)
 {
-    if (points.size() < 2) return std::nullopt;
-    if (!(bounds.diagonal().norm() > 0)) return Pair{0, 1};
-    const Grid grid(bounds);
-    const Bins bins = sort_into_bins(points, grid, context);
+    return find_coincident(points, coincidence_tolerance(bounds), bounds, context);
+}
 
+std::optional<Pair> find_coincident(std::span<const Vec3> points, double tolerance,
+                                    const Eigen::AlignedBox3d& bounds, const RunContext& context)
+{
+    if (points.size() < 2) return std::nullopt;
+    if (!(tolerance > 0)) return Pair{0, 1};
+    const Grid grid(bounds, tolerance);
+    const auto hashes = hashes_of(points, grid, context);
+
+    // Many points are looked at a sixteenth of the bins at a time, which takes a sixteenth of the memory.
+    const std::size_t width = points.size() > kFew ? kBins / 16 : kBins;
     std::vector<std::optional<Pair>> found(kBins);
-    parallel_for(context, kBins, 16, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::int32_t> table;
-        for (std::size_t b = begin; b < end; ++b) {
-            const std::span<const Entry> all(bins.entries);
-            found[b] = search_bin(all.subspan(bins.start[b], bins.start[b + 1] - bins.start[b]), points,
-                                  grid.tolerance, table);
-        }
-    });
+    Bins bins;
+    for (std::size_t first = 0; first < kBins; first += width) {
+        sort_into_bins(points.size(), hashes.get(), first, first + width, bins, context);
+        parallel_for(context, width, 16, [&](std::size_t begin, std::size_t end) {
+            std::vector<std::int32_t> table;
+            for (std::size_t b = begin; b < end; ++b) {
+                const std::span<const Entry> all(bins.entries);
+                found[first + b] = search_bin(all.subspan(bins.start[b], bins.start[b + 1] - bins.start[b]),
+                                              points, grid.tolerance, table);
+            }
+        });
+    }
     std::optional<Pair> least;
     for (const auto& pair : found)
         if (pair && (!least || *pair < *least)) least = pair;

@@ -20,7 +20,7 @@ namespace {
 
 std::string person(std::size_t number) { return std::to_string(number + 1); }
 
-Found check_sizes(const mesh::HexMesh& mesh)
+Found check_sizes(const mesh::HexMesh& mesh, std::size_t nodes)
 {
     if (mesh.layers < 1 || mesh.quads.empty() || mesh.nodes_per_layer < 3)
         return Finding{Fault::empty, "the mesh has no cells: " + std::to_string(mesh.quads.size()) +
@@ -31,7 +31,7 @@ Found check_sizes(const mesh::HexMesh& mesh)
         std::size_t found, expected;
     };
     for (const auto& [what, found, expected] :
-         {Size{"nodes", mesh.nodes.size(), (layers + 1) * index(mesh.nodes_per_layer)},
+         {Size{"nodes", mesh.nodes.size(), nodes},
           Size{"patches of source quads", mesh.source_patch.size(), mesh.quads.size()},
           Size{"patches of target quads", mesh.target_patch.size(), mesh.quads.size()},
           Size{"patches of wall quads", mesh.wall_patch.size(), layers * mesh.rim.size()}}) {
@@ -163,15 +163,27 @@ Found check_rim(const mesh::HexMesh& mesh, std::vector<Index> follows)
 
 } // namespace
 
-std::string node_name(std::span<const Vec3> nodes, Index node, Index nodes_per_layer)
+std::string node_name(const Vec3& at, Index node, Index nodes_per_layer, std::size_t levels)
 {
     std::string text = "node " + std::to_string(node + 1) + " (";
-    if (nodes_per_layer > 0) {
-        const std::size_t levels = nodes.size() / static_cast<std::size_t>(nodes_per_layer);
+    if (nodes_per_layer > 0)
         text += "level " + std::to_string(node / nodes_per_layer + 1) + " of " + std::to_string(levels) +
                 ", ";
-    }
-    return text + "at " + place(nodes[static_cast<std::size_t>(node)]) + ")";
+    return text + "at " + place(at) + ")";
+}
+
+std::string node_name(std::span<const Vec3> nodes, Index node, Index nodes_per_layer)
+{
+    const std::size_t levels = nodes_per_layer > 0 ? nodes.size() / index(nodes_per_layer) : 0;
+    return node_name(nodes[index(node)], node, nodes_per_layer, levels);
+}
+
+Finding not_finite(const std::string& node) { return {Fault::not_finite, node + " has no finite place"}; }
+
+Finding coincident_nodes(const std::string& a, const std::string& b)
+{
+    return {Fault::coincident_nodes,
+            a + " and " + b + " lie in one place (within 1e-9 of the mesh's diagonal)"};
 }
 
 Found check_nodes(std::span<const Vec3> nodes, Index nodes_per_layer, const RunContext& context)
@@ -180,14 +192,11 @@ Found check_nodes(std::span<const Vec3> nodes, Index nodes_per_layer, const RunC
     if (bounds.isEmpty()) {
         const auto wrong = std::find_if(nodes.begin(), nodes.end(),
                                         [](const Vec3& p) { return !p.allFinite(); });
-        return Finding{Fault::not_finite,
-                       node_name(nodes, static_cast<Index>(wrong - nodes.begin()), nodes_per_layer) +
-                           " has no finite place"};
+        return not_finite(node_name(nodes, static_cast<Index>(wrong - nodes.begin()), nodes_per_layer));
     }
     if (const auto pair = find_coincident(nodes, bounds, context))
-        return Finding{Fault::coincident_nodes, node_name(nodes, (*pair)[0], nodes_per_layer) + " and " +
-                                                    node_name(nodes, (*pair)[1], nodes_per_layer) +
-                                                    " lie in one place (within 1e-9 of the mesh's diagonal)"};
+        return coincident_nodes(node_name(nodes, (*pair)[0], nodes_per_layer),
+                                node_name(nodes, (*pair)[1], nodes_per_layer));
     return std::nullopt;
 }
 
@@ -242,6 +251,18 @@ void require(const Proof& proof)
     if (proof.finding) throw NotSweepable(fault_code(proof.finding->fault), proof.finding->message);
 }
 
+Found check_arrays(const mesh::HexMesh& mesh, std::size_t nodes)
+{
+    Found found = check_sizes(mesh, nodes);
+    if (!found) found = check_patches(mesh);
+    if (found) return found;
+    const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads, mesh.nodes_per_layer);
+    found = check_sides(mesh, opposite);
+    if (!found) found = check_fans(mesh, opposite);
+    if (!found) found = check_rim(mesh, rim_followers(mesh, opposite));
+    return found;
+}
+
 Proof prove(const mesh::HexMesh& mesh, double min_scaled_jacobian, const RunContext& context)
 {
     Proof proof;
@@ -249,11 +270,8 @@ Proof prove(const mesh::HexMesh& mesh, double min_scaled_jacobian, const RunCont
         proof.finding = std::move(finding);
         return proof.finding.has_value();
     };
-    if (found(check_sizes(mesh)) || found(check_patches(mesh))) return proof;
-    const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads, mesh.nodes_per_layer);
-    if (found(check_sides(mesh, opposite)) || found(check_fans(mesh, opposite)) ||
-        found(check_rim(mesh, rim_followers(mesh, opposite))))
-        return proof;
+    const std::size_t levels = static_cast<std::size_t>(std::max(mesh.layers, 0)) + 1;
+    if (found(check_arrays(mesh, levels * index(std::max<Index>(mesh.nodes_per_layer, 0))))) return proof;
     check_cancelled(context);
     proof.quality = measure(mesh, context);
     if (!found(check_quality(proof.quality, min_scaled_jacobian, mesh.layers)))

@@ -638,7 +638,8 @@ private:
             most = sag;
             const Index from = skin_.node[index(quad[k])], to = skin_.node[index(quad[(k + 1) % 4])];
             result_.side = (b - a).norm();
-            result_.source_side = (mesh_.nodes[index(to % row)] - mesh_.nodes[index(from % row)]).norm();
+            // The nodes of the source are the first of the skin's, as of the mesh's.
+            result_.source_side = (skin_.points[index(to % row)] - skin_.points[index(from % row)]).norm();
             result_.along_layers = from / row != to / row;
         }
         if (2 * most >= result_.found) result_.misfit = Misfit::straight;
@@ -663,7 +664,8 @@ private:
 
 } // namespace
 
-Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::size_t face_count)
+Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::size_t face_count,
+             const mesh::LayeredNodes* layers)
 {
     Skin skin;
     skin.faces.resize(face_count);
@@ -694,7 +696,8 @@ Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::s
     }
     for (Index n = 0; n < row; ++n) skin.node.push_back(top + n);
     skin.points.reserve(skin.node.size());
-    for (const Index n : skin.node) skin.points.push_back(mesh.nodes[index(n)]);
+    for (const Index n : skin.node)
+        skin.points.push_back(layers != nullptr ? layers->on_skin(n) : mesh.nodes[index(n)]);
 
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         mesh::SkinQuad quad = mesh::skin_quad(mesh, i);

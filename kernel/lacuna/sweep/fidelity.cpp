@@ -83,12 +83,12 @@ std::string more_of_it(const FaceFidelity& face, int layers, bool length_given)
 
 Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
                  const std::set<FaceId>& kept, double volume_of_mesh, const FidelityOptions& options,
-                 const RunContext& context)
+                 const RunContext& context, const mesh::LayeredNodes* layers)
 {
     const Model& model = volume.model;
     Fidelity result;
     result.volume = volume_of_mesh;
-    const Skin skin = skin_of(mesh, faces, model.faces.size());
+    const Skin skin = skin_of(mesh, faces, model.faces.size(), layers);
     const Vec3 origin = mesh.nodes.front();
     std::vector<surface::FaceShape> shapes;
     for (const SkinOfFace& patch : skin.faces) {

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <cstddef>
@@ -71,11 +72,13 @@ struct FidelityOptions {
 /// @param faces   of each patch of the mesh.
 /// @param kept    faces whose own quads are the mesh; they are exact, and not compared.
 /// @param volume_of_mesh  of the hexahedra, as measured already [model length³].
+/// @param layers  what makes the nodes of a mesh that does not hold them; null: it holds them.
 /// @throw Cancelled
 /// @note  The same for any thread count. O((quads of the skin + facets) log).
 Fidelity compare(const topology::OpenVolume& volume, const mesh::HexMesh& mesh,
                  const std::vector<FaceId>& faces, const std::set<FaceId>& kept, double volume_of_mesh,
-                 const FidelityOptions& options = {}, const RunContext& context = {});
+                 const FidelityOptions& options = {}, const RunContext& context = {},
+                 const mesh::LayeredNodes* layers = nullptr);
 
 /// @throw NotSweepable "sweep.deviation"  the face that is furthest beyond what is allowed: names it, the
 ///        place, the distance found and allowed, and for straight sides on a bend the size, or the number of

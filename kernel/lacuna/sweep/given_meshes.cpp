@@ -112,7 +112,7 @@ void report_given(const OpenVolume& volume, Swept& swept, bool wedges)
         if (skin.empty()) {
             for (std::size_t i = 0; i < swept.mesh.skin_count(); ++i) {
                 for (const Index n : mesh::skin_quad(swept.mesh, i).nodes)
-                    skin.push_back(swept.mesh.nodes[index(n)]);
+                    skin.push_back(swept.layers ? swept.layers->on_skin(n) : swept.mesh.nodes[index(n)]);
             }
             std::sort(skin.begin(), skin.end(), before);
         }

@@ -61,8 +61,8 @@ public:
     KeptThickness run()
     {
         KeptThickness kept;
-        kept.held.assign(nodes_.size(), 0);
         if (columns_.empty() && end_table_[0] < 0 && end_table_[1] < 0) return kept;
+        kept.held.assign(nodes_.size(), 0);
         quads_at_ = mesh::quads_at_nodes(quads(), count_);
         for (int round = 0; round < kRounds && furthest_off() > kMet; ++round) {
             check_cancelled(context_);

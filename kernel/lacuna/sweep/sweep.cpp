@@ -8,6 +8,7 @@
 #include <lacuna/quads/odd_region.h>
 #include <lacuna/quads/pave.h>
 #include <lacuna/quads/submap.h>
+#include <lacuna/quality/layered.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/given_target.h>
 #include <lacuna/surface/imprint.h>
@@ -19,6 +20,7 @@
 #include <lacuna/sweep/detail/mean_outline.h>
 #include <lacuna/sweep/detail/morph_ends.h>
 #include <lacuna/sweep/detail/normals.h>
+#include <lacuna/sweep/detail/placed_layers.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
 #include <lacuna/sweep/detail/volume_share.h>
@@ -295,6 +297,37 @@ LayerNodes best_layers(const surface::SourceMesh& source, const Morphed& morphed
     return least(plain) > with ? plain : spread;
 }
 
+/// The same, left to be made, and how good the cells are; nothing where they are not good enough to stay as
+/// they are placed.
+struct GoodLayers {
+    PlacedLayers layers;
+    quality::Quality quality;
+};
+std::optional<GoodLayers> good_layers(const surface::SourceMesh& source, const Morphed& morphed,
+                                      const RimColumns& columns, PlacementOptions placement,
+                                      const SweepOptions& options, const RunContext& context)
+{
+    placement.spread_residual = options.interior != Interior::affine;
+    GoodLayers good{placed_layers(source.quads, morphed.nodes, columns, placement), {}};
+    mesh::HexMesh mesh;
+    mesh.nodes_per_layer = static_cast<Index>(source.quads.nodes.size());
+    mesh.layers = columns.layers;
+    mesh.quads = source.quads.quads;
+    good.quality = quality::measure(mesh::LayeredMesh{mesh, good.layers.nodes}, context);
+    const double least = std::max(options.improving.good_enough, options.min_scaled_jacobian);
+    if (good.quality.inverted > 0 || good.quality.uncertified > 0 ||
+        !(good.quality.min_scaled_jacobian >= least))
+        return std::nullopt;
+    return good;
+}
+
+/// Whether nothing but the placing of layers has a say in where nodes inside are.
+bool may_be_layered(const SweepOptions& options)
+{
+    return options.layered && options.order == 1 && options.boundary_layers.empty() &&
+           !options.beside.settle && options.interior != Interior::normals;
+}
+
 /// Whether all faces of an end came with a mesh that can stay.
 bool came_with_mesh(const OpenVolume& volume, Role end, bool wedges)
 {
@@ -366,7 +399,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
                                                       mesher_for_all(options), context);
     report_progress(context, "walls");
     std::vector<surface::WallMesh> walls;
-    const RimColumns columns = columns_of(split, links, given.columns, source, heights, walls, context);
+    RimColumns columns = columns_of(split, links, given.columns, source, heights, walls, context);
     if (outline == Outline::mean && !options.wedges)
         source = laid_between(split, std::move(source), columns, size, mesher_of(options), context);
     for (std::string& note : source.notes) result.report.push_back("source " + note);
@@ -401,14 +434,23 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     PlacementOptions placement;
     placement.straight_lines = options.interior == Interior::automatic && ruled(volume, links);
     placement.heights = heights;
-    LayerNodes layers = best_layers(source, morphed, columns, placement, options, context);
+    std::optional<GoodLayers> good;
+    if (may_be_layered(options)) good = good_layers(source, morphed, columns, placement, options, context);
+    LayerNodes layers;
+    if (good) {
+        layers = {source.quads.nodes, good->layers.placement, good->layers.report};
+        result.layers = std::move(good->layers.nodes);
+    } else {
+        layers = best_layers(source, morphed, columns, placement, options, context);
+    }
     result.report.push_back(layers.report);
     SweptParts parts{
         split, links, source, walls, ends, columns.layers, {}, !seeds.kept.empty(), given_target.has_value()};
     if (imprint) {
         for (const auto& [edge, image] : imprint->images) parts.target_edges[edge] = image.target;
     }
-    KeptThickness kept = keep_thickness(parts, tables, layers.nodes, context);
+    KeptThickness kept;
+    if (!good) kept = keep_thickness(parts, tables, layers.nodes, context);
     for (std::string& note : kept.report) result.report.push_back(std::move(note));
 
     mesh::HexMesh& mesh = result.mesh;
@@ -419,6 +461,9 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
         mesh.rim.push_back({side.from, side.to});
     const std::vector<FaceId> faces = set_patches(volume, source, ends, walls, mesh);
+    // The proof needs room: what the nodes were made of goes.
+    walls = {};
+    columns = {};
     for (const FaceId wall : volume.faces(Role::wall)) {
         if (volume.model[wall].origin != Origin::given ||
             std::find(faces.begin(), faces.end(), wall) != faces.end())
@@ -429,8 +474,10 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     report_progress(context, "proof of every cell");
     std::set<FaceId> still = given_faces(volume, seeds.kept, options.wedges);
     if (options.beside.settle) still.merge(options.beside.settle(mesh, faces));
-    quality::Proof proof = prove_or_improve(result, volume.model, faces, still, std::move(kept.held), options,
-                                            context);
+    quality::Proof proof =
+        good ? quality::prove(mesh::LayeredMesh{mesh, *result.layers}, std::move(good->quality),
+                              options.min_scaled_jacobian, context)
+             : prove_or_improve(result, volume.model, faces, still, std::move(kept.held), options, context);
     const quality::Quality& quality = proof.quality;
     result.min_scaled_jacobian = quality.min_scaled_jacobian;
     const std::string wedges = quality.wedges > 0
@@ -548,7 +595,8 @@ Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, cons
         elevate_and_compare(shape, kept, result, options, context);
     } else {
         swept.fidelity = compare(shape, swept.mesh, result.faces, kept, result.proof.quality.volume,
-                                 {options.max_deviation, options.beside.between}, context);
+                                 {options.max_deviation, options.beside.between}, context,
+                                 swept.layers ? &*swept.layers : nullptr);
     }
     swept.report.push_back(in_words(swept.fidelity));
     swept.faces = std::move(result.faces);

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/quads/region.h>
 #include <lacuna/surface/boundary_layers.h>
 #include <lacuna/surface/intervals.h>
@@ -102,6 +103,8 @@ struct SweepOptions {
     bool improve = true;             ///< move nodes where cells are folded or poor
     ImproveOptions improving;        ///< how far
     Beside beside;                   ///< of volumes in an assembly, which sets it
+    /// Whether the nodes of the layers may be left to be made when they are written: `Swept::layers`.
+    bool layered = false;
 };
 
 /// Whether options can be used, before any work is done. `sweep()` asks it itself; a host may ask first.
@@ -115,6 +118,9 @@ void check(const SweepOptions& options, const RunContext& context = {});
 /// Hexahedra and how they came about.
 struct Swept {
     mesh::HexMesh mesh;
+    /// With `SweepOptions::layered`, where the layers came out good as they were placed: what makes the nodes
+    /// that `mesh` does not hold. Proved and compared as all are.
+    std::optional<mesh::LayeredNodes> layers;
     double min_scaled_jacobian = 1;
     Fidelity fidelity;               ///< the skin against the sealed skin
     std::vector<FaceId> faces;       ///< of the volume's model, that of each patch of the skin

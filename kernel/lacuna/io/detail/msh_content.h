@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/io/detail/node_reader.h>
 #include <lacuna/mesh/hex_mesh.h>
 
 #include <Eigen/Geometry>
@@ -69,6 +70,6 @@ std::string msh_opening(const std::vector<PhysicalName>& names, const char* vers
 void check_skin(const mesh::HexMesh& mesh);
 
 /// @throw InvalidInput  as `check_skin()`.
-MshContent msh_content(const mesh::HexMesh& mesh);
+MshContent msh_content(const mesh::HexMesh& mesh, const NodeReader& nodes);
 
 } // namespace lacuna::io

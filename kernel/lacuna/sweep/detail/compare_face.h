@@ -3,6 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/surface/face_shape.h>
 #include <lacuna/sweep/fidelity.h>
 
@@ -30,7 +31,9 @@ struct Skin {
 };
 
 /// @param faces  of each patch of the mesh. @param face_count  of the model. O(skin).
-Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::size_t face_count);
+/// @param layers  what makes the nodes of a mesh that does not hold them; null: it holds them.
+Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::size_t face_count,
+             const mesh::LayeredNodes* layers = nullptr);
 
 /// How far a face and its quads may be apart.
 struct DeviationLimit {

@@ -11,7 +11,8 @@ namespace lacuna::sweep {
 
 /// Nodes of boundary layers, and what was reached.
 struct KeptThickness {
-    std::vector<char> held; ///< of each node of the mesh: it belongs to rows or layers of given thickness
+    /// Of each node of the mesh: it belongs to rows or layers of given thickness. Empty: none does.
+    std::vector<char> held;
     std::vector<std::string> report; ///< a line a table
 };
 

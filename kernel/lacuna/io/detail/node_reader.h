@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/io/layered.h>
+#include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/mesh/layered_nodes.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Where writers get nodes and fields from, whether a mesh holds them or they are made. Internal to this
+/// folder.
+namespace lacuna::io {
+
+/// Values of some layers at a time, made when they are asked for: the few asked for last are kept.
+template <class Value>
+class LayerCache {
+public:
+    using Values = std::shared_ptr<const std::vector<Value>>;
+    /// @param make  makes part `i`; may be called by any thread, one at a time.
+    explicit LayerCache(std::function<std::vector<Value>(std::size_t i)> make) : make_(std::move(make)) {}
+
+    [[nodiscard]] Values part(std::size_t i) const
+    {
+        const std::lock_guard<std::mutex> hold(lock_);
+        for (const auto& [number, values] : kept_)
+            if (values && number == i) return values;
+        kept_[next_] = {i, std::make_shared<const std::vector<Value>>(make_(i))};
+        const Values made = kept_[next_].second;
+        next_ = (next_ + 1) % kept_.size();
+        return made;
+    }
+
+private:
+    std::function<std::vector<Value>(std::size_t)> make_;
+    mutable std::mutex lock_;
+    mutable std::array<std::pair<std::size_t, Values>, 3> kept_; ///< what two threads write, and one more
+    mutable std::size_t next_ = 0;
+};
+
+/// The nodes of a mesh, middle nodes behind the corners.
+class NodeReader {
+public:
+    explicit NodeReader(const mesh::HexMesh& mesh) : mesh_(mesh) {}
+    NodeReader(const mesh::LayeredMesh& layered, const RunContext& context);
+    NodeReader(const NodeReader&) = delete;
+    NodeReader& operator=(const NodeReader&) = delete;
+
+    [[nodiscard]] std::size_t count() const { return mesh::corner_count(mesh_) + mesh_.middles.nodes.size(); }
+    /// A node of the skin.
+    [[nodiscard]] Vec3 on_skin(Index node) const
+    {
+        return layers_ != nullptr ? layers_->on_skin(node) : mesh_.node(index(node));
+    }
+    /// Call `visit(n, node)` for the nodes [begin, end). For any thread.
+    template <class Visit>
+    void each(std::size_t begin, std::size_t end, const Visit& visit) const
+    {
+        if (!cache_) {
+            for (std::size_t n = begin; n < end; ++n) visit(n, mesh_.node(n));
+            return;
+        }
+        while (begin < end) {
+            const auto part = cache_->part(begin / step_);
+            const std::size_t first = begin / step_ * step_, last = std::min(end, first + part->size());
+            for (; begin < last; ++begin) visit(begin, (*part)[begin - first]);
+        }
+    }
+
+    /// Coordinates of the nodes [begin, end) as they lie in memory. @return where they end
+    char* copy(std::size_t begin, std::size_t end, char* out) const
+    {
+        static_assert(sizeof(Vec3) == 3 * sizeof(double));
+        if (!cache_ && end <= mesh_.nodes.size()) {
+            std::memcpy(out, mesh_.nodes[begin].data(), (end - begin) * sizeof(Vec3));
+            return out + (end - begin) * sizeof(Vec3);
+        }
+        each(begin, end, [&](std::size_t, const Vec3& node) {
+            std::memcpy(out, node.data(), sizeof(Vec3));
+            out += sizeof(Vec3);
+        });
+        return out;
+    }
+
+private:
+    const mesh::HexMesh& mesh_;
+    const mesh::LayeredNodes* layers_ = nullptr;
+    std::shared_ptr<LayerCache<Vec3>> cache_;
+    std::size_t step_ = 0; ///< nodes of a part
+};
+
+/// A number for every cell, held or made, and those of the cells behind the skin.
+class FieldReader {
+public:
+    explicit FieldReader(const CellField& field) : name_(field.name), values_(&field.values) {}
+    FieldReader(const mesh::HexMesh& mesh, const LayeredField& field, const RunContext& context);
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+
+    /// Reads cells near each other without asking for their layers each time; of one thread.
+    class Cursor {
+    public:
+        explicit Cursor(const FieldReader& reader) : reader_(reader) {}
+        [[nodiscard]] double cell(std::size_t c)
+        {
+            if (!reader_.cache_) return (*reader_.values_)[c];
+            if (!part_ || c / reader_.step_ != number_) {
+                number_ = c / reader_.step_;
+                part_ = reader_.cache_->part(number_);
+            }
+            return (*part_)[c - number_ * reader_.step_];
+        }
+
+    private:
+        const FieldReader& reader_;
+        LayerCache<double>::Values part_;
+        std::size_t number_ = 0;
+    };
+
+    /// Of the cell behind quad `i` of the skin, whose number is `cell`.
+    [[nodiscard]] double behind_skin(std::size_t i, std::size_t cell) const
+    {
+        return cache_ ? skin_[i] : (*values_)[cell];
+    }
+
+private:
+    std::string name_;
+    const std::vector<double>* values_ = nullptr;
+    std::shared_ptr<LayerCache<double>> cache_;
+    std::size_t step_ = 0;     ///< cells of a part
+    std::vector<double> skin_; ///< of each quad of the skin
+};
+
+/// @throw InvalidInput  a name that cannot be written, or is another's; those met before are in `names`.
+void check_field_name(const std::string& name, std::set<std::string>& names);
+
+/// Readers of fields that are held, or made.
+/// @throw InvalidInput  as `check_fields()`
+std::vector<FieldReader> readers_of(const mesh::HexMesh& mesh, const std::vector<CellField>& fields);
+std::vector<FieldReader> readers_of(const mesh::LayeredMesh& layered, const std::vector<LayeredField>& fields,
+                                    const RunContext& context);
+
+} // namespace lacuna::io

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/io/msh.h>
+#include <lacuna/io/vtk.h>
+#include <lacuna/mesh/layered_nodes.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace lacuna::io {
+
+/// A `CellField` whose values are made some layers at a time.
+struct LayeredField {
+    std::string name; ///< no quotes, no line ends
+    /// Of the cells of layers [first, last), by their numbers; the same each time.
+    std::function<std::vector<double>(int first, int last)> values;
+};
+
+/// `write_msh()`, `write_vtu()` and `write_vtk()` of a mesh whose nodes are made as they are written: the
+/// same bytes, in memory that does not depend on the number of layers but for what the skin takes.
+/// @param options  without fields; they are given by themselves.
+/// @pre  the mesh is of order 1.
+/// @throw  as those.
+void write_msh(const mesh::LayeredMesh& layered, const OutputPath& path, const MshOptions& options = {},
+               const std::vector<LayeredField>& fields = {}, const RunContext& context = {});
+void write_vtu(const mesh::LayeredMesh& layered, const OutputPath& path,
+               const std::vector<LayeredField>& fields = {}, const RunContext& context = {});
+void write_vtk(const mesh::LayeredMesh& layered, const OutputPath& path, const VtkOptions& options = {},
+               const std::vector<LayeredField>& fields = {}, const RunContext& context = {});
+
+} // namespace lacuna::io

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/node_reader.h>
+
+#include <algorithm>
+
+namespace lacuna::io {
+
+NodeReader::NodeReader(const mesh::LayeredMesh& layered, const RunContext& context)
+    : mesh_(layered.mesh), layers_(&layered.nodes)
+{
+    const int levels = mesh::layers_at_once(mesh_);
+    const std::size_t row = index(mesh_.nodes_per_layer);
+    step_ = static_cast<std::size_t>(levels) * row;
+    cache_ = std::make_shared<LayerCache<Vec3>>([this, levels, row, &context](std::size_t part) {
+        const int first = static_cast<int>(part) * levels, last = std::min(first + levels, mesh_.layers + 1);
+        std::vector<Vec3> nodes(static_cast<std::size_t>(last - first) * row);
+        layers_->place(first, last, nodes, context);
+        return nodes;
+    });
+}
+
+FieldReader::FieldReader(const mesh::HexMesh& mesh, const LayeredField& field, const RunContext& context)
+    : name_(field.name)
+{
+    const int layers = mesh::layers_at_once(mesh);
+    const std::size_t columns = mesh.quads.size(), rim = mesh.rim.size();
+    step_ = static_cast<std::size_t>(layers) * columns;
+    const auto values_of = [values = field.values, layers, most = mesh.layers](std::size_t part) {
+        const int first = static_cast<int>(part) * layers;
+        return values(first, std::min(first + layers, most));
+    };
+    cache_ = std::make_shared<LayerCache<double>>(values_of);
+
+    const std::vector<std::uint32_t> cells = cells_of_skin(mesh);
+    skin_.resize(cells.size());
+    const std::size_t all = columns * static_cast<std::size_t>(mesh.layers);
+    for (std::size_t part = 0; part * step_ < all; ++part) {
+        check_cancelled(context);
+        const std::size_t begin = part * step_, end = std::min(begin + step_, all);
+        const auto values = cache_->part(part);
+        const auto take = [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                if (cells[i] >= begin && cells[i] < end) skin_[i] = (*values)[cells[i] - begin];
+        };
+        if (begin == 0) take(0, columns);
+        if (end == all) take(columns, 2 * columns);
+        take(2 * columns + begin / columns * rim, 2 * columns + end / columns * rim);
+    }
+}
+
+std::vector<FieldReader> readers_of(const mesh::HexMesh& mesh, const std::vector<CellField>& fields)
+{
+    check_fields(mesh, fields);
+    return {fields.begin(), fields.end()};
+}
+
+std::vector<FieldReader> readers_of(const mesh::LayeredMesh& layered, const std::vector<LayeredField>& fields,
+                                    const RunContext& context)
+{
+    std::set<std::string> names;
+    for (const LayeredField& field : fields) check_field_name(field.name, names);
+    std::vector<FieldReader> readers;
+    for (const LayeredField& field : fields) readers.emplace_back(layered.mesh, field, context);
+    return readers;
+}
+
+} // namespace lacuna::io

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quality/layered.h>
+
+#include <lacuna/quality/detail/coincident.h>
+#include <lacuna/quality/detail/findings.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace lacuna::quality {
+namespace {
+
+using mesh::HexMesh;
+using mesh::LayeredMesh;
+
+/// Layers of cells [first, last).
+struct Slab {
+    int first = 0, last = 0;
+};
+
+std::vector<Slab> slabs_of(const HexMesh& mesh)
+{
+    const int step = mesh::layers_at_once(mesh);
+    std::vector<Slab> slabs;
+    for (int first = 0; first < mesh.layers; first += step)
+        slabs.push_back({first, std::min(first + step, mesh.layers)});
+    return slabs;
+}
+
+/// Keep the worst of both, worst first.
+void add_worst(std::vector<WorstCell>& worst, std::vector<WorstCell> more)
+{
+    constexpr std::size_t kMost = 10; // as Quality::worst has
+    worst.insert(worst.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+    std::stable_sort(worst.begin(), worst.end(), [](const WorstCell& a, const WorstCell& b) {
+        return std::pair(a.scaled_jacobian, a.cell) < std::pair(b.scaled_jacobian, b.cell);
+    });
+    if (worst.size() > kMost) worst.resize(kMost);
+}
+
+/// A box that lies as a slab does: its first axis leads from the slab's lowest level to its highest.
+struct SlabBox {
+    Eigen::Matrix3d frame; ///< its axes as rows
+    Eigen::AlignedBox3d box;
+
+    SlabBox(std::span<const Vec3> nodes, std::size_t row)
+    {
+        Vec3 way = Vec3::Zero();
+        for (std::size_t i = 0; i < row; ++i) way += nodes[nodes.size() - row + i] - nodes[i];
+        way = way.stableNormalized();
+        if (way.isZero(0)) way = Vec3::UnitX();
+        const Vec3 beside = way.unitOrthogonal();
+        frame.row(0) = way.transpose();
+        frame.row(1) = beside.transpose();
+        frame.row(2) = way.cross(beside).transpose();
+        for (const Vec3& p : nodes) box.extend(frame * p);
+    }
+    [[nodiscard]] bool contains(const Vec3& p) const { return box.contains(frame * p); }
+};
+
+/// False where an axis of one of the two boxes tells them apart.
+bool may_meet(const SlabBox& a, const SlabBox& b)
+{
+    const auto apart = [](const SlabBox& own, const SlabBox& other) {
+        Eigen::AlignedBox3d seen;
+        for (int corner = 0; corner < 8; ++corner)
+            seen.extend(own.frame * (other.frame.transpose() *
+                                     other.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner))));
+        return !own.box.intersects(seen);
+    };
+    return !apart(a, b) && !apart(b, a);
+}
+
+/// Points of different slabs within a distance of each other, which are not in slabs next to each other.
+class FarPairs {
+public:
+    FarPairs(const LayeredMesh& layered, const std::vector<Slab>& slabs, std::vector<SlabBox> boxes,
+             const Eigen::AlignedBox3d& bounds, double tolerance, const RunContext& context)
+        : layered_(layered),
+          slabs_(slabs),
+          boxes_(std::move(boxes)),
+          bounds_(bounds),
+          tolerance_(tolerance),
+          context_(context),
+          beside_(slabs.size())
+    {
+        const Vec3 room = Vec3::Constant(tolerance);
+        for (SlabBox& own : boxes_) own.box = {own.box.min() - room, own.box.max() + room};
+        for (std::size_t a = 0; a < slabs.size(); ++a)
+            for (std::size_t b = a + 2; b < slabs.size(); ++b)
+                if (may_meet(boxes_[a], boxes_[b])) {
+                    beside_[a].push_back(b);
+                    beside_[b].push_back(a);
+                }
+    }
+
+    [[nodiscard]] std::optional<std::array<Index, 2>> first()
+    {
+        const bool none = std::all_of(beside_.begin(), beside_.end(),
+                                      [](const auto& list) { return list.empty(); });
+        if (none) return std::nullopt;
+        std::size_t shares = 1; // of the cubes, one looked at after the other
+        std::vector<Index> suspects;
+        for (std::size_t share = 0; share < shares; ++share) {
+            if (!gather(share, shares)) {
+                shares *= 2; // from the start, with less at once
+                share = static_cast<std::size_t>(-1);
+                suspects.clear();
+                continue;
+            }
+            find_twins(suspects);
+        }
+        return suspects.empty() ? std::nullopt : nearest(std::move(suspects));
+    }
+
+private:
+    struct Entry {
+        std::uint64_t cube;
+        Index point;
+        friend auto operator<=>(const Entry&, const Entry&) = default;
+    };
+    /// As many entries are held at once: 64 MB. A choice.
+    static constexpr std::size_t kMost = std::size_t(1) << 22;
+
+    /// Call `visit(node, place)` for the nodes of a slab that lie in the box of another.
+    template <class Visit>
+    void each_node(std::size_t slab, const Visit& visit)
+    {
+        if (beside_[slab].empty()) return;
+        const std::size_t row = index(layered_.mesh.nodes_per_layer);
+        const auto [first, last] = slabs_[slab];
+        nodes_.resize(static_cast<std::size_t>(last - first + 1) * row);
+        layered_.nodes.place(first, last + 1, nodes_, context_);
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            const bool beside = std::any_of(beside_[slab].begin(), beside_[slab].end(),
+                                            [&](std::size_t b) { return boxes_[b].contains(nodes_[i]); });
+            if (beside) visit(static_cast<Index>(static_cast<std::size_t>(first) * row + i), nodes_[i]);
+        }
+    }
+
+    /// Nodes by the cubes of eight tolerances that they are in, or within one of: of one share of the cubes.
+    /// @return false where they are too many
+    bool gather(std::size_t share, std::size_t shares)
+    {
+        entries_.clear();
+        const double side = 8 * tolerance_;
+        for (std::size_t slab = 0; slab < slabs_.size(); ++slab) {
+            check_cancelled(context_);
+            bool room = true;
+            each_node(slab, [&](Index node, const Vec3& p) {
+                std::array<std::array<std::int64_t, 2>, 3> range;
+                for (int d = 0; d < 3; ++d) {
+                    const double at = p[d] - bounds_.min()[d];
+                    range[std::size_t(d)] = {static_cast<std::int64_t>(std::floor((at - tolerance_) / side)),
+                                             static_cast<std::int64_t>(std::floor((at + tolerance_) / side))};
+                }
+                for (std::int64_t x = range[0][0]; x <= range[0][1]; ++x)
+                    for (std::int64_t y = range[1][0]; y <= range[1][1]; ++y)
+                        for (std::int64_t z = range[2][0]; z <= range[2][1]; ++z) {
+                            const std::uint64_t cube = mixed(x, y, z);
+                            if ((cube >> 40) % shares != share) continue;
+                            room = room && entries_.size() < kMost;
+                            if (room) entries_.push_back({cube, node});
+                        }
+            });
+            if (!room) return false;
+        }
+        return true;
+    }
+
+    static std::uint64_t mixed(std::int64_t x, std::int64_t y, std::int64_t z)
+    {
+        std::uint64_t h = static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u;
+        h = (h ^ (h >> 29) ^ static_cast<std::uint64_t>(y)) * 0xBF58476D1CE4E5B9u;
+        h = (h ^ (h >> 32) ^ static_cast<std::uint64_t>(z)) * 0x94D049BB133111EBu;
+        return h ^ (h >> 31);
+    }
+
+    /// Nodes that share a cube with another are looked at.
+    void find_twins(std::vector<Index>& suspects)
+    {
+        std::sort(entries_.begin(), entries_.end());
+        entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
+        for (std::size_t i = 0; i < entries_.size();) {
+            std::size_t end = i + 1;
+            while (end < entries_.size() && entries_[end].cube == entries_[i].cube) ++end;
+            for (std::size_t k = i; end - i > 1 && k < end; ++k) suspects.push_back(entries_[k].point);
+            i = end;
+        }
+    }
+
+    std::optional<std::array<Index, 2>> nearest(std::vector<Index> suspects)
+    {
+        std::sort(suspects.begin(), suspects.end());
+        suspects.erase(std::unique(suspects.begin(), suspects.end()), suspects.end());
+        std::vector<Vec3> place(suspects.size());
+        for (std::size_t slab = 0; slab < slabs_.size(); ++slab) {
+            each_node(slab, [&](Index node, const Vec3& p) {
+                const auto found = std::lower_bound(suspects.begin(), suspects.end(), node);
+                if (found != suspects.end() && *found == node)
+                    place[static_cast<std::size_t>(found - suspects.begin())] = p;
+            });
+        }
+        const auto pair = find_coincident(place, tolerance_, bounds_, context_);
+        if (!pair) return std::nullopt;
+        return std::array<Index, 2>{suspects[index((*pair)[0])], suspects[index((*pair)[1])]};
+    }
+
+    const LayeredMesh& layered_;
+    const std::vector<Slab>& slabs_;
+    std::vector<SlabBox> boxes_;
+    Eigen::AlignedBox3d bounds_; ///< of all nodes
+    double tolerance_;
+    const RunContext& context_;
+    std::vector<std::vector<std::size_t>> beside_; ///< slabs not next to each whose boxes meet its own
+    std::vector<Vec3> nodes_;
+    std::vector<Entry> entries_;
+};
+
+Finding twins(const LayeredMesh& layered, const std::array<Index, 2>& pair, const RunContext& context)
+{
+    const auto name = [&](Index node) {
+        std::vector<Vec3> row(index(layered.mesh.nodes_per_layer));
+        const int level = node / layered.mesh.nodes_per_layer;
+        layered.nodes.place(level, level + 1, row, context);
+        return node_name(row[index(node % layered.mesh.nodes_per_layer)], node, layered.mesh.nodes_per_layer,
+                         static_cast<std::size_t>(layered.mesh.layers) + 1);
+    };
+    return coincident_nodes(name(pair[0]), name(pair[1]));
+}
+
+/// Every node is finite, and no two are in one place.
+Found check_nodes(const LayeredMesh& layered, const RunContext& context)
+{
+    const HexMesh& mesh = layered.mesh;
+    const std::size_t row = index(mesh.nodes_per_layer);
+    const std::vector<Slab> slabs = slabs_of(mesh);
+    std::vector<SlabBox> boxes;
+    Eigen::AlignedBox3d bounds;
+    std::vector<Vec3> nodes;
+    for (const Slab& slab : slabs) {
+        check_cancelled(context);
+        nodes.resize(static_cast<std::size_t>(slab.last - slab.first + 1) * row);
+        layered.nodes.place(slab.first, slab.last + 1, nodes, context);
+        const Eigen::AlignedBox3d own = finite_bounds(nodes, context);
+        if (own.isEmpty()) {
+            const auto wrong = std::find_if(nodes.begin(), nodes.end(),
+                                            [](const Vec3& p) { return !p.allFinite(); });
+            const auto node = static_cast<Index>(static_cast<std::size_t>(slab.first) * row) +
+                              static_cast<Index>(wrong - nodes.begin());
+            return not_finite(
+                node_name(*wrong, node, mesh.nodes_per_layer, static_cast<std::size_t>(mesh.layers) + 1));
+        }
+        bounds.extend(own);
+        boxes.emplace_back(nodes, row);
+    }
+    const double tolerance = coincidence_tolerance(bounds);
+    std::optional<std::array<Index, 2>> least;
+    const auto take = [&](std::optional<std::array<Index, 2>> pair) {
+        if (pair && (!least || *pair < *least)) least = pair;
+    };
+    // A slab and the next one together: what it has in common with that before it was looked at with that.
+    for (std::size_t s = 0; s < slabs.size() && (s == 0 || s + 1 < slabs.size()); ++s) {
+        check_cancelled(context);
+        const int first = slabs[s].first, last = slabs[std::min(s + 1, slabs.size() - 1)].last;
+        nodes.resize(static_cast<std::size_t>(last - first + 1) * row);
+        layered.nodes.place(first, last + 1, nodes, context);
+        if (auto pair = find_coincident(nodes, tolerance, bounds, context)) {
+            const auto before = static_cast<Index>(static_cast<std::size_t>(first) * row);
+            take(std::array<Index, 2>{(*pair)[0] + before, (*pair)[1] + before});
+        }
+    }
+    take(FarPairs(layered, slabs, std::move(boxes), bounds, tolerance, context).first());
+    if (!least) return std::nullopt;
+    return twins(layered, *least, context);
+}
+
+} // namespace
+
+Quality measure(const LayeredMesh& layered, const RunContext& context)
+{
+    const HexMesh& mesh = layered.mesh;
+    Quality all;
+    double sum = 0;
+    HexMesh slab;
+    slab.nodes_per_layer = mesh.nodes_per_layer;
+    slab.quads = mesh.quads;
+    for (const Slab& part : slabs_of(mesh)) {
+        check_cancelled(context);
+        slab.layers = part.last - part.first;
+        slab.nodes.resize(mesh::corner_count(slab));
+        layered.nodes.place(part.first, part.last + 1, slab.nodes, context);
+        Quality own = measure(slab, context);
+        all.hexes += own.hexes;
+        all.wedges += own.wedges;
+        all.inverted += own.inverted;
+        all.uncertified += own.uncertified;
+        all.volume += own.volume;
+        sum += own.mean_scaled_jacobian * static_cast<double>(own.hexes + own.wedges);
+        for (std::size_t b = 0; b < own.histogram.size(); ++b) all.histogram[b] += own.histogram[b];
+        for (WorstCell& cell : own.worst) {
+            cell.cell += static_cast<std::size_t>(part.first) * mesh.quads.size();
+            cell.layer += part.first;
+        }
+        add_worst(all.worst, std::move(own.worst));
+    }
+    if (all.hexes + all.wedges == 0) return all;
+    all.mean_scaled_jacobian = sum / static_cast<double>(all.hexes + all.wedges);
+    all.min_scaled_jacobian = all.worst.front().scaled_jacobian;
+    return all;
+}
+
+Proof prove(const LayeredMesh& layered, Quality measured, double min_scaled_jacobian,
+            const RunContext& context)
+{
+    Proof proof;
+    const auto found = [&](Found finding) {
+        proof.finding = std::move(finding);
+        return proof.finding.has_value();
+    };
+    if (found(check_arrays(layered.mesh, index(layered.mesh.nodes_per_layer)))) return proof;
+    proof.quality = std::move(measured);
+    if (!found(check_quality(proof.quality, min_scaled_jacobian, layered.mesh.layers)))
+        found(check_nodes(layered, context));
+    return proof;
+}
+
+} // namespace lacuna::quality

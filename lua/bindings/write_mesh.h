@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Meshes that are written as they are made: volume:sweep_to reads its options for the file, and writes, by
+// these.
+
+#include "bindings/classes.h"
+
+#include <lacuna/io/whole_file.h>
+
+namespace lacuna::lua {
+
+struct WriteArguments;
+
+/// Read the options of mesh:write at `index`, nil or a table, for a file that is written a layer at a time;
+/// as a temporary.
+/// Refuses endings and options that such files do not have.
+WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath& path);
+
+/// Write a mesh, whose nodes may be still to be made, with the bytes of mesh:write.
+void write_layered(const sweep::Swept& swept, const io::OutputPath& path, WriteArguments& arguments,
+                   const RunContext& context);
+
+} // namespace lacuna::lua

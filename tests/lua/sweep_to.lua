@@ -1,0 +1,140 @@
+-- SPDX-License-Identifier: MIT
+-- volume:sweep_to: the bytes of sweep and write, for every class and format, in memory that hardly grows
+-- with the layers. usage: lacuna sweep_to.lua lacuna=PROGRAM scratch=FOLDER [cells=1e8]: measured there
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local lacuna = require "lacuna"
+
+local params = lacuna.params { lacuna = "lacuna", scratch = ".", cells = 0 }
+local function path(name) return params.scratch .. "/" .. name end
+
+local function bytes(name)
+  local file <close> = assert(io.open(path(name), "rb"))
+  return file:read("a")
+end
+
+local formats = {
+  { "msh" }, { "msh", { binary = false } }, { "msh", { version = 2.2 } },
+  { "msh", { version = 2.2, binary = false, quality = true } }, { "msh", { quality = false } },
+  { "msh", { quality = { "shape", "volume" } } },
+  { "vtu" }, { "vtk" }, { "vtk", { binary = false, quality = "skew" } },
+}
+
+-- Sweep one volume both ways and compare the bytes; the volume is made anew for each.
+local function same(what, make, options, only)
+  for i, format in ipairs(only or formats) do
+    local ending, write = format[1], format[2]
+    local whole = make():sweep(options)
+    whole:write(path("whole." .. ending), write)
+    local all = {}
+    for key, value in pairs(options) do all[key] = value end
+    all.write = write
+    local report = make():sweep_to(path("layered." .. ending), all)
+    check.that(bytes("whole." .. ending) == bytes("layered." .. ending), what .. ", format " .. i)
+    check.equal(report.hexes, whole.hexes, what)
+    check.equal(report.nodes, whole.nodes, what)
+    check.equal(report.layers, whole.layers, what)
+    check.that(#report >= #whole.report and tostring(report):find("all certified", 1, true), what)
+    if options.streamed == nil then check.that(report.streamed, what .. ": was held in memory") end
+  end
+end
+
+local function open(shape, options)
+  return function() return lacuna.synthetic[shape](options):open_volume {} end
+end
+local function drop(...) return { sides = 6, twist = 20, drop = { ... } } end
+
+-- --- every class
+
+local classes = {
+  closed = drop(), I = drop("walls"), II = drop("wall_1", "wall_2", "wall_3"), III = drop("wall_2"),
+  IV = drop("target"), V = drop("source", "target"),
+}
+for name, options in pairs(classes) do
+  local make = open("prism", options)
+  check.equal(make().class, name)
+  same("class " .. name, make, { layers = 7, size = 0.2 })
+end
+
+-- --- placements: affine, fitted, straight; holes; what comes with heights of its own
+
+local few = { { "msh" }, { "vtu" } }
+same("holes", open("prism", { holes = 2, sides = 8 }), { layers = 5, size = 0.1 }, few)
+same("a taper", open("prism", { taper = 0.6, twist = 30 }), { layers = { 0.1, 0.3, 1 }, size = 0.2 }, few)
+same("an elbow", open("elbow", { angle = 90 }), { layers = 20, size = 0.2 }, few)
+same("one layer", open("plate", {}), { layers = 1, size = 0.2 }, few)
+
+-- --- more layers than are made at once
+
+local function block(bend)
+  return open("prism", { sides = 4, height = 3, bend = bend })
+end
+for _, bend in ipairs { 0, 40 } do
+  same("layers in several parts", block(bend), { layers = 60, size = 0.013 }, few)
+end
+
+-- --- what is not layers as they are placed is held in memory, and the report says so
+
+local report = open("prism", drop())():sweep_to(path("second.msh"), { layers = 4, size = 0.3, order = 2 })
+check.equal(report.streamed, false)
+check.that(tostring(report):find("held in memory", 1, true))
+local whole = open("prism", drop())():sweep { layers = 4, size = 0.3, order = 2 }
+whole:write(path("whole.msh"))
+check.that(bytes("whole.msh") == bytes("second.msh"), "order 2")
+
+-- --- what is refused is refused before anything is made, and leaves no file
+
+local void = open("prism", drop())()
+local function refused(name, options, ...)
+  check.fails(function() void:sweep_to(path(name), options) end, ...)
+  check.that(not io.open(path(name), "rb"), name .. " is there")
+end
+refused("no.inp", { layers = 4 }, ".msh, .vtu or .vtk", "volume:sweep(options):write(path)")
+refused("no.bdf", { layers = 4 }, ".msh, .vtu or .vtk")
+refused("no.msh", { layers = 4, write = { with = 1 } }, "write", "with")
+refused("no.msh", { layers = 4, write = 3 }, "write", "a table of options")
+refused("no.vtu", { layers = 4, write = { version = 2.2 } }, "version")
+refused("no.msh", { layers = 4, write = { quality = "shape_and_size" } }, "shape_and_size", "the mean of all")
+refused("no.msh", { layres = 4 }, "layres", "layers")
+refused("no.msh", { layers = 4, min_scaled_jacobian = 0.999999 }, "below the limit")
+
+-- --- memory
+
+local recipe = path("memory.lua")
+do
+  local file <close> = assert(io.open(recipe, "w"))
+  file:write([[
+local lacuna = require "lacuna"
+local p = lacuna.params { layers = 100, size = 0.01, output = "" }
+local void = lacuna.synthetic.prism { sides = 4, drop = { "wall_1" } }:open_volume {}
+local report = void:sweep_to(p.output, { layers = p.layers, size = p.size, write = { quality = false } })
+assert(report.streamed)
+for line in io.lines("/proc/self/status") do
+  local kilobytes = line:match("^VmHWM:%s*(%d+)")
+  if kilobytes then print(report.hexes, kilobytes) end
+end
+]])
+end
+local function peak(layers, size)
+  local words = ("%s %s layers=%d size=%.9g output=%s"):format(params.lacuna, recipe, layers, size,
+    path("memory.msh"))
+  local run = assert(io.popen(words))
+  local hexes, kilobytes = run:read("a"):match("(%d+)%s+(%d+)")
+  run:close()
+  os.remove(path("memory.msh"))
+  return tonumber(hexes), tonumber(kilobytes) * 1024
+end
+if io.open("/proc/self/status") then
+  local few_cells, low = peak(60, 0.01)
+  local many_cells, high = peak(240, 0.01)
+  check.equal(many_cells, 4 * few_cells)
+  -- Rims and the skin's quads grow with the layers: well below the 24 bytes a cell of the nodes alone.
+  check.that(high - low < 6 * (many_cells - few_cells),
+    ("%d cells took %d bytes, %d took %d"):format(few_cells, low, many_cells, high))
+  if params.cells > 0 then
+    local across = (params.cells / 1000) ^ 0.5
+    local cells, most = peak(1000, 2 ^ 0.5 / across)
+    print(("%d cells: %d MB at most"):format(cells, most // 1e6))
+    check.that(most <= 300e6, "more than 300 MB")
+  end
+end
+check.done()
