@@ -7,7 +7,7 @@
 #include "bindings/box.h"
 #include "bindings/stage_clock.h"
 
-#include <lacuna/closure/close.h>
+#include <lacuna/closure/readings.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/healing/split_facets.h>
 #include <lacuna/io/deck.h>
@@ -63,6 +63,8 @@ struct VolumeState {
     topology::Classification classification; ///< as the volume was given
     std::optional<matching::Match> match;
     std::optional<closure::Closure> closure;
+    /// Of found roles: other ways to sweep what is enclosed, for where this one fails.
+    std::shared_ptr<const closure::OtherSweeps> others;
     std::string name; ///< of the region its cells are; empty: the default
     int level = 0;    ///< of a piece cut at steps: 0 goes from end to end, others have what layers are left
     double turn_from = 0, turn_to = 1; ///< of a piece of a full turn: where it is, as shares of the turn
