@@ -95,7 +95,7 @@
 ---walls' own meshes have rows, else about as high as the quads are wide
 ---@field size? number|fun(x: number, y: number, z: number): number edge length on the source; default: the rim's spacing
 ---@field curvature? integer sides for a full turn where the size is coarser; default 12; 0: the size alone
----@field gap? integer least number of quads across a narrow place of the source; default: none
+---@field gap? integer quads asked for across a narrow place of the source; default: none, 3 where there is no size
 ---@field max_deviation? number how far the skin may be from the sealed skin [model length]; default: a quarter of a quad's side
 ---@field quads? "auto"|"paved"|"mapped"|"gmsh"|"keep" default "auto"; the report says which way each face was meshed
 ---@field fallback? "wedges"|"leave_out" what becomes of a volume that cannot be hexahedra alone; default: an error

@@ -97,13 +97,14 @@ int close(lua_State* L)
 {
     lua_settop(L, 2);
     auto& state = hold<VolumeState>(L, 1);
-    if (state.closure && has_options(L, 2, "close"))
-        fail(L, "close: the volume is sealed already, by other options");
+    const bool by_hand = has_options(L, 2, "close");
+    if (state.closure && by_hand) fail(L, "close: the volume is sealed already, by other options");
     auto& options = temporary<CloseOptions>(L);
     read_options(L, 2, "close", kCloseOptions, options);
     RunContext& context = push_context(L);
     guard(L, [&] {
         const Busy busy(state, "close");
+        if (by_hand) state.others.reset();
         close_volume(state, options, context);
     });
     push_closure(L, state.volume.model, *state.closure);

@@ -96,6 +96,7 @@ int match(lua_State* L)
     auto& found = temporary<matching::Match>(L); // a finalizer may match anew while this one is pushed
     guard(L, [&] {
         const Busy busy(state, "match");
+        if (asked) state.others.reset();
         if (state.closure && (asked || !state.match))
             throw InvalidInput("lua.sealed", "match: the volume is sealed already; match it before close()");
         std::optional<matching::Match> before = std::exchange(state.match, std::nullopt);

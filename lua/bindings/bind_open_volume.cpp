@@ -148,6 +148,7 @@ VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, 
         state.classification = std::move(found.classification);
         state.closure = std::move(found.closure);
         state.as_read = std::move(found.sealed);
+        if (!arguments.override_class) state.others = std::move(found.others);
     } else {
         if (arguments.auto_walls) state.role_reasons = find_walls(model, arguments.roles, context);
         state.volume = topology::open_volume(model, arguments.roles, context);
@@ -244,6 +245,7 @@ int override_class(lua_State* L)
         if (state.closure)
             throw InvalidInput("lua.sealed", "override_class: the volume is sealed already; override its "
                                              "class before close()");
+        state.others.reset();
         const std::optional<VolumeClass> before = state.volume.override_class;
         state.volume.override_class = wanted;
         try {

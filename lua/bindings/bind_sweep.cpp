@@ -611,20 +611,117 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<ToMesh>& all,
     return mesh;
 }
 
+/// A volume whose roles were found, swept the other ways that enclose the same where one fails.
+struct OtherWays {
+    std::size_t next = 0;
+    std::vector<std::string> failed;   ///< a line for each way
+    std::exception_ptr first;          ///< why the likeliest failed
+    std::optional<VolumeState> before; ///< the volume with the likeliest roles
+};
+
+/// The ends of a volume as a person knows them.
+std::string ends_in_words(const topology::OpenVolume& volume)
+{
+    const auto list = [&](topology::Role role) {
+        constexpr std::size_t kMost = 6; // what a person reads in a line
+        const std::vector<FaceId> faces = volume.faces(role);
+        std::string text = faces.empty() ? "what is missing" : "";
+        for (std::size_t i = 0; i < std::min(kMost, faces.size()); ++i)
+            text += (i == 0 ? "" : ", ") + topology::name_of(volume.model, faces[i]);
+        return text + (faces.size() > kMost ? ", …" : "");
+    };
+    return "from " + list(topology::Role::source) + " to " + list(topology::Role::target);
+}
+
+/// Turn to the next way to sweep a volume. Called where one has failed, with its exception at hand.
+/// @throw  what the first way failed by, where there is no other; the volume is as it was then.
+void take_next_way(VolumeState& state, OtherWays& ways, const Error& why, const RunContext& context)
+{
+    if (!ways.first) {
+        if (!state.others) throw;
+        ways.first = std::current_exception();
+        ways.before = state;
+    }
+    ways.failed.push_back("roles: swept " + ends_in_words(state.volume) + " it fails: " + why.what() + " [" +
+                          why.code() + "]");
+    log_line(context, ways.failed.back());
+    const closure::OtherSweeps& others = *ways.before->others;
+    if (ways.next == others.ways.size()) {
+        const std::exception_ptr first = ways.first;
+        const char* const busy = state.busy;
+        state = std::move(*ways.before);
+        state.busy = busy;
+        std::rethrow_exception(first);
+    }
+    state.volume = closure::other_sweep(others, ways.next++);
+    state.closure = others.closure;
+    state.classification = topology::classify(state.volume);
+    state.match.reset();
+}
+
+/// Sweep a volume one way; where that fails turn to the next.
+/// @return  whether it is swept.
+template <class Sweep>
+bool sweep_or_turn(VolumeState& state, OtherWays& ways, const RunContext& context, const Sweep& sweep)
+{
+    try {
+        std::vector<std::string>& report = sweep();
+        if (!ways.failed.empty())
+            ways.failed.push_back("roles: swept " + ends_in_words(state.volume) +
+                                  " instead, which encloses the same volume");
+        report.insert(report.begin(), ways.failed.begin(), ways.failed.end());
+        return true;
+    } catch (const NotSweepable& error) {
+        take_next_way(state, ways, error, context);
+    } catch (const NotClosed& error) {
+        take_next_way(state, ways, error, context);
+    }
+    return false;
+}
+
 /// Sweep the pieces of a volume with branches or steps as an assembly.
-int sweep_steps(lua_State* L, const Box<VolumeState>& volume, const SweepArguments& arguments,
-                RunContext& context)
+bool sweep_steps(lua_State* L, const Box<VolumeState>& volume, const SweepArguments& arguments,
+                 OtherWays& ways, RunContext& context)
 {
     auto& box = new_box<AssemblyMeshState>(L);
+    bool done = false;
     guard(L, [&] {
         const Busy busy(*volume, "sweep");
         StageClock clock(context);
-        std::vector<ToMesh> pieces;
-        add_members(pieces, volume, volume->name.empty() ? "piece" : volume->name, arguments, context);
-        box = sweep_members(pieces, {}, context);
-        box->seconds = clock.seconds();
+        done = sweep_or_turn(*volume, ways, context, [&]() -> std::vector<std::string>& {
+            std::vector<ToMesh> pieces;
+            add_members(pieces, volume, volume->name.empty() ? "piece" : volume->name, arguments, context);
+            box = sweep_members(pieces, {}, context);
+            return box->swept.report;
+        });
+        if (done) box->seconds = clock.seconds();
     });
-    return 1;
+    return done;
+}
+
+/// Sweep a volume as it is.
+bool sweep_whole(lua_State* L, VolumeState& state, SweepArguments& arguments, OtherWays& ways,
+                 RunContext& context)
+{
+    lua_gc(L, LUA_GCCOLLECT); // to Lua a mesh is a few bytes: it would let old ones pile up
+    auto& box = new_box<MeshState>(L);
+    bool done = false;
+    guard(L, [&] {
+        const Busy busy(state, "sweep");
+        StageClock clock(context);
+        done = sweep_or_turn(state, ways, context, [&]() -> std::vector<std::string>& {
+            close_volume(state, {}, context);
+            closure::check_ends(state.volume, state.name.empty() ? "the volume" : state.name);
+            box = std::make_shared<MeshState>();
+            if (!state.decks.empty()) take_given_middles(state, arguments.options.second_order);
+            box->swept = sweep::sweep(state.volume, arguments.options, context);
+            if (!state.name.empty()) box->swept.mesh.volume_groups = {state.name};
+            box->material = state.material;
+            return box->swept.report;
+        });
+        if (done) box->seconds = clock.seconds();
+    });
+    return done;
 }
 
 /// mesh = volume:sweep(options)
@@ -636,24 +733,16 @@ int sweep_volume(lua_State* L)
     SweepArguments& arguments = push_arguments(L, 2, "sweep", state);
     RunContext& context = push_context(L);
     if (arguments.threads != 0) context.threads = arguments.threads;
-    bool steps = false;
-    guard(L, [&] { steps = closure::has_pieces(state.volume); });
-    if (steps) return sweep_steps(L, volume, arguments, context);
-    lua_gc(L, LUA_GCCOLLECT); // to Lua a mesh is a few bytes: it would let old ones pile up
-    auto& box = new_box<MeshState>(L);
-    guard(L, [&] {
-        const Busy busy(state, "sweep");
-        StageClock clock(context);
-        close_volume(state, {}, context);
-        closure::check_ends(state.volume, state.name.empty() ? "the volume" : state.name);
-        box = std::make_shared<MeshState>();
-        if (!state.decks.empty()) take_given_middles(state, arguments.options.second_order);
-        box->swept = sweep::sweep(state.volume, arguments.options, context);
-        if (!state.name.empty()) box->swept.mesh.volume_groups = {state.name};
-        box->material = state.material;
-        box->seconds = clock.seconds();
-    });
-    return 1;
+    auto& ways = temporary<OtherWays>(L);
+    for (;;) {
+        const int top = lua_gettop(L);
+        bool steps = false;
+        guard(L, [&] { steps = closure::has_pieces(state.volume); });
+        if (steps ? sweep_steps(L, volume, arguments, ways, context)
+                  : sweep_whole(L, state, arguments, ways, context))
+            return 1;
+        lua_settop(L, top);
+    }
 }
 
 /// Take `write` out of a table of options: a copy without it stands at `index` then, and it on top.

@@ -3,6 +3,7 @@
 
 #include "bindings/lacuna_lua.h"
 
+#include <lacuna/closure/steps.h>
 #include <lacuna/core/progress.h>
 
 #include <algorithm>
@@ -144,7 +145,8 @@ void match_volume(VolumeState& state, const matching::MatchOptions& options, con
 void close_volume(VolumeState& state, const closure::CloseOptions& options, const RunContext& context)
 {
     if (state.closure) return;
-    if (has_both_ends(state.volume)) {
+    const bool whole = topology::free_edges(state.volume).empty();
+    if (has_both_ends(state.volume) && !(whole && closure::has_steps(state.volume))) {
         matching::MatchOptions by_hand;
         by_hand.vertices = closure::pairs_by_hand(state.volume, options);
         match_volume(state, by_hand, context);

@@ -64,6 +64,55 @@ healing::FacetSoup stepped_bore()
     return soup;
 }
 
+/// A closed stack of square bands: a floor, walls of each half width in turn with ledges between, and a lid.
+/// Labels count from the floor up; those in `drop` are left out.
+healing::FacetSoup stack(const std::vector<double>& halves, const std::set<int>& drop)
+{
+    healing::FacetSoup soup;
+    int label = 0;
+    const auto add = [&](const std::vector<Triangle>& facets) {
+        if (!drop.contains(label)) {
+            soup.triangles.insert(soup.triangles.end(), facets.begin(), facets.end());
+            soup.triangle_label.insert(soup.triangle_label.end(), facets.size(), label);
+        }
+        ++label;
+    };
+    const auto ring = [&](double half, double z) {
+        const auto first = static_cast<Index>(soup.points.size());
+        for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+            soup.points.emplace_back(half * x, half * y, z);
+        return first;
+    };
+    const auto side = [](Index a, Index b, Index i) {
+        const Index j = (i + 1) % 4;
+        return std::vector<Triangle>{{a + i, a + j, b + j}, {a + i, b + j, b + i}};
+    };
+    Index low = ring(halves.front(), 0);
+    add({{low, low + 3, low + 2}, {low, low + 2, low + 1}});
+    for (std::size_t k = 0; k < halves.size(); ++k) {
+        const Index high = ring(halves[k], static_cast<double>(k + 1));
+        for (Index i = 0; i < 4; ++i) add(side(low, high, i));
+        low = high;
+        if (k + 1 == halves.size()) break;
+        low = ring(halves[k + 1], static_cast<double>(k + 1));
+        std::vector<Triangle> ledge;
+        for (Index i = 0; i < 4; ++i) {
+            const auto part = side(high, low, i);
+            ledge.insert(ledge.end(), part.begin(), part.end());
+        }
+        add(ledge);
+    }
+    add({{low, low + 1, low + 2}, {low, low + 2, low + 3}});
+    return soup;
+}
+
+double stack_volume(const std::vector<double>& halves)
+{
+    double volume = 0;
+    for (const double half : halves) volume += 4 * half * half;
+    return volume;
+}
+
 } // namespace
 
 TEST_CASE("faces of a prism without roles enclose the prism, whatever flat faces are missing")
@@ -145,4 +194,90 @@ TEST_CASE("finding a reading heeds a cancel")
     CHECK(test::heeds_cancel([&](const RunContext& context) {
         closure::find_reading(prism.model, all_faces(prism.model), 0, context);
     }));
+}
+
+TEST_CASE(
+    "a shaft of several widths is read with ends at several heights, both where it narrows to both sides")
+{
+    for (const std::vector<double>& halves :
+         {std::vector<double>{1, 3, 1}, {1, 2, 3, 1.5}, {1, 4, 1.5, 2, 1}, {2, 1}, {1, 2, 3}}) {
+        const Model model = healing::split_facets(stack(halves, {}), {.whole_labels = true});
+        const auto reading = closure::find_reading(model, all_faces(model));
+        CHECK(reading.enclosed == doctest::Approx(stack_volume(halves)));
+        std::size_t wider = 0;
+        for (std::size_t k = 0; k + 1 < halves.size(); ++k) wider += halves[k + 1] > halves[k] ? 1 : 0;
+        std::vector<std::size_t> ends{reading.roles.roles.source.size(), reading.roles.roles.target.size()};
+        std::vector<std::size_t> expected{1 + wider, halves.size() - wider};
+        std::sort(ends.begin(), ends.end());
+        std::sort(expected.begin(), expected.end());
+        CHECK(ends == expected);
+    }
+}
+
+TEST_CASE("a ledge between two widths may be missing, with or without an end")
+{
+    for (const std::vector<double>& halves : {std::vector<double>{2, 1}, {1, 2}, {1, 3}}) {
+        for (const std::set<int>& drop : {std::set<int>{5}, {0, 5}, {5, 10}, {0, 5, 10}}) {
+            const Model model = healing::split_facets(stack(halves, drop), {.whole_labels = true});
+            const auto reading = closure::find_reading(model, all_faces(model));
+            CHECK(reading.enclosed == doctest::Approx(stack_volume(halves)));
+            CHECK(closed_volume(reading) == doctest::Approx(stack_volume(halves)));
+        }
+    }
+}
+
+TEST_CASE("an end and a wall beside it may be missing: two flat faces meet in a straight void edge")
+{
+    for (const int sides : {3, 4, 5, 6, 8}) {
+        for (int wall = 0; wall < sides; ++wall) {
+            const auto prism = test::prism({.sides = sides, .drop = without(false, true, false, {wall})});
+            CAPTURE(sides);
+            CAPTURE(wall);
+            const auto reading = closure::find_reading(prism.model, all_faces(prism.model));
+            CHECK(reading.enclosed == doctest::Approx(prism.facet_volume));
+            CHECK(closed_volume(reading) == doctest::Approx(prism.facet_volume));
+        }
+    }
+}
+
+TEST_CASE("a missing floor round a pillar that is blind is one face with a hole")
+{
+    // A pillar of half width 1 stands up into a box of half width 3 from the floor, which is missing.
+    for (const bool lid : {true, false}) {
+        healing::FacetSoup soup = stack({3}, lid ? std::set<int>{0} : std::set<int>{0, 5});
+        healing::FacetSoup pillar = stack({1}, {0});
+        for (Vec3& p : pillar.points) p.z() *= 0.5;
+        const auto first = static_cast<Index>(soup.points.size());
+        soup.points.insert(soup.points.end(), pillar.points.begin(), pillar.points.end());
+        for (Triangle& t : pillar.triangles)
+            soup.triangles.push_back({t[0] + first, t[2] + first, t[1] + first});
+        for (const int label : pillar.triangle_label) soup.triangle_label.push_back(label + 100);
+        const Model model = healing::split_facets(soup, {.whole_labels = true});
+        const auto reading = closure::find_reading(model, all_faces(model));
+        CHECK(reading.enclosed == doctest::Approx(36 - 2));
+        CHECK(closed_volume(reading) == doctest::Approx(36 - 2));
+    }
+}
+
+TEST_CASE("other ways to sweep what a reading encloses enclose the same, and none twice")
+{
+    std::size_t others = 0;
+    for (const int drop : {0, 1, 2}) {
+        const auto prism = test::prism(
+            {.sides = 4,
+             .drop = without(drop == 1, drop == 1, false,
+                             drop == 2 ? std::vector<int>{0} : std::vector<int>{})});
+        const auto reading = closure::find_reading(prism.model, all_faces(prism.model));
+        CAPTURE(drop);
+        REQUIRE(reading.others != nullptr);
+        std::set<std::vector<FaceId>> ends;
+        for (std::size_t k = 0; k < reading.others->ways.size(); ++k) {
+            const OpenVolume volume = closure::other_sweep(*reading.others, k);
+            CHECK(closure::is_watertight(volume));
+            CHECK(closure::enclosed_volume(volume) == doctest::Approx(reading.enclosed));
+            CHECK(ends.insert(volume.faces(Role::source)).second);
+            ++others;
+        }
+    }
+    CHECK(others >= 6);
 }

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/quads/pave.h>
+#include <lacuna/surface/default_size.h>
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/seeds.h>
 #include <lacuna/surface/source_mesh.h>
@@ -176,7 +177,7 @@ TEST_CASE("the spacing of the rim is the mean of its facets' sides")
 {
     for (const int cuts : {1, 4}) {
         const auto volume = test::sealed({.sides = 6, .cuts = cuts});
-        CHECK(surface::rim_spacing(volume) == doctest::Approx(1.0 / cuts));
+        CHECK(surface::default_size(volume).length == doctest::Approx(1.0 / cuts));
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/readings.h>
 
+#include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/steps.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/number_text.h>
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -25,13 +27,16 @@ constexpr double kSameVolume = 5e-3;
 /// And skins lie on each other where they are no further apart than this share of the cube root of what they
 /// enclose. A choice, not a measurement.
 constexpr double kSameSkin = 0.02;
-/// A loop is flat where no point of it is further than this share of its length from its plane.
-constexpr double kFlatLoop = 1e-6;
 /// And as many are tried where none of the likeliest seals. A choice as well.
 constexpr std::size_t kMostTried = 50;
 /// What void faces cost that are bent by a half turn: of two ways to close, the one with flat faces is
 /// likelier. A choice, not a measurement.
 constexpr double kBentVoid = 0.5;
+/// What it costs to close by flat faces that are not one for each free loop: as `topology::role_candidates()`
+/// counts no end at all. A choice.
+constexpr double kFilled = 0.1;
+/// As many other ways to sweep a void are kept. A choice: each may cost as much as the first.
+constexpr std::size_t kMostOthers = 3;
 /// As many readings are listed: what a person reads in a message.
 constexpr std::size_t kMostListed = 8;
 
@@ -43,7 +48,8 @@ struct Sealed : SealedVolume {
 /// One void, and the readings that enclose it.
 struct Void {
     double cost = 0;                 ///< of its likeliest reading, and of what closing bends
-    Sealed sealed;                   ///< as its likeliest reading seals it
+    RoleCandidate first;             ///< by which it was sealed
+    Sealed sealed;                   ///< as that seals it
     std::vector<RoleCandidate> ways; ///< the likeliest first
     bool fills_flat_loops = false;   ///< all that is missing
 };
@@ -53,26 +59,6 @@ std::vector<FaceId> all_faces(const Model& model)
     std::vector<FaceId> faces;
     for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
     return faces;
-}
-
-bool is_flat(const Model& model, const Rim& rim)
-{
-    Vec3 mean = Vec3::Zero(), area = Vec3::Zero();
-    std::vector<Vec3> points;
-    double length = 0;
-    for (const EdgeUse& use : rim.uses) {
-        const std::vector<Index> chain = use_points(model, use);
-        for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-            points.push_back(model.at(chain[i]));
-            length += (model.at(chain[i + 1]) - model.at(chain[i])).norm();
-        }
-    }
-    for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i)
-        area += (points[i] - mean).cross(points[(i + 1) % points.size()] - mean);
-    const Vec3 normal = area.stableNormalized();
-    return std::all_of(points.begin(), points.end(),
-                       [&](const Vec3& p) { return std::abs((p - mean).dot(normal)) <= kFlatLoop * length; });
 }
 
 /// Whether what is missing is one face for each of the free loops: nothing needs a void edge, and no face has
@@ -99,7 +85,7 @@ std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunCont
     try {
         Sealed sealed;
         sealed.volume = open_volume(model, roles, context);
-        if (!roles.source.empty() && !roles.target.empty())
+        if (!roles.source.empty() && !roles.target.empty() && !free_edges(sealed.volume).empty())
             sealed.match = matching::match(sealed.volume, {}, context);
         sealed.closure = close(sealed.volume, sealed.match, {}, context);
         sealed.enclosed = enclosed_volume(sealed.volume);
@@ -173,6 +159,15 @@ double cost_of(const RoleCandidate& candidate, const Sealed& sealed)
     return candidate.cost + (whole > 0 ? kBentVoid * bent / whole : 0);
 }
 
+void keep_likely(std::vector<Void>& found)
+{
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Void& a, const Void& b) { return a.cost < b.cost; });
+    std::erase_if(found, [&, least = found.empty() ? 0 : found.front().cost](const Void& v) {
+        return v.cost > least + RoleOptions{}.margin;
+    });
+}
+
 /// Readings of the given faces, sealed and sorted by what they enclose.
 std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& candidates,
                         const RunContext& context)
@@ -195,16 +190,13 @@ std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& ca
         auto same = std::find_if(found.begin(), found.end(),
                                  [&](const Void& v) { return enclose_the_same(v.sealed, *now); });
         if (same == found.end())
-            same = found.insert(found.end(), Void{cost_of(candidate, *now), std::move(*now), {}, false});
+            same = found.insert(found.end(),
+                                Void{cost_of(candidate, *now), candidate, std::move(*now), {}, false});
         same->ways.push_back(candidate);
 
         same->fills_flat_loops = same->fills_flat_loops || flat;
     }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Void& a, const Void& b) { return a.cost < b.cost; });
-    std::erase_if(found, [&, least = found.empty() ? 0 : found.front().cost](const Void& v) {
-        return v.cost > least + RoleOptions{}.margin;
-    });
+    keep_likely(found);
     return found;
 }
 
@@ -222,8 +214,8 @@ bool can_be_cut(const Model& skin, const Roles& roles, const RunContext& context
     }
 }
 
-/// The ways to sweep a closed skin about as likely as the likeliest that have the fewest irregular nodes; of
-/// those the ones with the most even cells come first.
+/// The ways to sweep a closed skin about as likely as the likeliest: those with the fewest irregular nodes
+/// first, and of these the ones with the most even cells.
 std::vector<RoleCandidate> best_sweeps(const Model& skin, const RunContext& context)
 {
     std::vector<RoleCandidate> all = role_candidates(skin, all_faces(skin), {}, context);
@@ -231,9 +223,9 @@ std::vector<RoleCandidate> best_sweeps(const Model& skin, const RunContext& cont
         const bool several = way.roles.source.size() + way.roles.target.size() > 2;
         return several && !can_be_cut(skin, way.roles, context);
     });
-    long fewest = std::numeric_limits<long>::max();
-    for (const RoleCandidate& way : all) fewest = std::min(fewest, way.irregular);
-    std::erase_if(all, [&](const RoleCandidate& way) { return way.irregular > fewest; });
+    std::stable_sort(all.begin(), all.end(), [](const RoleCandidate& a, const RoleCandidate& b) {
+        return a.irregular < b.irregular;
+    });
     return all;
 }
 
@@ -302,6 +294,15 @@ void take_open(const Model& model, RoleCandidate roles, Reading& reading, const 
     reading.roles = std::move(roles);
 }
 
+/// Give the faces of a sealed volume the roles of one way to sweep it.
+void set_ends(OpenVolume& volume, const Roles& roles)
+{
+    std::fill(volume.role.begin(), volume.role.end(), Role::wall);
+    for (const FaceId f : roles.source) volume.role[f.index()] = Role::source;
+    for (const FaceId f : roles.target) volume.role[f.index()] = Role::target;
+    volume.turned_round = false;
+}
+
 /// Whether a reading of the given faces has these ends, whichever is the source.
 bool has_ends(const RoleCandidate& way, const Ends& ends)
 {
@@ -322,14 +323,32 @@ std::size_t openness(const Ends& ends, const std::vector<RoleCandidate>& ways)
     return same->value == VolumeClass::V ? 0 : same->value == VolumeClass::IV ? 1 : 2;
 }
 
+/// Take the best of the ways to sweep a void out of the rest, which come first as they are the better.
+RoleCandidate take_best(std::vector<RoleCandidate>& sweeps,
+                        const std::function<Ends(const RoleCandidate&)>& ends_of,
+                        const std::vector<RoleCandidate>& ways)
+{
+    const auto end = std::find_if(sweeps.begin(), sweeps.end(), [&](const RoleCandidate& way) {
+        return way.irregular > sweeps.front().irregular;
+    });
+    const auto best = std::min_element(sweeps.begin(), end,
+                                       [&](const RoleCandidate& a, const RoleCandidate& b) {
+                                           return openness(ends_of(a), ways) < openness(ends_of(b), ways);
+                                       });
+    RoleCandidate taken = std::move(*best);
+    sweeps.erase(best);
+    if (sweeps.size() > kMostOthers) sweeps.resize(kMostOthers);
+    return taken;
+}
+
 /// A void, to be swept the best way. Nothing where a likelier void is what these ends enclose.
 std::optional<Reading> read(const Model& model, const std::vector<Void>& likelier, Void& found,
                             const RunContext& context)
 {
     Reading reading;
     reading.enclosed = found.sealed.enclosed;
-    reading.ways = found.ways.size();
-    const RoleCandidate& first = found.ways.front();
+    reading.ways = std::max<std::size_t>(1, found.ways.size());
+    const RoleCandidate& first = found.first;
     std::vector<FaceId> as_named = first.roles.source; // in the order open_volume() takes them
     as_named.insert(as_named.end(), first.roles.target.begin(), first.roles.target.end());
     as_named.insert(as_named.end(), first.roles.walls.begin(), first.roles.walls.end());
@@ -344,50 +363,81 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
     const auto ends_of = [&](const RoleCandidate& way) {
         return Ends{given_part(way.roles.source, as_named), given_part(way.roles.target, as_named)};
     };
-    const auto best = std::min_element(
-        sweeps.begin(), sweeps.end(), [&](const RoleCandidate& a, const RoleCandidate& b) {
-            return openness(ends_of(a), found.ways) < openness(ends_of(b), found.ways);
-        });
-    auto [source, target] = ends_of(*best);
+    RoleCandidate best = take_best(sweeps, ends_of, found.ways);
+    auto [source, target] = ends_of(best);
     if (source.faces.empty() && !target.faces.empty()) {
         std::swap(source, target);
-        std::swap(best->roles.source, best->roles.target);
+        std::swap(best.roles.source, best.roles.target);
     }
     const auto is_same = [&](const RoleCandidate& way) { return has_ends(way, {source, target}); };
     for (const Void* other = likelier.data(); other != &found; ++other) {
         if (std::any_of(other->ways.begin(), other->ways.end(), is_same)) return std::nullopt;
     }
     const auto same = std::find_if(found.ways.begin(), found.ways.end(), is_same);
-    const long irregular = best->irregular;
+    const long irregular = best.irregular;
+    if (!sweeps.empty())
+        reading.others = std::make_shared<const OtherSweeps>(
+            OtherSweeps{found.sealed.volume, found.sealed.closure, std::move(sweeps)});
     if (same != found.ways.end()) {
-        const bool as_sealed = same == found.ways.begin();
+        const bool as_sealed = same == found.ways.begin() && !found.sealed.closure.void_faces.empty();
         take_open(model, *same, reading, context);
         if (as_sealed) reading.sealed = std::move(found.sealed);
         reading.roles.irregular = irregular;
     } else if (found.sealed.closure.void_faces.empty()) {
-        for (std::vector<FaceId>* list : {&best->roles.source, &best->roles.target, &best->roles.walls})
+        for (std::vector<FaceId>* list : {&best.roles.source, &best.roles.target, &best.roles.walls})
             *list = given_part(*list, as_named).faces;
-        take_open(model, std::move(*best), reading, context);
+        take_open(model, std::move(best), reading, context);
     } else {
         reading.volume = std::move(found.sealed.volume);
         reading.closure = std::move(found.sealed.closure);
-        std::fill(reading.volume.role.begin(), reading.volume.role.end(), Role::wall);
-        for (const FaceId f : best->roles.source) reading.volume.role[f.index()] = Role::source;
-        for (const FaceId f : best->roles.target) reading.volume.role[f.index()] = Role::target;
-        reading.volume.turned_round = false;
-        reading.roles = std::move(*best);
+        set_ends(reading.volume, best.roles);
+        reading.roles = std::move(best);
         reading.roles.roles = {source.faces, target.faces,
                                given_part(reading.roles.roles.walls, as_named).faces};
         reading.classification = class_as_given(model, reading.roles.roles);
         reading.roles.value = reading.classification.value;
-        reading.roles.reasons.push_back("sealed as " + in_words(model, first.roles, first.value) +
-                                        ", and swept between faces that closing made");
+        const std::string how = found.ways.empty() ? "sealed by flat faces within its free loops"
+                                                   : "sealed as " + in_words(model, first.roles, first.value);
+        reading.roles.reasons.push_back(how + ", and swept between faces that closing made");
     }
     if (reading.ways > 1) reading.roles.reasons.push_back(ways_in_words(reading));
     return reading;
 }
 
+/// The void that flat faces close, where these are not one for each free loop.
+std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& faces, const RunContext& context)
+{
+    auto filled = fill_flat_loops(model, faces, context);
+    if (!filled) return std::nullopt;
+    const std::vector<RoleCandidate> sweeps = best_sweeps(filled->volume.model, context);
+    if (sweeps.empty()) return std::nullopt;
+    Void found;
+    found.first.roles.walls = faces;
+    const auto likeliest = std::ranges::min_element(sweeps, {}, &RoleCandidate::cost);
+    found.cost = kFilled + likeliest->cost;
+    found.sealed.volume = std::move(filled->volume);
+    found.sealed.closure = std::move(filled->closure);
+    found.sealed.enclosed = enclosed_volume(found.sealed.volume);
+    return found;
+}
+
+/// Add a void unless it is one of those known; only those about as likely as the likeliest stay.
+void add_void(std::vector<Void>& found, Void more)
+{
+    const bool known = std::any_of(found.begin(), found.end(),
+                                   [&](const Void& v) { return enclose_the_same(v.sealed, more.sealed); });
+    if (!known) found.push_back(std::move(more));
+    keep_likely(found);
+}
+
 } // namespace
+
+OpenVolume other_sweep(const OtherSweeps& others, std::size_t k)
+{
+    OpenVolume volume = others.volume;
+    set_ends(volume, others.ways[k].roles);
+    return volume;
+}
 
 std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
@@ -407,6 +457,7 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
         });
         found = voids(model, {seals, end}, context);
     }
+    if (auto filled = fill_flat(model, faces, context)) add_void(found, std::move(*filled));
     std::vector<Reading> readings;
     for (Void& now : found) {
         if (auto reading = read(model, found, now, context)) readings.push_back(std::move(*reading));

@@ -6,6 +6,7 @@
 #include <lacuna/topology/auto_roles.h>
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,13 @@ struct SealedVolume {
     Closure closure;
 };
 
+/// A void, sealed, and the ways to sweep it besides the one a reading takes, the best first.
+struct OtherSweeps {
+    topology::OpenVolume volume;
+    Closure closure;
+    std::vector<topology::RoleCandidate> ways; ///< in faces of `volume`
+};
+
 /// A void that some faces can be read as, ready to be swept the best way.
 struct Reading {
     topology::RoleCandidate roles; ///< in faces of the model
@@ -30,7 +38,12 @@ struct Reading {
     std::optional<SealedVolume> sealed;
     double enclosed = 0;  ///< [model length³]
     std::size_t ways = 1; ///< how many readings of the faces enclose it
+    /// Null where there is no other way, and where the ends were given as such.
+    std::shared_ptr<const OtherSweeps> others;
 };
+
+/// The sealed volume with the roles of its k-th other way. @pre k < others.ways.size()
+topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 
 /// The voids that some faces of `model` can be read as without being told roles, the likeliest first; all are
 /// about as likely.
@@ -40,7 +53,11 @@ struct Reading {
 /// than a small share of its size from the other's: given faces are the same in both. A void is then read
 /// anew, as the closed skin it is, and swept the best way: of those about as likely as the likeliest the one
 /// with the fewest irregular nodes to expect, and of these the one with the most even cells. That way is kept
-/// open where a reading of the given faces says the same.
+/// open where a reading of the given faces says the same. The next three are kept as well, for who finds that
+/// the first cannot be meshed.
+///
+/// Free loops that flat faces close, though not one each (one has a hole, or a loop lies in two planes), are
+/// one more void.
 /// @return  empty where no reading passes.
 /// @throw InvalidInput  faces that cannot be oriented. Cancelled.
 /// @note  O(facets log facets) for each reading that is sealed; no more than 24 are. Readings that only fill

@@ -54,7 +54,8 @@ public:
           style_(style),
           wedges_(wedges),
           per_turn_(sizing.curvature > 0 ? sizing.curvature : kFewestPerTurn),
-          gap_(sizing.gap)
+          gap_(sizing.gap),
+          counts_across_(sizing.counts_across)
     {
         for (const LinkingSurface& link : links) add_rim(link);
         for (const FaceId face : volume.faces(Role::source)) {
@@ -226,7 +227,7 @@ private:
         const double own = turning.between(piece.from * turning.length(), piece.to * turning.length());
         const double opposite = std::accumulate(piece.opposite.begin(), piece.opposite.end(), 0.0);
         const double more = opposite > own ? (opposite - own) / opposite : 0;
-        double by_turn = 0, sides = 0;
+        double by_turn = 0, by_size = 0, sides = 0;
         double least = std::numeric_limits<double>::infinity(), most = 0;
         piece.wanted = {0};
         const std::vector<Vec3> points = edge_points(model_, edge, at);
@@ -238,6 +239,7 @@ private:
             const double bend = turn * per_turn_ / (2 * std::numbers::pi);
             const double here = std::max(size, bend);
             by_turn += bend;
+            by_size += size;
             sides += here;
             piece.wanted.push_back(sides);
             least = std::min(least, here);
@@ -254,6 +256,7 @@ private:
         }
         const auto bends = static_cast<int>(std::ceil(by_turn - kPartOfSide));
         piece.count = std::max({1, static_cast<int>(std::lround(sides)), bends});
+        piece.bends = piece.count > std::max(1L, std::lround(by_size));
     }
 
     /// Nodes on an edge at the heights of rows that end at one of its ends.
@@ -418,7 +421,7 @@ private:
         if (style_ == QuadStyle::free || seeds_.kept.contains(face)) return;
         const auto corners = four_corners(model_, face);
         // How many columns of a submapped face pass a neck is what other sides leave over.
-        if (!corners && gap_ > 0 && style_ == QuadStyle::automatic) return;
+        if (!corners && gap_ > 0 && !counts_across_ && style_ == QuadStyle::automatic) return;
         const std::vector<SidePair> opposite = corners ? side_pairs(model_, face, *corners)
                                                        : grid_sides(model_, face);
         if (style_ == QuadStyle::mapped && opposite.empty()) {
@@ -432,10 +435,15 @@ private:
             (style_ == QuadStyle::automatic && !(alike(model_, opposite) && counts_alike(opposite))))
             return;
         opposite_[face] = opposite;
-        if (corners)
-            seeds_.corners[face] = *corners;
-        else
+        if (!corners) {
             seeds_.submapped.insert(face);
+            return;
+        }
+        seeds_.corners[face] = *corners;
+        if (!counts_across_) return;
+        for (const SidePair& sides : opposite) {
+            for (const std::vector<EdgeId>& side : sides) raise(side, gap_ - total(side));
+        }
     }
 
     /// Whether the size asks for about as many sides of quads on either side of the face. Where it does not,
@@ -692,6 +700,7 @@ private:
     bool wedges_;
     int per_turn_; ///< sides for a full turn
     int gap_;      ///< quads across a narrow place
+    bool counts_across_;
     Seeds seeds_;
     std::map<FaceId, std::vector<SidePair>> opposite_; ///< of mapped and submapped faces
     std::set<EdgeId> rim_;
@@ -754,19 +763,6 @@ Seeds seed_source(const OpenVolume& volume, std::span<const LinkingSurface> link
                   bool wedges, const EdgeDemands& demands)
 {
     return Seeder(volume, links, size, style, sizing, lengths, wedges, demands).run();
-}
-
-double rim_spacing(const OpenVolume& volume)
-{
-    double length = 0;
-    std::size_t sides = 0;
-    for (const Rim& rim : rims(volume.model, volume.faces(Role::source))) {
-        for (const EdgeUse& use : rim.uses) {
-            length += edge_length(volume.model, use.edge);
-            sides += volume.model[use.edge].points.size() - 1;
-        }
-    }
-    return sides > 0 ? length / static_cast<double>(sides) : volume.model.diagonal / 20;
 }
 
 } // namespace lacuna::surface

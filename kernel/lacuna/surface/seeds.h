@@ -36,6 +36,7 @@ struct SeedPiece {
     std::vector<double> kept{}; ///< nodes inside that were given, as fractions of the edge; with `fixed`
     bool fixed = false;         ///< the nodes of a given mesh, or asked for: none more, none less
     bool asked = false;         ///< with `fixed`: by a person
+    bool bends = false;         ///< its bends asked for more sides than the size
     /// Nodes near the start and the end on which rows of boundary layers end, as fractions of the edge.
     std::vector<double> low{}, high{};
 
@@ -88,8 +89,9 @@ struct Seeds {
 /// follow. Opposite sides of mapped faces are raised to the larger count, a face at a time until nothing
 /// changes; then each free face with an odd total gets one more side on a rim edge of its own, or on an edge
 /// towards one; a mapped face between passes it on.
-/// @param sizing  sides for a full turn; with a gap no face is submapped that need not be. The rest of it is
-///                in the size already.
+/// @param sizing  sides for a full turn; with a gap no face is submapped that need not be, unless
+///                `counts_across` is set: then the sides of mapped faces get the gap's quads at least. The
+///                rest of it is in the size already.
 /// @param lengths  of what an edge is swept to, where that is known [model length]: one that is longer there
 ///                 gets the sides it needs there.
 /// @param wedges   triangles are a mesh as quads are, and a rim of an odd number of given sides stays.
@@ -107,8 +109,5 @@ Seeds seed_source(const topology::OpenVolume& volume, std::span<const LinkingSur
                   const SizeField& size, QuadStyle style, const ShapeSizing& sizing = {},
                   const std::map<EdgeId, double>& lengths = {}, bool wedges = false,
                   const EdgeDemands& demands = {});
-
-/// Mean length of the facets' sides on the source's rim: the size where none is asked for [model length].
-double rim_spacing(const topology::OpenVolume& volume);
 
 } // namespace lacuna::surface

@@ -5,6 +5,7 @@
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/surface/detail/edge_turning.h>
+#include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/detail/graded_points.h>
 #include <lacuna/surface/edge_nodes.h>
 
@@ -52,9 +53,15 @@ Vec3 area_vector(const Model& model, const Triangle& t)
     return (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])) / 2;
 }
 
+/// Keep the cause of the smaller size.
+void take_least(std::optional<SizeCause>& least, const SizeCause& cause)
+{
+    if (!least || cause.size < least->size) least = cause;
+}
+
 /// What the curvature of a face asks for, at the points of its facets.
 void add_curvature(const Model& model, FaceId face, const SizeField& asked, int per_turn,
-                   std::vector<PointSize>& sizes)
+                   std::vector<PointSize>& sizes, std::optional<SizeCause>& cause)
 {
     const Face& f = model[face];
     if (f.kind == "plane") return;
@@ -119,7 +126,9 @@ void add_curvature(const Model& model, FaceId face, const SizeField& asked, int 
         double size = 2 * std::numbers::pi / (curvature * per_turn);
         if (f.surface == nullptr) size = std::max(size, around.shortest / 2);
         size = std::max(size, kLeastShare * asked(model.at(point)));
-        if (size < asked(model.at(point))) sizes.push_back({model.at(point), size});
+        if (!(size < asked(model.at(point)))) continue;
+        sizes.push_back({model.at(point), size});
+        take_least(cause, {size, face, {}, {}, 0});
     }
 }
 
@@ -141,8 +150,9 @@ struct RimPiece {
 /// The boundary of a face as pieces in a tree, and what its width asks for.
 class Width {
 public:
-    Width(const Model& model, FaceId face) : model_(model)
+    Width(const Model& model, FaceId face) : model_(model), face_(face)
     {
+        double rim = 0;
         std::map<EdgeId, int> uses;
         for (const Loop& loop : model[face].loops) {
             for (const EdgeUse& use : loop.uses) ++uses[use.edge];
@@ -161,21 +171,30 @@ public:
                 pieces_.push_back({edge, line[i], arc[i], arc.back()});
             }
             edges_.push_back(edge);
+            rim += arc.back();
         }
+        if (rim > 0) mean_width_ = 2 * face_area(model, face) / rim;
         tree_ = geometry::FacetTree(points, triangles);
         for (const Triangle& t : model[face].triangles) {
             for (std::size_t k = 0; k < 3; ++k) opposite_[edge_key(t[k], t[(k + 1) % 3])] = t[(k + 2) % 3];
         }
     }
 
-    void add(const SizeField& asked, const ShapeSizing& sizing, std::vector<PointSize>& sizes) const
+    void add(const SizeField& asked, const ShapeSizing& sizing, std::vector<PointSize>& sizes,
+             std::optional<SizeCause>& cause) const
     {
-        for (const EdgeId edge : edges_) add(edge, asked, sizing, sizes);
+        for (const EdgeId edge : edges_) add(edge, asked, sizing, sizes, cause);
     }
 
 private:
-    void add(EdgeId edge, const SizeField& asked, const ShapeSizing& sizing,
-             std::vector<PointSize>& sizes) const
+    /// The boundary that faces a place.
+    struct Opposite {
+        EdgeId edge;
+        double width = 0;
+    };
+
+    void add(EdgeId edge, const SizeField& asked, const ShapeSizing& sizing, std::vector<PointSize>& sizes,
+             std::optional<SizeCause>& cause) const
     {
         const std::vector<Index>& chain = model_[edge].points;
         const EdgeTurning turning(model_, edge);
@@ -199,17 +218,23 @@ private:
                 // Sides along the edge are no longer than this for its curvature alone.
                 const double bend = at.curvature * sizing.curvature / (2 * std::numbers::pi);
                 const double most = 1 / std::max(1 / asked(at.point), bend);
-                const auto width = width_at(edge, start + (from + to) / 2, at, reach(at, most, sizing.gap));
-                if (!width) continue;
+                const auto facing = opposite(edge, start + (from + to) / 2, at, reach(at, most, sizing.gap));
+                if (!facing) continue;
+                const double width = facing->width;
+                const auto because = [&](double size) {
+                    take_least(cause, {size, face_, edge, facing->edge, width});
+                };
                 if (at.curvature > 0) {
-                    const double size = std::sqrt(8 * kSagOfWidth * *width / at.curvature);
+                    const double size = std::sqrt(8 * kSagOfWidth * width / at.curvature);
                     if (size < most) sizes.push_back({at.point, size});
+                    if (size < most) because(size);
                 }
-                const double share = sizing.gap > 0 ? *width / sizing.gap : most;
+                const double share = sizing.gap > 0 ? width / sizing.gap : most;
                 if (share >= most) continue;
                 // Half way across as well, so that quads do not grow from rim to rim.
                 sizes.push_back({at.point, share});
-                sizes.push_back({at.point + *width / 2 * at.inward, share});
+                sizes.push_back({at.point + width / 2 * at.inward, share});
+                because(share);
             }
             start += length;
         }
@@ -221,9 +246,9 @@ private:
         return std::max(gap * most, at.curvature * most * most / (8 * kSagOfWidth));
     }
 
-    /// How far away the boundary faces this place, if not beyond `reach`.
-    [[nodiscard]] std::optional<double> width_at(EdgeId edge, double s, const RimPoint& at,
-                                                 double reach) const
+    /// The boundary that faces this place, if it is not beyond `reach`.
+    [[nodiscard]] std::optional<Opposite> opposite(EdgeId edge, double s, const RimPoint& at,
+                                                   double reach) const
     {
         if (!(reach > 0)) return std::nullopt;
         constexpr int kSteps = 30;      // of shrinking; a few are usual
@@ -246,7 +271,18 @@ private:
         const double width = (met - at.point).norm();
         if (!(width > model_.tolerance) || (met - at.point).dot(at.inward) < kFacing * width)
             return std::nullopt;
-        return across(edge, s, pieces_[*piece], met, width) ? std::optional(width) : std::nullopt;
+        const EdgeId other = pieces_[*piece].edge;
+        if (enclose_face(edge, other)) return Opposite{other, std::max(width, mean_width_)};
+        if (!across(edge, s, pieces_[*piece], met, width)) return std::nullopt;
+        return Opposite{other, width};
+    }
+
+    /// Whether two edges share both corners.
+    [[nodiscard]] bool enclose_face(EdgeId edge, EdgeId other) const
+    {
+        const Edge &a = model_[edge], &b = model_[other];
+        return edge != other && a.from != a.to &&
+               ((a.from == b.from && a.to == b.to) || (a.from == b.to && a.to == b.from));
     }
 
     /// Whether two places are on different sides of the face, and not beside the same corner or bend.
@@ -261,25 +297,38 @@ private:
     }
 
     const Model& model_;
+    FaceId face_;
+    double mean_width_ = 0;
     geometry::FacetTree tree_;
     std::vector<RimPiece> pieces_; ///< of each triangle in the tree
     std::vector<EdgeId> edges_;
     std::unordered_map<std::uint64_t, Index> opposite_; ///< corner of the facet at a side
 };
 
+/// Whether a face is one that mapping fills.
+bool is_mapped(const Model& model, FaceId face)
+{
+    const auto corners = four_corners(model, face);
+    return corners && alike(model, side_pairs(model, face, *corners));
+}
+
 } // namespace
 
-SizeField shape_size(const OpenVolume& volume, const SizeField& asked, const ShapeSizing& sizing)
+ShapeSize shape_size(const OpenVolume& volume, const SizeField& asked, const ShapeSizing& sizing)
 {
+    ShapeSize result{asked, {}, {}};
     std::vector<PointSize> sizes;
     for (const FaceId face : volume.faces(Role::source)) {
-        if (sizing.curvature > 0) add_curvature(volume.model, face, asked, sizing.curvature, sizes);
-        Width(volume.model, face).add(asked, sizing, sizes);
+        if (sizing.curvature > 0)
+            add_curvature(volume.model, face, asked, sizing.curvature, sizes, result.curvature);
+        ShapeSizing own = sizing;
+        if (sizing.counts_across && is_mapped(volume.model, face)) own.gap = 0;
+        Width(volume.model, face).add(asked, own, sizes, result.width);
     }
-    if (sizes.empty()) return asked;
-    return [asked, points = std::make_shared<const GradedPoints>(std::move(sizes), kGrading)](const Vec3& p) {
-        return points->at(p, asked(p));
-    };
+    if (sizes.empty()) return result;
+    result.at = [asked, points = std::make_shared<const GradedPoints>(std::move(sizes), kGrading)](
+                    const Vec3& p) { return points->at(p, asked(p)); };
+    return result;
 }
 
 } // namespace lacuna::surface

@@ -2,6 +2,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/union_find.h>
+#include <lacuna/surface/default_size.h>
 #include <lacuna/surface/linking_surface.h>
 #include <lacuna/surface/seeds.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
@@ -246,7 +247,7 @@ private:
     {
         if (members_[m].options.size) return members_[m].options.size(p);
         if (spacing_.empty()) spacing_.assign(members_.size(), 0);
-        if (spacing_[m] == 0) spacing_[m] = surface::rim_spacing(*members_[m].volume);
+        if (spacing_[m] == 0) spacing_[m] = surface::default_size(*members_[m].volume).length;
         return spacing_[m];
     }
 

@@ -23,6 +23,7 @@
 #include <lacuna/sweep/detail/placed_layers.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
+#include <lacuna/sweep/detail/size_words.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/sweep/layers.h>
@@ -61,7 +62,8 @@ surface::QuadStyle style_of(const SweepOptions& options, bool rows_along_walls)
 }
 
 /// What fills the source faces that are not mapped: the kernel's paver, or the mesher handed in.
-quads::PlanarQuadMesher mesher_of(const SweepOptions& options)
+/// @param narrow  quads are asked for across places that may be narrow.
+quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow)
 {
     if (options.quads == Quads::gmsh) return options.quad_mesher;
     if (options.quads == Quads::mapped) {
@@ -79,16 +81,16 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options)
         };
     }
     // A grid has as many quads across a neck as its rim leaves over.
-    const bool grids = options.quads != Quads::paved && options.gap == 0;
+    const bool grids = options.quads != Quads::paved && !narrow;
     return [rows = options.rows, grids](const quads::PlanarRegion& region, const RunContext& context) {
         return quads::pave(region, {.exact_rows = rows, .grids = grids}, context).mesh;
     };
 }
 
 /// The same for regions that may have an odd number of sides.
-quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options)
+quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow)
 {
-    quads::PlanarQuadMesher mesher = mesher_of(options);
+    quads::PlanarQuadMesher mesher = mesher_of(options, narrow);
     if (!options.wedges || !mesher) return mesher;
     return [mesher = std::move(mesher)](const quads::PlanarRegion& region, const RunContext& context) {
         return quads::fill_odd_region(region, mesher, context);
@@ -137,16 +139,29 @@ void check_amount(const OpenVolume& volume, const surface::SizeField& size, cons
             " hexahedra, more than can be numbered; ask for a larger 'size' or fewer 'layers'");
 }
 
-/// The size asked for, or the rim's own spacing; smaller where the shape needs it.
-surface::SizeField source_size(const OpenVolume& volume, const SweepOptions& options)
+/// The size asked for, or the default; smaller where the shape needs it.
+SourceSize source_size(const OpenVolume& volume, const SweepOptions& options)
 {
-    surface::SizeField asked;
-    if (options.size)
-        asked = checked(options.size, "size");
-    else
-        asked = [spacing = surface::rim_spacing(volume)](const Vec3&) { return spacing; };
-    check_amount(volume, asked, options.layers);
-    return surface::shape_size(volume, asked, {options.curvature, options.gap});
+    SourceSize size;
+    if (options.size) {
+        size.asked = checked(options.size, "size");
+    } else {
+        size.by_default = surface::default_size(volume);
+        size.asked = [length = size.by_default->length](const Vec3&) { return length; };
+    }
+    check_amount(volume, size.asked, options.layers);
+    const bool maps = options.quads == Quads::automatic || options.quads == Quads::mapped;
+    size.sizing = {options.curvature, options.gap};
+    if (size.by_default && options.gap == 0) size.sizing = {options.curvature, kDefaultGap, maps};
+    size.shape = surface::shape_size(volume, size.asked, size.sizing);
+    const bool narrow_by_default = size.shape.width && options.gap == 0 && size.sizing.gap > 0;
+    size.narrow = narrow_by_default || options.gap > 0;
+    size.along = size.shape.at;
+    if (narrow_by_default) {
+        size.along = surface::shape_size(volume, size.asked, {options.curvature, 0}).at;
+        size.sizing.counts_across = false;
+    }
+    return size;
 }
 
 /// The size, and the height of rows where they are asked for.
@@ -374,9 +389,10 @@ const OpenVolume& shape_of(const OpenVolume& volume, const SweepOptions& options
 /// Seeds, quads, walls, target, layers and proof between the rims of linking surfaces that say what goes with
 /// what.
 ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::LinkingSurface> given_links,
-                          const std::vector<double>& asked, const surface::SizeField& size,
+                          const std::vector<double>& asked, const SourceSize& sizes,
                           const SweepOptions& options, Outline outline, const RunContext& context)
 {
+    const surface::SizeField& size = sizes.shape.at;
     Swept result;
     std::optional<surface::Imprint> imprint = imprint_of(volume, given_links, size, options.wedges);
     const OpenVolume& split = imprint ? *imprint->volume : volume;
@@ -384,24 +400,30 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     GivenMeshes given = given_meshes(split, links, asked, size, options);
     const int least_layers = surface::set_wall_breaks(split, size, links);
     const surface::LayerTables tables = surface::layer_tables(volume, options.boundary_layers);
-    const std::vector<double> heights = plan_heights(split, links, tables, given.heights, size, options,
-                                                     least_layers);
+    const bool by_rows = !given.heights.empty();
+    const std::vector<double> heights = plan_heights(
+        split, links, tables, given.heights, sizes.along, options,
+        options.size ? least_layers : std::max(least_layers, kDefaultGap));
     surface::EdgeDemands demands{surface::rim_rows(split, links, tables),
                                  surface::find_intervals(split, links, options.intervals).sides};
     refuse_kept_source(split, demands.rows, options);
     for (std::string& note : given.notes) result.report.push_back("given: " + note);
     report_progress(context, "quads of the source");
     const surface::Seeds seeds = surface::seed_source(
-        split, links, size, style_of(options, !demands.rows.empty()), {options.curvature, options.gap},
+        split, links, size, style_of(options, !demands.rows.empty()), sizes.sizing,
         imprint ? surface::image_lengths(*imprint) : std::map<EdgeId, double>{}, options.wedges, demands);
     for (const std::string& note : seeds.notes) result.report.push_back("given: " + note);
+    for (std::string& line : sizes_in_words(volume, split, sizes, seeds, options,
+                                            {static_cast<int>(heights.size()) - 1, by_rows}))
+        result.report.push_back(std::move(line));
     surface::SourceMesh source = surface::mesh_source(split, links, seeds, size_fields(size, options),
-                                                      mesher_for_all(options), context);
+                                                      mesher_for_all(options, sizes.narrow), context);
     report_progress(context, "walls");
     std::vector<surface::WallMesh> walls;
     RimColumns columns = columns_of(split, links, given.columns, source, heights, walls, context);
     if (outline == Outline::mean && !options.wedges)
-        source = laid_between(split, std::move(source), columns, size, mesher_of(options), context);
+        source = laid_between(split, std::move(source), columns, size, mesher_of(options, sizes.narrow),
+                              context);
     for (std::string& note : source.notes) result.report.push_back("source " + note);
     for (const surface::WallMesh& wall : walls) {
         for (const std::string& note : wall.notes) result.report.push_back("walls: " + note);
@@ -502,7 +524,7 @@ bool can_turn_together(const std::vector<surface::LinkingSurface>& links)
 /// Each loop turned by its own walls; where that makes poor cells, all turned as one body if that makes
 /// better ones.
 ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
-                           const std::vector<double>& heights, const surface::SizeField& size,
+                           const std::vector<double>& heights, const SourceSize& size,
                            const SweepOptions& options, Outline outline, const RunContext& context)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -537,8 +559,8 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
 }
 
 /// From source to target, by the linking surfaces that the walls are.
-ProvedSweep sweep_one_way(const OpenVolume& volume, const surface::SizeField& size,
-                          const SweepOptions& options, Outline outline, const RunContext& context)
+ProvedSweep sweep_one_way(const OpenVolume& volume, const SourceSize& size, const SweepOptions& options,
+                          Outline outline, const RunContext& context)
 {
     const bool counted = options.layers.count > 0 || !options.layers.heights.empty();
     std::vector<double> heights = counted ? layer_heights(options.layers) : std::vector<double>{};

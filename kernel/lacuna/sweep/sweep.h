@@ -74,14 +74,19 @@ enum class Fallback {
     leave_out ///< the other volumes of an assembly are meshed without it; alone it is an error
 };
 
+/// Quads asked for across a narrow place of the source, and least layers, where neither a size nor these are
+/// asked for. Paving takes a size for what it is in the mean: for three there are two and more across, by two
+/// half of the places tried had one (rings and channels 0.02 to 1 wide).
+inline constexpr int kDefaultGap = 3;
+
 struct SweepOptions {
     LayerSpec layers;
-    surface::SizeField size; ///< null: from the rim's own spacing
+    surface::SizeField size; ///< null: `surface::default_size()`, and less as `kDefaultGap` says
     int curvature = 12;      ///< sides for a full turn where `size` is coarser, >= 0; 0: the size alone
     /// Where straight sides on bends leave the mesh's volume further off the sealed one than this share,
     /// bends get more sides, as far as that helps [0, 1); 0: never.
     double volume_share = 0.02;
-    int gap = 0; ///< quads at least across a narrow place of the source, >= 0; 0: none
+    int gap = 0; ///< quads at least across a narrow place of the source, >= 0; 0: none, without a size 3
     /// How far the skin may be from the sealed skin, >= 0 [model length]; 0: what `FidelityOptions` says.
     double max_deviation = 0;
     Quads quads = Quads::automatic;

@@ -39,10 +39,15 @@ constexpr double kOneWay = 2e-4;
 /// Walls of a volume with steps lean less than this on average: they are cut straight along the sweep. A
 /// choice, not a measurement.
 constexpr double kStraight = 0.02;
+/// Of twice as many steps. A choice: of ends alike the fewest are likeliest, and a plate may have a hundred.
+constexpr double kStep = 0.01;
+/// Of steps at both ends. A choice: a sweep that starts at one flat face falls into fewer pieces.
+constexpr double kBothSteps = 0.05;
 /// As many faces of each role are listed: what a person reads in a message.
 constexpr std::size_t kMostFaces = 12;
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+constexpr std::size_t kGap = kNone - 1; ///< instead of the target's rim: walls lead to a free loop
 
 EdgeUse opposite(EdgeUse use) { return {use.edge, !use.reversed}; }
 
@@ -52,7 +57,12 @@ std::size_t number_of(EdgeUse use) { return 2 * use.edge.index() + (use.reversed
 struct Reading {
     std::size_t source = kNone, target = kNone;
     double cost = 0;
-    std::size_t step = kNone; ///< of the readings whose target is several patches, their number
+    std::size_t step = kNone; ///< of the readings whose ends are several patches, their number
+};
+
+/// The patches of ends that lie at several heights.
+struct SteppedEnds {
+    std::vector<std::size_t> source, target;
 };
 
 /// The walls of one reading that hang together.
@@ -119,20 +129,28 @@ public:
         const std::vector<WallPart> parts = wall_parts(reading);
         const SmoothPatch& source = patches_[reading.source];
         std::vector<std::size_t> served(source.rims.size(), kNone);
+        std::size_t before_gap = 0, behind_gap = 0;
         for (const WallPart& part : parts) {
-            if (part.several || part.source_rim == kNone) return false;
-            std::size_t& now = served[part.source_rim];
-            if (reading.target == kNone) {
-                if (now != kNone || part.rims != 2 || part.euler != 0) return false;
-                now = 0;
+            if (part.several || (part.source_rim == kNone && part.target_rim == kNone)) return false;
+            if (part.source_rim == kNone || part.target_rim == kNone) {
+                // A ring that leads to a free loop: to the missing end, or to a missing ring of the walls.
+                if (part.rims != 2 || part.euler != 0) return false;
+                if (part.source_rim == kNone) {
+                    ++behind_gap;
+                    continue;
+                }
+                if (served[part.source_rim] != kNone) return false;
+                served[part.source_rim] = kGap;
+                ++before_gap;
                 continue;
             }
             // Walls with a tunnel through them are no ring, whatever is done about what is missing.
-            if (part.euler != 2 - static_cast<long>(part.rims) || part.target_rim == kNone) return false;
+            if (part.euler != 2 - static_cast<long>(part.rims)) return false;
+            std::size_t& now = served[part.source_rim];
             if (now != kNone && now != part.target_rim) return false;
             now = part.target_rim;
         }
-        return true;
+        return reading.target == kNone || before_gap == behind_gap;
     }
 
     /// A reading in full. @pre holds()
@@ -142,7 +160,7 @@ public:
         result.cost = reading.cost;
         if (reading.source != kNone) result.irregular = irregular(reading);
         for (std::size_t p = 0; p < patches_.size(); ++p) {
-            std::vector<FaceId>& list = p == reading.source     ? result.roles.source
+            std::vector<FaceId>& list = is_source(p, reading)   ? result.roles.source
                                         : is_target(p, reading) ? result.roles.target
                                                                 : result.roles.walls;
             list.insert(list.end(), patches_[p].faces.begin(), patches_[p].faces.end());
@@ -152,13 +170,13 @@ public:
         return result;
     }
 
-    /// What walls add to the cost of a reading. Near linear in the edges of patches.
+    /// What walls and steps add to the cost of a reading. Near linear in the edges of patches.
     /// @pre holds() was asked of it last
     [[nodiscard]] double cost_of_walls(const Reading& reading)
     {
         if (reading.source == kNone) return 0;
         const std::size_t windows = reading.target == kNone || reading.step != kNone ? 0 : windows_;
-        return cost_of_facing_along(reading) + cost_of_loose_edges(reading) +
+        return cost_of_facing_along(reading) + cost_of_loose_edges(reading) + cost_of_steps(reading) +
                kLoose * static_cast<double>(windows);
     }
 
@@ -172,18 +190,26 @@ private:
                              : (patches_[reading.target].centre - source.centre).stableNormalized();
         double along = 0, area = 0;
         for (std::size_t p = 0; p < patches_.size(); ++p) {
-            if (p == reading.source || is_target(p, reading)) continue;
+            if (is_source(p, reading) || is_target(p, reading)) continue;
             along += way.dot(patches_[p].spread * way);
             area += patches_[p].area;
         }
         return area > 0 ? kAcross * along / area : 0;
     }
 
+    [[nodiscard]] double cost_of_steps(const Reading& reading) const
+    {
+        if (reading.step == kNone) return 0;
+        const SteppedEnds& ends = stepped_[reading.step];
+        const auto patches = static_cast<double>(ends.source.size() + ends.target.size());
+        return kStep * std::log2(patches - 1) + (ends.source.size() > 1 ? kBothSteps : 0);
+    }
+
     /// What sharp edges among the walls cost that do not lead from end to end.
     [[nodiscard]] double cost_of_loose_edges(const Reading& reading) const
     {
         const auto end_of = [&](std::size_t p) {
-            return p == reading.source ? 1 : is_target(p, reading) ? 2 : 0;
+            return is_source(p, reading) ? 1 : is_target(p, reading) ? 2 : 0;
         };
         geometry::UnionFind hang(model_.vertices.size());
         for (const EdgeId e : sharp_edges(reading))
@@ -198,17 +224,29 @@ private:
                 if (found != touched.end()) found->second |= end;
             }
         }
-        // Of a step the walls go from one part of the end to another.
-        const int wanted = reading.target == kNone ? 1 : reading.step != kNone ? 2 : 3;
+        // Of a step the walls go from one part of an end to another.
+        const bool steps = reading.step != kNone;
+        const int wanted = steps ? (stepped_[reading.step].source.size() > 1 ? 1 : 0) |
+                                       (stepped_[reading.step].target.size() > 1 ? 2 : 0)
+                                 : (reading.target == kNone ? 1 : 3);
         double cost = 0;
-        for (const auto& [root, ends] : touched) cost += (ends & wanted) == wanted ? 0 : kLoose;
+        for (const auto& [root, ends] : touched)
+            cost += (steps ? (ends & wanted) != 0 : (ends & wanted) == wanted) ? 0 : kLoose;
         return cost;
+    }
+
+    [[nodiscard]] bool is_source(std::size_t p, const Reading& reading) const
+    {
+        return reading.step == kNone ? p == reading.source : has(stepped_[reading.step].source, p);
     }
 
     [[nodiscard]] bool is_target(std::size_t p, const Reading& reading) const
     {
-        if (reading.step == kNone) return p == reading.target;
-        const std::vector<std::size_t>& all = stepped_[reading.step];
+        return reading.step == kNone ? p == reading.target : has(stepped_[reading.step].target, p);
+    }
+
+    static bool has(const std::vector<std::size_t>& all, std::size_t p)
+    {
         return std::find(all.begin(), all.end(), p) != all.end();
     }
 
@@ -218,7 +256,9 @@ private:
         std::vector<EdgeId> found;
         for (const EdgeId e : sharp_) {
             const std::size_t a = patch_of_use_[2 * e.index()], b = patch_of_use_[2 * e.index() + 1];
-            const auto is_wall = [&](std::size_t p) { return p != reading.source && !is_target(p, reading); };
+            const auto is_wall = [&](std::size_t p) {
+                return !is_source(p, reading) && !is_target(p, reading);
+            };
             if (is_wall(a) && is_wall(b)) found.push_back(e);
         }
         return found;
@@ -232,8 +272,8 @@ private:
         return std::abs(4 * (2 - static_cast<long>(end.rims.size())) - end.corners);
     }
 
-    /// Readings with all flat patches that face one way as the target, and the one that faces the other way
-    /// as the source.
+    /// Readings with all flat patches that face one way as the target, and all that face the other way as
+    /// the source, where these are three at least. Where one of them is alone it is the source.
     void add_stepped(std::vector<Reading>& found)
     {
         std::vector<std::size_t> flat;
@@ -255,15 +295,21 @@ private:
                 if (facing < kOneWay - 1) same.push_back(p);
                 if (std::abs(facing) > 1 - kOneWay) ends += patches_[p].area;
             }
-            if (same.size() != 1 || ahead.size() < 2) continue;
+            if (ahead.empty() || same.size() + ahead.size() < 3) continue;
+            const bool first = source == same.front() && same.front() < ahead.front();
+            if (same.size() > 1 && (ahead.size() == 1 || !first)) continue; // once an axis
             const double leaning = std::max(0.0, way.dot(whole * way) - ends) / std::max(area - ends, 1e-300);
             if (!(leaning < kStraight)) continue;
-            stepped_.push_back(ahead);
-            const std::size_t largest = *std::max_element(
-                ahead.begin(), ahead.end(),
-                [&](std::size_t a, std::size_t b) { return patches_[a].area < patches_[b].area; });
-            found.push_back({source, largest, std::sqrt(leaning), stepped_.size() - 1});
+            found.push_back({largest(same), largest(ahead), std::sqrt(leaning), stepped_.size()});
+            stepped_.push_back({same, ahead});
         }
+    }
+
+    [[nodiscard]] std::size_t largest(const std::vector<std::size_t>& all) const
+    {
+        return *std::max_element(all.begin(), all.end(), [&](std::size_t a, std::size_t b) {
+            return patches_[a].area < patches_[b].area;
+        });
     }
 
     void index_patch(std::size_t p)
@@ -511,6 +557,10 @@ private:
                     " has walls on its whole rim, and each ring of walls ends in one free "
                     "loop: the target is missing"};
         }
+        if (reading.step != kNone && roles.source.size() > 1) {
+            return {"flat faces that face one way, " + names(roles.source) + ", are one end and " +
+                    names(roles.target) + ", which face the other way, the other: both at several heights"};
+        }
         if (reading.step != kNone) {
             return {"every flat face that faces " + names(roles.source) +
                     " is the other end, at several heights: " + names(roles.target)};
@@ -529,7 +579,7 @@ private:
     std::vector<double> angle_; ///< of each edge between its faces [degrees]
     std::vector<EdgeId> sharp_; ///< edges between two patches
     std::vector<SmoothPatch> patches_;
-    std::vector<std::vector<std::size_t>> stepped_;    ///< the targets of readings with several patches there
+    std::vector<SteppedEnds> stepped_;                 ///< of readings with several patches at an end
     std::vector<std::size_t> patch_of_use_;            ///< `kNone` for a use that no face makes
     std::vector<EdgeUse> next_;                        ///< of each use in its face's loop
     std::vector<std::vector<std::size_t>> patches_at_; ///< of each vertex

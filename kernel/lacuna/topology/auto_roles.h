@@ -32,9 +32,9 @@ struct RoleOptions {
 /// Faces that meet smoothly are one patch; an end is a patch. Two ends (classes I–III, closed) need as many
 /// loops on both, no vertex in common, and walls that join one loop of each. One end (IV) needs walls on
 /// its whole rim that lead to a free loop each. No end (V) needs walls in tubes with a loop at either side.
-/// Where nothing is missing, an end may also be all flat patches that face one way, at several heights, the
-/// other being one patch. What passes is ranked by how flat the ends are, how square to the walls, how alike,
-/// how far apart, and how many sharp edges of walls do not lead from end to end.
+/// Between two ends a ring of walls may be missing too. Where nothing is, ends may be all flat patches that
+/// face one way and the other, at several heights. What passes is ranked by how flat ends are, how square to
+/// the walls, alike and far apart, and how many sharp edges of walls do not lead from end to end.
 ///
 /// The irregular nodes of a face with quads at its corners are 4 (2 − rims) less its rims' quarter turns
 /// (Gauss and Bonnet), at least.

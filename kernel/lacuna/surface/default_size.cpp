@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/default_size.h>
+
+#include <lacuna/topology/give_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// Facets of a shape ask for no more sides than this along the diagonal of the rims' box. A choice, not a
+/// measurement: a square gets 14 sides along an edge, a circle 44.
+constexpr double kMostAlong = 20;
+
+} // namespace
+
+DefaultSize default_size(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    const std::vector<Rim> all = rims(model, volume.faces(Role::source));
+    Eigen::AlignedBox3d box;
+    for (const Rim& rim : all) {
+        for (const EdgeUse& use : rim.uses) {
+            for (const Index point : model[use.edge].points) box.extend(model.at(point));
+        }
+    }
+    if (box.isEmpty()) return {model.diagonal / kMostAlong, "a twentieth of the model's diagonal"};
+    const double least = box.diagonal().norm() / kMostAlong;
+    const std::set<EdgeId> kept = kept_edges(model);
+    double length = 0, sides = 0;
+    std::size_t given = 0, finer = 0, edges = 0;
+    for (const Rim& rim : all) {
+        for (const EdgeUse& use : rim.uses) {
+            const double own = edge_length(model, use.edge);
+            double count = static_cast<double>(model[use.edge].points.size() - 1);
+            if (kept.contains(use.edge)) {
+                ++given;
+            } else if (own < count * least) {
+                count = std::max(1.0, std::ceil(own / least));
+                ++finer;
+            }
+            length += own;
+            sides += count;
+            ++edges;
+        }
+    }
+    std::string why = std::string("the mean side of the ") + (given == edges ? "mesh given" : "facets") +
+                      " on the source's rims";
+    if (finer == edges)
+        why = "a twentieth of the box of the source's rims, whose facets are finer";
+    else if (finer > 0)
+        why += ", no edge finer than a twentieth of their box";
+    return {length / sides, why};
+}
+
+} // namespace lacuna::surface

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/surface/default_size.h>
+#include <lacuna/surface/seeds.h>
+#include <lacuna/surface/shape_size.h>
+#include <lacuna/sweep/sweep.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// The sizes of a sweep's quads, and where they come from.
+struct SourceSize {
+    surface::SizeField asked;
+    std::optional<surface::DefaultSize> by_default; ///< where nobody asked
+    surface::ShapeSizing sizing;
+    surface::ShapeSize shape; ///< asked, and smaller where the shape needs it
+    surface::SizeField along; ///< of the layers: without what narrow places ask for by default
+    bool narrow = false;      ///< quads are to be across places that are, or may be, narrow
+};
+
+/// How many layers there are, and whether rows of quads on walls said so.
+struct LayersTaken {
+    int count = 0;
+    bool by_rows = false;
+};
+
+/// A line for the size that was taken by default, or for one asked for that the shape makes smaller, and a
+/// line for a number of layers that nobody asked for: what they are and what they were taken from.
+/// @param volume  whose faces `sizes` names. @param split  whose edges `seeds` names.
+std::vector<std::string> sizes_in_words(const topology::OpenVolume& volume, const topology::OpenVolume& split,
+                                        const SourceSize& sizes, const surface::Seeds& seeds,
+                                        const SweepOptions& options, const LayersTaken& layers);
+
+} // namespace lacuna::sweep

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/size_words.h>
+
+#include <lacuna/sweep/detail/words.h>
+
+#include <cmath>
+#include <limits>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+/// The face on the other side of an edge.
+std::string beyond(const Model& model, EdgeId edge, FaceId face)
+{
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        if (FaceId(f) == face) continue;
+        for (const Loop& loop : model.faces[f].loops) {
+            for (const EdgeUse& use : loop.uses) {
+                if (use.edge == edge) return name_of(model, FaceId(f));
+            }
+        }
+    }
+    return name_of(model, edge);
+}
+
+/// What a narrow place asks for.
+std::string width_in_words(const Model& model, const surface::SizeCause& cause)
+{
+    const std::string a = beyond(model, *cause.edge, cause.face), b = beyond(model, *cause.other, cause.face);
+    return in_short(cause.size) + " where " + name_of(model, cause.face) + " is " + in_short(cause.width) +
+           (a == b ? " wide within " + a : " wide between " + a + " and " + b);
+}
+
+/// The rim edge whose bends make its sides the shortest.
+std::string bends_in_words(const Model& model, const surface::Seeds& seeds)
+{
+    double least = std::numeric_limits<double>::infinity();
+    EdgeId shortest;
+    for (const auto& [edge, pieces] : seeds.pieces) {
+        for (const surface::SeedPiece& piece : pieces) {
+            const double side = piece.length / piece.count;
+            if (piece.fixed || !piece.bends || side >= least) continue;
+            least = side;
+            shortest = edge;
+        }
+    }
+    if (!std::isfinite(least)) return {};
+    return in_short(least) + " on " + name_of(model, shortest) + ", by its curvature";
+}
+
+} // namespace
+
+std::vector<std::string> sizes_in_words(const OpenVolume& volume, const OpenVolume& split,
+                                        const SourceSize& sizes, const surface::Seeds& seeds,
+                                        const SweepOptions& options, const LayersTaken& layers)
+{
+    std::vector<std::string> finer;
+    const surface::ShapeSize& shape = sizes.shape;
+    if (shape.width) finer.push_back(width_in_words(volume.model, *shape.width));
+    if (shape.curvature)
+        finer.push_back(in_short(shape.curvature->size) + " by the curvature of " +
+                        name_of(volume.model, shape.curvature->face));
+    if (const std::string bends = bends_in_words(split.model, seeds); !bends.empty()) finer.push_back(bends);
+
+    std::vector<std::string> lines;
+    const bool kept = seeds.kept.size() == split.faces(Role::source).size();
+    if (!kept && (sizes.by_default || !finer.empty())) {
+        std::string line = sizes.by_default ? "size: " + in_short(sizes.by_default->length) +
+                                                  " [model length] by default, " + sizes.by_default->why
+                                            : "size: as asked";
+        for (std::size_t i = 0; i < finer.size(); ++i)
+            line += (i == 0 ? "; less where the shape needs it: " : "; ") + finer[i];
+        lines.push_back(line);
+    }
+    if (options.layers.count == 0 && options.layers.heights.empty()) {
+        lines.push_back("layer count: " + std::to_string(layers.count) + " by default, " +
+                        (layers.by_rows ? "the rows of quads that walls came with"
+                         : !options.size && layers.count == kDefaultGap
+                             ? "about as high as the size, and three at least"
+                             : "about as high as the size"));
+    }
+    return lines;
+}
+
+} // namespace lacuna::sweep

@@ -1,0 +1,101 @@
+-- SPDX-License-Identifier: MIT
+-- Faces without roles: where the likeliest way to sweep them fails another that encloses the same is taken,
+-- and the report says so. Sizes and layers that nobody asked for are said with what they were taken from.
+local lacuna = require "lacuna"
+local folder = arg[0]:match "^(.*[/\\])" or ""
+local check = dofile(folder .. "check.lua")
+
+local function lines(mesh, start)
+  local found = {}
+  for _, line in ipairs(mesh.report) do
+    if line:sub(1, #start) == start then found[#found + 1] = line end
+  end
+  return found
+end
+
+--- A block of flat faces; `facets` along each edge.
+local function block(x, y, z, facets)
+  local model = lacuna.model()
+  local function face(name, o, u, v)
+    local points, cells, n = {}, {}, facets or 1
+    for j = 0, n do
+      for i = 0, n do
+        local p = {}
+        for k = 1, 3 do p[k] = o[k] + u[k] * i / n + v[k] * j / n end
+        points[#points + 1] = p
+      end
+    end
+    for j = 0, n - 1 do
+      for i = 1, n do
+        local a = j * (n + 1) + i
+        cells[#cells + 1] = { a, a + 1, a + n + 2 }
+        cells[#cells + 1] = { a, a + n + 2, a + n + 1 }
+      end
+    end
+    model:add_face { name = name, points = points, cells = cells }
+  end
+  local X, Y, Z = { x, 0, 0 }, { 0, y, 0 }, { 0, 0, z }
+  face("low", { 0, 0, 0 }, Y, X)
+  face("high", { 0, 0, z }, X, Y)
+  face("front", { 0, 0, 0 }, X, Z)
+  face("back", { 0, y, 0 }, Z, X)
+  face("left", { 0, 0, 0 }, Z, Y)
+  face("right", { x, 0, 0 }, Y, Z)
+  return model
+end
+
+-- Layers asked for and an interval along the sweep contradict each other; across another way they do not.
+local model = block(4, 3, 2)
+local turned = 0
+for edge = 1, 12 do
+  local volume = model:open_volume {}
+  local mesh = volume:sweep { layers = 3, size = 1, intervals = { { edge, 5 } } }
+  check.equal(mesh:quality().certified, true)
+  check.that(math.abs(mesh:quality().volume - 24) < 1e-9)
+  local said = lines(mesh, "roles: ")
+  if #said > 0 then
+    turned = turned + 1
+    check.that(#said >= 2 and said[1]:find("surface.sides_asked", 1, true), said[1])
+    check.that(said[#said]:find("instead, which encloses the same volume", 1, true), said[#said])
+  end
+end
+check.equal(turned, 4, "edges along the likeliest way")
+
+-- Where no way does, the first error stands and the volume is as it was.
+local volume = model:open_volume {}
+volume:close()
+local before = volume:describe()
+local contradiction = { { "sweep", 5 } }
+check.fails(function() volume:sweep { layers = 3, size = 1, intervals = contradiction } end, "for 3")
+check.equal(volume:describe(), before)
+
+-- Roles that were named are kept to.
+check.fails(function()
+  for edge = 1, 12 do
+    model:open_volume({ source = { "low" }, target = { "high" },
+        walls = { "front", "back", "left", "right" } })
+      :sweep { layers = 3, size = 1, intervals = { { edge, 5 } } }
+  end
+end, "intervals")
+
+-- Sizes and layers by default.
+local function only(mesh, start)
+  local found = lines(mesh, start)
+  check.equal(#found, 1, start)
+  return found[1]
+end
+local counts = {}
+for _, facets in ipairs { 20, 40, 80 } do
+  local mesh = block(4, 3, 2, facets):open_volume({}):sweep()
+  counts[#counts + 1] = mesh:quality().hexes
+  check.that(only(mesh, "size: "):find("by default, a twentieth of the box of the source's rims", 1, true))
+  check.that(only(mesh, "layer count: "):find "%d+ by default")
+end
+check.that(math.max(table.unpack(counts)) <= 1.1 * math.min(table.unpack(counts)), "finer facets, finer mesh")
+local coarse = block(4, 3, 0.1):open_volume({ source = { "front" } , target = { "back" },
+  walls = { "low", "high", "left", "right" } }):sweep()
+check.that(only(coarse, "size: "):find("the mean side of the facets on the source's rims", 1, true))
+check.equal(#lines(block(4, 3, 2):open_volume({}):sweep { size = 1, layers = 2 }, "size: "), 0)
+check.equal(#lines(block(4, 3, 2):open_volume({}):sweep { size = 1, layers = 2 }, "layer count: "), 0)
+
+check.done()

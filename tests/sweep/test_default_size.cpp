@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "support/check_valid.h"
+#include "surface/sealed.h"
+
+#include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/surface/default_size.h>
+#include <lacuna/surface/shape_size.h>
+#include <lacuna/sweep/sweep.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <functional>
+#include <string>
+
+using namespace lacuna;
+using namespace lacuna::topology;
+using sweep::SweepOptions;
+using sweep::Swept;
+
+namespace {
+
+Swept swept_by_default(const OpenVolume& volume)
+{
+    Swept swept = sweep::sweep(volume, {});
+    test::check_valid(swept.mesh);
+    return swept;
+}
+
+bool says(const Swept& swept, const std::string& start, const std::string& words)
+{
+    return std::ranges::any_of(swept.report, [&](const std::string& line) {
+        return line.starts_with(start) && line.find(words) != std::string::npos;
+    });
+}
+
+/// Quads of the source that lines across a place meet, in the mean.
+double mean_across(const Swept& swept, double from, double to,
+                   const std::function<double(const Vec3&)>& along,
+                   const std::function<bool(const Vec3&)>& within)
+{
+    constexpr int kLines = 60;
+    int count = 0;
+    for (const Quad& quad : swept.mesh.quads) {
+        double low = 1e300, high = -1e300;
+        Vec3 centre = Vec3::Zero();
+        for (const Index n : quad) {
+            const Vec3& p = swept.mesh.nodes[index(n)];
+            low = std::min(low, along(p));
+            high = std::max(high, along(p));
+            centre += p / 4;
+        }
+        if (!within(centre)) continue;
+        for (int i = 0; i < kLines; ++i) {
+            const double at = from + (i + 0.4321) / kLines * (to - from);
+            count += low < at && at < high ? 1 : 0;
+        }
+    }
+    return static_cast<double>(count) / kLines;
+}
+
+} // namespace
+
+TEST_CASE("without a size finer facets make no finer mesh, and the report says the size and the layers")
+{
+    for (const int sides : {4, 6, 0}) {
+        std::size_t least = 0, most = 0;
+        for (const int cuts : {sides == 0 ? 6 : 24, sides == 0 ? 12 : 60, sides == 0 ? 24 : 120}) {
+            const Swept swept = swept_by_default(test::sealed({.sides = sides, .cuts = cuts}));
+            CAPTURE(sides);
+            CAPTURE(cuts);
+            CHECK(says(swept, "size: ", "[model length] by default, a twentieth of the box"));
+            CHECK(says(swept, "layer count: ", "by default"));
+            least = least == 0 ? swept.mesh.cell_count() : std::min(least, swept.mesh.cell_count());
+            most = std::max(most, swept.mesh.cell_count());
+        }
+        CHECK(most <= 1.5 * static_cast<double>(least));
+    }
+}
+
+TEST_CASE("coarse facets ask for what they are, with some quads across and some layers at least")
+{
+    const auto volume = test::sealed({.sides = 4, .cuts = 1});
+    CHECK(surface::default_size(volume).length == doctest::Approx(std::sqrt(2.0)));
+    const Swept swept = swept_by_default(volume);
+    CHECK(swept.mesh.quads.size() == sweep::kDefaultGap * sweep::kDefaultGap);
+    CHECK(swept.mesh.layers == sweep::kDefaultGap);
+    CHECK(says(swept, "size: ", "the mean side of the facets"));
+    SweepOptions asked;
+    asked.size = [](const Vec3&) { return 10.0; };
+    asked.layers.count = 1;
+    const Swept one = sweep::sweep(volume, asked);
+    CHECK(one.mesh.cell_count() == 1);
+    CHECK(!says(one, "size: ", ""));
+    CHECK(!says(one, "layer count: ", ""));
+}
+
+TEST_CASE("without a size narrow places have two quads across and more in the mean, in facets as in polygons")
+{
+    int places = 0;
+    // Rings, round and square.
+    for (const double width : {0.5, 0.2, 0.08}) {
+        for (const int sides : {0, 6}) {
+            const double inner = 1 - width;
+            const auto volume = test::sealed(
+                sides == 0
+                    ? test::PrismOptions{.sides = 0, .hole_list = {{Vec2(0, 0), inner}}, .cuts = 8}
+                    : test::PrismOptions{.sides = 6, .hole_list = {{Vec2(0, 0), 0.866 - width}}, .cuts = 4});
+            const Swept swept = swept_by_default(volume);
+            CAPTURE(width);
+            CAPTURE(sides);
+            const auto angle = [](const Vec3& p) { return std::atan2(p.y(), p.x()); };
+            CHECK(mean_across(swept, -1, 1, angle, [](const Vec3& p) { return p.x() > 0; }) >= 2);
+            if (width < 0.1) CHECK(says(swept, "size: ", " wide between "));
+            ++places;
+        }
+    }
+    // Channels: straight ones, which are mapped, and those with a corner or a neck.
+    for (const double w : {1.0, 0.3, 0.1}) {
+        const std::vector<std::vector<Vec2>> outlines{
+            {{0, 0}, {4, 0}, {4, w}, {0, w}},
+            {{0, 0}, {4, 0}, {4, w}, {w, w}, {w, 3}, {0, 3}},
+            {{0, 0}, {4, 0}, {4, 3}, {4 - w, 3}, {4 - w, w}, {w, w}, {w, 3}, {0, 3}},
+            {{-2, -1},
+             {-0.5, -1},
+             {-0.5, -w / 2},
+             {0.5, -w / 2},
+             {0.5, -1},
+             {2, -1},
+             {2, 1},
+             {0.5, 1},
+             {0.5, w / 2},
+             {-0.5, w / 2},
+             {-0.5, 1},
+             {-2, 1}}};
+        for (std::size_t k = 0; k < outlines.size(); ++k) {
+            if (k == 3 && w == 1) continue;
+            for (const int cuts : {1, 6}) {
+                const Swept swept = swept_by_default(test::sealed({.outline = outlines[k], .cuts = cuts}));
+                CAPTURE(w);
+                CAPTURE(k);
+                CAPTURE(cuts);
+                const double low = k == 3 ? -w / 2 : 0, high = k == 3 ? w / 2 : w;
+                const double from = k == 3 ? -0.45 : 1.1, to = k == 3 ? 0.45 : 2.9;
+                const auto x = [](const Vec3& p) { return p.x(); };
+                CHECK(mean_across(swept, from, to, x,
+                                  [&](const Vec3& p) { return p.y() > low && p.y() < high; }) >= 2);
+                ++places;
+            }
+        }
+    }
+    MESSAGE(places << " places");
+}
+
+TEST_CASE("a mapped strip has three quads across and is no finer along for it")
+{
+    for (const double w : {0.1, 0.01}) {
+        const Swept swept = swept_by_default(
+            test::sealed({.outline = {{0, 0}, {4, 0}, {4, w}, {0, w}}, .cuts = 4}));
+        CAPTURE(w);
+        CHECK(swept.mesh.quads.size() <= 3 * 20);
+    }
+}
+
+TEST_CASE("what shape asks of a size costs near linear time in facets")
+{
+    double before = 0;
+    for (const int cuts : {400, 1600, 6400}) { // 24 times as many on both rims
+        const auto volume = test::sealed({.sides = 0, .hole_list = {{Vec2(0, 0), 0.97}}, .cuts = cuts});
+        const double size = surface::default_size(volume).length;
+        const std::clock_t start = std::clock();
+        const auto shape = surface::shape_size(volume, [size](const Vec3&) { return size; }, {12, 2});
+        const double now = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+        REQUIRE(shape.width);
+        CHECK(shape.width->width == doctest::Approx(0.03).epsilon(0.01));
+        const int facets = 24 * cuts;
+        MESSAGE(facets << " sides: " << now << " s");
+        CHECK((before == 0 || now < 4 * 4 * before + 0.05)); // four times the facets
+        before = now;
+    }
+}
