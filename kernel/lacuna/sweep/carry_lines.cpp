@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/polyline.h>
+#include <lacuna/surface/default_size.h>
 #include <lacuna/surface/imprint.h>
 #include <lacuna/surface/linking_surface.h>
 #include <lacuna/surface/seeds.h>
@@ -308,9 +309,8 @@ private:
                 return is_at_end(face.a, face.face_a) || is_at_end(face.b, face.face_b);
             }))
             return false;
-        const double spacing = surface::rim_spacing(volume);
         surface::SizeField size = members_[m].options.size;
-        if (!size) size = [spacing](const Vec3&) { return spacing; };
+        if (!size) size = [length = surface::default_size(volume).length](const Vec3&) { return length; };
         const std::vector<surface::KnownLine> known = known_lines(m, end);
         surface::Imprint imprint = surface::imprint_target(
             volume, surface::linking_surfaces(volume, surface::Turning::each, known_pairs(m, end, volume)),
