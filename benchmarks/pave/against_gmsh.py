@@ -348,8 +348,8 @@ def main():
     else:
         stem, title = f"pave_{date}", f"# Quads over plane outlines, a saddle and real source faces, {date}"
     text = [title, "",
-            "Ours and Gmsh's, measured alike; one thread, processor time of the surface mesh, best of "
-            f"{options.runs}. What each bar is: benchmarks/pave/against_gmsh.py.", "",
+            "Ours and Gmsh's, measured alike; one thread, processor time of the surface mesh.",
+            f"Best of {options.runs} runs. What each bar is: benchmarks/pave/against_gmsh.py.", "",
             *report.summary(), ""]
     if options.held:
         text += [*held_summary(report.results), ""]
