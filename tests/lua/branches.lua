@@ -145,6 +145,22 @@ end
 local dimple = { { at = 3, side = 1, radius = 0.5, length = 0.1, role = "wall" } }
 check.equal(#open(duct(6, dimple), dimple):cut(), 1)
 
+-- Each kind of fallback, where what is asked cannot be had in one arm.
+for _, kind in ipairs { "wedges", "leave_out" } do
+  local tee = { { at = 3, side = 1, radius = 0.5, length = 2, role = "target" } }
+  local rows = { walls = "branch_1", first = 0.45, count = 4 }
+  local options = { size = 0.3, fallback = kind, boundary_layers = rows }
+  if kind == "wedges" then
+    check.fails(function() open(duct(6, tee), tee):sweep(options) end, "piece_3")
+  else
+    mesh = open(duct(6, tee), tee):sweep(options)
+    check.equal(table.concat(mesh.regions, " "), "piece_1 piece_2")
+    check.equal(mesh.left_out[1].region, "piece_3")
+    check.near(mesh.fidelity.volume, 24, 0.9)
+    check.equal(mesh:quality().certified, true)
+  end
+end
+
 -- A family: up to three branches, each on any side, round or with corners, upright or leaning.
 local state = 20261122
 local function random(low, high)

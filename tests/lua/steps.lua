@@ -227,4 +227,54 @@ local filled = groove:open_volume({ source = "source", target = "target", walls 
 check.that(filled:quality().certified)
 check.near(filled.fidelity.volume, filled.fidelity.sealed_volume, 0.02 * filled.fidelity.sealed_volume)
 
+-- Each kind of fallback, where one piece has no hexahedra alone.
+--- A block that stands in a box, its top a mesh of quads and triangles: what is above it has no hexes alone.
+local function standing()
+  local model = lacuna.model()
+  local function quad(name, ...)
+    model:add_face { name = name, points = { ... }, cells = { { 1, 2, 3, 4 } } }
+  end
+  local function ring(low, high, z)
+    return { { low, low, z }, { high, low, z }, { high, high, z }, { low, high, z } }
+  end
+  local out, foot, top, lid = ring(0, 4, 0), ring(1, 3, 0), ring(1, 3, 1), ring(0, 4, 3)
+  local floor = {}
+  for i = 1, 4 do floor[i], floor[i + 4] = out[i], foot[i] end
+  model:add_face { name = "floor", points = floor,
+    cells = { { 1, 2, 6, 5 }, { 2, 3, 7, 6 }, { 3, 4, 8, 7 }, { 4, 1, 5, 8 } } }
+  model:add_face { name = "lid", points = lid, cells = { { 1, 4, 3, 2 } } }
+  for i = 1, 4 do
+    local j = i % 4 + 1
+    quad("outer_" .. i, out[i], out[j], lid[j], lid[i])
+    quad("block_" .. i, foot[i], top[i], top[j], foot[j])
+  end
+  local points, cells = {}, {}
+  for b = 0, 4 do
+    for a = 0, 4 do points[#points + 1] = { 1 + a / 2, 1 + b / 2, 1 } end
+  end
+  for b = 0, 3 do
+    for a = 0, 3 do
+      local n = 5 * b + a + 1
+      if a == b then
+        cells[#cells + 1], cells[#cells + 2] = { n, n + 1, n + 6 }, { n, n + 6, n + 5 }
+      else
+        cells[#cells + 1] = { n, n + 1, n + 6, n + 5 }
+      end
+    end
+  end
+  model:add_face { name = "top", points = points, cells = cells, keep_mesh = true }
+  return model:open_volume { source = { "floor", "top" }, target = "lid", walls = "auto", name = "room" }
+end
+check.fails(function() standing():sweep { size = 0.5 } end, "room_2", 'face 11 "top"', "8 triangles")
+local with_wedges = standing():sweep { size = 0.5, fallback = "wedges" }
+check.equal(table.concat(with_wedges.regions, " "), "room_1 room_2")
+check.equal(with_wedges:quality().certified, true)
+check.equal(with_wedges.wedges, 8 * with_wedges.layers.room_2)
+check.equal(#with_wedges.left_out, 0)
+check.near(with_wedges.fidelity.volume, 44, 1e-9)
+local without = standing():sweep { size = 0.5, fallback = "leave_out" }
+check.equal(table.concat(without.regions, " "), "room_1")
+check.equal(without.left_out[1].region, "room_2")
+check.equal(without.left_out[1].code, "surface.given_triangles")
+check.near(without.fidelity.volume, 36, 1e-9)
 check.done()

@@ -87,5 +87,25 @@ end
 print(("%d of %d trees meshed in %d arms; %d of %d where a branch has branches"):format(meshed,
   params.members, arms, deep_meshed, deep))
 for code, count in pairs(refused) do print("", code, count) end
+
+-- Axes that do not meet: meshed as long as the branch is within the sides of its main body.
+local tees = { { 0.1, 0.6 }, { 0.3, 0.6 }, { 0.4, 0.6 }, { 0.3, 0.7 }, { 0.3, 0.8 }, { 0.5, 0.6 } }
+for _, tee in ipairs(tees) do
+  local offset, radius = tee[1], tee[2]
+  local path = params.scratch .. "/offset.geo"
+  check.write(path, ([[SetFactory("OpenCASCADE");
+Cylinder(1) = {0, 0, -5, 0, 0, 10, 1};
+Cylinder(2) = {0, %g, 0, 4, 0, 0, %g};
+BooleanUnion(3) = {Volume{1}; Delete;}{Volume{2}; Delete;};
+]]):format(offset, radius))
+  local function sweep() return lacuna.load(path):open_volume():sweep { size = 0.3 } end
+  if offset + radius <= 1 then
+    local mesh = sweep()
+    check.equal(mesh:quality().certified, true)
+    check.equal(#mesh.regions, 3)
+  else
+    check.fails(sweep, "closure.branches", "the branch of face", "beyond the side of the main body")
+  end
+end
 check.that(meshed >= 0.55 * params.members and deep_meshed >= 0.4 * deep)
 check.done()

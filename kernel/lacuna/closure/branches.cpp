@@ -38,6 +38,8 @@ constexpr double kAlong = 0.1;
 /// Branches leave to one side where the ways they go differ by less than this cosine, of 30°, or by a half
 /// turn but for that. A choice.
 constexpr double kSameSide = 0.87;
+/// Walls of a branch face the way it goes by less than this cosine, of 44°. A choice.
+constexpr double kAlongWay = 0.72;
 /// Lines along a main body nearer than this share of its widest mouth are one. A choice.
 constexpr double kBeside = 0.1;
 /// Chords of the dip. A choice.
@@ -235,6 +237,7 @@ public:
         for (; count < mouths.size() && reach(*mouths[count]).low <= high + volume_.model.tolerance; ++count)
             high = std::max(high, reach(*mouths[count]).high);
         mouths.resize(count);
+        for (const Mouth* mouth : mouths) refuse_beyond(*mouth);
         if (count == 1 && found_.ends[mouths.front()->branch].size() < 2) {
             const std::vector<double> heights = sides_across(*mouths.front());
             if (!heights.empty()) return part_at(heights);
@@ -259,6 +262,29 @@ private:
                                name_of(volume_.model, host) + " is not cut by itself: " + why +
                                "; to cut by hand, planes beyond its mouth, which lies between " +
                                hint.data() + ", take what is not at the branch off");
+    }
+
+    /// A branch that reaches past the side of the main body has its own end beside the mouth.
+    void refuse_beyond(const Mouth& mouth) const
+    {
+        const Model& model = volume_.model;
+        const Vec3 outward = way_out(mouth);
+        for (const FaceId face : found_.faces[mouth.branch]) {
+            const bool beside = std::ranges::any_of(model[face].loops, [&](const Loop& loop) {
+                return std::ranges::any_of(loop.uses, [&](const EdgeUse& use) {
+                    return std::ranges::find(mouth.edges, use.edge) != mouth.edges.end();
+                });
+            });
+            const double facing = std::abs(face_area_vector(model, face).dot(outward));
+            if (!beside || facing <= kAlongWay * face_area(model, face)) continue;
+            throw NotSweepable(
+                "closure.branches",
+                "the branch of " + name_of(model, wall_at(mouth, mouth.branch)) + " on " +
+                    name_of(model, wall_at(mouth, mouth.host)) +
+                    " reaches beyond the side of the main body: " + name_of(model, face) +
+                    " at its mouth faces the way the branch goes, and expected are walls along "
+                    "it; bring the branch nearer to the middle, or make it narrower");
+        }
     }
 
     [[nodiscard]] FaceId wall_at(const Mouth& mouth, std::size_t region) const

@@ -25,8 +25,8 @@ bool has_branches(const topology::OpenVolume& volume);
 /// lines say what goes with what on rims that are bent at mouths.
 /// @return  pieces in the order of the cuts; the volume itself where it has no branches.
 /// @throw NotSweepable "closure.branches"  a main body whose walls are missing at the mouth, or of more than
-///         two ends; mouths side by side; where it could be cut by hand is named. Else as
-///         `cut_by_plane()`.
+///         two ends; mouths side by side; where it could be cut by hand is named. A branch that reaches
+///         beyond the side of the main body. Else as `cut_by_plane()`.
 /// @note  O(branches · facets log facets).
 std::vector<StepPiece> cut_branches(const topology::OpenVolume& volume, const RunContext& context = {});
 
