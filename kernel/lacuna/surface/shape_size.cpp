@@ -35,6 +35,9 @@ constexpr double kGrading = 0.3;
 constexpr double kSagOfWidth = 0.25;
 /// Rim points for each side of the size asked for. A choice, not a measurement.
 constexpr double kPointsPerSide = 4;
+/// Rim points no further apart than so many of the sizes they ask for. Half way between two the size is a
+/// third larger. A choice.
+constexpr double kApart = 2;
 /// Rim points of one edge, at most. A choice, not a measurement.
 constexpr std::size_t kMostPoints = 4096;
 /// Places face each other if the line between them is this near to the rim's normal [cosine]: more than any
@@ -210,9 +213,14 @@ private:
             const double wanted = kPointsPerSide * length / asked((a + b) / 2);
             const auto count = static_cast<std::size_t>(
                 std::clamp(wanted, 1.0, static_cast<double>(kMostPoints)));
-            for (std::size_t k = 0; k < count; ++k) {
-                const double from = length * static_cast<double>(k) / static_cast<double>(count);
-                const double to = length * static_cast<double>(k + 1) / static_cast<double>(count);
+            std::vector<std::array<double, 2>> parts; // of the piece, still to be asked
+            for (std::size_t k = count; k-- > 0;) {
+                parts.push_back({length * static_cast<double>(k) / static_cast<double>(count),
+                                 length * static_cast<double>(k + 1) / static_cast<double>(count)});
+            }
+            while (!parts.empty()) {
+                const auto [from, to] = parts.back();
+                parts.pop_back();
                 const RimPoint at{a + (from + to) / 2 * along, inward,
                                   turning.between(start + from, start + to) / (to - from)};
                 // Sides along the edge are no longer than this for its curvature alone.
@@ -235,6 +243,11 @@ private:
                 sizes.push_back({at.point, share});
                 sizes.push_back({at.point + width / 2 * at.inward, share});
                 because(share);
+                // Narrower than the size by far: between places so wide apart the size would grow again.
+                if (to - from > kApart * share && length < static_cast<double>(kMostPoints) * (to - from)) {
+                    parts.push_back({(from + to) / 2, to});
+                    parts.push_back({from, (from + to) / 2});
+                }
             }
             start += length;
         }
