@@ -3,6 +3,7 @@
 
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/row_heights.h>
+#include <lacuna/quads/face_pattern.h>
 #include <lacuna/quads/measure_plane.h>
 #include <lacuna/quads/submap.h>
 
@@ -55,11 +56,10 @@ double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
 /// A score from which no further weights are tried: all but perfect. A choice, not a measurement.
 constexpr double kGoodEnough = 3.3;
 
-/// The grid of a region of right angles, as an attempt like others.
-Attempt try_submap(const PlanarRegion& region, bool round_loops, const RunContext& context)
+/// A grid over the whole region, as an attempt like others.
+Attempt grid_attempt(std::optional<PlanarQuads> mesh, const PlanarRegion& region)
 {
     Attempt attempt;
-    auto mesh = submap(region, round_loops, context);
     if (!mesh) return attempt;
     attempt.mesh = std::move(*mesh);
     attempt.report.used = attempt.mesh.how;
@@ -69,14 +69,16 @@ Attempt try_submap(const PlanarRegion& region, bool round_loops, const RunContex
     return attempt;
 }
 
-/// Whether a grid is so good that nothing else need be tried.
+/// Whether a grid is so good that nothing else need be tried: no other mesh has as few irregular nodes.
 bool is_good_grid(const Attempt& attempt, const PlanarRegion& region)
 {
-    // The worst quad as in `score_of()`, and nearly all quads of the size asked; choices, not measurements.
-    constexpr double kGood = 0.6, kOfSize = 0.95;
+    // The worst quad as in `score_of()`, and most quads square and of the size asked; choices, not
+    // measurements.
+    constexpr double kGood = 0.6, kMean = 0.9, kOfSize = 0.85;
     if (attempt.worst < kGood) return false;
     const PlaneQuality quality = measure_plane(attempt.mesh, region);
-    return quality.min_scaled_jacobian > kGood && quality.size_share() > kOfSize;
+    return quality.min_scaled_jacobian > kGood && quality.mean_scaled_jacobian > kMean &&
+           quality.size_share() > kOfSize;
 }
 
 } // namespace
@@ -132,17 +134,25 @@ Attempt AttemptChooser::pave_in(RowStyle style, const CutWeights& weights) const
 
 bool AttemptChooser::is_small() const { return best_.mesh.quads.size() <= kSmall; }
 
+void AttemptChooser::try_grids()
+{
+    consider(grid_attempt(submap(region_, context_), region_));
+    is_good_grid_ = is_good_grid(best_, region_);
+    if (is_good_grid_) return;
+    for (PlanarQuads& mesh : fill_patterns(region_, context_))
+        consider(grid_attempt(std::move(mesh), region_));
+    is_good_grid_ = is_good_grid(best_, region_);
+}
+
 void AttemptChooser::try_default_weights()
 {
-    if (options_.grids) consider(try_submap(region_, false, context_));
-    is_good_grid_ = is_good_grid(best_, region_);
+    if (options_.grids) try_grids();
     if (is_good_grid_) return;
     consider(pave_in(RowStyle::by_shape));
     if (best_.worst <= flat_) consider(pave_in(RowStyle::buffer));
     for (const RowStyle style : {RowStyle::no_rows, RowStyle::thin}) {
         if (best_.worst <= 0 || is_small()) consider(pave_in(style));
     }
-    if (options_.grids && is_small()) consider(try_submap(region_, true, context_));
 }
 
 double AttemptChooser::score_with(const CutWeights& weights) const

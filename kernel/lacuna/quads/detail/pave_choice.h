@@ -35,6 +35,8 @@ public:
 
 private:
     void consider(Attempt made);
+    /// The grid of a region of right angles; unless that is good, those of `fill_patterns()`.
+    void try_grids();
     [[nodiscard]] Attempt pave_in(RowStyle style, const CutWeights& weights = {}) const;
     /// The score of an attempt; one with a fault is marked as such.
     double judge_score(Attempt& made) const;
