@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -21,54 +20,6 @@ using Loop = std::vector<Index>;
 using Size = std::function<double(const Vec2&)>;
 
 const Vec2& point(const std::vector<Vec2>& points, Index p) { return points[static_cast<std::size_t>(p)]; }
-
-/// Centre of the area within a loop.
-Vec2 centre_of(const std::vector<Vec2>& points, const Loop& loop)
-{
-    const Vec2& origin = point(points, loop[0]);
-    Vec2 sum = Vec2::Zero();
-    double area = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Vec2 a = point(points, loop[i]) - origin,
-                   b = point(points, loop[(i + 1) % loop.size()]) - origin;
-        sum += paving::cross(a, b) * (a + b) / 3;
-        area += paving::cross(a, b);
-    }
-    return area != 0 ? Vec2(origin + sum / area) : origin;
-}
-
-/// The direction that most of the boundary runs along or across; where it has none, that of the lines between
-/// the loops' centres [radians].
-double main_angle(const PlanarRegion& region)
-{
-    // Less than this share of all that was summed is no direction: that of a regular octagon with round
-    // corners. A choice, not a measurement.
-    constexpr double kClear = 0.1;
-    std::complex<double> sum = 0;
-    double whole = 0;
-    const auto add = [&](const Vec2& along) {
-        const double length = along.norm();
-        if (!(length > 0)) return;
-        const std::complex<double> unit(along.x() / length, along.y() / length);
-        sum += length * std::pow(unit, 4);
-        whole += length;
-    };
-    const auto clear = [&] { return std::abs(sum) > kClear * whole; };
-    for (const auto& loop : region.loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i)
-            add(point(region.points, loop[(i + 1) % loop.size()]) - point(region.points, loop[i]));
-        if (clear()) return std::arg(sum) / 4;
-    }
-    std::vector<Vec2> centres;
-    for (const auto& loop : region.loops) centres.push_back(centre_of(region.points, loop));
-    sum = whole = 0;
-    for (std::size_t a = 0; a < centres.size(); ++a) {
-        for (std::size_t b = a + 1; b < centres.size(); ++b) add(centres[b] - centres[a]);
-    }
-    if (clear()) return std::arg(sum) / 4;
-    const Vec2 first = point(region.points, region.loops[0][0]) - centres[0];
-    return std::atan2(first.y(), first.x());
-}
 
 /// The lines of a grid that goes round a hole, from the outer loop across to it: one for every side along.
 class Spokes {
@@ -179,6 +130,14 @@ private:
     int shift_ = 0;
 };
 
+/// The nearest whole number. What lies half way goes down, also where it is off by rounding, so that holes that
+/// are images of each other all go the same way.
+int nearest(double x)
+{
+    constexpr double kRounding = 1e-6; // far above what interpolation is off by; a choice
+    return static_cast<int>(std::ceil(x - 0.5 - kRounding));
+}
+
 void move(GridLoop& loop, int along, int across, int period)
 {
     for (GridPosition& p : loop.positions) {
@@ -222,10 +181,6 @@ public:
     [[nodiscard]] std::ptrdiff_t turns() const { return soft_; }
 
 private:
-    /// A side across its heading against a node that turns the wrong way. Where the grid goes round a hole
-    /// the angles decide: a slot's sides run across any circle. Choices, not measurements.
-    static constexpr double kStraight = 1, kRound = 2;
-
     [[nodiscard]] std::string words() const
     {
         if (pattern_.about == 0)
@@ -235,7 +190,9 @@ private:
 
     bool head(std::size_t l, const LoopFrame& frame, double weight, int turns)
     {
-        loops_[l] = head_loop(region_.points, region_.loops[l], frame, weight, pattern_.rows);
+        auto headed = head_loop(region_.points, region_.loops[l], frame, weight, pattern_.rows);
+        if (!headed) return false;
+        loops_[l] = std::move(*headed);
         soft_ += std::count(loops_[l].movable.begin(), loops_[l].movable.end(), 1);
         return loops_[l].turns == turns;
     }
@@ -254,7 +211,7 @@ private:
         const LoopFrame frame{false, Vec2::Zero(), main_angle(region_)};
         grid_.resize(loops_.size());
         for (std::size_t l = 0; l < loops_.size(); ++l) {
-            if (!head(l, frame, kStraight, l == 0 ? 4 : -4) || !close(l, 0)) return false;
+            if (!head(l, frame, kStraightWeight, l == 0 ? 4 : -4) || !close(l, 0)) return false;
         }
         for (std::size_t l = 1; l < loops_.size(); ++l) {
             Vec2 by = Vec2::Zero();
@@ -264,7 +221,7 @@ private:
                       Vec2(own[0], own[1]);
             }
             by /= static_cast<double>(grid_[l].nodes.size());
-            move(grid_[l], static_cast<int>(std::lround(by.x())), static_cast<int>(std::lround(by.y())), 0);
+            move(grid_[l], nearest(by.x()), nearest(by.y()), 0);
         }
         return true;
     }
@@ -275,8 +232,8 @@ private:
         for (const std::size_t l : {std::size_t{0}, pattern_.about}) {
             const Loop& loop = region_.loops[l];
             const LoopFrame frame{true, centre_of(region_.points, loop), 0};
-            const double weight = kRound / static_cast<double>(loop.size());
-            if (!head(l, frame, weight, 0)) return false;
+            const double weight = kRoundWeight / static_cast<double>(loop.size());
+            if (!head(l, frame, weight, 0) || loses_end(region_.points, loops_[l])) return false;
             if (l == 0) period_ = along(loops_[l]);
             if (period_ < 3 || !close(l, l == 0 ? period_ : -period_)) return false;
             move(grid_[l], 0, 0, period_);
@@ -302,7 +259,7 @@ private:
     bool place_beside(std::size_t l, const Spokes& spokes, int rows)
     {
         const LoopFrame frame{false, Vec2::Zero(), spokes.angle(centre_of(region_.points, region_.loops[l]))};
-        if (!head(l, frame, kStraight, -4) || !close(l, 0)) return false;
+        if (!head(l, frame, kStraightWeight, -4) || !close(l, 0)) return false;
         Vec2 by = Vec2::Zero(), last = Vec2::Zero();
         for (std::size_t i = 0; i < grid_[l].nodes.size(); ++i) {
             const auto at = spokes.position(point(points_, grid_[l].nodes[i]), rows);
@@ -313,7 +270,7 @@ private:
             by += goal - Vec2(grid_[l].positions[i][0], grid_[l].positions[i][1]);
         }
         by /= static_cast<double>(grid_[l].nodes.size());
-        move(grid_[l], static_cast<int>(std::lround(by.x())), static_cast<int>(std::lround(by.y())), period_);
+        move(grid_[l], nearest(by.x()), nearest(by.y()), period_);
         return true;
     }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -259,10 +260,57 @@ std::array<int, 2> excess_of(const PatternLoop& loop)
     return excess;
 }
 
+const Vec2& point(const std::vector<Vec2>& points, Index p) { return points[static_cast<std::size_t>(p)]; }
+
 } // namespace
 
-PatternLoop head_loop(std::span<const Vec2> points, const std::vector<Index>& loop, const LoopFrame& frame,
-                      double side_weight, int rows)
+Vec2 centre_of(const std::vector<Vec2>& points, const std::vector<Index>& loop)
+{
+    const Vec2& origin = point(points, loop[0]);
+    Vec2 sum = Vec2::Zero();
+    double area = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Vec2 a = point(points, loop[i]) - origin,
+                   b = point(points, loop[(i + 1) % loop.size()]) - origin;
+        sum += paving::cross(a, b) * (a + b) / 3;
+        area += paving::cross(a, b);
+    }
+    return area != 0 ? Vec2(origin + sum / area) : origin;
+}
+
+double main_angle(const PlanarRegion& region)
+{
+    // Less than this share of all that was summed is no direction: that of a regular octagon with round
+    // corners. A choice, not a measurement.
+    constexpr double kClear = 0.1;
+    std::complex<double> sum = 0;
+    double whole = 0;
+    const auto add = [&](const Vec2& along) {
+        const double length = along.norm();
+        if (!(length > 0)) return;
+        const std::complex<double> unit(along.x() / length, along.y() / length);
+        sum += length * std::pow(unit, 4);
+        whole += length;
+    };
+    const auto clear = [&] { return std::abs(sum) > kClear * whole; };
+    for (const auto& loop : region.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            add(point(region.points, loop[(i + 1) % loop.size()]) - point(region.points, loop[i]));
+        if (clear()) return std::arg(sum) / 4;
+    }
+    std::vector<Vec2> centres;
+    for (const auto& loop : region.loops) centres.push_back(centre_of(region.points, loop));
+    sum = whole = 0;
+    for (std::size_t a = 0; a < centres.size(); ++a) {
+        for (std::size_t b = a + 1; b < centres.size(); ++b) add(centres[b] - centres[a]);
+    }
+    if (clear()) return std::arg(sum) / 4;
+    const Vec2 first = point(region.points, region.loops[0][0]) - centres[0];
+    return std::atan2(first.y(), first.x());
+}
+
+std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::vector<Index>& loop,
+                                     const LoopFrame& frame, double side_weight, int rows)
 {
     const LoopAngles angles = angles_of(points, loop, frame);
     HeadingSearch search(angles, side_weight);
@@ -275,6 +323,7 @@ PatternLoop head_loop(std::span<const Vec2> points, const std::vector<Index>& lo
         least = cost;
         headed.heading = std::move(headings);
     }
+    if (headed.heading.empty()) return std::nullopt;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const int turn = headed.turn(i);
         const bool soft = turn != 0 && std::abs(angles.turn[i] - turn) > kSoft;
@@ -282,6 +331,22 @@ PatternLoop head_loop(std::span<const Vec2> points, const std::vector<Index>& lo
         headed.movable.push_back(soft ? 1 : 0);
     }
     return headed;
+}
+
+bool loses_end(std::span<const Vec2> points, const PatternLoop& loop)
+{
+    // Corners of 112° and less: two quads would be left with a sine of 0.83. A choice, not a measurement.
+    constexpr double kEnd = 0.75;
+    const std::size_t n = loop.size();
+    const auto at = [&](std::size_t i) -> const Vec2& {
+        return points[static_cast<std::size_t>(loop.nodes[i % n])];
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+        if (loop.turn(i) == 0 &&
+            2 - turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i)) / kRightAngle > kEnd)
+            return true;
+    }
+    return false;
 }
 
 bool lay_pattern_rows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<Quad>& quads,

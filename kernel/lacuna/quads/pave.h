@@ -48,6 +48,8 @@ struct Paved {
 ///    remeshed (`paving::refill_cavities()`). Irregular nodes are paired off, nodes smoothed, row heights
 ///    corrected.
 ///
+/// Symmetric quads of a symmetric region are made so to rounding (`symmetrise()`), up to 20,000.
+///
 /// Up to 4000 quads are made several times, with and without rows and by several weightings of the cuts, and
 /// the best by measure is kept. Boundary nodes are kept, in order, bit for bit. The quads are
 /// counter-clockwise and convex. Flat ones are left only where the boundary's sides are long for the gap

@@ -70,15 +70,15 @@ Attempt grid_attempt(std::optional<PlanarQuads> mesh, const PlanarRegion& region
 }
 
 /// Whether a grid is so good that nothing else need be tried: no other mesh has as few irregular nodes.
-bool is_good_grid(const Attempt& attempt, const PlanarRegion& region)
+bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_size)
 {
-    // The worst quad as in `score_of()`, and most quads square and of the size asked; choices, not
+    // The worst quad as in `score_of()`, and nearly all quads square and of the size asked; choices, not
     // measurements.
-    constexpr double kGood = 0.6, kMean = 0.9, kOfSize = 0.85;
+    constexpr double kGood = 0.6, kMean = 0.9;
     if (attempt.worst < kGood) return false;
     const PlaneQuality quality = measure_plane(attempt.mesh, region);
     return quality.min_scaled_jacobian > kGood && quality.mean_scaled_jacobian > kMean &&
-           quality.size_share() > kOfSize;
+           quality.size_share() > of_size;
 }
 
 } // namespace
@@ -136,12 +136,24 @@ bool AttemptChooser::is_small() const { return best_.mesh.quads.size() <= kSmall
 
 void AttemptChooser::try_grids()
 {
-    consider(grid_attempt(submap(region_, context_), region_));
-    is_good_grid_ = is_good_grid(best_, region_);
-    if (is_good_grid_) return;
-    for (PlanarQuads& mesh : fill_patterns(region_, context_))
-        consider(grid_attempt(std::move(mesh), region_));
-    is_good_grid_ = is_good_grid(best_, region_);
+    // Shares of edges of the size asked: nearly all, where some grid has that, or at least most. Rings whose
+    // loops are far from alike have fewer. Choices, not measurements.
+    constexpr double kNearlyAll = 0.93, kMost = 0.85;
+    std::vector<Attempt> grids{grid_attempt(submap(region_, context_), region_)};
+    is_good_grid_ = is_good_grid(grids[0], region_, kNearlyAll);
+    if (!is_good_grid_) {
+        for (PlanarQuads& mesh : fill_patterns(region_, context_))
+            grids.push_back(grid_attempt(std::move(mesh), region_));
+    }
+    for (const double of_size : {kNearlyAll, kMost}) {
+        for (Attempt& grid : grids) {
+            if (!is_good_grid(grid, region_, of_size)) continue;
+            is_good_grid_ = true;
+            consider(grid);
+        }
+        if (is_good_grid_) return;
+    }
+    for (Attempt& grid : grids) consider(std::move(grid));
 }
 
 void AttemptChooser::try_default_weights()

@@ -20,6 +20,13 @@ struct LoopFrame {
     double angle = 0; ///< [radians]
 };
 
+/// Centre of the area within a loop.
+Vec2 centre_of(const std::vector<Vec2>& points, const std::vector<Index>& loop);
+
+/// The direction that most of the boundary runs along or across; where it has none, that of the lines between
+/// the loops' centres [radians].
+double main_angle(const PlanarRegion& region);
+
 /// A loop whose sides run along the lines of a grid.
 ///
 /// Headings are counted in right angles and not taken modulo 4, so that the difference of two neighbours is
@@ -46,8 +53,18 @@ struct PatternLoop {
 /// deviation from its heading, every node that of its angle from its turn.
 /// @param side_weight  of a side's deviation against that of a node's angle [-].
 /// @param rows  to be laid where a turn is soft.
-PatternLoop head_loop(std::span<const Vec2> points, const std::vector<Index>& loop, const LoopFrame& frame,
-                      double side_weight, int rows);
+/// @return nothing where corners are so sharp that no headings suit them.
+std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::vector<Index>& loop,
+                                     const LoopFrame& frame, double side_weight, int rows);
+
+/// Weights of a side's deviation. Where the grid goes round a hole the angles decide, for a slot's sides run
+/// across any circle: `kRoundWeight` is for all sides in sum. Choices, not measurements.
+inline constexpr double kStraightWeight = 1, kRoundWeight = 2;
+
+/// Whether a loop runs straight on where its boundary has an end: a corner that one quad would suit and two
+/// would have to share.
+/// @pre  `loop` is as `head_loop()` made it.
+bool loses_end(std::span<const Vec2> points, const PatternLoop& loop);
 
 /// Lay rows of quads along the parts of a loop with soft turns, until all turns are on the loop's nodes.
 ///
