@@ -2,10 +2,12 @@
 #include <lacuna/quads/face_pattern.h>
 #include <lacuna/quads/measure_plane.h>
 #include <lacuna/quads/pattern_counts.h>
+#include <lacuna/quads/symmetry.h>
 
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
 
@@ -144,5 +146,27 @@ TEST_CASE("given numbers of sides are kept, and none are found where they contra
     for (const int sides : {22, 24, 26, 38}) {
         disc[0][0].given = sides;
         check_counts(disc, 0.2, 1, 4);
+    }
+}
+
+TEST_CASE("a plate with a hole in its middle stays symmetric, whatever the size asked")
+{
+    for (int n = 0; n < 24; ++n) {
+        CAPTURE(n);
+        const double size = 0.08 + 0.005 * n;
+        const std::vector<std::vector<Piece>> plate{{line({-1.5, -1}, {1.5, -1}), line({1.5, -1}, {1.5, 1}),
+                                                     line({1.5, 1}, {-1.5, 1}), line({-1.5, 1}, {-1.5, -1})},
+                                                    {arc({0, 0}, 0.45, kPi / 4, kPi / 4 - 2 * kPi)}};
+        const Seeded plain = seed(plate, size, nullptr);
+        const auto counts = quads::pattern_counts(plain.region, plain.segment, plain.segments);
+        REQUIRE(counts.has_value());
+        const Seeded made = seed(plate, size, &*counts);
+        auto meshes = quads::fill_patterns(made.region);
+        REQUIRE(!meshes.empty());
+        // About the middle at least; about axes only where the circle has nodes there.
+        CAPTURE((*counts)[0]);
+        CAPTURE((*counts)[1]);
+        CAPTURE((*counts)[4]);
+        CHECK(quads::symmetrise(meshes[0], made.region) >= 2);
     }
 }

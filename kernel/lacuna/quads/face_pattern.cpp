@@ -130,13 +130,12 @@ private:
     int shift_ = 0;
 };
 
-/// The nearest whole number. What lies half way goes down, also where it is off by rounding, so that holes that
-/// are images of each other all go the same way.
-int nearest(double x)
-{
-    constexpr double kRounding = 1e-6; // far above what interpolation is off by; a choice
-    return static_cast<int>(std::ceil(x - 0.5 - kRounding));
-}
+/// Far above what interpolation is off by [edges of the grid]. A choice, not a measurement.
+constexpr double kRounding = 1e-6;
+
+/// The nearest whole number. What lies half way goes down, also where it is off by rounding, so that holes
+/// that are images of each other all go the same way.
+int nearest(double x) { return static_cast<int>(std::ceil(x - 0.5 - kRounding)); }
 
 void move(GridLoop& loop, int along, int across, int period)
 {
@@ -214,15 +213,43 @@ private:
             if (!head(l, frame, kStraightWeight, l == 0 ? 4 : -4) || !close(l, 0)) return false;
         }
         for (std::size_t l = 1; l < loops_.size(); ++l) {
-            Vec2 by = Vec2::Zero();
-            for (std::size_t i = 0; i < grid_[l].nodes.size(); ++i) {
-                const GridPosition& own = grid_[l].positions[i];
-                by += mean_value_position(points_, grid_[0], point(points_, grid_[l].nodes[i])) -
-                      Vec2(own[0], own[1]);
-            }
-            by /= static_cast<double>(grid_[l].nodes.size());
-            move(grid_[l], nearest(by.x()), nearest(by.y()), 0);
+            std::vector<Vec2> goal;
+            for (const Index p : grid_[l].nodes)
+                goal.push_back(mean_value_position(points_, grid_[0], point(points_, p)));
+            if (!settle(l, goal)) return false;
         }
+        return true;
+    }
+
+    /// Mean distance from a loop's grid coordinates to a goal for each of its nodes.
+    static Vec2 way_to(const std::vector<Vec2>& goal, const GridLoop& grid)
+    {
+        Vec2 sum = Vec2::Zero();
+        for (std::size_t i = 0; i < goal.size(); ++i)
+            sum += goal[i] - Vec2(grid.positions[i][0], grid.positions[i][1]);
+        return sum / static_cast<double>(goal.size());
+    }
+
+    /// Move a hole to where its grid coordinates are nearest to a goal. Where that is between two lines both
+    /// ways, a round hole trades a column for a row and so comes to lie on them.
+    /// @return false where it is nowhere in the grid.
+    bool settle(std::size_t l, const std::vector<Vec2>& goal)
+    {
+        const auto off = [](const Vec2& by) {
+            return (by - by.unaryExpr([](double x) { return std::round(x); })).norm();
+        };
+        Vec2 by = way_to(goal, grid_[l]);
+        PatternLoop traded = loops_[l];
+        if (by.allFinite() && trade_column_for_row(traded)) {
+            GridLoop other = positions_of(traded);
+            const Vec2 now = way_to(goal, other);
+            if (off(now) < off(by) - kRounding) {
+                grid_[l] = std::move(other);
+                by = now;
+            }
+        }
+        if (!(by.cwiseAbs().maxCoeff() < static_cast<double>(points_.size()))) return false;
+        move(grid_[l], nearest(by.x()), nearest(by.y()), period_);
         return true;
     }
 
@@ -233,7 +260,7 @@ private:
             const Loop& loop = region_.loops[l];
             const LoopFrame frame{true, centre_of(region_.points, loop), 0};
             const double weight = kRoundWeight / static_cast<double>(loop.size());
-            if (!head(l, frame, weight, 0) || loses_end(region_.points, loops_[l])) return false;
+            if (!head(l, frame, weight, 0) || !is_ring_loop(region_.points, loops_[l])) return false;
             if (l == 0) period_ = along(loops_[l]);
             if (period_ < 3 || !close(l, l == 0 ? period_ : -period_)) return false;
             move(grid_[l], 0, 0, period_);
@@ -260,18 +287,16 @@ private:
     {
         const LoopFrame frame{false, Vec2::Zero(), spokes.angle(centre_of(region_.points, region_.loops[l]))};
         if (!head(l, frame, kStraightWeight, -4) || !close(l, 0)) return false;
-        Vec2 by = Vec2::Zero(), last = Vec2::Zero();
-        for (std::size_t i = 0; i < grid_[l].nodes.size(); ++i) {
-            const auto at = spokes.position(point(points_, grid_[l].nodes[i]), rows);
+        std::vector<Vec2> goal;
+        for (const Index p : grid_[l].nodes) {
+            const auto at = spokes.position(point(points_, p), rows);
             if (!at) return false;
-            Vec2 goal = *at;
-            if (i > 0) goal.x() = last.x() + std::remainder(goal.x() - last.x(), period_);
-            last = goal;
-            by += goal - Vec2(grid_[l].positions[i][0], grid_[l].positions[i][1]);
+            goal.push_back(*at);
+            if (goal.size() == 1) continue;
+            const double last = goal[goal.size() - 2].x();
+            goal.back().x() = last + std::remainder(goal.back().x() - last, period_);
         }
-        by /= static_cast<double>(grid_[l].nodes.size());
-        move(grid_[l], nearest(by.x()), nearest(by.y()), period_);
-        return true;
+        return settle(l, goal);
     }
 
     const PlanarRegion& region_;

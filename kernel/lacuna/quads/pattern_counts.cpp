@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 
 namespace lacuna::quads {
 namespace {
@@ -46,7 +47,8 @@ int badness(const std::array<int, 2>& excess) { return excess[0] * excess[0] + e
 struct CountedLoop {
     std::vector<Run> runs;
     std::array<int, 2> excess{};
-    double wanted = 0; ///< sides in all
+    std::array<int, 2> added{}; ///< sides along headings 0 and 1 that its rows of quads add
+    double wanted = 0;          ///< sides in all
 };
 
 class CountSolver {
@@ -76,6 +78,7 @@ public:
             if (!loop || !close(*loop, kSegmentMost)) return std::nullopt;
             loops.push_back(std::move(*loop));
         }
+        if (loops.size() > 1) centre_holes(loops, angle);
         return counts_of(loops);
     }
 
@@ -92,7 +95,7 @@ private:
         auto headed = head_loop(region_.points, region_.loops[l], frame, weight, 1);
         if (!headed) return std::nullopt;
         PatternLoop& loop = *headed;
-        if (loop.turns != turns || (frame.polar && loses_end(region_.points, loop))) return std::nullopt;
+        if (loop.turns != turns || (frame.polar && !is_ring_loop(region_.points, loop))) return std::nullopt;
         CountedLoop counted;
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const std::size_t s = segment_of(loop.nodes[i]);
@@ -107,8 +110,13 @@ private:
         std::vector<Quad> quads;
         if (!lay_pattern_rows(loop, points, quads, [](const Vec2&) { return 1.0; })) return std::nullopt;
         for (const int h : loop.heading) {
-            const auto step = step_of(((h % 4) + 4) % 4);
+            const int quarter = ((h % 4) + 4) % 4;
+            const auto step = step_of(quarter);
             for (std::size_t k = 0; k < 2; ++k) counted.excess[k] += step[k];
+            if (quarter < 2) ++counted.added[static_cast<std::size_t>(quarter)];
+        }
+        for (const Run& run : counted.runs) {
+            if (run.quarter < 2) counted.added[static_cast<std::size_t>(run.quarter)] -= run.count;
         }
         for (Run& run : counted.runs) {
             counted.wanted += run.wanted;
@@ -175,15 +183,100 @@ private:
         return true;
     }
 
+    /// The outer loop with the numbers of sides it has now, in its grid.
+    struct OuterGrid {
+        std::vector<Vec2> points;
+        GridLoop grid;
+    };
+    [[nodiscard]] std::optional<OuterGrid> outer_grid(const CountedLoop& outer, double angle) const
+    {
+        const std::vector<Index>& loop = region_.loops[0];
+        const auto at = [&](std::size_t i) -> const Vec2& {
+            return region_.points[static_cast<std::size_t>(loop[i % loop.size()])];
+        };
+        OuterGrid made;
+        double length = 0;
+        for (std::size_t from = 0, to = 0; from < loop.size(); from = to) {
+            const std::size_t own = segment_of(loop[from]);
+            while (to < loop.size() && segment_of(loop[to]) == own) ++to;
+            const int sides = sides_of(outer, own);
+            for (int k = 0; k < sides; ++k) {
+                const double place = static_cast<double>(k) / sides * static_cast<double>(to - from);
+                const auto whole = static_cast<std::size_t>(place);
+                const double part = place - static_cast<double>(whole);
+                made.points.push_back((1 - part) * at(from + whole) + part * at(from + whole + 1));
+            }
+            for (std::size_t i = from; i < to; ++i) length += (at(i + 1) - at(i)).norm();
+        }
+        std::vector<Index> nodes(made.points.size());
+        std::iota(nodes.begin(), nodes.end(), 0);
+        auto headed = head_loop(made.points, nodes, {false, Vec2::Zero(), angle}, kStraightWeight, 1);
+        const double mean = length / static_cast<double>(nodes.size());
+        std::vector<Quad> quads;
+        if (!headed || !lay_pattern_rows(*headed, made.points, quads, [&](const Vec2&) { return mean; }) ||
+            !close_pattern_loop(*headed, 0))
+            return std::nullopt;
+        made.grid = positions_of(*headed);
+        return made;
+    }
+
+    /// Give holes an even number of columns where their middle lies on a line of the outer loop's grid, and
+    /// an odd one where it lies between two; so for rows. A hole in the middle of a plate then stays there.
+    void centre_holes(std::vector<CountedLoop>& loops, double angle) const
+    {
+        const auto outer = outer_grid(loops[0], angle);
+        if (!outer) return;
+        for (std::size_t l = 1; l < loops.size(); ++l) {
+            const Vec2 middle = mean_value_position(outer->points, outer->grid,
+                                                    centre_of(region_.points, region_.loops[l]));
+            for (int k = 0; k < 2; ++k) {
+                const double off = std::abs(middle[k] - std::round(middle[k]));
+                int across = loops[l].added[static_cast<std::size_t>(k)];
+                for (const Run& run : loops[l].runs) across += run.quarter == k ? run.count : 0;
+                if ((off > 0.25) != (across % 2 != 0)) change_both(loops[l], k);
+            }
+        }
+    }
+
+    /// One more or one less along a heading and back, whichever costs less; nothing where neither may be.
+    void change_both(CountedLoop& loop, int quarter) const
+    {
+        double least = std::numeric_limits<double>::infinity();
+        std::array<Run*, 2> best{};
+        int best_by = 0;
+        for (const int by : {1, -1}) {
+            std::array<Run*, 2> cheapest{};
+            double sum = 0;
+            for (int back = 0; back < 2; ++back) {
+                double own = std::numeric_limits<double>::infinity();
+                for (Run& run : loop.runs) {
+                    if (run.quarter != quarter + 2 * back || segments_[run.segment].fixed ||
+                        !may_be(loop, run, run.count + by, kSegmentMost))
+                        continue;
+                    const double cost = cost_of(run, run.count + by) - cost_of(run, run.count);
+                    if (cost >= own) continue;
+                    own = cost;
+                    cheapest[static_cast<std::size_t>(back)] = &run;
+                }
+                sum += own;
+            }
+            if (sum >= least) continue;
+            least = sum;
+            best = cheapest;
+            best_by = by;
+        }
+        if (best_by == 0) return;
+        for (Run* run : best) add(loop, *run, best_by);
+    }
+
     [[nodiscard]] bool may_be(const CountedLoop& loop, const Run& run, int count, double most) const
     {
-        if (count < 1) return false;
-        if (segments_[run.segment].fixed) return true;
-        if (count < run.count &&
-            sides_of(loop, run.segment) + count - run.count < segments_[run.segment].least)
-            return false;
-        const double off = count / run.wanted;
-        return (off <= most && off >= 1 / most) || std::abs(count - run.wanted) <= 1;
+        const BoundarySegment& own = segments_[run.segment];
+        if (count < 1 || own.fixed) return count >= 1;
+        const int sides = sides_of(loop, run.segment) + count - run.count;
+        if (count < run.count && sides < own.least) return false;
+        const double off = sides / own.wanted;
+        return (off <= most && off >= 1 / most) || std::abs(sides - own.wanted) <= 1;
     }
 
     static bool improves(const CountedLoop& loop, const Run& run, int by, const Run* other)
@@ -232,8 +325,9 @@ private:
         }
         std::optional<std::vector<CountedLoop>> best;
         double least = std::numeric_limits<double>::infinity();
-        for (int sides = std::max(3, std::min(along[0], along[1])); sides <= std::max(along[0], along[1]);
-             ++sides) {
+        const int fold = alike(others, about);
+        const int low = std::max(3, std::min(along[0], along[1])), high = std::max(along[0], along[1]);
+        for (int sides = (low + fold - 1) / fold * fold; sides < high + fold; sides += fold) {
             double cost = 0;
             bool closed = true;
             std::vector<CountedLoop> tried(ends.begin(), ends.end());
@@ -249,6 +343,25 @@ private:
         if (!best) return std::nullopt;
         best->insert(best->end(), others.begin(), others.end());
         return counts_of(*best);
+    }
+
+    /// How many holes there are beside the one the grid goes round, where they are of one size and at one
+    /// distance from it; else 1. A number of sides that they divide leaves them alike.
+    [[nodiscard]] int alike(const std::vector<CountedLoop>& others, std::size_t about) const
+    {
+        constexpr double kAlike = 0.01; // share by which they may differ; a choice, not a measurement
+        const Vec2 centre = centre_of(region_.points, region_.loops[about]);
+        double first = 0;
+        for (std::size_t l = 1; l < region_.loops.size(); ++l) {
+            if (l == about) continue;
+            const double distance = (centre_of(region_.points, region_.loops[l]) - centre).norm();
+            if (first == 0) first = distance;
+            if (std::abs(distance - first) > kAlike * first) return 1;
+        }
+        const bool same = std::all_of(others.begin(), others.end(), [&](const CountedLoop& loop) {
+            return std::abs(loop.wanted - others.front().wanted) <= kAlike * others.front().wanted;
+        });
+        return same && !others.empty() ? static_cast<int>(others.size()) : 1;
     }
 
     [[nodiscard]] std::optional<std::vector<int>> counts_of(const std::vector<CountedLoop>& loops) const

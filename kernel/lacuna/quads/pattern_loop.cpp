@@ -333,7 +333,7 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
     return headed;
 }
 
-bool loses_end(std::span<const Vec2> points, const PatternLoop& loop)
+bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop)
 {
     // Corners of 112° and less: two quads would be left with a sine of 0.83. A choice, not a measurement.
     constexpr double kEnd = 0.75;
@@ -342,11 +342,12 @@ bool loses_end(std::span<const Vec2> points, const PatternLoop& loop)
         return points[static_cast<std::size_t>(loop.nodes[i % n])];
     };
     for (std::size_t i = 0; i < n; ++i) {
+        if (loop.movable[i]) return false;
         if (loop.turn(i) == 0 &&
             2 - turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i)) / kRightAngle > kEnd)
-            return true;
+            return false;
     }
-    return false;
+    return loop.turns == 0;
 }
 
 bool lay_pattern_rows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<Quad>& quads,
@@ -413,6 +414,25 @@ bool close_pattern_loop(PatternLoop& loop, int period)
         loop.movable[from] = 0;
         loop.movable[to] = 1;
         excess = left;
+    }
+    return true;
+}
+
+bool trade_column_for_row(PatternLoop& loop)
+{
+    const std::size_t n = loop.size();
+    std::vector<std::size_t> ends; // sides that run along a row and then along a column
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t before = (i + n - 1) % n;
+        if (loop.turn(i) == 0 || loop.heading[before] % 2 != 0) continue;
+        if (!loop.movable[i] || loop.turn(before) != 0) return false;
+        ends.push_back(i);
+    }
+    if (ends.size() != 2) return false;
+    for (const std::size_t i : ends) {
+        const std::size_t before = (i + n - 1) % n;
+        loop.heading[before] += loop.turn(i);
+        std::swap(loop.movable[i], loop.movable[before]);
     }
     return true;
 }

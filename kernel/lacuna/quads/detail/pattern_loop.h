@@ -61,10 +61,10 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
 /// across any circle: `kRoundWeight` is for all sides in sum. Choices, not measurements.
 inline constexpr double kStraightWeight = 1, kRoundWeight = 2;
 
-/// Whether a loop runs straight on where its boundary has an end: a corner that one quad would suit and two
-/// would have to share.
-/// @pre  `loop` is as `head_loop()` made it.
-bool loses_end(std::span<const Vec2> points, const PatternLoop& loop);
+/// Whether a grid may go round along a loop: it has no soft turns, and does not run straight on where the
+/// boundary has an end, a corner that one quad would suit and two would have to share.
+/// @pre  `loop` is as `head_loop()` made it in a polar frame.
+bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop);
 
 /// Lay rows of quads along the parts of a loop with soft turns, until all turns are on the loop's nodes.
 ///
@@ -79,6 +79,10 @@ bool lay_pattern_rows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<
 /// @param period  by which the sides along heading 0 exceed those back.
 /// @return false where that cannot be.
 bool close_pattern_loop(PatternLoop& loop, int period);
+
+/// Make a round loop that is closed one column narrower and one row higher in the grid.
+/// @return false where its turns may not move so.
+bool trade_column_for_row(PatternLoop& loop);
 
 /// The loop's positions in the grid, from (0, 0).
 GridLoop positions_of(const PatternLoop& loop);
