@@ -38,8 +38,8 @@ struct Paved {
 /// Fill a region of the plane with quads by paving: rows placed inward from the loops, the rest cut in two
 /// along the best line, again and again, until templates can fill the parts (CSALF-Q).
 ///
-/// 1. A region of right angles is submapped (`submap()`), another filled by one bent grid where that can be
-///    (`fill_patterns()`). Where that is good, it is the result.
+/// 1. A region of right angles is submapped (`submap()`), another of up to 4000 quads filled by one bent grid
+///    where that can be (`fill_patterns()`). Where that is good, it is the result.
 /// 2. Rows are placed along loops that turn without corners and have room for them.
 /// 3. A cut is straight. It meets the outline at right angles where it can, its nodes are spaced as the size
 ///    asks, and its number of edges leaves even parts whose sides agree. A part that is a good patch of 3 to

@@ -56,6 +56,22 @@ double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
 /// A score from which no further weights are tried: all but perfect. A choice, not a measurement.
 constexpr double kGoodEnough = 3.3;
 
+/// About how many quads a region gets: its area over that of a square on a mean boundary side.
+double quads_within(const PlanarRegion& region)
+{
+    double area = 0, length = 0, sides = 0;
+    for (const auto& loop : region.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec2 &a = region.points[index(loop[i])],
+                       &b = region.points[index(loop[(i + 1) % loop.size()])];
+            area += cross(a, b) / 2;
+            length += (b - a).norm();
+            ++sides;
+        }
+    }
+    return area * sides * sides / (length * length);
+}
+
 /// A grid over the whole region, as an attempt like others.
 Attempt grid_attempt(std::optional<PlanarQuads> mesh, const PlanarRegion& region)
 {
@@ -74,7 +90,7 @@ bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_
 {
     // The worst quad as in `score_of()`, and nearly all quads square and of the size asked; choices, not
     // measurements.
-    constexpr double kGood = 0.6, kMean = 0.9;
+    constexpr double kGood = 0.6, kMean = 0.92;
     if (attempt.worst < kGood) return false;
     const PlaneQuality quality = measure_plane(attempt.mesh, region);
     return quality.min_scaled_jacobian > kGood && quality.mean_scaled_jacobian > kMean &&
@@ -141,7 +157,7 @@ void AttemptChooser::try_grids()
     constexpr double kNearlyAll = 0.93, kMost = 0.85;
     std::vector<Attempt> grids{grid_attempt(submap(region_, context_), region_)};
     is_good_grid_ = is_good_grid(grids[0], region_, kNearlyAll);
-    if (!is_good_grid_) {
+    if (!is_good_grid_ && quads_within(region_) < kSmall) {
         for (PlanarQuads& mesh : fill_patterns(region_, context_))
             grids.push_back(grid_attempt(std::move(mesh), region_));
     }
