@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "support/outline_family.h"
+
 #include <lacuna/quads/face_pattern.h>
 #include <lacuna/quads/measure_plane.h>
 #include <lacuna/quads/pave.h>
@@ -216,6 +218,27 @@ TEST_CASE("a symmetric outline gets a mesh that its symmetries map onto itself, 
             CHECK(farthest < 1e-12);
         }
     }
+}
+
+TEST_CASE("grids over a held family of outlines are valid, have few irregular nodes, and fill at least half "
+          "of them")
+{
+    constexpr std::uint32_t kHeld = 2; // no weight was chosen on members of this seed
+    constexpr int kMembers = 24;
+    int filled = 0;
+    for (int k = 0; k < kMembers; ++k) {
+        CAPTURE(k);
+        const test::SeededDomain made = test::family_region(kHeld, k);
+        bool any = false;
+        for (const quads::PlanarQuads& mesh : quads::fill_patterns(made.region)) {
+            CHECK(quads::find_fault(mesh, made.region) == "");
+            // A loose bound: a turn takes at least four sides of a round loop.
+            CHECK(quads::measure_plane(mesh, made.region).irregular <= made.region.points.size() / 4);
+            any = true;
+        }
+        filled += any ? 1 : 0;
+    }
+    CHECK(filled >= kMembers / 2);
 }
 
 TEST_CASE("what fits no grid gets no pattern")
