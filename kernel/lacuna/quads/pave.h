@@ -24,7 +24,7 @@ struct PaveOptions {
     /// laid; a loop without room for one goes without, which `PlanarQuads::how` tells. All others are laid as
     /// the region's shape needs, and are free to move.
     int exact_rows = 0;
-    bool grids = true;  ///< a region of right angles may be filled by the grid it encloses
+    bool grids = true;  ///< a region may be filled by one grid
     bool clean = true;  ///< improve irregular nodes
     bool smooth = true; ///< move inner nodes
 };
@@ -38,7 +38,8 @@ struct Paved {
 /// Fill a region of the plane with quads by paving: rows placed inward from the loops, the rest cut in two
 /// along the best line, again and again, until templates can fill the parts (CSALF-Q).
 ///
-/// 1. A region of right angles is submapped (`submap()`). Where that grid is good, it is the result.
+/// 1. A region of right angles is submapped (`submap()`), another of up to 4000 quads filled by one bent grid
+///    where that can be (`fill_patterns()`). Where that is good, it is the result.
 /// 2. Rows are placed along loops that turn without corners and have room for them.
 /// 3. A cut is straight. It meets the outline at right angles where it can, its nodes are spaced as the size
 ///    asks, and its number of edges leaves even parts whose sides agree. A part that is a good patch of 3 to
@@ -46,6 +47,8 @@ struct Paved {
 /// 4. Boundary corners that lack a quad get one. Folded quads are opened, or removed and their cavity
 ///    remeshed (`paving::refill_cavities()`). Irregular nodes are paired off, nodes smoothed, row heights
 ///    corrected.
+///
+/// Symmetric quads of a symmetric region are made so to rounding (`symmetrise()`), up to 20,000.
 ///
 /// Up to 4000 quads are made several times, with and without rows and by several weightings of the cuts, and
 /// the best by measure is kept. Below 1500, of four further weightings only the two that begin with the

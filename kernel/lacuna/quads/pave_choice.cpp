@@ -4,6 +4,7 @@
 #include <lacuna/quads/detail/marks.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/row_heights.h>
+#include <lacuna/quads/face_pattern.h>
 #include <lacuna/quads/measure_plane.h>
 #include <lacuna/quads/submap.h>
 
@@ -90,11 +91,26 @@ std::uint64_t name_of(const PlanarQuads& mesh)
     return name;
 }
 
-/// The grid of a region of right angles, as an attempt like others.
-Attempt try_submap(const PlanarRegion& region, bool round_loops, const RunContext& context)
+/// About how many quads a region gets: its area over that of a square on a mean boundary side.
+double quads_within(const PlanarRegion& region)
+{
+    double area = 0, length = 0, sides = 0;
+    for (const auto& loop : region.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec2 &a = region.points[index(loop[i])],
+                       &b = region.points[index(loop[(i + 1) % loop.size()])];
+            area += cross(a, b) / 2;
+            length += (b - a).norm();
+            ++sides;
+        }
+    }
+    return area * sides * sides / (length * length);
+}
+
+/// A grid over the whole region, as an attempt like others.
+Attempt grid_attempt(std::optional<PlanarQuads> mesh, const PlanarRegion& region)
 {
     Attempt attempt;
-    auto mesh = submap(region, round_loops, context);
     if (!mesh) return attempt;
     attempt.mesh = std::move(*mesh);
     attempt.report.used = attempt.mesh.how;
@@ -104,14 +120,16 @@ Attempt try_submap(const PlanarRegion& region, bool round_loops, const RunContex
     return attempt;
 }
 
-/// Whether a grid is so good that nothing else need be tried.
-bool is_good_grid(const Attempt& attempt, const PlanarRegion& region)
+/// Whether a grid is so good that nothing else need be tried: no other mesh has as few irregular nodes.
+bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_size)
 {
-    // The worst quad as in `score_of()`, and nearly all quads of the size asked; choices, not measurements.
-    constexpr double kGood = 0.6, kOfSize = 0.95;
+    // The worst quad as in `score_of()`, and nearly all quads square and of the size asked; choices, not
+    // measurements.
+    constexpr double kGood = 0.6, kMean = 0.92;
     if (attempt.worst < kGood) return false;
     const PlaneQuality quality = measure_plane(attempt.mesh, region);
-    return quality.min_scaled_jacobian > kGood && quality.size_share() > kOfSize;
+    return quality.min_scaled_jacobian > kGood && quality.mean_scaled_jacobian > kMean &&
+           quality.size_share() > of_size;
 }
 
 } // namespace
@@ -189,17 +207,37 @@ bool AttemptChooser::is_small() const { return best_.mesh.quads.size() <= kSmall
 
 bool AttemptChooser::is_good_enough() const { return best_score_ >= kGoodEnough || is_near_least_; }
 
+void AttemptChooser::try_grids()
+{
+    // Shares of edges of the size asked: nearly all, where some grid has that, or at least most. Rings whose
+    // loops are far from alike have fewer. Choices, not measurements.
+    constexpr double kNearlyAll = 0.93, kMost = 0.85;
+    std::vector<Attempt> grids{grid_attempt(submap(region_, context_), region_)};
+    is_good_grid_ = is_good_grid(grids[0], region_, kNearlyAll);
+    if (!is_good_grid_ && quads_within(region_) < kSmall) {
+        for (PlanarQuads& mesh : fill_patterns(region_, context_))
+            grids.push_back(grid_attempt(std::move(mesh), region_));
+    }
+    for (const double of_size : {kNearlyAll, kMost}) {
+        for (Attempt& grid : grids) {
+            if (!is_good_grid(grid, region_, of_size)) continue;
+            is_good_grid_ = true;
+            consider(grid);
+        }
+        if (is_good_grid_) return;
+    }
+    for (Attempt& grid : grids) consider(std::move(grid));
+}
+
 void AttemptChooser::try_default_weights()
 {
-    if (options_.grids) consider(try_submap(region_, false, context_));
-    is_good_grid_ = is_good_grid(best_, region_);
+    if (options_.grids) try_grids();
     if (is_good_grid_) return;
     pave_in(RowStyle::by_shape);
     if (best_.worst <= setting_.flat) pave_in(RowStyle::buffer);
     for (const RowStyle style : {RowStyle::no_rows, RowStyle::thin}) {
         if (best_.worst <= 0 || (is_small() && !is_good_enough())) pave_in(style);
     }
-    if (options_.grids && is_small() && !is_good_enough()) consider(try_submap(region_, true, context_));
 }
 
 double AttemptChooser::score_with(const CutWeights& weights) const

@@ -17,17 +17,13 @@ namespace lacuna::quads {
 /// interpolated by mean values (Floater 2003) and rounded. The grid's cells within the loops are the quads.
 /// Inner nodes start between the boundary nodes of their row and column, and are smoothed.
 ///
-/// With `round_loops`, a loop without right angles gets a row of quads. Four nodes of the row's inner side
-/// are its corners, where they lie nearest to those of a square. They are the only irregular nodes.
-///
 /// Follows White, Mingwu, Benzley & Sjaardema (1995). The departure: numbers of edges are taken as they are,
 /// for a region's nodes are given.
 /// @return nothing where the region is no such polygon, its counts do not close, its grid overlaps or touches
 ///         itself, or a quad would fold.
 /// @pre   loops as `pave()` demands them.
 /// @note  Deterministic. O(quads), and O(outer nodes × hole nodes) for holes.
-std::optional<PlanarQuads> submap(const PlanarRegion& region, bool round_loops = false,
-                                  const RunContext& context = {});
+std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& context = {});
 
 /// How many quads suit an inner angle in a grid: 1 at an end, 2 on a side, 3 at a corner, 4 at a reversal. 0
 /// where it is too far from all of them.

@@ -31,14 +31,6 @@ double angle_at(const std::vector<Vec2>& points, const std::vector<Index>& loop,
 
 } // namespace
 
-bool is_round(const std::vector<Vec2>& points, const std::vector<Index>& loop)
-{
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        if (grid_quads(angle_at(points, loop, i)) != 2) return false;
-    }
-    return true;
-}
-
 std::optional<GridLoop> walk(const std::vector<Vec2>& points, const std::vector<Index>& loop, int turns)
 {
     GridLoop grid{loop, {}};
@@ -79,7 +71,7 @@ Vec2 mean_value_position(const std::vector<Vec2>& points, const GridLoop& outer,
     return sum / weights;
 }
 
-double place_hole(const std::vector<Vec2>& goal, GridLoop& hole)
+void place_hole(const std::vector<Vec2>& goal, GridLoop& hole)
 {
     Vec2 middle = Vec2::Zero();
     for (const Vec2& p : goal) middle += p / static_cast<double>(goal.size());
@@ -106,24 +98,9 @@ double place_hole(const std::vector<Vec2>& goal, GridLoop& hole)
         best = std::move(positions);
     }
     hole.positions = std::move(best);
-    return best_error;
 }
 
-GridLoop with_corners(const std::vector<Index>& loop, std::size_t start, bool outer)
-{
-    const std::size_t n = loop.size(), half = n / 2, quarter = half / 2;
-    GridLoop grid{loop, std::vector<GridPosition>(n)};
-    GridPosition position{0, 0};
-    std::size_t heading = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-        if (k > 0 && (k % half == 0 || k % half == quarter)) heading = (heading + (outer ? 1 : 3)) % 4;
-        grid.positions[(start + k) % n] = position;
-        position = {position[0] + kSteps[heading][0], position[1] + kSteps[heading][1]};
-    }
-    return grid;
-}
-
-SubmapGrid::SubmapGrid(const std::vector<GridLoop>& loops)
+SubmapGrid::SubmapGrid(const std::vector<GridLoop>& loops, int period) : period_(period)
 {
     low_ = loops.front().positions.front();
     GridPosition high = low_;
@@ -135,14 +112,15 @@ SubmapGrid::SubmapGrid(const std::vector<GridLoop>& loops)
             }
         }
     }
-    width_ = high[0] - low_[0] + 1;
+    if (period_ > 0) low_[0] = 0;
+    width_ = period_ > 0 ? period_ : high[0] - low_[0] + 1;
     height_ = high[1] - low_[1] + 1;
 }
 
 bool SubmapGrid::enclose(const std::vector<GridLoop>& loops)
 {
     node_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), -1);
-    // The winding number of each cell, summed along its row over the sides that run up or down.
+    // The winding number of each cell, summed up its column over the sides that run along it.
     std::vector<int> change(node_.size(), 0);
     for (const GridLoop& loop : loops) {
         for (std::size_t i = 0, n = loop.positions.size(); i < n; ++i) {
@@ -150,20 +128,26 @@ bool SubmapGrid::enclose(const std::vector<GridLoop>& loops)
             Index& here = node_[slot(a)];
             if (here >= 0) return false;
             here = loop.nodes[i];
-            // The region lies on the left of a side, so it ends at one that runs up.
-            if (b[1] > a[1]) --change[slot(a)];
-            if (b[1] < a[1]) ++change[slot(b)];
+            if (a[1] != b[1]) continue;
+            // The region lies on the left of a side, so it ends at one that runs back. On a loop about the
+            // period the last step goes from the highest coordinate to 0, or from 0 to the highest.
+            const bool forward = slot(b) == index(a[0] - low_[0] + 1, a[1] - low_[1]);
+            if (forward)
+                ++change[slot(a)];
+            else
+                --change[slot(b)];
         }
     }
     in_.assign(node_.size(), 0);
-    for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
         int around = 0;
-        for (int x = 0; x < width_; ++x) {
+        for (int y = 0; y < height_; ++y) {
             const std::size_t c = index(x, y);
             around += change[c];
             if (around != 0 && around != 1) return false;
             in_[c] = static_cast<char>(around);
         }
+        if (around != 0) return false;
     }
     return true;
 }
@@ -172,7 +156,7 @@ Index SubmapGrid::number_inner(Index first)
 {
     const Index start = first;
     for (int y = 0; y + 1 < height_; ++y) {
-        for (int x = 0; x + 1 < width_; ++x) {
+        for (int x = 0; x < columns(); ++x) {
             if (!in_[index(x, y)]) continue;
             for (const std::size_t c : {index(x, y), index(x + 1, y), index(x + 1, y + 1), index(x, y + 1)})
                 if (node_[c] < 0) node_[c] = first++;
@@ -185,7 +169,7 @@ std::vector<Quad> SubmapGrid::quads() const
 {
     std::vector<Quad> result;
     for (int y = 0; y + 1 < height_; ++y) {
-        for (int x = 0; x + 1 < width_; ++x) {
+        for (int x = 0; x < columns(); ++x) {
             if (in_[index(x, y)])
                 result.push_back({node_[index(x, y)], node_[index(x + 1, y)], node_[index(x + 1, y + 1)],
                                   node_[index(x, y + 1)]});
@@ -216,7 +200,8 @@ void SubmapGrid::place_inner(std::vector<Vec2>& points, Index fixed) const
             }
         }
     };
-    along(height_, width_, [&](int y, int x) { return node_[index(x, y)]; });
+    // A row about the period would be cut short across what it goes round.
+    if (period_ == 0) along(height_, width_, [&](int y, int x) { return node_[index(x, y)]; });
     along(width_, height_, [&](int x, int y) { return node_[index(x, y)]; });
     for (auto p = static_cast<std::size_t>(fixed); p < points.size(); ++p) {
         if (weight[p] > 0) points[p] = sum[p] / weight[p];

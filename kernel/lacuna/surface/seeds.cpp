@@ -2,7 +2,9 @@
 #include <lacuna/surface/seeds.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
+#include <lacuna/quads/pattern_counts.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/face_sides.h>
 
@@ -80,6 +82,7 @@ public:
                 if (piece.fixed) continue;
                 ask_size(edge, piece);
                 piece.count = std::max(piece.count, static_cast<int>(std::lround(longer * piece.count)));
+                piece.sides = std::max(1.0, longer) * piece.sides;
             }
         }
         for (const FaceId face : seeds_.kept) {
@@ -99,6 +102,7 @@ public:
     {
         for (const FaceId face : volume_.faces(Role::source)) choose(face);
         balance();
+        for (const FaceId face : volume_.faces(Role::source)) fit_grid(face);
         for (int round = 0; round < 2; ++round) {
             make_even();
             balance();
@@ -257,6 +261,8 @@ private:
         const auto bends = static_cast<int>(std::ceil(by_turn - kPartOfSide));
         piece.count = std::max({1, static_cast<int>(std::lround(sides)), bends});
         piece.bends = piece.count > std::max(1L, std::lround(by_size));
+        piece.sides = std::max(sides, by_turn);
+        piece.least = std::max(1, bends);
     }
 
     /// Nodes on an edge at the heights of rows that end at one of its ends.
@@ -483,6 +489,79 @@ private:
                                [&](int sum, EdgeId e) { return sum + seeds_.count(e); });
     }
 
+    /// Give a free face numbers of sides that one grid can have. Edges that other faces have settled, and
+    /// those of mapped faces, keep theirs.
+    void fit_grid(FaceId face)
+    {
+        if (style_ != QuadStyle::automatic || gap_ > 0 || !is_free(face)) return;
+        const Vec3 normal = face_area_vector(model_, face).stableNormalized();
+        if (!faces_one_way(face, normal)) return;
+        const geometry::Plane plane = geometry::plane_across(face_centroid(model_, face), normal);
+        std::vector<quads::BoundarySegment> segments;
+        std::vector<SeedPiece*> pieces;
+        std::vector<int> segment;
+        quads::PlanarRegion region;
+        for (const Loop& loop : border_loops(model_, face)) {
+            std::vector<Index>& cycle = region.loops.emplace_back();
+            for (const EdgeUse& use : loop.uses) {
+                std::vector<SeedPiece>& own = seeds_.pieces.at(use.edge);
+                const std::vector<Vec3> points = edge_points(model_, use.edge, seeds_.fractions(use.edge));
+                std::vector<int> of_side;
+                for (SeedPiece& piece : own) {
+                    of_side.insert(of_side.end(), static_cast<std::size_t>(piece.count),
+                                   static_cast<int>(segments.size()));
+                    segments.push_back({piece.sides, piece.least, piece.fixed || is_settled(use.edge)});
+                    pieces.push_back(&piece);
+                }
+                const std::size_t sides = of_side.size();
+                for (std::size_t i = 0; i < sides; ++i) {
+                    cycle.push_back(static_cast<Index>(region.points.size()));
+                    region.points.push_back(geometry::to_plane(plane, points[use.reversed ? sides - i : i]));
+                    segment.push_back(of_side[use.reversed ? sides - 1 - i : i]);
+                }
+            }
+        }
+        sort_outer_first(region);
+        const auto counts = quads::pattern_counts(region, segment, segments);
+        if (!counts) return;
+        for (std::size_t p = 0; p < pieces.size(); ++p) pieces[p]->count = (*counts)[p];
+        for (const EdgeId edge : edges_of(face)) settled_.insert(edge);
+    }
+
+    /// Whether other faces need the number of sides an edge has.
+    [[nodiscard]] bool is_settled(EdgeId edge) const
+    {
+        const std::set<FaceId>& users = users_.at(edge);
+        return settled_.contains(edge) ||
+               std::any_of(users.begin(), users.end(), [&](FaceId user) { return opposite_.contains(user); });
+    }
+
+    /// Whether all of a face looks one way, so that it can be laid on a plane without folding.
+    [[nodiscard]] bool faces_one_way(FaceId face, const Vec3& normal) const
+    {
+        constexpr double kSteepest = 0.5; // cosine of 60°; a choice, not a measurement
+        const std::vector<Triangle>& facets = model_[face].triangles;
+        return std::all_of(facets.begin(), facets.end(), [&](const Triangle& t) {
+            const Vec3 area = (model_.at(t[1]) - model_.at(t[0])).cross(model_.at(t[2]) - model_.at(t[0]));
+            return area.dot(normal) >= kSteepest * area.norm();
+        });
+    }
+
+    static void sort_outer_first(quads::PlanarRegion& region)
+    {
+        const auto area = [&](const std::vector<Index>& loop) {
+            double sum = 0;
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                const Vec2& a = region.points[static_cast<std::size_t>(loop[i])];
+                const Vec2& b = region.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
+                sum += a.x() * b.y() - a.y() * b.x();
+            }
+            return sum;
+        };
+        std::stable_sort(region.loops.begin(), region.loops.end(),
+                         [&](const auto& a, const auto& b) { return area(a) > area(b); });
+    }
+
     /// Equal counts on opposite sides of every mapped face. Counts only grow; where they would chase each
     /// other, the face is meshed freely.
     void balance()
@@ -704,6 +783,7 @@ private:
     Seeds seeds_;
     std::map<FaceId, std::vector<SidePair>> opposite_; ///< of mapped and submapped faces
     std::set<EdgeId> rim_;
+    std::set<EdgeId> settled_;                       ///< edges with numbers of sides that a grid has
     std::set<FaceId> odd_;                           ///< faces that get a triangle
     std::map<const SeedPiece*, std::string> askers_; ///< who asked for the sides of a piece
     std::map<EdgeId, std::set<FaceId>> users_;
@@ -739,7 +819,7 @@ std::vector<double> SeedPiece::fractions() const
     result.insert(result.end(), low.begin(), low.end());
     const double first = result.back(), last = high.empty() ? to : high.front();
     const double before = wanted.empty() ? 0 : wanted_at(*this, first);
-    const double sides = wanted.empty() ? 0 : wanted_at(*this, last) - before;
+    const double apart = wanted.empty() ? 0 : wanted_at(*this, last) - before;
     std::size_t step = 0;
     for (int i = 1; i < between(); ++i) {
         const double share = static_cast<double>(i) / between();
@@ -747,7 +827,7 @@ std::vector<double> SeedPiece::fractions() const
             result.push_back(first + (last - first) * share);
             continue;
         }
-        const double at = before + share * sides;
+        const double at = before + share * apart;
         while (step + 2 < wanted.size() && wanted[step + 1] < at) ++step;
         const double along = (static_cast<double>(step) +
                               (at - wanted[step]) / (wanted[step + 1] - wanted[step])) /

@@ -28,6 +28,8 @@ struct SeedPiece {
     double from = 0, to = 1; ///< fractions of the edge's length, as the edge runs
     double length = 0;       ///< [model length]
     int count = 1;           ///< sides, >= 1
+    double sides = 1;        ///< as many as are asked for, before they are made to agree and whole, > 0
+    int least = 1;           ///< sides that its curvature needs, >= 1
     /// Where the size asked for changes along the piece: the number of sides it asks for from the start to
     /// each of some even steps. Nodes divide that number evenly. Empty: nodes stand evenly.
     std::vector<double> wanted{};
@@ -86,7 +88,8 @@ struct Seeds {
 /// swept to turns more. The bends of a polyline count as the curve they stand for, unless they are sharp.
 /// With 0 the size alone decides, but a side stands for no more than a sixth of a turn. Edges of faces that
 /// keep their own quads have the nodes of those. Where size or curvature change along an edge its nodes
-/// follow. Opposite sides of mapped faces are raised to the larger count, a face at a time until nothing
+/// follow. A free face that one grid fills gets numbers for which it closes (`quads::pattern_counts()`).
+/// Opposite sides of mapped faces are raised to the larger count, a face at a time until nothing
 /// changes; then each free face with an odd total gets one more side on a rim edge of its own, or on an edge
 /// towards one; a mapped face between passes it on.
 /// @param sizing  sides for a full turn; with a gap no face is submapped that need not be, unless

@@ -68,7 +68,7 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow)
     if (options.quads == Quads::gmsh) return options.quad_mesher;
     if (options.quads == Quads::mapped) {
         return [](const quads::PlanarRegion& region, const RunContext& context) {
-            if (auto grid = quads::submap(region, false, context)) return std::move(*grid);
+            if (auto grid = quads::submap(region, context)) return std::move(*grid);
             const std::string why = "a source face of right angles is to be mapped, and the grid its " +
                                     std::to_string(region.points.size()) +
                                     " boundary nodes enclose folds or overlaps";

@@ -40,6 +40,8 @@ public:
 
 private:
     void consider(Attempt made);
+    /// The grid of a region of right angles; unless that is good, those of `fill_patterns()`.
+    void try_grids();
     /// Finish an attempt that was begun, unless an equal one was before, and consider it.
     void finish(Attempt begun);
     void pave_in(RowStyle style);

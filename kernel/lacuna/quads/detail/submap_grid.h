@@ -21,18 +21,10 @@ struct GridLoop {
     std::vector<GridPosition> positions;
 };
 
-/// Whether all nodes of a loop are sides, so that it has no end or corner of a grid.
-bool is_round(const std::vector<Vec2>& points, const std::vector<Index>& loop);
-
 /// Give a loop grid coordinates by walking along it from (0, 0), its first side along the first axis.
 /// @param turns  right angles by which the loop must turn in all: 4 for an outer loop, -4 for a hole.
 /// @return nothing where it turns by others or does not close.
 std::optional<GridLoop> walk(const std::vector<Vec2>& points, const std::vector<Index>& loop, int turns);
-
-/// A loop with four corners, a quarter of it apart or as near to that as goes. The first is at `start`, where
-/// the loop leaves along the first axis.
-/// @pre  an even number of nodes, at least 8.
-GridLoop with_corners(const std::vector<Index>& loop, std::size_t start, bool outer);
 
 /// Grid coordinates at a point inside the outer loop, interpolated from its nodes by mean values (Floater
 /// 2003).
@@ -40,13 +32,13 @@ Vec2 mean_value_position(const std::vector<Vec2>& points, const GridLoop& outer,
 
 /// Turn and move a hole's grid coordinates to where they are nearest to a goal.
 /// @param goal  the outline's coordinates, interpolated at the hole's nodes.
-/// @return how far they are from the goal then, squared and summed over the nodes.
-double place_hole(const std::vector<Vec2>& goal, GridLoop& hole);
+void place_hole(const std::vector<Vec2>& goal, GridLoop& hole);
 
 /// The grid that loops enclose: which cells are inside, and the node at every grid point.
 class SubmapGrid {
 public:
-    explicit SubmapGrid(const std::vector<GridLoop>& loops);
+    /// @param period  > 0: the first coordinate counts round a ring, and those of loops are below it.
+    explicit SubmapGrid(const std::vector<GridLoop>& loops, int period = 0);
 
     /// @return false where the loops touch or overlap in the grid.
     bool enclose(const std::vector<GridLoop>& loops);
@@ -60,6 +52,7 @@ public:
 private:
     [[nodiscard]] std::size_t index(int x, int y) const
     {
+        if (x == period_) x = 0;
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
     [[nodiscard]] std::size_t slot(const GridPosition& s) const
@@ -67,7 +60,10 @@ private:
         return index(s[0] - low_[0], s[1] - low_[1]);
     }
 
+    [[nodiscard]] int columns() const { return period_ > 0 ? width_ : width_ - 1; }
+
     GridPosition low_{};
+    int period_ = 0;
     int width_ = 0, height_ = 0;
     std::vector<Index> node_; ///< at each grid point, -1: none
     std::vector<char> in_;    ///< whether the cell up and right of each grid point is in

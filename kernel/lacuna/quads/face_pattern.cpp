@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/face_pattern.h>
+
+#include <lacuna/quads/detail/partial_mesh.h>
+#include <lacuna/quads/detail/pattern_loop.h>
+#include <lacuna/quads/detail/pave_size.h>
+#include <lacuna/quads/detail/row_heights.h>
+#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/smooth_plane.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lacuna::quads {
+namespace {
+
+using Loop = std::vector<Index>;
+using Size = std::function<double(const Vec2&)>;
+
+const Vec2& point(const std::vector<Vec2>& points, Index p) { return points[static_cast<std::size_t>(p)]; }
+
+/// The lines of a grid that goes round a hole, from the outer loop across to it: one for every side along.
+class Spokes {
+public:
+    /// @param outer, inner  closed: `outer` runs once along the first axis, `inner` once back.
+    Spokes(const std::vector<Vec2>& points, const GridLoop& outer, const GridLoop& inner, int period)
+        : outer_(ends_of(points, outer, period, true)), inner_(ends_of(points, inner, period, false))
+    {
+        turn_inner();
+    }
+
+    /// How far the inner loop's positions must be moved along.
+    [[nodiscard]] int shift() const { return shift_; }
+
+    /// Rows between the loops, so that they are as high as asked.
+    [[nodiscard]] int rows(const Size& size) const
+    {
+        double sum = 0;
+        int least = 1;
+        for (std::size_t u = 0; u < outer_.size(); ++u) {
+            const Vec2 &a = outer_[u].at, &b = inner_[u].at;
+            const int taken = outer_[u].row - inner_[u].row;
+            sum += (b - a).norm() / size((a + b) / 2) + taken;
+            least = std::max(least, taken + 1);
+        }
+        return std::max(least, static_cast<int>(std::lround(sum / static_cast<double>(outer_.size()))));
+    }
+
+    /// Grid coordinates at a point between the loops; nothing where it lies on no spoke.
+    [[nodiscard]] std::optional<Vec2> position(const Vec2& p, int rows) const
+    {
+        const std::size_t n = outer_.size();
+        for (std::size_t u = 0; u < n; ++u) {
+            const std::size_t v = (u + 1) % n;
+            const double here = side_of(u, p), there = side_of(v, p);
+            if (!(here >= 0 && there < 0)) continue;
+            const double along = here / (here - there);
+            const Vec2 from = (1 - along) * outer_[u].at + along * outer_[v].at;
+            const Vec2 to = (1 - along) * inner_[u].at + along * inner_[v].at;
+            const double across = (p - from).dot(to - from) / (to - from).squaredNorm();
+            if (!(across > 0 && across < 1)) continue;
+            const double low = (1 - along) * outer_[u].row + along * outer_[v].row;
+            const double high = rows + (1 - along) * inner_[u].row + along * inner_[v].row;
+            return Vec2(static_cast<double>(u) + along, low + across * (high - low));
+        }
+        return std::nullopt;
+    }
+
+    /// Directions along the grid at a point [radians].
+    [[nodiscard]] double angle(const Vec2& p) const
+    {
+        const auto at = position(p, 1);
+        const std::size_t u = at ? static_cast<std::size_t>(at->x()) % outer_.size() : 0;
+        const Vec2 across = inner_[u].at - outer_[u].at;
+        return std::atan2(-across.x(), across.y());
+    }
+
+private:
+    struct End {
+        Vec2 at = Vec2::Zero();
+        int row = 0;
+    };
+
+    /// The node of a loop at each place along; of several that farthest into the region.
+    static std::vector<End> ends_of(const std::vector<Vec2>& points, const GridLoop& loop, int period,
+                                    bool outer)
+    {
+        std::vector<End> ends(static_cast<std::size_t>(period));
+        std::vector<char> set(ends.size(), 0);
+        for (std::size_t i = 0; i < loop.nodes.size(); ++i) {
+            const int u = ((loop.positions[i][0] % period) + period) % period, row = loop.positions[i][1];
+            const auto at = static_cast<std::size_t>(u);
+            if (set[at] && (outer ? row <= ends[at].row : row >= ends[at].row)) continue;
+            set[at] = 1;
+            ends[at] = {point(points, loop.nodes[i]), row};
+        }
+        return ends;
+    }
+
+    /// Turn the inner loop to where the spokes are shortest.
+    void turn_inner()
+    {
+        const std::size_t n = outer_.size();
+        // Sides looked at for one place of the inner loop: all of a small one. For the time.
+        const std::size_t step = std::max<std::size_t>(1, n / 64);
+        double least = std::numeric_limits<double>::infinity();
+        std::size_t best = 0;
+        for (std::size_t by = 0; by < n; ++by) {
+            double sum = 0;
+            for (std::size_t u = 0; u < n; u += step)
+                sum += (outer_[u].at - inner_[(u + by) % n].at).squaredNorm();
+            if (sum >= least) continue;
+            least = sum;
+            best = by;
+        }
+        std::rotate(inner_.begin(), inner_.begin() + static_cast<std::ptrdiff_t>(best), inner_.end());
+        shift_ = -static_cast<int>(best);
+    }
+
+    /// Which side of spoke u a point lies on: > 0 on the side the grid runs to.
+    [[nodiscard]] double side_of(std::size_t u, const Vec2& p) const
+    {
+        const Vec2 across = inner_[u].at - outer_[u].at;
+        return paving::cross(p - outer_[u].at, across) / across.norm();
+    }
+
+    std::vector<End> outer_, inner_;
+    int shift_ = 0;
+};
+
+/// Far above what interpolation is off by [edges of the grid]. A choice, not a measurement.
+constexpr double kRounding = 1e-6;
+
+/// The nearest whole number. What lies half way goes down, also where it is off by rounding, so that holes
+/// that are images of each other all go the same way.
+int nearest(double x) { return static_cast<int>(std::ceil(x - 0.5 - kRounding)); }
+
+void move(GridLoop& loop, int along, int across, int period)
+{
+    for (GridPosition& p : loop.positions) {
+        p = {p[0] + along, p[1] + across};
+        if (period > 0) p[0] = ((p[0] % period) + period) % period;
+    }
+}
+
+/// One way to fill a region.
+struct FacePattern {
+    std::size_t about = 0; ///< the loop that the grid goes round; 0: none, its lines are straight
+    int rows = 1;          ///< between a loop and the corners that the grid has along its round parts
+};
+
+class PatternFiller {
+public:
+    PatternFiller(const PlanarRegion& region, const FacePattern& pattern, const Size& size)
+        : region_(region), pattern_(pattern), size_(size), points_(region.points), loops_(region.loops.size())
+    {
+    }
+
+    std::optional<PlanarQuads> run(const RunContext& context)
+    {
+        if (!(pattern_.about > 0 ? place_round() : place_straight())) return std::nullopt;
+        SubmapGrid grid(grid_, period_);
+        if (!grid.enclose(grid_)) return std::nullopt;
+        PlanarQuads mesh{std::move(points_), std::move(quads_), words()};
+        const auto first = static_cast<Index>(mesh.points.size());
+        mesh.points.resize(mesh.points.size() + static_cast<std::size_t>(grid.number_inner(first)),
+                           Vec2::Zero());
+        grid.place_inner(mesh.points, first);
+        const std::vector<Quad> cells = grid.quads();
+        mesh.quads.insert(mesh.quads.end(), cells.begin(), cells.end());
+        smooth_plane(mesh.points, mesh.quads, region_.points.size(), {.size = size_}, context);
+        paving::correct_row_heights(mesh, region_, size_);
+        if (!find_fault(mesh, region_).empty()) return std::nullopt;
+        return mesh;
+    }
+
+    /// Soft turns, over all loops.
+    [[nodiscard]] std::ptrdiff_t turns() const { return soft_; }
+
+private:
+    [[nodiscard]] std::string words() const
+    {
+        if (pattern_.about == 0)
+            return soft_ > 0 ? "grid with " + std::to_string(soft_) + " turns" : "submapped";
+        return soft_ > 0 ? "rings with " + std::to_string(soft_) + " turns" : "rings";
+    }
+
+    bool head(std::size_t l, const LoopFrame& frame, double weight, int turns)
+    {
+        auto headed = head_loop(region_.points, region_.loops[l], frame, weight, pattern_.rows);
+        if (!headed) return false;
+        loops_[l] = std::move(*headed);
+        soft_ += std::count(loops_[l].movable.begin(), loops_[l].movable.end(), 1);
+        return loops_[l].turns == turns;
+    }
+
+    bool close(std::size_t l, int period)
+    {
+        PatternLoop& loop = loops_[l];
+        if (!lay_pattern_rows(loop, points_, quads_, size_) || !close_pattern_loop(loop, period))
+            return false;
+        grid_[l] = positions_of(loop);
+        return true;
+    }
+
+    bool place_straight()
+    {
+        const LoopFrame frame{false, Vec2::Zero(), main_angle(region_)};
+        grid_.resize(loops_.size());
+        for (std::size_t l = 0; l < loops_.size(); ++l) {
+            if (!head(l, frame, kStraightWeight, l == 0 ? 4 : -4) || !close(l, 0)) return false;
+        }
+        for (std::size_t l = 1; l < loops_.size(); ++l) {
+            std::vector<Vec2> goal;
+            for (const Index p : grid_[l].nodes)
+                goal.push_back(mean_value_position(points_, grid_[0], point(points_, p)));
+            if (!settle(l, goal)) return false;
+        }
+        return true;
+    }
+
+    /// Mean distance from a loop's grid coordinates to a goal for each of its nodes.
+    static Vec2 way_to(const std::vector<Vec2>& goal, const GridLoop& grid)
+    {
+        Vec2 sum = Vec2::Zero();
+        for (std::size_t i = 0; i < goal.size(); ++i)
+            sum += goal[i] - Vec2(grid.positions[i][0], grid.positions[i][1]);
+        return sum / static_cast<double>(goal.size());
+    }
+
+    /// Move a hole to where its grid coordinates are nearest to a goal. Where that is between two lines both
+    /// ways, a round hole trades a column for a row and so comes to lie on them.
+    /// @return false where it is nowhere in the grid.
+    bool settle(std::size_t l, const std::vector<Vec2>& goal)
+    {
+        const auto off = [](const Vec2& by) {
+            return (by - by.unaryExpr([](double x) { return std::round(x); })).norm();
+        };
+        Vec2 by = way_to(goal, grid_[l]);
+        PatternLoop traded = loops_[l];
+        if (by.allFinite() && trade_column_for_row(traded)) {
+            GridLoop other = positions_of(traded);
+            const Vec2 now = way_to(goal, other);
+            if (off(now) < off(by) - kRounding) {
+                grid_[l] = std::move(other);
+                by = now;
+            }
+        }
+        if (!(by.cwiseAbs().maxCoeff() < static_cast<double>(points_.size()))) return false;
+        move(grid_[l], nearest(by.x()), nearest(by.y()), period_);
+        return true;
+    }
+
+    bool place_round()
+    {
+        grid_.resize(loops_.size());
+        for (const std::size_t l : {std::size_t{0}, pattern_.about}) {
+            const Loop& loop = region_.loops[l];
+            const LoopFrame frame{true, centre_of(region_.points, loop), 0};
+            const double weight = kRoundWeight / static_cast<double>(loop.size());
+            if (!head(l, frame, weight, 0) || !is_ring_loop(region_.points, loops_[l])) return false;
+            if (l == 0) period_ = along(loops_[l]);
+            if (period_ < 3 || !close(l, l == 0 ? period_ : -period_)) return false;
+            move(grid_[l], 0, 0, period_);
+        }
+        const Spokes spokes(points_, grid_[0], grid_[pattern_.about], period_);
+        const int rows = spokes.rows(size_);
+        move(grid_[pattern_.about], spokes.shift(), rows, period_);
+        for (std::size_t l = 1; l < loops_.size(); ++l) {
+            if (l != pattern_.about && !place_beside(l, spokes, rows)) return false;
+        }
+        return true;
+    }
+
+    /// How many more sides run along heading 0 than back.
+    static int along(const PatternLoop& loop)
+    {
+        int sum = 0;
+        for (const int h : loop.heading) sum += h % 4 == 0 ? 1 : std::abs(h % 4) == 2 ? -1 : 0;
+        return sum;
+    }
+
+    /// A hole beside the one that the grid goes round.
+    bool place_beside(std::size_t l, const Spokes& spokes, int rows)
+    {
+        const LoopFrame frame{false, Vec2::Zero(), spokes.angle(centre_of(region_.points, region_.loops[l]))};
+        if (!head(l, frame, kStraightWeight, -4) || !close(l, 0)) return false;
+        std::vector<Vec2> goal;
+        for (const Index p : grid_[l].nodes) {
+            const auto at = spokes.position(point(points_, p), rows);
+            if (!at) return false;
+            goal.push_back(*at);
+            if (goal.size() == 1) continue;
+            const double last = goal[goal.size() - 2].x();
+            goal.back().x() = last + std::remainder(goal.back().x() - last, period_);
+        }
+        return settle(l, goal);
+    }
+
+    const PlanarRegion& region_;
+    FacePattern pattern_;
+    const Size& size_;
+    std::vector<Vec2> points_;
+    std::vector<Quad> quads_;
+    std::vector<PatternLoop> loops_;
+    std::vector<GridLoop> grid_;
+    int period_ = 0;
+    std::ptrdiff_t soft_ = 0;
+};
+
+} // namespace
+
+std::vector<PlanarQuads> fill_patterns(const PlanarRegion& region, const RunContext& context)
+{
+    std::vector<FacePattern> patterns;
+    for (std::size_t l = 1; l < region.loops.size(); ++l) patterns.push_back({l, 1});
+    constexpr int kMostRows = 3; // deeper turns gain nothing; a choice
+    for (int rows = 1; rows <= kMostRows; ++rows) patterns.push_back({0, rows});
+    const Size size = paving::size_with_boundary(region);
+    std::vector<PlanarQuads> made;
+    for (const FacePattern& pattern : patterns) {
+        check_cancelled(context);
+        PatternFiller filler(region, pattern, size);
+        if (auto mesh = filler.run(context)) made.push_back(std::move(*mesh));
+        if (filler.turns() == 0 && pattern.about == 0) break; // more rows change nothing
+    }
+    return made;
+}
+
+} // namespace lacuna::quads

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/quads/region.h>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace lacuna::quads {
+
+/// A segment of a region's boundary with a number of sides of its own.
+struct BoundarySegment {
+    double wanted = 1;  ///< sides by the size asked, not rounded, > 0
+    int least = 1;      ///< sides that it needs, >= 1
+    bool fixed = false; ///< its number of sides is given
+};
+
+/// Numbers of sides with which `fill_patterns()` fills a region by one grid (interval assignment).
+///
+/// The whole numbers n of least Σ (n − wanted)² / n for which every loop closes in the grid: as many sides
+/// one way as back; about a hole as many on the outer loop as on that hole's. Fixed segments keep theirs. A
+/// ring is taken where both its loops get 1.55 times or 1/1.55 of what they want at most. Otherwise the lines
+/// are straight, and no segment that wants four sides or more gets a quarter more or less.
+///
+/// The equations of a loop have coefficients of 1 and -1, and no number is in two but of segments that turn.
+/// So the numbers wanted are rounded, and then changed by one, the cheapest first, until all equations hold.
+/// Holes then get one column more or less where that puts their middle where it lies in the outer loop's
+/// grid, so that what is symmetric stays so; and a ring with like holes about it a number that these divide.
+/// @param region   with as many nodes as it would have without.
+/// @param segment  of the side from each boundary node to the next.
+/// @return  the number of sides of every segment; nothing where no grid fits.
+/// @note  Deterministic. O(nodes · segments).
+std::optional<std::vector<int>> pattern_counts(const PlanarRegion& region, std::span<const int> segment,
+                                               std::span<const BoundarySegment> segments);
+
+} // namespace lacuna::quads
