@@ -325,20 +325,24 @@ private:
         }
         std::optional<std::vector<CountedLoop>> best;
         double least = std::numeric_limits<double>::infinity();
-        const int fold = alike(others, about);
+        const int alike_holes = alike(others, about);
         const int low = std::max(3, std::min(along[0], along[1])), high = std::max(along[0], along[1]);
-        for (int sides = (low + fold - 1) / fold * fold; sides < high + fold; sides += fold) {
-            double cost = 0;
-            bool closed = true;
-            std::vector<CountedLoop> tried(ends.begin(), ends.end());
-            for (std::size_t e = 0; e < 2 && closed; ++e) {
-                tried[e].excess[0] -= e == 0 ? sides : -sides;
-                closed = close(tried[e], kRing);
-                cost += sum_of_costs(tried[e]) / tried[e].wanted;
+        // An even number, where there is one, leaves what lies beyond a loop to quads alone.
+        for (const int fold : {std::lcm(alike_holes, 2), alike_holes}) {
+            for (int sides = (low + fold - 1) / fold * fold; sides < high + fold; sides += fold) {
+                double cost = 0;
+                bool closed = true;
+                std::vector<CountedLoop> tried(ends.begin(), ends.end());
+                for (std::size_t e = 0; e < 2 && closed; ++e) {
+                    tried[e].excess[0] -= e == 0 ? sides : -sides;
+                    closed = close(tried[e], kRing);
+                    cost += sum_of_costs(tried[e]) / tried[e].wanted;
+                }
+                if (!closed || cost >= least) continue;
+                least = cost;
+                best = std::move(tried);
             }
-            if (!closed || cost >= least) continue;
-            least = cost;
-            best = std::move(tried);
+            if (best) break;
         }
         if (!best) return std::nullopt;
         best->insert(best->end(), others.begin(), others.end());

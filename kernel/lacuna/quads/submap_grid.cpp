@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 
 namespace lacuna::quads {
@@ -112,13 +114,32 @@ SubmapGrid::SubmapGrid(const std::vector<GridLoop>& loops, int period) : period_
             }
         }
     }
+    constexpr std::int64_t kMost = 1 << 24; // across; what is wider was placed by a slip
+    for (std::size_t k = 0; k < 2; ++k) {
+        if (std::int64_t{high[k]} - low_[k] > kMost) return; // nothing fits a grid without cells
+    }
     if (period_ > 0) low_[0] = 0;
     width_ = period_ > 0 ? period_ : high[0] - low_[0] + 1;
     height_ = high[1] - low_[1] + 1;
 }
 
+bool SubmapGrid::is_walk(const std::vector<GridLoop>& loops) const
+{
+    for (const GridLoop& loop : loops) {
+        for (std::size_t i = 0, n = loop.positions.size(); i < n; ++i) {
+            const GridPosition &a = loop.positions[i], &b = loop.positions[(i + 1) % n];
+            if (period_ > 0 && (a[0] < 0 || a[0] >= period_)) return false;
+            int along = std::abs(b[0] - a[0]);
+            if (period_ > 0) along = std::min(along, period_ - along);
+            if (along + std::abs(b[1] - a[1]) != 1) return false;
+        }
+    }
+    return true;
+}
+
 bool SubmapGrid::enclose(const std::vector<GridLoop>& loops)
 {
+    if (width_ <= 0 || height_ <= 0 || !is_walk(loops)) return false;
     node_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), -1);
     // The winding number of each cell, summed up its column over the sides that run along it.
     std::vector<int> change(node_.size(), 0);

@@ -40,7 +40,7 @@ public:
     /// @param period  > 0: the first coordinate counts round a ring, and those of loops are below it.
     explicit SubmapGrid(const std::vector<GridLoop>& loops, int period = 0);
 
-    /// @return false where the loops touch or overlap in the grid.
+    /// @return false where the loops touch or overlap in the grid, or do not go from line to line.
     bool enclose(const std::vector<GridLoop>& loops);
     /// Number the inner grid points from `first` on. @return how many there are.
     Index number_inner(Index first);
@@ -59,6 +59,9 @@ private:
     {
         return index(s[0] - low_[0], s[1] - low_[1]);
     }
+
+    /// Whether each node of the loops is a grid line from the next.
+    [[nodiscard]] bool is_walk(const std::vector<GridLoop>& loops) const;
 
     [[nodiscard]] int columns() const { return period_ > 0 ? width_ : width_ - 1; }
 
