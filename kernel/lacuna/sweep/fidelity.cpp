@@ -23,8 +23,8 @@ constexpr double kShareOfSide = 0.25;
 /// whole side.
 constexpr double kShareAtTip = 1;
 
-/// The mesh's volume may be off by this share of the sealed one. Sides that stand for an eighth of a turn lose a
-/// tenth of a disc. A choice, not a measurement.
+/// The mesh's volume may be off by this share of the sealed one. Sides that stand for an eighth of a turn
+/// lose a tenth of a disc. A choice, not a measurement.
 constexpr double kMostOfVolume = 0.1;
 
 /// A face the skin leaves out.
