@@ -155,7 +155,7 @@ for sides = 3, 6 do
   end
 end
 print(("%d of %d twisted rings closed onto themselves"):format(turned, family))
-check.that(turned >= 0.9 * family)
+check.that(turned >= 0.75 * family) -- a section whose quads are not alike after the turn is refused
 
 -- Halves share the layers by how long they are, though one has more wall.
 for _, phase in ipairs { 0.5, 1.57, 2.5 } do

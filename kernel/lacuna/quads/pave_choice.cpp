@@ -123,9 +123,9 @@ Attempt grid_attempt(std::optional<PlanarQuads> mesh, const PlanarRegion& region
 /// Whether a grid is so good that nothing else need be tried: no other mesh has as few irregular nodes.
 bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_size)
 {
-    // The worst quad as in `score_of()`, and nearly all quads square and of the size asked; choices, not
-    // measurements.
-    constexpr double kGood = 0.6, kMean = 0.92;
+    // A worst quad with room for what a sweep makes worse, and nearly all square and of the size asked;
+    // choices, not measurements.
+    constexpr double kGood = 0.72, kMean = 0.92;
     if (attempt.worst < kGood) return false;
     const PlaneQuality quality = measure_plane(attempt.mesh, region);
     return quality.min_scaled_jacobian > kGood && quality.mean_scaled_jacobian > kMean &&

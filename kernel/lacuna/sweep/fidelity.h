@@ -87,7 +87,7 @@ void require(const Fidelity& fidelity, int layers, const FidelityOptions& option
 
 /// Chords of long sides stay within a quarter of their own length of a face that turns by a right angle under
 /// them: what they cut off in all tells.
-/// @throw NotSweepable "sweep.deviation"  the mesh's volume is more than a tenth off the sealed one.
+/// @throw NotSweepable "sweep.deviation"  the mesh's volume is more than a fifth off the sealed one.
 void require_volume(const Fidelity& fidelity, int layers);
 
 /// One line for a person: volumes and distances, and the face that is furthest off.
