@@ -286,3 +286,17 @@ for _, options in ipairs {
   local stacked = lacuna.assembly { low, high }:sweep(options)
   check.equal(stacked.hexes, 2 * 4 * 4 * 6)
 end
+
+-- A mesh that stays as it is was not loaded: no advice to load it otherwise.
+local moved = lacuna.model()
+for _, face in ipairs { { "source", 1 }, { "target", 2 } } do
+  local z = face[2]
+  moved:add_face { name = face[1], cells = { { 1, 2, 3, 4 } },
+    points = { { 0.2, 0.2, z }, { 0.6, 0.2, z }, { 0.6, 0.6, z }, { 0.2, 0.6, z } } }
+end
+local kept = cube(0):sweep { size = 0.25 }
+local why = select(2, pcall(function()
+  lacuna.assembly { kept, open(moved, "part") }:sweep { size = 0.25 }
+end))
+check.that(tostring(why):find("mesh that stays as it is", 1, true), tostring(why))
+check.that(not tostring(why):find("keep_mesh", 1, true), tostring(why))
