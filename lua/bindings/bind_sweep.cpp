@@ -13,11 +13,15 @@
 #include <lacuna/io/deck_middles.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <span>
 #include <string_view>
 #include <thread>
+#include <tuple>
+#include <type_traits>
 
 namespace lacuna::lua {
 
@@ -32,6 +36,8 @@ struct SweepArguments {
     int size_function = 0; ///< stack index of a Lua function, 0 for none
     int row_height_function = 0;
     const VolumeState* volume = nullptr; ///< that selectors choose the faces of
+    std::string name;                    ///< of that volume
+    std::set<std::string> own;           ///< options that were given for it alone, and name its faces
 };
 
 // --- layers ---------------------------------------------------------------------------------------------
@@ -497,6 +503,7 @@ struct ToMesh {
     Box<VolumeState> volume;
     const SweepArguments* arguments = nullptr;
     std::unique_ptr<FixedMember> fixed;
+    bool left_out = false; ///< its faces may be named all the same
 };
 
 /// A volume of an assembly with its options, or the pieces of one with branches or steps.
@@ -504,12 +511,12 @@ void add_members(std::vector<ToMesh>& members, const Box<VolumeState>& volume, c
                  const SweepArguments& arguments, const RunContext& context)
 {
     if (!closure::has_pieces(volume->volume)) {
-        members.push_back({volume, &arguments, nullptr});
+        members.push_back({volume, &arguments, nullptr, false});
         return;
     }
     int number = 0;
     for (closure::StepPiece& piece : closure::cut_into_pieces(volume->volume, context)) {
-        members.push_back({std::make_shared<VolumeState>(), &arguments, nullptr});
+        members.push_back({std::make_shared<VolumeState>(), &arguments, nullptr, false});
         VolumeState& own = *members.back().volume;
         own.volume = std::move(piece.volume);
         own.level = piece.level;
@@ -521,19 +528,90 @@ void add_members(std::vector<ToMesh>& members, const Box<VolumeState>& volume, c
     }
 }
 
+/// The options that name faces.
+constexpr std::array<const char*, 2> kOfFaces{"boundary_layers", "intervals"};
+
+/// Give each word of those and the faces that it names.
+template <class Options, class Do>
+void for_each_names(Options& options, const Do& give)
+{
+    for (auto& layer : options.boundary_layers) give(kOfFaces[0], layer.walls);
+    for (auto& interval : options.intervals)
+        if (interval.of == surface::Interval::Of::wall) give(kOfFaces[1], interval.walls);
+}
+
 /// Options for many volumes name faces that one alone has: leave out those that this one has not.
 void keep_known_faces(sweep::AssemblyMember& member)
 {
-    const auto drop = [&](surface::FaceNames& names) {
+    for_each_names(member.options, [&](const char*, surface::FaceNames& names) {
         std::erase_if(names.tags, [&](int tag) { return !surface::has_face(*member.volume, tag); });
         std::erase_if(names.names,
                       [&](const auto& name) { return !surface::has_face(*member.volume, name); });
+    });
+    const auto is_empty = [](const surface::FaceNames& names) {
         return names.tags.empty() && names.names.empty();
     };
-    std::erase_if(member.options.boundary_layers, [&](auto& layer) { return drop(layer.walls); });
+    std::erase_if(member.options.boundary_layers, [&](auto& layer) { return is_empty(layer.walls); });
     std::erase_if(member.options.intervals, [&](auto& interval) {
-        return interval.of == surface::Interval::Of::wall && drop(interval.walls);
+        return interval.of == surface::Interval::Of::wall && is_empty(interval.walls);
     });
+}
+
+constexpr const char* kWhereFacesAre = "; volume:tree() lists faces";
+
+/// "; the nearest is …": of the names of faces of some volumes.
+std::string nearest_face_name(const std::vector<ToMesh>& all, const std::string& wanted,
+                              const SweepArguments* of)
+{
+    std::set<std::string> known;
+    for (const ToMesh& one : all) {
+        if (!one.volume || (of != nullptr && one.arguments != of)) continue;
+        for (const topology::Face& face : one.volume->volume.model.faces) {
+            if (!face.name.empty() && face.origin == topology::Origin::given) known.insert(face.name);
+            known.insert(face.groups.begin(), face.groups.end());
+        }
+    }
+    if (known.empty()) return kWhereFacesAre;
+    std::vector<const char*> keys;
+    keys.reserve(known.size());
+    for (const std::string& name : known) keys.push_back(name.c_str());
+    return "; the nearest is \"" + std::string(keys[nearest(wanted.c_str(), keys.data(), keys.size())]) +
+           "\"";
+}
+
+/// Refuse a face that is named and that no volume has; of options of one volume, that one.
+void check_known_faces(const std::vector<ToMesh>& all)
+{
+    std::set<std::tuple<const SweepArguments*, std::string, std::string>> seen;
+    const auto check = [&](const ToMesh& by, const std::string& option, bool own, const std::string& what,
+                           const auto& face) {
+        const SweepArguments* const of = own ? by.arguments : nullptr;
+        if (!seen.emplace(of, option, what).second) return;
+        const bool known = std::ranges::any_of(all, [&](const ToMesh& one) {
+            return one.volume && (of == nullptr || one.arguments == of) &&
+                   surface::has_face(one.volume->volume, face);
+        });
+        if (known) return;
+        std::string advice = kWhereFacesAre;
+        if constexpr (std::is_same_v<std::decay_t<decltype(face)>, std::string>)
+            advice = nearest_face_name(all, face, of);
+        const std::string name = own ? by.arguments->name : "";
+        throw InvalidInput("surface.no_such_face",
+                           "sweep: option '" + option + "'" + (own ? " of " + name : "") + " names " + what +
+                               ", which " + (own ? name : "no volume of the assembly") + " has" +
+                               (own ? " not" : "") + advice);
+    };
+    for (const ToMesh& one : all) {
+        if (!one.volume) continue;
+        for_each_names(one.arguments->options,
+                       [&](const std::string& option, const surface::FaceNames& names) {
+                           const bool own = one.arguments->own.contains(option);
+                           for (const int tag : names.tags)
+                               check(one, option, own, "face " + std::to_string(tag), tag);
+                           for (const std::string& name : names.names)
+                               check(one, option, own, '"' + name + '"', name);
+                       });
+    }
 }
 
 /// A turn of fewer layers would have one of 120° and more, which no hexahedron spans.
@@ -586,14 +664,15 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<ToMesh>& all,
             close_volume(state, {}, context);
             closure::check_ends(state.volume, region);
         };
-        if (!do_or_leave_out(left_out, region, *all[m].arguments, close)) continue;
+        if (all[m].left_out || !do_or_leave_out(left_out, region, *all[m].arguments, close)) continue;
         materials.push_back(state.material);
         turn_of.push_back(state.turn_of);
         members.push_back({&state.volume, all[m].arguments->options, region});
-        keep_known_faces(members.back());
         if (state.level > 0) members.back().options.layers = {};
         share_layers(state, members.back().options.layers);
     }
+    check_known_faces(all);
+    for (sweep::AssemblyMember& member : members) keep_known_faces(member);
     if (members.empty() && !left_out.empty())
         throw NotSweepable(left_out.front().code, left_out.front().message);
     mesh->swept = sweep_turns(members, turn_of, context);
@@ -680,12 +759,14 @@ bool sweep_or_turn(VolumeState& state, OtherWays& ways, const RunContext& contex
 }
 
 /// Sweep the pieces of a volume with branches or steps as an assembly.
-bool sweep_steps(lua_State* L, const Box<VolumeState>& volume, const SweepArguments& arguments,
-                 OtherWays& ways, RunContext& context)
+bool sweep_steps(lua_State* L, const Box<VolumeState>& volume, SweepArguments& arguments, OtherWays& ways,
+                 RunContext& context)
 {
     auto& box = new_box<AssemblyMeshState>(L);
     bool done = false;
     guard(L, [&] {
+        arguments.name = volume->name.empty() ? "the volume" : volume->name;
+        arguments.own.insert(kOfFaces.begin(), kOfFaces.end());
         const Busy busy(*volume, "sweep");
         StageClock clock(context);
         done = sweep_or_turn(*volume, ways, context, [&]() -> std::vector<std::string>& {
@@ -841,12 +922,12 @@ void push_options_of(lua_State* L, int index, const Box<VolumeState>& volume)
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
         const Box<VolumeState>* const key = test_box<VolumeState>(L, -2);
         if (key == nullptr || *key != volume) continue;
-        if (lua_type(L, -1) != LUA_TTABLE) fail_value(L, {"sweep", "[volume]"}, "a table of options", -1);
         lay_over(lua_absindex(L, -1));
     }
 }
 
-/// Refuse keys that are neither words nor volumes of the assembly.
+/// Refuse keys that are neither words nor volumes of the assembly, and keys of a volume's options that are no
+/// words.
 void check_volume_keys(lua_State* L, int index, const AssemblyState& assembly)
 {
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
@@ -855,6 +936,28 @@ void check_volume_keys(lua_State* L, int index, const AssemblyState& assembly)
         const auto is_key = [key](const AssemblyState::Entry& entry) { return entry.volume == *key; };
         if (key == nullptr || !*key || std::ranges::none_of(assembly.entries, is_key))
             fail(L, "sweep: the keys of the options are words, or volumes of the assembly");
+        if (lua_type(L, -1) != LUA_TTABLE) fail_value(L, {"sweep", "[volume]"}, "a table of options", -1);
+        const int own = lua_gettop(L);
+        for (lua_pushnil(L); lua_next(L, own) != 0; lua_pop(L, 1)) {
+            if (lua_type(L, -2) == LUA_TSTRING) continue;
+            fail(L,
+                 "sweep: the keys of one volume's options are words; found a %s: give each volume's options "
+                 "in the table of the whole",
+                 test_box<VolumeState>(L, -2) != nullptr ? "volume" : luaL_typename(L, -2));
+        }
+    }
+}
+
+/// Which options that name faces a volume has of its own.
+void read_own(lua_State* L, int index, const Box<VolumeState>& volume, SweepArguments& arguments)
+{
+    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
+        const Box<VolumeState>* const key = test_box<VolumeState>(L, -2);
+        if (key == nullptr || *key != volume) continue;
+        for (const char* option : kOfFaces) {
+            if (lua_getfield(L, -1, option) != LUA_TNIL) guard(L, [&] { arguments.own.insert(option); });
+            lua_pop(L, 1);
+        }
     }
 }
 
@@ -869,12 +972,13 @@ int sweep_assembly(lua_State* L)
     }
     if (lua_type(L, 2) != LUA_TTABLE) fail_value(L, {"sweep", nullptr}, "a table of options", 2);
     check_volume_keys(L, 2, assembly);
-    auto& arguments = temporary<std::vector<const SweepArguments*>>(L);
+    auto& arguments = temporary<std::vector<SweepArguments*>>(L);
     for (const AssemblyState::Entry& entry : assembly.entries) {
         if (!entry.volume) continue;
         luaL_checkstack(L, 16, "too many volumes");
         push_options_of(L, 2, entry.volume);
-        const SweepArguments& own = push_arguments(L, lua_gettop(L), "sweep", *entry.volume);
+        SweepArguments& own = push_arguments(L, lua_gettop(L), "sweep", *entry.volume);
+        read_own(L, 2, entry.volume, own);
         guard(L, [&] { arguments.push_back(&own); });
     }
     RunContext& context = push_context(L);
@@ -889,13 +993,15 @@ int sweep_assembly(lua_State* L)
         for (std::size_t m = 0; m < assembly.entries.size(); ++m) {
             const AssemblyState::Entry& entry = assembly.entries[m];
             for (std::unique_ptr<FixedMember>& fixed : fixed_members(entry, context))
-                members.push_back({nullptr, nullptr, std::move(fixed)});
+                members.push_back({nullptr, nullptr, std::move(fixed), false});
             if (!entry.volume) continue;
-            const SweepArguments& options = **own++;
+            SweepArguments& options = **own++;
             const std::string name = entry.volume->name.empty() ? "volume_" + std::to_string(m + 1)
                                                                 : entry.volume->name;
+            options.name = name;
             const auto add = [&] { add_members(members, entry.volume, name, options, context); };
-            do_or_leave_out(left_out, name, options, add);
+            if (!do_or_leave_out(left_out, name, options, add))
+                members.push_back({entry.volume, &options, nullptr, true});
         }
         box = sweep_members(members, std::move(left_out), context);
         box->seconds = clock.seconds();

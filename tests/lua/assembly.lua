@@ -98,6 +98,24 @@ check.fails(function() assembly:sweep { [core()] = {} } end, "volumes of the ass
 check.fails(function() assembly:sweep { size = 0.4, [a] = { layers = 5 }, [b] = { layers = 6 } } end,
   "core", "volume_2", "5 and 6", "assembly.layers")
 check.fails(function() assembly:sweep { sise = 0.4 } end, "sise", "size")
+check.fails(function() assembly:sweep { size = 0.4, [a] = { [b] = { layers = 2 } } } end,
+  "one volume", "words")
+local round = { size = 0.4 }
+round[a] = round
+check.fails(function() assembly:sweep(round) end, "one volume", "words")
+-- A face that some volume has may be named for all; one that none has may not, nor one of another volume.
+for _, option in ipairs { "boundary_layers", "intervals" } do
+  local function of(name)
+    return option == "intervals" and { { name, 7 } } or { walls = name, first = 0.01, count = 2 }
+  end
+  check.fails(function() assembly:sweep { size = 0.4, [option] = of "wal_1" } end,
+    option, '"wal_1"', 'nearest is "wall_1"', "no volume", "surface.no_such_face")
+  check.fails(function() assembly:sweep { size = 0.4, [a] = { [option] = of "typo" } } end,
+    option .. "' of core", "core has not", "surface.no_such_face")
+end
+check.fails(function()
+  assembly:sweep { size = 0.4, boundary_layers = { walls = 77, first = 0.01, count = 2 } }
+end, "boundary_layers", "face 77", "no volume", "surface.no_such_face")
 check.fails(function() lacuna.assembly { core "x", ring "x" }:sweep { size = 0.4 } end, 'named "x"')
 
 -- A volume that is being swept cannot be part of one.
@@ -233,3 +251,52 @@ do
     check.equal(mesh.hexes, 4 * (2 + mesh.layers.at_1))
   end
 end
+
+-- One cylinder in two volumes with other facets each is one face; volumes that overlap by less than facets
+-- are off it are refused, and a gap that they hide is named.
+local function pipe(inner, outer, facets, name)
+  return open(lacuna.synthetic.annulus { inner = inner, outer = outer, height = 1, facets = facets }, name)
+end
+for _, facets in ipairs { { 32, 24 }, { 12, 13 }, { 16, 24 } } do
+  local pipes = lacuna.assembly { pipe(1, 1.5, facets[1], "in"), pipe(1.5, 2, facets[2], "out") }
+  local one = pipes:sweep { size = 0.25 }
+  local sealed = one.fidelity.regions
+  check.near(one:quality().volume, sealed["in"].sealed_volume + sealed.out.sealed_volume, 0.2)
+  check.equal(#one.report.near_misses, 0)
+end
+for _, facets in ipairs { { 64, 64 }, { 64, 48 } } do
+  check.fails(function()
+    local over = lacuna.assembly { pipe(0.5, 1, facets[1], "in"), pipe(0.999, 1.5, facets[2], "out") }
+    over:sweep { size = 0.25 }
+  end, "same side", "assembly.overlap")
+end
+local hidden = lacuna.assembly { pipe(0.5, 1, 32, "in"), pipe(1.003, 1.5, 32, "out") }:sweep { size = 0.25 }
+check.equal(#hidden.report.near_misses, 1)
+check.near(hidden.report.near_misses[1].width, 0.003, 1e-4)
+check.that(hidden.report.near_misses[1].message:find "0.0048", "the sag is told")
+
+-- Sides that intervals ask for on an edge that volumes share are those of all of them.
+local function cube(z) return slab(z, nil, "cube" .. z) end
+local low, high = cube(0), cube(1)
+for _, options in ipairs {
+  { intervals = { { "side", 6 } } }, { [low] = { intervals = { { "side", 6 } } } },
+  { [high] = { intervals = { { "side", 6 } } } },
+} do
+  options.size = 0.25
+  local stacked = lacuna.assembly { low, high }:sweep(options)
+  check.equal(stacked.hexes, 2 * 4 * 4 * 6)
+end
+
+-- A mesh that stays as it is was not loaded: no advice to load it otherwise.
+local moved = lacuna.model()
+for _, face in ipairs { { "source", 1 }, { "target", 2 } } do
+  local z = face[2]
+  moved:add_face { name = face[1], cells = { { 1, 2, 3, 4 } },
+    points = { { 0.2, 0.2, z }, { 0.6, 0.2, z }, { 0.6, 0.6, z }, { 0.2, 0.6, z } } }
+end
+local kept = cube(0):sweep { size = 0.25 }
+local why = select(2, pcall(function()
+  lacuna.assembly { kept, open(moved, "part") }:sweep { size = 0.25 }
+end))
+check.that(tostring(why):find("mesh that stays as it is", 1, true), tostring(why))
+check.that(not tostring(why):find("keep_mesh", 1, true), tostring(why))

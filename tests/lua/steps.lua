@@ -277,4 +277,31 @@ check.equal(table.concat(without.regions, " "), "room_1")
 check.equal(without.left_out[1].region, "room_2")
 check.equal(without.left_out[1].code, "surface.given_triangles")
 check.near(without.fidelity.volume, 36, 1e-9)
+-- What floats over something else with outlines that touch: a face that cannot be split is named.
+for _, above in ipairs { { { 10, 8, 22 }, { 24, 20, 30 } }, { { 12, 4, 22 }, { 20, 26, 30 } },
+  { { 8, 8, 22 }, { 28, 20, 30 } } } do
+  local room = lacuna.model()
+  local function add_box(name, low, high, inward)
+    local function quad(side, a, b, c, d)
+      local points = inward and { d, c, b, a } or { a, b, c, d }
+      room:add_face { name = name .. side, points = points, cells = { { 1, 2, 3, 4 } } }
+    end
+    local x, y, z, X, Y, Z = low[1], low[2], low[3], high[1], high[2], high[3]
+    quad("_low", { x, y, z }, { x, Y, z }, { X, Y, z }, { X, y, z })
+    quad("_high", { x, y, Z }, { X, y, Z }, { X, Y, Z }, { x, Y, Z })
+    quad("_1", { x, y, z }, { x, y, Z }, { x, Y, Z }, { x, Y, z })
+    quad("_2", { X, y, z }, { X, Y, z }, { X, Y, Z }, { X, y, Z })
+    quad("_3", { x, y, z }, { X, y, z }, { X, y, Z }, { x, y, Z })
+    quad("_4", { x, Y, z }, { x, Y, Z }, { X, Y, Z }, { X, Y, z })
+  end
+  add_box("room", { 0, 0, 0 }, { 40, 30, 40 })
+  add_box("below", { 8, 8, 6 }, { 28, 20, 14 }, true)
+  add_box("above", above[1], above[2], true)
+  local fine, why = pcall(function()
+    return room:open_volume { source = { "room_low", "below_high", "above_high" },
+      target = { "room_high", "below_low", "above_low" }, walls = "auto" }:sweep { size = 4 }
+  end)
+  check.that(fine or tostring(why):find "face %d+", tostring(why))
+end
+
 check.done()

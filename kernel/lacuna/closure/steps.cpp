@@ -281,7 +281,16 @@ private:
                 if (parents[i] == outer) add(rings[i]);
             geometry::TriangulateOptions options;
             options.interior_points = before.kind != "plane";
-            const geometry::Triangulation made = geometry::triangulate(flat_points, loops, options, context_);
+            geometry::Triangulation made;
+            try {
+                made = geometry::triangulate(flat_points, loops, options, context_);
+            } catch (const InvalidInput& error) { // which knows loops and no faces
+                throw InvalidInput(error.code(),
+                                   name_of(model_, id) +
+                                       " cannot be split along the outlines of what stands on it "
+                                       "or lies over it: " +
+                                       error.what());
+            }
             Face face = before;
             face.triangles.clear();
             face.uv.clear();

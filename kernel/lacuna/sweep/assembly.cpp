@@ -149,11 +149,13 @@ private:
         FacesInCommon found = faces_in_common(members_, context_);
         if (!found.partly.empty()) {
             std::vector<std::string> regions;
+            std::vector<bool> fixed;
             for (const AssemblyMember& member : members_) {
                 imprinted_.push_back(*member.volume);
                 regions.push_back(member.region);
+                fixed.push_back(member.fixed != nullptr);
             }
-            notes_ = imprint_faces(imprinted_, regions, found.partly, context_);
+            notes_ = imprint_faces(imprinted_, regions, fixed, found.partly, context_);
             for (std::size_t m = 0; m < members_.size(); ++m) members_[m].volume = &imprinted_[m];
             found = faces_in_common(members_, context_);
             refuse_partly_shared(found);

@@ -221,6 +221,7 @@ private:
 struct SideOfPair {
     OpenVolume* volume;
     FaceId face;
+    bool fixed = false; ///< the skin of a mesh that stays as it is
 
     [[nodiscard]] Model& model() const { return volume->model; }
     [[nodiscard]] double size() const { return std::sqrt(face_area(model(), face)); }
@@ -341,9 +342,13 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
         throw InvalidInput(
             "assembly.part_of_face",
             names + ": " + name_of(side->model(), side->face) +
-                " came with quads, which stay as they are and cannot be split along the rim of "
-                "the other; mesh the two faces alike, or, of a mesh from a file, load it with "
-                "keep_mesh = false");
+                (side->fixed
+                     ? " is a face of a mesh that stays as it is, and cannot be split along the rim of "
+                       "the other; put the volume it was made of in its place, or split the face "
+                       "there before that is meshed"
+                     : " came with quads, which stay as they are and cannot be split along the rim of "
+                       "the other; mesh the two faces alike, or, of a mesh from a file, load it with "
+                       "keep_mesh = false"));
     }
     Parts parts{split_along(a, onto_a, context), split_along(b, onto_b, context)};
     if (parts.a.empty() || parts.b.empty())
@@ -356,7 +361,8 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
 } // namespace
 
 std::vector<std::string> imprint_faces(std::span<OpenVolume> volumes, std::span<const std::string> regions,
-                                       std::span<const PartlyShared> pairs, const RunContext& context)
+                                       const std::vector<bool>& fixed, std::span<const PartlyShared> pairs,
+                                       const RunContext& context)
 {
     std::map<std::pair<std::size_t, FaceId>, std::vector<FaceId>> parts_of;
     const auto parts = [&](std::size_t m, FaceId face) -> std::vector<FaceId>& {
@@ -374,8 +380,9 @@ std::vector<std::string> imprint_faces(std::span<OpenVolume> volumes, std::span<
         for (std::size_t i = 0; i < all_a.size(); ++i) {
             std::vector<FaceId> all_b = parts(faces.b, faces.face_b);
             for (std::size_t j = 0; j < all_b.size(); ++j) {
-                const Parts made = imprint_pair({&volumes[faces.a], all_a[i]}, {&volumes[faces.b], all_b[j]},
-                                                pair.limit, names, context);
+                const Parts made = imprint_pair({&volumes[faces.a], all_a[i], fixed[faces.a]},
+                                                {&volumes[faces.b], all_b[j], fixed[faces.b]}, pair.limit,
+                                                names, context);
                 all_a.insert(all_a.end(), made.a.begin() + 1, made.a.end());
                 all_b.insert(all_b.end(), made.b.begin() + 1, made.b.end());
             }

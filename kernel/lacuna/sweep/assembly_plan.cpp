@@ -3,6 +3,7 @@
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/union_find.h>
 #include <lacuna/surface/default_size.h>
+#include <lacuna/surface/intervals.h>
 #include <lacuna/surface/linking_surface.h>
 #include <lacuna/surface/seeds.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
@@ -165,7 +166,9 @@ private:
     void join_by_sweep(std::size_t m)
     {
         std::map<EdgeId, std::set<EdgeId>> target_of, source_of;
-        for (const surface::LinkingSurface& link : surface::linking_surfaces(*members_[m].volume)) {
+        const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(*members_[m].volume);
+        find_demands(m, links);
+        for (const surface::LinkingSurface& link : links) {
             for (const surface::RimSegment& segment : link.segments) {
                 const EdgeId from = link.source.uses()[segment.use].edge;
                 // A segment may run along several edges of the target: from the first to the last of them.
@@ -198,6 +201,82 @@ private:
             if (to.size() == 1 && source_of.at(*to.begin()).size() == 1)
                 classes_.unite(number(m, from), number(m, *to.begin()));
         }
+    }
+
+    /// What a member's intervals ask for. What is wrong with them its own sweep says.
+    void find_demands(std::size_t m, std::span<const surface::LinkingSurface> links)
+    {
+        const AssemblyMember& member = members_[m];
+        if (member.options.intervals.empty()) return;
+        try {
+            demands_[m] = surface::find_intervals(*member.volume, links, member.options.intervals);
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const Error& error) {
+            log_line(context_, member.region + ": " + error.what());
+        }
+    }
+
+    /// An edge of the source as intervals ask for it.
+    struct EdgeAsked {
+        EdgeId edge;
+        double covered = 0; ///< share of its length that they are about
+        double length = 0;  ///< of that [model length]
+        bool reversed = false;
+    };
+
+    /// Numbers of sides that intervals ask for, by class; where they are about parts of an edge, how many it
+    /// gets in all is the sweep's matter.
+    void ask_sides()
+    {
+        for (const auto& [m, demands] : demands_) {
+            for (const surface::SidesAsked& asked : demands.sides) {
+                std::vector<EdgeAsked> edges;
+                for (const surface::SidesAsked::Part& part : asked.parts) {
+                    if (edges.empty() || edges.back().edge != part.edge)
+                        edges.push_back({part.edge, 0, 0, part.reversed});
+                    edges.back().covered += part.to - part.from;
+                    edges.back().length += (part.to - part.from) * edges_[number(m, part.edge)].length;
+                }
+                const bool whole = std::ranges::all_of(
+                    edges, [](const EdgeAsked& edge) { return edge.covered > 1 - kInset; });
+                if (whole && static_cast<std::size_t>(asked.count) >= edges.size())
+                    ask_sides(m, asked, edges);
+            }
+        }
+    }
+    /// The corners between the edges are the nodes nearest to them by the length, a side at least each.
+    void ask_sides(std::size_t m, const surface::SidesAsked& asked, const std::vector<EdgeAsked>& edges)
+    {
+        double all = 0, until = 0;
+        for (const EdgeAsked& edge : edges) all += edge.length;
+        int before = 0;
+        for (std::size_t k = 0; k < edges.size(); ++k) {
+            until += edges[k].length;
+            const auto left = static_cast<int>(edges.size() - k - 1);
+            const int node = left == 0 ? asked.count
+                                       : std::clamp(static_cast<int>(std::lround(asked.count * until / all)),
+                                                    before + 1, asked.count - left);
+            const std::size_t e = number(m, edges[k].edge);
+            ask_class(e, {node - before, members_[m].region + ": " + asked.name});
+            if (edges.size() == 1 && asked.bias != 1)
+                bias_[same_.find(e)] = {e, edges[k].reversed ? 1 / asked.bias : asked.bias};
+            before = node;
+        }
+    }
+    struct SidesOfClass {
+        int count = 0;
+        std::string name; ///< who asks
+    };
+    void ask_class(std::size_t e, const SidesOfClass& sides)
+    {
+        const auto [found, fresh] = intervals_.try_emplace(classes_.find(e), sides);
+        if (fresh || found->second.count == sides.count) return;
+        throw NotSweepable("surface.sides_asked", "intervals: " + sides.name + " asks for " +
+                                                      std::to_string(sides.count) + " sides, and " +
+                                                      found->second.name + " for " +
+                                                      std::to_string(found->second.count) +
+                                                      "; volumes that share edges have as many sides there");
     }
 
     /// Walls have rows and columns, and so has an end of one member that is a wall of another: opposite edges
@@ -251,9 +330,11 @@ private:
         return spacing_[m];
     }
 
-    static int layers_asked(const AssemblyMember& member)
+    [[nodiscard]] int layers_asked(std::size_t m) const
     {
-        const LayerSpec& spec = member.options.layers;
+        const LayerSpec& spec = members_[m].options.layers;
+        const auto demands = demands_.find(m);
+        if (demands != demands_.end() && demands->second.layers) return demands->second.layers->count;
         return spec.heights.empty() ? spec.count : static_cast<int>(spec.heights.size());
     }
 
@@ -368,17 +449,21 @@ private:
     {
         std::map<std::size_t, std::size_t> asked; // class: member
         for (const auto& [m, sides] : sides_) {
-            if (layers_asked(members_[m]) == 0 || sides.empty()) continue;
+            if (layers_asked(m) == 0 || sides.empty()) continue;
             const auto [found, fresh] = asked.try_emplace(classes_.find(number(m, sides.front().edge)), m);
             const AssemblyMember &a = members_[found->second], &b = members_[m];
-            if (fresh || layers_asked(a) == layers_asked(b)) continue;
+            if (fresh || layers_asked(found->second) == layers_asked(m)) continue;
             throw NotSweepable("assembly.layers",
                                a.region + " and " + b.region +
                                    " lie side by side and are swept the same way, so they have as many "
                                    "layers; asked for are " +
-                                   std::to_string(layers_asked(a)) + " and " +
-                                   std::to_string(layers_asked(b)));
+                                   std::to_string(layers_asked(found->second)) + " and " +
+                                   std::to_string(layers_asked(m)));
         }
+        ask_sides();
+        for (const auto& [of, m] : asked)
+            if (const auto other = intervals_.find(of); other != intervals_.end())
+                ask_class(of, {layers_asked(m), members_[m].region + ": its layers"});
         std::map<std::size_t, Kept> kept; // of the edges that say a class's number
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             Kept& of = kept[classes_.find(e)];
@@ -407,7 +492,12 @@ private:
             count_[of] = std::max(1, static_cast<int>(std::lround(sides)));
         }
         for (const auto& [of, m] : asked) {
-            count_[of] = layers_asked(members_[m]);
+            count_[of] = layers_asked(m);
+            asked_.insert(of);
+        }
+        for (const auto& [of, sides] : intervals_) {
+            if (kept.at(of) == Kept::quads) continue; // the sweep says how many there are
+            count_[of] = sides.count;
             asked_.insert(of);
         }
         for (std::size_t e = 0; e < edges_.size(); ++e) {
@@ -490,6 +580,11 @@ private:
                                    (edges_[own].from - edge.to).norm();
                 if (side.reversed == along) turn_round(at);
             }
+        }
+        if (const auto found = bias_.find(same_.find(e)); found != bias_.end() && !edge.closed) {
+            const MemberEdge& own = edges_[found->second.first];
+            at = layer_heights({.count = count, .bias = found->second.second});
+            if ((own.from - edge.from).norm() > (own.from - edge.to).norm()) turn_round(at);
         }
         if (const auto found = rows_.find(same_.find(e)); found != rows_.end())
             at = with_rows(found->second, edge.length, runs_along(e), count);
@@ -626,6 +721,10 @@ private:
     std::vector<bool> common_;                            ///< of each edge: other members have it too
     std::map<std::size_t, std::vector<EdgeUse>> sides_;   ///< of each member: side lines of one edge
     std::map<std::size_t, int> count_;                    ///< of each class
+    std::map<std::size_t, surface::IntervalDemands> demands_; ///< of each member that has intervals
+    std::map<std::size_t, SidesOfClass> intervals_;           ///< of each class that intervals are about
+    /// Of the same edges, the one that a bias was asked for, and that as it runs.
+    std::map<std::size_t, std::pair<std::size_t, double>> bias_;
     std::set<std::size_t> stacked_;        ///< edges that are parts of side lines in some member, by `same_`
     std::set<std::size_t> asked_;          ///< classes whose number a person asked for
     std::map<std::size_t, int> bumps_;     ///< how often a class got more

@@ -5,6 +5,7 @@
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/sweep/assembly.h>
 #include <lacuna/sweep/detail/near_misses.h>
+#include <lacuna/sweep/detail/rim_arcs.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/topology/side_points.h>
@@ -113,17 +114,27 @@ struct InCommon {
     bool any = false, whole = false;
     double limit = 0;  ///< how far the facets may be off each other
     std::string words; ///< of a part; where there is nothing, why both volumes overlap
+    double apart = 0;  ///< of what is taken for one: how far the arcs of the rims are off each other
+    double sag = 0;    ///< and how far their chords may be off those
 };
 
 /// One face in two members, the rims of which may be apart. @return  whether they are one all the same
 bool rims_agree(const AssemblyMember& a, const Side& one, const AssemblyMember& b, const Side& other,
-                double tolerance, double window)
+                double tolerance, double window, InCommon& common)
 {
     RimOff off = rim_off(one, other);
     const RimOff back = rim_off(other, one);
     const double slack = tolerance + kRimSag * std::max(off.sag, back.sag);
     if (back.distance > off.distance) off = back;
-    if (off.distance <= slack) return true;
+    if (off.distance <= tolerance) return true;
+    const double by_arcs = arcs_apart(rim_chords(one.model(), one.face),
+                                      rim_chords(other.model(), other.face));
+    if (by_arcs <= tolerance) return true;
+    if (off.distance <= slack) {
+        common.apart = by_arcs;
+        common.sag = std::max(off.sag, back.sag);
+        return true;
+    }
     if (off.distance > window) return false;
     const double apart = corners_apart(one.model(), one.face, other.model(), other.face, off.distance);
     throw InvalidInput("assembly.rims_apart",
@@ -144,12 +155,21 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
     bool same = (is_void(one) || is_void(other)) && rim_lies_on(one, other, tolerance) &&
                 rim_lies_on(other, one, tolerance);
     if (!same && overlap == nullptr) return {};
-    std::string words;
+    InCommon common;
+    common.limit = limit;
     if (!same) {
-        const double there = overlap->a.on / face_area(one.model(), one.face),
-                     back = overlap->b.on / face_area(other.model(), other.face);
+        const double whole = face_area(one.model(), one.face),
+                     whole_other = face_area(other.model(), other.face);
+        const double there = overlap->a.on / whole, back = overlap->b.on / whole_other;
         if (there <= kNothing && back <= kNothing) return {};
-        same = there >= kMostly && back >= kMostly && rims_agree(a, one, b, other, tolerance, window);
+        // Faces on either side of a curve of which each has other chords.
+        if (std::max(there, back) < kMostly) {
+            const double under = area_under_arcs(rim_chords(one.model(), one.face),
+                                                 rim_chords(other.model(), other.face), tolerance);
+            if (overlap->a.on <= under + kNothing * std::min(whole, whole_other)) return {};
+        }
+        same = there >= kMostly && back >= kMostly && overlap->a.same_way <= 0.5 * overlap->a.on &&
+               rims_agree(a, one, b, other, tolerance, window, common);
         // Faces that bend away from each other along a common rim are near each other there, and no more.
         if (!same && limit > tolerance && std::max(there, back) < kAlongRim) return {};
         const auto percent = [](double share) {
@@ -157,40 +177,78 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
             std::snprintf(text.data(), text.size(), "%.3g %%", 100 * std::min(share, 1.0));
             return std::string(text.data());
         };
-        words = percent(there) + " of " + name_in(a, one.face) + " lies on " + name_in(b, other.face) +
-                ", and " + percent(back) + " of that on it";
+        common.words = percent(there) + " of " + name_in(a, one.face) + " lies on " + name_in(b, other.face) +
+                       ", and " + percent(back) + " of that on it";
     }
-    if (overlap != nullptr && overlap->a.same_way > 0.5 * overlap->a.on)
-        return {false, false, limit,
-                name_in(a, one.face) + " and " + name_in(b, other.face) +
-                    " are one face, and both volumes lie on the same side of it: volumes of an assembly may "
-                    "touch, not overlap"};
-    return {true, same, limit, std::move(words)};
+    if (overlap != nullptr && overlap->a.same_way > 0.5 * overlap->a.on) {
+        const bool part = !common.words.empty() &&
+                          std::max(overlap->a.on / face_area(one.model(), one.face),
+                                   overlap->b.on / face_area(other.model(), other.face)) < kMostly;
+        common.words = (part ? common.words
+                             : name_in(a, one.face) + " and " + name_in(b, other.face) + " are one face") +
+                       ", and both volumes lie on the same side of it: volumes of an assembly may touch, not "
+                       "overlap";
+        return common;
+    }
+    common.any = true;
+    common.whole = same;
+    return common;
+}
+
+/// Rims that are within the sag of their chords and yet not on one curve: what is between them is filled.
+NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFace& faces,
+                const InCommon& common, double area, double tolerance)
+{
+    NearMiss miss;
+    miss.a = faces.a;
+    miss.b = faces.b;
+    miss.face_a = faces.face_a;
+    miss.face_b = faces.face_b;
+    miss.tag_a = a.volume->model[faces.face_a].tag;
+    miss.tag_b = b.volume->model[faces.face_b].tag;
+    miss.least = miss.width = common.apart;
+    miss.area = area;
+    miss.tolerance = tolerance;
+    miss.message = name_in(a, faces.face_a) + " and " + name_in(b, faces.face_b) +
+                   " are taken for one face, and their rims are " + in_short(common.apart) +
+                   " apart, more than the tolerance, " + in_short(tolerance) +
+                   "; their chords may be off the curve by " + in_short(common.sag) +
+                   ", so coarser facets hide a gap or an overlap as wide as that. Finer ones tell";
+    return miss;
 }
 
 /// Facets of a volume of which the middles are asked whether they are within another.
 constexpr std::size_t kAsked = 64;
 
-/// Refuse a volume some of whose skin is within another's; what is within one that is open no one can say.
-void check_apart(const AssemblyMember& a, const Eigen::AlignedBox3d& box_of_a, const AssemblyMember& b,
-                 const Eigen::AlignedBox3d& box_of_b)
+/// Refuse a volume some of whose skin is within another's by more than the facets of either may be off; what
+/// is within one that is open no one can say.
+void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
+                 const Eigen::AlignedBox3d& box_of_a, const AssemblyMember& b,
+                 std::span<const Side> sides_of_b, const Eigen::AlignedBox3d& box_of_b)
 {
     const double inside_by = kInside * b.volume->model.diagonal;
     const Eigen::AlignedBox3d inner(box_of_b.min().array() + inside_by, box_of_b.max().array() - inside_by);
     if (inner.isEmpty() || !inner.intersects(box_of_a) || !free_edges(*b.volume).empty()) return;
-    const auto facets_of = [](const OpenVolume& volume) {
-        std::vector<Triangle> facets;
-        for (const Face& face : volume.model.faces)
-            facets.insert(facets.end(), face.triangles.begin(), face.triangles.end());
-        return facets;
-    };
+    std::vector<Triangle> own, others;
+    std::vector<double> sag; // of the face of each of `own`
+    for (const Side& side : sides_of_a) {
+        own.insert(own.end(), side.face_data().triangles.begin(), side.face_data().triangles.end());
+        sag.resize(own.size(), side.sag);
+    }
+    for (const Side& side : sides_of_b)
+        others.insert(others.end(), side.face_data().triangles.begin(), side.face_data().triangles.end());
     const Model& model = a.volume->model;
-    const std::vector<Triangle> own = facets_of(*a.volume), others = facets_of(*b.volume);
     const geometry::FacetTree tree(b.volume->model.points, others);
     const std::size_t step = std::max<std::size_t>(1, own.size() / kAsked);
     for (std::size_t t = 0; t < own.size(); t += step) {
         const Vec3 p = (model.at(own[t][0]) + model.at(own[t][1]) + model.at(own[t][2])) / 3;
-        if (!tree.bounds().contains(p) || tree.closest(p, inside_by * inside_by).triangle >= 0) continue;
+        if (!tree.bounds().contains(p)) continue;
+        double by = inside_by + sag[t];
+        for (const Side& side : sides_of_b) {
+            const double reach = inside_by + sag[t] + side.sag;
+            if (side.box.squaredExteriorDistance(p) <= reach * reach) by = std::max(by, reach);
+        }
+        if (tree.closest(p, by * by).triangle >= 0) continue;
         if (std::abs(tree.winding_number(p)) < 0.5) continue;
         throw InvalidInput("assembly.overlap", a.region + " reaches into " + b.region + " at " +
                                                    place_in_short(p) +
@@ -249,6 +307,7 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
     FacesInCommon found;
     std::string same_side;
     std::vector<NearPair> pairs;
+    std::vector<NearMiss> hidden;
     for (std::size_t a = 0; a < members.size(); ++a) {
         for (std::size_t b = a + 1; b < members.size(); ++b) {
             NearPair pair{a, b, pair_tolerance(members[a], members[b]), 0, {}};
@@ -258,8 +317,8 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
             if (!Eigen::AlignedBox3d(box[a].min().array() - margin, box[a].max().array() + margin)
                      .intersects(box[b]))
                 continue;
-            check_apart(members[a], box[a], members[b], box[b]);
-            check_apart(members[b], box[b], members[a], box[a]);
+            check_apart(members[a], sides[a], box[a], members[b], sides[b], box[b]);
+            check_apart(members[b], sides[b], box[b], members[a], sides[a], box[a]);
             pair.overlaps = face_overlaps(*members[a].volume, sag[a], *members[b].volume, sag[b],
                                           pair.tolerance, pair.window, context);
             for (const Side& one : sides[a]) {
@@ -273,6 +332,9 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
                         continue;
                     }
                     const SharedFace faces{a, b, one.face, other.face};
+                    if (common.apart > 0)
+                        hidden.push_back(welded(members[a], members[b], faces, common, overlap->second.a.on,
+                                                pair.tolerance));
                     if (common.whole)
                         found.whole.push_back(faces);
                     else
@@ -283,6 +345,7 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
         }
     }
     found.near = near_misses(members, sag, pairs, found, context);
+    found.near.insert(found.near.end(), hidden.begin(), hidden.end());
     if (!same_side.empty()) throw InvalidInput("assembly.overlap", same_side);
     return found;
 }

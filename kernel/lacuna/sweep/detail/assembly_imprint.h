@@ -18,12 +18,13 @@ namespace lacuna::sweep {
 /// `topology::imprint_walks()`. Parts have the tag, name and role of the whole; new edges have no exact
 /// curve, but the edge of the other volume that they lie on keeps its own.
 /// @param volumes  of the members, changed; each pair's face ids count from before the call.
+/// @param fixed  of each volume, whether it is the skin of a mesh that stays as it is, for messages.
 /// @return  a line for each pair, for the report.
 /// @throw InvalidInput "assembly.part_of_face"  a face whose own quads are its mesh, or along whose facets
 ///         the rim cannot be laid; names both.
 /// @note  O(pairs × (facets of both × points of both rims)).
 std::vector<std::string> imprint_faces(std::span<topology::OpenVolume> volumes,
-                                       std::span<const std::string> regions,
+                                       std::span<const std::string> regions, const std::vector<bool>& fixed,
                                        std::span<const PartlyShared> pairs, const RunContext& context);
 
 } // namespace lacuna::sweep
