@@ -780,6 +780,16 @@ bool sweep_steps(lua_State* L, const Box<VolumeState>& volume, SweepArguments& a
     return done;
 }
 
+/// Say in the report and in the log what a match was unsure of that void edges were drawn by.
+void tell_match(const VolumeState& state, std::vector<std::string>& report, const RunContext& context)
+{
+    if (!state.match || !state.closure || state.closure->void_edges.empty()) return;
+    for (const std::string& note : state.match->notes) {
+        report.push_back("match: " + note);
+        if (context.log) context.log(report.back());
+    }
+}
+
 /// Sweep a volume as it is.
 bool sweep_whole(lua_State* L, VolumeState& state, SweepArguments& arguments, OtherWays& ways,
                  RunContext& context)
@@ -796,6 +806,7 @@ bool sweep_whole(lua_State* L, VolumeState& state, SweepArguments& arguments, Ot
             box = std::make_shared<MeshState>();
             if (!state.decks.empty()) take_given_middles(state, arguments.options.second_order);
             box->swept = sweep::sweep(state.volume, arguments.options, context);
+            tell_match(state, box->swept.report, context);
             if (!state.name.empty()) box->swept.mesh.volume_groups = {state.name};
             box->material = state.material;
             return box->swept.report;

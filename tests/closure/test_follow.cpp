@@ -4,6 +4,7 @@
 #include <lacuna/closure/follow.h>
 
 #include <cmath>
+#include <numbers>
 
 using namespace lacuna;
 using namespace lacuna::topology;
@@ -24,7 +25,73 @@ PrismOptions bent(double bend, std::vector<int> gone)
             .drop = without(false, false, false, std::move(gone))};
 }
 
+/// A bent pipe with a bore, its outer wall (0) or its bore's (1) left out.
+PrismOptions pipe_bend(double bend, double bore, double taper, int gone)
+{
+    return {.sides = 0,
+            .height = 3 * bend * std::numbers::pi / 180,
+            .hole_list = {{{0, 0}, bore}},
+            .cuts = 3,
+            .levels = std::max(4, static_cast<int>(bend / 4)),
+            .taper = taper,
+            .bend = bend,
+            .drop = [=](const Part& p) { return p.role == Role::wall && p.loop == gone; }};
+}
+
 } // namespace
+
+TEST_CASE("left to itself, a pipe's missing wall runs concentric with the given one round any bend")
+{
+    double worst = 0;
+    int combinations = 0;
+    for (const double bend :
+         {10.0, 20.0, 45.0, 60.0, 90.0, 120.0, 150.0, 170.0, 180.0, 200.0, 240.0, 270.0, 330.0}) {
+        for (const double bore : {0.3, 0.5, 0.8, 0.9}) {
+            for (const double taper : {1.0, 0.7}) {
+                for (const int gone : {0, 1}) {
+                    const auto pipe = test::prism(pipe_bend(bend, bore, taper, gone));
+                    auto volume = pipe.open();
+                    CAPTURE(bend);
+                    CAPTURE(bore);
+                    CAPTURE(taper);
+                    CAPTURE(gone);
+                    const matching::Match match = matching::match(volume);
+                    CHECK(match.confidence > 0.25);
+                    CHECK(match.notes.empty());
+                    closure::close(volume, match);
+                    CHECK(closure::enclosed_volume(volume) ==
+                          doctest::Approx(pipe.facet_volume).epsilon(0.015));
+                    worst = std::max(worst,
+                                     std::abs(closure::enclosed_volume(volume) / pipe.facet_volume - 1));
+                    ++combinations;
+                }
+            }
+        }
+    }
+    MESSAGE(combinations << " bends, volume off by " << 100 * worst << " % at most");
+}
+
+TEST_CASE("left to itself, the outside of a twisted prism twists with the bore that is given")
+{
+    for (const int sides : {4, 6}) {
+        for (const double twist : {10.0, 15.0, 30.0, 45.0, 60.0}) {
+            const auto prism = test::prism(
+                {.sides = sides,
+                 .holes = 1,
+                 .hole_sides = sides,
+                 .cuts = 4,
+                 .levels = 24,
+                 .twist = twist,
+                 .drop = [](const Part& p) { return p.role == Role::wall && p.loop == 0; }});
+            auto volume = prism.open();
+            test::seal(volume);
+            test::check_sealed(volume);
+            CAPTURE(sides);
+            CAPTURE(twist);
+            CHECK(closure::enclosed_volume(volume) == doctest::Approx(prism.facet_volume).epsilon(0.005));
+        }
+    }
+}
 
 TEST_CASE("void edges that follow the walls of a bend close to the volume of the whole")
 {

@@ -96,4 +96,17 @@ for _, sides in ipairs { 4, 6 } do
   end
 end
 
+-- What a match was unsure of stands in the report of the mesh whose void edges were drawn by it.
+do
+  local void = s.elbow { angle = 120, drop = "wall_1" }:open_volume { source = "source", target = "target" }
+  local notes = #void:match().notes
+  check.that(notes > 0, "ends alone leave open how a bend of 120 degrees turns them")
+  void:close { edge_shape = "smooth" }
+  local told = 0
+  for _, line in ipairs(void:sweep({ size = 0.5 }).report) do
+    if line:find("^match: .*match{ vertices = ") then told = told + 1 end
+  end
+  check.equal(told, notes)
+end
+
 check.done()

@@ -13,11 +13,23 @@ namespace {
 /// Heights at which the walls are cut: as many as a void edge has segments, so that each gets a level of
 /// its own.
 constexpr int kLevels = 64;
-/// How far a straight void edge may run from where the walls lead, of the rims' radius.
-/// A choice, not a measurement.
-constexpr double kAstray = 0.25;
+/// How far a straight void edge may run from where walls lead that go all round, of the rims' radius: what is
+/// lost of a section is about twice that. A choice, not a measurement.
+constexpr double kAstray = 0.005;
+/// The same where they are open: how they lead beside themselves is partly a guess, and where they bend
+/// little a worse one than straight. A choice, not a measurement.
+constexpr double kAstrayOpen = 0.25;
 
-/// Mean distance of a rim's vertices from their middle: of all loops together.
+/// Mean distance of points from their middle; 0 for none.
+double mean_radius(const std::vector<Vec3>& points)
+{
+    const Vec3 middle = geometry::mean_point(points);
+    double sum = 0;
+    for (const Vec3& p : points) sum += (p - middle).norm();
+    return points.empty() ? 0 : sum / static_cast<double>(points.size());
+}
+
+/// That of a rim's points: of all loops together.
 double radius_of(const topology::OpenVolume& volume, topology::Role end)
 {
     const topology::Model& model = volume.model;
@@ -27,10 +39,31 @@ double radius_of(const topology::OpenVolume& volume, topology::Role end)
             for (const Index p : model[use.edge].points) points.push_back(model.at(p));
         }
     }
-    const Vec3 middle = geometry::mean_point(points);
-    double sum = 0;
-    for (const Vec3& p : points) sum += (p - middle).norm();
-    return points.empty() ? 0 : sum / static_cast<double>(points.size());
+    return mean_radius(points);
+}
+
+/// How far a point strays from a straight line.
+double off_line(const Vec3& point, const Vec3& from, const Vec3& way)
+{
+    const Vec3 off = point - from;
+    return (off - off.dot(way) * way).norm();
+}
+
+/// How far the walls' own points stray from straight lines between the rims, of their radius: half of them
+/// further than this.
+double bow_of(const std::vector<std::vector<Vec3>>& levels)
+{
+    std::vector<double> strays;
+    for (std::size_t i = 0; i < levels.front().size(); ++i) {
+        const Vec3 from = levels.front()[i], way = (levels.back()[i] - from).stableNormalized();
+        double most = 0;
+        for (const std::vector<Vec3>& level : levels) most = std::max(most, off_line(level[i], from, way));
+        strays.push_back(most);
+    }
+    const auto middle = strays.begin() + static_cast<std::ptrdiff_t>(strays.size() / 2);
+    std::nth_element(strays.begin(), middle, strays.end());
+    const double radius = mean_radius(levels.front());
+    return radius > 0 ? *middle / radius : 0;
 }
 
 } // namespace
@@ -40,8 +73,10 @@ Follower::Follower(const topology::OpenVolume& volume, const std::vector<matchin
 {
     matching::Sections sections = matching::cut_sections(volume, lines, kLevels, context);
     heights_ = std::move(sections.heights);
+    closed_ = sections.closed;
     const std::vector<std::vector<Vec3>>& levels = sections.levels;
     if (levels.front().empty()) return;
+    bow_ = bow_of(levels);
     for (std::size_t k = 0; k < levels.size(); ++k) {
         check_cancelled(context);
         from_source_.push_back(
@@ -75,15 +110,16 @@ bool Follower::leads_astray(const topology::OpenVolume& volume, const matching::
 {
     const topology::Model& model = volume.model;
     const std::vector<bool> on_wall = volume.on_wall();
-    const double reach = kAstray * std::min(radius_of(volume, topology::Role::source),
-                                            radius_of(volume, topology::Role::target));
+    if (closed_ && !(bow_ > kAstray)) return false;
+    const double reach = (closed_ ? kAstray : kAstrayOpen) *
+                         std::min(radius_of(volume, topology::Role::source),
+                                  radius_of(volume, topology::Role::target));
     for (const auto& [source, target] : match.vertices) {
         if (on_wall[source.index()] || on_wall[target.index()]) continue;
         const Vec3 from = model.at(model[source].point), to = model.at(model[target].point);
         const Vec3 way = (to - from).stableNormalized();
         for (int k = 1; k < kLevels; ++k) {
-            const Vec3 off = morph(from, to, static_cast<double>(k) / kLevels) - from;
-            if ((off - off.dot(way) * way).norm() > reach) return true;
+            if (off_line(morph(from, to, static_cast<double>(k) / kLevels), from, way) > reach) return true;
         }
     }
     return false;

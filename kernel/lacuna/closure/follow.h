@@ -34,8 +34,9 @@ public:
     /// Where the walls' motion alone, from the source up, takes a point of the source. @pre leads()
     [[nodiscard]] Vec3 carried(const Vec3& source) const { return from_source_.back()(source); }
 
-    /// True where a straight line between two matched vertices without walls would run further than a
-    /// quarter of the rims' radius from where the walls lead: what it closes would be squeezed on one side.
+    /// True where a straight line between two matched vertices without walls would run so far from where the
+    /// walls lead that the volume it closes would be another: by half a hundredth of the rims' radius where
+    /// walls that go all round are bowed as much, by a quarter of it where all are open.
     /// @pre leads()
     [[nodiscard]] bool leads_astray(const topology::OpenVolume& volume, const matching::Match& match) const;
 
@@ -49,6 +50,8 @@ public:
 private:
     std::vector<geometry::AffineFit> from_source_, from_target_; ///< one a level
     std::vector<double> heights_;
+    bool closed_ = false; ///< some walls go all round
+    double bow_ = 0;      ///< how far the walls stray from straight lines between the rims, of their radius
 };
 
 } // namespace lacuna::closure

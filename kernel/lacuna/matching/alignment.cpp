@@ -50,15 +50,16 @@ double overturned(const LoopShape& source, const LoopShape& target, bool backwar
     return low * high < 0 ? std::min(std::abs(low), std::abs(high)) : 0;
 }
 
-/// Fit and score of an alignment whose target samples are given.
-void rate(Alignment& alignment, const LoopShape& source, const LoopShape& target,
+/// Fit and score of an alignment whose target samples are given. A turn is a guess only where no wall leads.
+void rate(Alignment& alignment, const Problem& problem, const LoopShape& source, const LoopShape& target,
           const std::vector<Vec3>& from, std::vector<Vec3> to, const PointPairs& known, bool with_scale)
 {
     to.insert(to.end(), known.to.begin(), known.to.end());
     alignment.fit = geometry::fit_rigid(from, to, with_scale);
-    alignment.score = alignment.fit.rms / std::max(source.length, target.length) +
-                      kTurnWeight *
-                          (turn_of(alignment.fit.rotation) + overturned(source, target, alignment.backward));
+    alignment.score = alignment.fit.rms / std::max(source.length, target.length);
+    if (!problem.led.from.empty()) return;
+    alignment.score += kTurnWeight *
+                       (turn_of(alignment.fit.rotation) + overturned(source, target, alignment.backward));
 }
 
 std::vector<Alignment> sorted(std::vector<Alignment> list)
@@ -86,7 +87,8 @@ std::vector<Alignment> alignments_by_vertices(const Problem& problem, const Hard
             check_cancelled(problem.context);
             if (!allowed(hard, source, target, shift, backward)) continue;
             Alignment& alignment = result.emplace_back(Alignment{shift, 0, backward, 0, {}});
-            rate(alignment, source, target, from, edge_samples(target, shift, backward), known, with_scale);
+            rate(alignment, problem, source, target, from, edge_samples(target, shift, backward), known,
+                 with_scale);
         }
     }
     return sorted(std::move(result));
@@ -103,21 +105,21 @@ std::vector<Alignment> alignments_by_length(const Problem& problem, const LoopSh
             check_cancelled(problem.context);
             Alignment& alignment = result.emplace_back(
                 Alignment{shift, static_cast<double>(shift) / kSamples, backward, 0, {}});
-            rate(alignment, source, target, from,
+            rate(alignment, problem, source, target, from,
                  even_samples(target, target.length * alignment.offset, backward), known, with_scale);
         }
     }
     return sorted(std::move(result));
 }
 
-Alignment slid(const LoopShape& source, const LoopShape& target, const Alignment& alignment,
-               const PointPairs& known)
+Alignment slid(const Problem& problem, const LoopShape& source, const LoopShape& target,
+               const Alignment& alignment, const PointPairs& known)
 {
     const std::vector<Vec3> from = with(even_samples(source, 0, false), known.from);
     const auto at = [&](double offset) {
         Alignment moved = alignment;
         moved.offset = offset - std::floor(offset);
-        rate(moved, source, target, from,
+        rate(moved, problem, source, target, from,
              even_samples(target, target.length * moved.offset, alignment.backward), known, true);
         return moved;
     };
@@ -171,7 +173,7 @@ bool goes_by_length(const Problem& problem, std::size_t s, std::size_t t)
     const auto all = static_cast<std::ptrdiff_t>(n);
     if (problem.hard.empty() && low == all && high == all) return false;
     const std::vector<Alignment> found = alignments_by_vertices(problem, problem.hard, source, target, true,
-                                                                {});
+                                                                problem.led);
     // Pairs that only the recipe asks for are no reason to cut edges: they are refused.
     if (found.empty())
         return alignments_by_vertices(problem, problem.walls, source, target, true, {}).empty();
@@ -185,10 +187,17 @@ bool goes_by_length(const Problem& problem, std::size_t s, std::size_t t)
     }
     if (unlike > std::abs(low - high)) return true;
     if (met > 0 || problem.has_hard(s)) return false;
-    const Alignment straight = slid(source, target,
-                                    alignments_by_length(problem, source, target, true, {}).front(), {});
+    const Alignment straight = slid(problem, source, target,
+                                    alignments_by_length(problem, source, target, true, problem.led).front(),
+                                    problem.led);
     return straight.backward != found.front().backward ||
            mean_twist(source, target, found.front(), straight) > kMostTwist;
+}
+
+PointPairs with_led(const Problem& problem, PointPairs known)
+{
+    known.add(problem.led);
+    return known;
 }
 
 } // namespace
@@ -196,16 +205,17 @@ bool goes_by_length(const Problem& problem, std::size_t s, std::size_t t)
 std::vector<Alignment> alignments_of(const Problem& problem, std::size_t s, std::size_t t, bool with_scale,
                                      const PointPairs& known)
 {
+    const PointPairs all = with_led(problem, known);
     if (problem.paired_by_length(s, t))
-        return alignments_by_length(problem, problem.source[s], problem.target[t], with_scale, known);
+        return alignments_by_length(problem, problem.source[s], problem.target[t], with_scale, all);
     return alignments_by_vertices(problem, problem.hard, problem.source[s], problem.target[t], with_scale,
-                                  known);
+                                  all);
 }
 
 Alignment refined(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment,
                   const PointPairs& known)
 {
-    return slid(problem.source[s], problem.target[t], alignment, known);
+    return slid(problem, problem.source[s], problem.target[t], alignment, with_led(problem, known));
 }
 
 PointPairs samples(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment)

@@ -5,6 +5,8 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -184,16 +186,45 @@ std::vector<Vec3> sampled(const LevelLine& line, double start = 0)
     return samples;
 }
 
+/// Which way the line through the sections' middles goes at each of them, over a length as great as the
+/// section is wide: the levels of coarse facets lean, and their middles stray a little from step to step.
+std::vector<Vec3> ways_along(const std::vector<LevelLine>& lines)
+{
+    std::vector<Vec3> middles;
+    for (const LevelLine& line : lines) middles.push_back(geometry::mean_point(sampled(line)));
+    std::vector<Vec3> ways;
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        const double wide = geometry::length(lines[k].points) / std::numbers::pi;
+        std::size_t low = k, high = k;
+        do {
+            low -= low > 0 ? 1 : 0;
+            high += high + 1 < lines.size() ? 1 : 0;
+        } while ((middles[high] - middles[low]).norm() < wide && (low > 0 || high + 1 < lines.size()));
+        ways.push_back((middles[high] - middles[low]).stableNormalized());
+    }
+    return ways;
+}
+
+/// The least turn from one way to another; none where there is no way.
+Eigen::Matrix3d least_turn(const Vec3& from, const Vec3& to)
+{
+    if (!(from.norm() > 0 && to.norm() > 0)) return Eigen::Matrix3d::Identity();
+    return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+}
+
 /// A closed section that starts where it lies on the one below with the least turn: at the best sample, and
 /// from there as far along as the samples' distances still have a part along the line. A start at a sample
 /// would turn each section by up to half a step.
-std::vector<Vec3> aligned(const LevelLine& line, const std::vector<Vec3>& below)
+/// @param onward  the turn of the way from the section below: without it levels that lean would be turned a
+///                little against each other at every step of a bend.
+std::vector<Vec3> aligned(const LevelLine& line, const std::vector<Vec3>& below,
+                          const Eigen::Matrix3d& onward)
 {
     const std::vector<Vec3> section = sampled(line);
     const std::size_t n = section.size();
-    const Vec3 shift = geometry::mean_point(section) - geometry::mean_point(below);
+    const Vec3 to = geometry::mean_point(section), from = geometry::mean_point(below);
     const auto off = [&](std::size_t i, std::size_t k) {
-        return Vec3(section[(i + k) % n] - below[i] - shift);
+        return Vec3((section[(i + k) % n] - to) - onward * (below[i] - from));
     };
     std::size_t best = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -221,6 +252,7 @@ std::vector<Vec3> aligned(const LevelLine& line, const std::vector<Vec3>& below)
 struct PartSections {
     std::vector<std::vector<Vec3>> points;
     std::vector<Vec3> areas;
+    bool closed = false;
 };
 
 /// The area of a section, along the way up whichever side of the wall the void is on, so that those of
@@ -293,10 +325,14 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
     }
     if (!cut_to_shared(lines)) return {};
     PartSections result;
+    result.closed = lines.front().closed;
     std::vector<std::vector<Vec3>>& sections = result.points;
-    for (const LevelLine& line : lines) {
-        const bool guess = line.closed && line.anchors.empty() && !sections.empty();
-        sections.push_back(guess ? aligned(line, sections.back()) : sampled(line));
+    const bool guess = lines.front().closed && lines.front().anchors.empty();
+    const std::vector<Vec3> ways = guess ? ways_along(lines) : std::vector<Vec3>{};
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        const LevelLine& line = lines[k];
+        sections.push_back(guess && k > 0 ? aligned(line, sections.back(), least_turn(ways[k - 1], ways[k]))
+                                          : sampled(line));
         result.areas.push_back(complete(line, sections.back()));
         if (sections.back().size() != sections.front().size()) return {};
     }
@@ -322,6 +358,7 @@ Sections cut_sections(const OpenVolume& volume, const std::vector<SideLine>& lin
     }
     for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
         const auto sections = sections_of(volume, part, result.heights, up, on_line, count, context);
+        result.closed = result.closed || sections.closed;
         if (result.areas.empty()) result.areas.assign(result.levels.size(), Vec3::Zero());
         for (std::size_t k = 0; k < sections.points.size(); ++k) {
             result.areas[k] += sections.areas[k];

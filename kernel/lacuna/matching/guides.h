@@ -14,6 +14,7 @@ struct Sections {
     std::vector<Vec3> areas;     ///< of each level: area of its lines, along the way up the walls
     std::vector<std::vector<Vec3>>
         levels; ///< level by level from the source rim to the target rim; point i of each corresponds
+    bool closed = false; ///< some wall part goes all round: its sections leave nothing to be guessed
 };
 
 /// Cut the given walls at `count` + 1 levels of their height.

@@ -41,12 +41,6 @@ void note_candidates(const Problem& problem, std::size_t s, std::size_t t, const
                           (best.backward == second.backward ? "" : " or match{ flip = … }"));
 }
 
-void add(PointPairs& known, const PointPairs& more)
-{
-    known.from.insert(known.from.end(), more.from.begin(), more.from.end());
-    known.to.insert(known.to.end(), more.to.begin(), more.to.end());
-}
-
 /// Aligns every loop, and pairs vertices by that.
 class LoopAligner {
 public:
@@ -108,7 +102,7 @@ private:
         if (!backward_) backward_ = flip ? !best.backward : best.backward;
         match_.loops[s].flipped = !best.backward;
         rate(s, found);
-        add(known_, samples(problem_, s, t, best));
+        known_.add(samples(problem_, s, t, best));
     }
 
     /// How sure an alignment is, against the next one. One hard pair settles all of a loop.
@@ -138,7 +132,7 @@ private:
             if (other == s) continue;
             const std::size_t its = target(other);
             if (!problem_.paired_by_length(other, its)) {
-                add(known, samples(problem_, other, its, chosen_[other]));
+                known.add(samples(problem_, other, its, chosen_[other]));
                 continue;
             }
             known.from.insert(known.from.end(), kSamples, problem_.source[other].centroid);

@@ -2,7 +2,7 @@
 #include <lacuna/matching/detail/problem.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/matching/side_lines.h>
+#include <lacuna/matching/guides.h>
 
 #include <algorithm>
 #include <string>
@@ -62,6 +62,21 @@ void read_walls(Problem& problem, const std::vector<SideLine>& lines)
         if (s.size() == 1 && t.size() == 1)
             force(problem, s.front(), t.front(), "by " + name_of(model, part.front()));
     }
+}
+
+/// Levels that walls are cut at on the way from rim to rim: a bend turns by less than 6° between two.
+constexpr int kLevels = 64;
+
+/// A loop without walls goes where the others' walls lead: rims alone leave open how a bend turns them.
+PointPairs led_by_walls(const Problem& problem, const std::vector<SideLine>& lines)
+{
+    const bool bare = std::any_of(problem.source.begin(), problem.source.end(), [&](const LoopShape& loop) {
+        return std::none_of(loop.vertices.begin(), loop.vertices.end(),
+                            [&](VertexId v) { return problem.on_wall[v.index()]; });
+    });
+    if (!bare || !problem.backward) return {};
+    Sections sections = cut_sections(problem.volume, lines, kLevels, problem.context);
+    return {std::move(sections.levels.front()), std::move(sections.levels.back())};
 }
 
 VertexId vertex_with_tag(const Model& model, const std::vector<LoopShape>& loops, int tag,
@@ -143,13 +158,14 @@ bool Problem::has_hard(std::size_t s) const
 Problem problem_of(const OpenVolume& volume, const MatchOptions& options, Match& match,
                    const RunContext& context)
 {
-    Problem problem{volume, options, context, {}, {}, {}, {}, {}, {}, {}, {}};
+    Problem problem{volume, options, context, {}, {}, {}, {}, {}, {}, {}, {}, {}};
     problem.on_wall = volume.on_wall();
     for (const Rim& rim : match.source_loops) problem.source.push_back(shape_of(volume.model, rim));
     for (const Rim& rim : match.target_loops) problem.target.push_back(shape_of(volume.model, rim));
     problem.forced.assign(problem.source.size(), -1);
     match.side_lines = side_lines(volume, context);
     read_walls(problem, *match.side_lines);
+    problem.led = led_by_walls(problem, *match.side_lines);
     read_options(problem);
     return problem;
 }

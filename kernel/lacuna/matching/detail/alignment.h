@@ -24,11 +24,6 @@ struct Alignment {
     geometry::RigidFit fit;
 };
 
-/// Points that correspond.
-struct PointPairs {
-    std::vector<Vec3> from, to;
-};
-
 /// Every alignment of source loop s on target loop t that hard pairs and direction allow, best first. Pairs
 /// matched already take part in the fit.
 std::vector<Alignment> alignments_of(const Problem& problem, std::size_t s, std::size_t t, bool with_scale,

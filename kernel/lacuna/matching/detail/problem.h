@@ -11,6 +11,17 @@
 
 namespace lacuna::matching {
 
+/// Points that correspond.
+struct PointPairs {
+    std::vector<Vec3> from, to;
+
+    void add(const PointPairs& more)
+    {
+        from.insert(from.end(), more.from.begin(), more.from.end());
+        to.insert(to.end(), more.to.begin(), more.to.end());
+    }
+};
+
 /// What is to be matched, and what walls and recipe settle of it.
 struct Problem {
     const topology::OpenVolume& volume;
@@ -23,7 +34,8 @@ struct Problem {
     std::vector<bool> on_wall;          ///< of each vertex of the model
     std::optional<bool> backward; ///< known when walls join the ends: target loops run against the source's
     std::vector<bool>
-        by_length; ///< of each source loop and target loop, source by source: how they are paired
+        by_length;  ///< of each source loop and target loop, source by source: how they are paired
+    PointPairs led; ///< where the given walls lead from rim to rim; none where every loop has a wall
 
     [[nodiscard]] bool paired_by_length(std::size_t s, std::size_t t) const
     {
