@@ -583,7 +583,10 @@ private:
         }
         if (const auto found = bias_.find(same_.find(e)); found != bias_.end() && !edge.closed) {
             const MemberEdge& own = edges_[found->second.first];
-            at = layer_heights({.count = count, .bias = found->second.second});
+            LayerSpec spec;
+            spec.count = count;
+            spec.bias = found->second.second;
+            at = layer_heights(spec);
             if ((own.from - edge.from).norm() > (own.from - edge.to).norm()) turn_round(at);
         }
         if (const auto found = rows_.find(same_.find(e)); found != rows_.end())
