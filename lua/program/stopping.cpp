@@ -4,6 +4,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <unistd.h>
 
 namespace lacuna::program {
@@ -15,6 +16,17 @@ enum class Stop { none, interrupt, terminate, time };
 std::atomic<Stop> g_reason{Stop::none};
 std::atomic<Interpreter*> g_interpreter{nullptr};
 std::atomic<bool> g_idle{false};
+std::atomic<long> g_asked_at{0}; ///< when a stop was first asked for [ms]
+
+/// A second Ctrl-C ends the process where the first was that long ago: keys come in twos. A choice [ms].
+constexpr long kOnPurpose = 1000;
+
+long now_ms()
+{
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now); // which a signal handler may call
+    return now.tv_sec * 1000 + now.tv_nsec / 1000000;
+}
 
 Exit exit_code(Stop reason)
 {
@@ -33,12 +45,14 @@ void on_signal(int signal)
     }
     Stop before = Stop::none;
     if (!g_reason.compare_exchange_strong(before, reason)) { // asked before, and nothing came of it
+        if (reason == Stop::interrupt && now_ms() - g_asked_at < kOnPurpose) return;
         constexpr char kOver[] = "lacuna: stopped: the time limit is over\n";
         if (reason == Stop::time) {
             [[maybe_unused]] const auto written = write(STDERR_FILENO, kOver, sizeof kOver - 1);
         }
         _exit(static_cast<int>(exit_code(reason)));
     }
+    g_asked_at = now_ms();
     if (Interpreter* const interpreter = g_interpreter) interpreter->cancel();
 }
 

@@ -10,8 +10,8 @@ enum class Exit { done = 0, failed = 1, bad_usage = 2, interrupted = 130, termin
 
 // --- stopping: set by signals, which reach nothing but globals ------------------------------------------
 
-/// Ctrl-C, SIGTERM, SIGHUP and the alarm cancel `interpreter` from now on, and a second one ends the process;
-/// null: Ctrl-C ends it at once.
+/// Ctrl-C, SIGTERM, SIGHUP and the alarm cancel `interpreter` from now on, and a second one ends the process,
+/// a Ctrl-C where it comes a second later or more; null: Ctrl-C ends it at once.
 void watch_interrupts(Interpreter* interpreter);
 /// What a run ended by, which was cancelled; `seconds` is the time limit. Writes to standard error, and
 /// forgets the request.

@@ -39,7 +39,7 @@ class Terminal:
         end = time.time() + PATIENCE
         while text not in self.told and time.time() < end:
             self.type("\x03")
-            # A second one before the first is met would end the program.
+            # One may be met late; a second one at once ends nothing.
             if select.select([self.terminal], [], [], 4)[0]:
                 self.told += os.read(self.terminal, 4096).decode(errors="replace")
         self.wait_for(text)
