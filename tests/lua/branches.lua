@@ -162,11 +162,7 @@ for _, kind in ipairs { "wedges", "leave_out" } do
 end
 
 -- A family: up to three branches, each on any side, round or with corners, upright or leaning.
-local state = 20261122
-local function random(low, high)
-  state = (state * 48271) % 2147483647
-  return low + (high - low) * state / 2147483647
-end
+local random = check.random(20261122)
 local meshed, arms, refused, turning, turned = 0, 0, 0, 0, 0
 for member = 1, params.members do
   local branches, count = {}, math.floor(random(1, 3.999))

@@ -27,6 +27,15 @@ function check.near(found, expected, tolerance)
   end
 end
 
+-- random(low, high) for families: the same numbers on every machine.
+function check.random(seed)
+  local state = seed
+  return function(low, high)
+    state = (state * 48271) % 2147483647
+    return low + (high - low) * state / 2147483647
+  end
+end
+
 -- `call` must fail with a string, or an error that prints as one, that contains every one of the words,
 -- without patterns.
 function check.fails(call, ...)

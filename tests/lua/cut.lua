@@ -74,11 +74,7 @@ end
 
 -- A family: planes of any direction through prisms. Pieces fill the whole, nearly all are swept by
 -- themselves, and most as one mesh; what is not is refused by name.
-local state = 4711
-local function random(low, high)
-  state = (state * 48271) % 2147483647
-  return low + (high - low) * state / 2147483647
-end
+local random = check.random(4711)
 local count, swept, one, codes = 0, 0, 0, {}
 local function code_of(failed)
   local code = tostring(failed):match "%[([%a_]+%.[%a_]+)%]"

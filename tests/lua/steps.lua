@@ -161,11 +161,7 @@ check.fails(function()
 end, "apart", '"floor"', '"top"', "closure.steps")
 
 -- A family: a pin of one to three diameters in a bore of one to three, steps either way.
-local state = 14
-local function random(low, high)
-  state = (state * 48271) % 2147483647
-  return low + (high - low) * state / 2147483647
-end
+local random = check.random(14)
 local function heights(count, length, taken)
   local z = {}
   for k = 1, count - 1 do

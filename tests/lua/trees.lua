@@ -5,11 +5,7 @@ local folder = arg[0]:match "^(.*[/\\])" or ""
 local check = dofile(folder .. "check.lua")
 local params = lacuna.params { members = 16, scratch = "." }
 
-local state = 99
-local function random(low, high)
-  state = (state * 48271) % 2147483647
-  return low + (high - low) * state / 2147483647
-end
+local random = check.random(99)
 
 local axes = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } }
 local function along(p, d, t) return { p[1] + t * d[1], p[2] + t * d[2], p[3] + t * d[3] } end
