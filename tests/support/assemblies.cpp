@@ -120,4 +120,17 @@ std::size_t inner_quads(const sweep::SweptAssembly& whole)
     return count;
 }
 
+void Refusals::add(unsigned seed, const Error& error)
+{
+    ++by_code[error.code()];
+    MESSAGE(std::string(std::to_string(seed) + ": " + error.what()));
+}
+
+std::string Refusals::in_words() const
+{
+    std::string words;
+    for (const auto& [code, count] : by_code) words += " " + code + " " + std::to_string(count);
+    return words;
+}
+
 } // namespace lacuna::test

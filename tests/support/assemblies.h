@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/error.h>
 #include <lacuna/sweep/assembly.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,16 @@ struct Members {
 
 /// Every part is valid; together the cells are conformal, with as many inner faces more as are shared.
 void check_assembly(const sweep::SweptAssembly& whole, double volume, double share = 1e-9);
+
+/// What a family's refused members were refused by.
+struct Refusals {
+    std::map<std::string, int> by_code;
+
+    /// Count a refusal, and print it with the member's seed.
+    void add(unsigned seed, const Error& error);
+    /// " code count" for each.
+    [[nodiscard]] std::string in_words() const;
+};
 
 /// Quads of the skin that two parts have.
 std::size_t inner_quads(const sweep::SweptAssembly& whole);

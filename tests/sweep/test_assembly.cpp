@@ -19,7 +19,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <numbers>
 #include <set>
 
@@ -330,7 +329,7 @@ namespace {
 struct Tally {
     int meshed = 0, refused = 0;
     std::size_t pieces = 0;
-    std::map<std::string, int> why; ///< by code
+    test::Refusals why;
 
     /// @param make   the members and the volume they enclose, share by which theirs may be off.
     void take(unsigned seed, const Members& members, double volume, double share)
@@ -344,15 +343,12 @@ struct Tally {
             pieces += whole.parts.size();
         } catch (const Error& error) {
             ++refused;
-            ++why[error.code()];
-            MESSAGE(std::string(std::to_string(seed) + ": " + error.what()));
+            why.add(seed, error);
         }
     }
     void report() const
     {
-        std::string words;
-        for (const auto& [code, count] : why) words += " " + code + " " + std::to_string(count);
-        MESSAGE(meshed << " meshed in " << pieces << " pieces, " << refused << " refused:" << words);
+        MESSAGE(meshed << " meshed in " << pieces << " pieces, " << refused << " refused:" << why.in_words());
     }
 };
 

@@ -9,7 +9,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <map>
 #include <set>
 #include <string>
 
@@ -58,7 +57,7 @@ void check_rows(const mesh::HexMesh& mesh, const surface::BoundaryLayer& layer, 
 TEST_CASE("rows along walls and ends end on edges that several volumes share: one mesh with the rows of each")
 {
     int meshed = 0;
-    std::map<std::string, int> why;
+    test::Refusals refused;
     for (unsigned seed = 1; seed <= 120; ++seed) {
         CAPTURE(seed);
         test::Dice dice(seed);
@@ -99,13 +98,10 @@ TEST_CASE("rows along walls and ends end on edges that several volumes share: on
                     check_rows(whole.parts[m].mesh, layer, where, bricks[m]);
             ++meshed;
         } catch (const Error& error) {
-            ++why[error.code()];
-            MESSAGE(std::string(std::to_string(seed) + ": " + error.what()));
+            refused.add(seed, error);
         }
     }
-    std::string words;
-    for (const auto& [code, count] : why) words += " " + code + " " + std::to_string(count);
-    MESSAGE(meshed << " meshed, refused:" << words);
+    MESSAGE(meshed << " meshed, refused:" << refused.in_words());
     CHECK(meshed >= 100);
 }
 

@@ -82,7 +82,7 @@ TEST_CASE("a skin has a face for each patch, which keeps its quads, and encloses
 TEST_CASE("volumes beside a mesh that was made before match it node for node, and it stays as it was")
 {
     int meshed = 0;
-    std::map<std::string, int> why;
+    test::Refusals refused;
     for (unsigned seed = 1; seed <= 60; ++seed) {
         CAPTURE(seed);
         test::Dice dice(seed);
@@ -124,13 +124,10 @@ TEST_CASE("volumes beside a mesh that was made before match it node for node, an
             CHECK(whole.near_misses.empty());
             ++meshed;
         } catch (const Error& error) {
-            ++why[error.code()];
-            MESSAGE(std::string(std::to_string(seed) + ": " + error.what()));
+            refused.add(seed, error);
         }
     }
-    std::string words;
-    for (const auto& [code, count] : why) words += " " + code + " " + std::to_string(count);
-    MESSAGE(meshed << " meshed, refused:" << words);
+    MESSAGE(meshed << " meshed, refused:" << refused.in_words());
     CHECK(meshed >= 50);
 }
 
