@@ -7,6 +7,7 @@
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/tips.h>
 #include <lacuna/surface/detail/fine_facets.h>
+#include <lacuna/surface/detail/plane_loops.h>
 #include <lacuna/surface/edge_nodes.h>
 #include <lacuna/surface/projector.h>
 #include <lacuna/topology/open_volume.h>
@@ -24,23 +25,10 @@ namespace {
 
 using Loops = std::vector<std::vector<Index>>;
 
-double area_of(const std::vector<Vec2>& points, std::span<const Index> loop)
-{
-    double sum = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Vec2& a = points[static_cast<std::size_t>(loop[i])];
-        const Vec2& b = points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
-        sum += a.x() * b.y() - a.y() * b.x();
-    }
-    return sum / 2;
-}
-
-/// The outer loop first, as the planar meshers want it.
 quads::PlanarRegion region_of(std::vector<Vec2> points, Loops loops, std::function<double(const Vec2&)> size,
                               std::function<double(const Vec2&)> row_height)
 {
-    std::stable_sort(loops.begin(), loops.end(),
-                     [&](const auto& a, const auto& b) { return area_of(points, a) > area_of(points, b); });
+    sort_outer_first(points, loops);
     return {std::move(points), std::move(loops), std::move(size), std::move(row_height)};
 }
 
@@ -190,7 +178,7 @@ private:
         for (std::size_t i = 0; i < flat_.triangles.size(); ++i) {
             const Triangle &f = flat_.triangles[i], &t = fine_.triangles[i];
             const auto at = [&](std::size_t k) { return fine_.points[static_cast<std::size_t>(t[k])]; };
-            const double flat_area = std::abs(area_of(flat_.position, f));
+            const double flat_area = std::abs(signed_area(flat_.position, f));
             const double area = (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
             for (const Index p : f) {
                 plane[static_cast<std::size_t>(p)] += flat_area;

@@ -7,6 +7,7 @@
 #include <lacuna/quads/pattern_counts.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/face_sides.h>
+#include <lacuna/surface/detail/plane_loops.h>
 
 #include <algorithm>
 #include <cmath>
@@ -521,7 +522,7 @@ private:
                 }
             }
         }
-        sort_outer_first(region);
+        sort_outer_first(region.points, region.loops);
         const auto counts = quads::pattern_counts(region, segment, segments);
         if (!counts) return;
         for (std::size_t p = 0; p < pieces.size(); ++p) pieces[p]->count = (*counts)[p];
@@ -545,21 +546,6 @@ private:
             const Vec3 area = (model_.at(t[1]) - model_.at(t[0])).cross(model_.at(t[2]) - model_.at(t[0]));
             return area.dot(normal) >= kSteepest * area.norm();
         });
-    }
-
-    static void sort_outer_first(quads::PlanarRegion& region)
-    {
-        const auto area = [&](const std::vector<Index>& loop) {
-            double sum = 0;
-            for (std::size_t i = 0; i < loop.size(); ++i) {
-                const Vec2& a = region.points[static_cast<std::size_t>(loop[i])];
-                const Vec2& b = region.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
-                sum += a.x() * b.y() - a.y() * b.x();
-            }
-            return sum;
-        };
-        std::stable_sort(region.loops.begin(), region.loops.end(),
-                         [&](const auto& a, const auto& b) { return area(a) > area(b); });
     }
 
     /// Equal counts on opposite sides of every mapped face. Counts only grow; where they would chase each
