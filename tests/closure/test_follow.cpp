@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "closure/sealing_checks.h"
 
+#include <lacuna/closure/branches.h>
 #include <lacuna/closure/follow.h>
 
 #include <cmath>
@@ -58,6 +59,7 @@ TEST_CASE("left to itself, a pipe's missing wall runs concentric with the given 
                     const matching::Match match = matching::match(volume);
                     CHECK(match.confidence > 0.25);
                     CHECK(match.notes.empty());
+                    CHECK(!closure::has_pieces(volume));
                     closure::close(volume, match);
                     CHECK(closure::enclosed_volume(volume) ==
                           doctest::Approx(pipe.facet_volume).epsilon(0.015));

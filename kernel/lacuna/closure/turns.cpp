@@ -119,19 +119,57 @@ double faces_opposite(const OpenVolume& volume, const std::vector<FaceId>& part,
     return before;
 }
 
-/// Of each part, whether its facets face the void. Its ends, where they see the opposite end of another part
-/// or, of a part that lies within no other, its own, say so; else facets face away from their middle, or
-/// towards it where the part lies within another.
+/// How far the walls of a part leave its ends on the side those face, over all their common sides; negative
+/// where they leave behind, and 0 where some do this and some that, or it has not both ends. Walls between two
+/// ends run along the void, and only a step's leave it.
+double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part)
+{
+    const Model& model = volume.model;
+    std::unordered_map<std::uint64_t, Vec3> ends; // unit normal of an end's facet, of each of its sides
+    for (const FaceId face : part) {
+        if (volume.role[face.index()] == Role::wall) continue;
+        for (const Triangle& t : model[face].triangles) {
+            const Vec3 normal = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+            for (std::size_t k = 0; k < 3; ++k)
+                ends.emplace(edge_key(t[k], t[(k + 1) % 3]), normal.stableNormalized());
+        }
+    }
+    const auto has = [&](Role role) {
+        return std::ranges::any_of(part, [&](FaceId face) { return volume.role[face.index()] == role; });
+    };
+    if (!has(Role::source) || !has(Role::target)) return 0;
+    double before = 0, behind = 0;
+    for (const FaceId face : part) {
+        if (volume.role[face.index()] != Role::wall) continue;
+        for (const Triangle& t : model[face].triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto end = ends.find(edge_key(t[k], t[(k + 1) % 3]));
+                if (end == ends.end()) continue;
+                const Vec3 &a = model.at(t[k]), &b = model.at(t[(k + 1) % 3]), &c = model.at(t[(k + 2) % 3]);
+                const Vec3 along = (b - a).stableNormalized();
+                const Vec3 off = (c - a) - (c - a).dot(along) * along;
+                const double leaves = (b - a).norm() * off.stableNormalized().dot(end->second);
+                (leaves > 0 ? before : behind) += leaves;
+            }
+        }
+    }
+    return before > 0 && behind < 0 ? 0 : before + behind;
+}
+
+/// Of each part, whether its facets face the void. Of a part that lies within no other, walls that all leave its
+/// two ends to one side say so; else its ends, where they see the opposite end of another part or, of a part
+/// that lies within no other, its own; else facets face away from their middle, or towards it where the part
+/// lies within another.
 std::vector<bool> parts_facing_void(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts)
 {
     const Model& model = volume.model;
     const std::vector<bool> inner = inner_parts(model, parts);
     std::vector<bool> facing;
     for (std::size_t p = 0; p < parts.size(); ++p) {
-        double before = 0;
+        double before = inner[p] ? 0 : leaves_before(volume, parts[p]);
         const bool ends = std::ranges::any_of(
             parts[p], [&](FaceId face) { return volume.role[face.index()] != Role::wall; });
-        if (ends && parts.size() > 1)
+        if (ends && before == 0 && parts.size() > 1)
             before = faces_opposite(volume, parts[p],
                                     parts_where(model, parts, [&](std::size_t o) { return o != p; }));
         if (ends && before == 0 && !inner[p])
