@@ -228,31 +228,34 @@ double twist_of(const std::array<PatchSide, 4>& side)
     return (corner(0) - corner(1) + corner(2) - corner(3)).norm() / 4;
 }
 
-/// Facets of a rectangle whose sides have few points and whose patch is twisted: a grid inside, and facets
-/// from it to the sides as they are.
+/// Facets of a rectangle of which two sides at least have few points, and whose patch is twisted: a grid inside,
+/// and facets from it to the sides as they are.
+/// @param width, height  segments of the sides each way: their own size in the plane.
 geometry::Triangulation grid_within(const Outline& outline, double width, double height,
                                     const RunContext& context)
 {
-    // Cells each way: facets miss a twisted patch by 1/256 of what two of them do.
+    // Cells each way: facets miss a twisted patch by 1/256 of what two of them do. Sides cut finer are bent, and
+    // facets inside are to be no coarser.
     constexpr Index kCells = 16;
+    const Index across = std::max(kCells, static_cast<Index>(width));
+    const Index along = std::max(kCells, static_cast<Index>(height));
     geometry::Triangulation inner{outline.flat, {}};
     const auto first = static_cast<Index>(inner.points.size());
-    for (Index j = 1; j < kCells; ++j) {
-        for (Index i = 1; i < kCells; ++i)
-            inner.points.emplace_back(width * i / double{kCells}, height * j / double{kCells});
+    for (Index j = 1; j < along; ++j) {
+        for (Index i = 1; i < across; ++i) inner.points.emplace_back(width * i / across, height * j / along);
     }
-    constexpr Index kRow = kCells - 1;
-    const auto at = [&](Index i, Index j) { return first + j * kRow + i; };
+    const Index row = across - 1, rows = along - 1;
+    const auto at = [&](Index i, Index j) { return first + j * row + i; };
     std::vector<std::vector<Index>> loops = outline.loops;
     std::vector<Index>& hole = loops.emplace_back();
-    for (Index i = 0; i + 1 < kRow; ++i) hole.push_back(at(i, 0));
-    for (Index j = 0; j + 1 < kRow; ++j) hole.push_back(at(kRow - 1, j));
-    for (Index i = kRow - 1; i > 0; --i) hole.push_back(at(i, kRow - 1));
-    for (Index j = kRow - 1; j > 0; --j) hole.push_back(at(0, j));
+    for (Index i = 0; i + 1 < row; ++i) hole.push_back(at(i, 0));
+    for (Index j = 0; j + 1 < rows; ++j) hole.push_back(at(row - 1, j));
+    for (Index i = row - 1; i > 0; --i) hole.push_back(at(i, rows - 1));
+    for (Index j = rows - 1; j > 0; --j) hole.push_back(at(0, j));
     geometry::Triangulation grid = geometry::triangulate(inner.points, loops, {.interior_points = false},
                                                          context);
-    for (Index j = 0; j + 1 < kRow; ++j) {
-        for (Index i = 0; i + 1 < kRow; ++i) {
+    for (Index j = 0; j + 1 < rows; ++j) {
+        for (Index i = 0; i + 1 < row; ++i) {
             const Quad q{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
             const std::size_t k = index(i + j) % 2; // diagonals by turns lean to neither side
             grid.triangles.push_back({q[k], q[k + 1], q[k + 2]});

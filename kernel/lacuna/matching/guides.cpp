@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/matching/guides.h>
 
+#include <lacuna/core/error.h>
 #include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
@@ -33,6 +34,7 @@ FacetSide side(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 /// A level line over the facets of one wall part.
 struct LevelLine {
     std::vector<Vec3> points;
+    std::vector<FacetSide> sides;                             ///< that each point lies on
     std::vector<std::pair<std::size_t, std::size_t>> anchors; ///< (point, side line) in walking order
     bool closed = false;
     Vec3 rise{0, 0, 0}; ///< the way straight up, summed along the line
@@ -129,17 +131,86 @@ std::optional<LevelLine> level_line(const Model& model, const std::vector<Triang
         if (const auto found = on_line.find(at); found != on_line.end())
             line.anchors.emplace_back(line.points.size(), found->second);
         line.points.push_back(crossing(at, model.points));
+        line.sides.push_back(at);
         const auto onward = next.find(at);
         if (onward == next.end()) break;
         at = onward->second;
         if (at == start) {
             ++steps;
             line.points.push_back(line.points.front());
+            line.sides.push_back(line.sides.front());
             break;
         }
     }
     if (steps != next.size()) return std::nullopt;
     return line;
+}
+
+/// A side of facets on an exact surface.
+struct ExactSide {
+    FaceId face;
+    Vec2 first, second; ///< parameters at its ends, the lower point first
+};
+
+/// Those of a wall part that have one.
+std::map<FacetSide, ExactSide> exact_sides(const Model& model, const std::vector<FaceId>& part)
+{
+    std::map<FacetSide, ExactSide> found;
+    for (const FaceId face : part) {
+        if (model[face].surface == nullptr) continue;
+        const std::vector<Triangle>& triangles = model[face].triangles;
+        for (std::size_t f = 0; f < triangles.size(); ++f) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::size_t j = (i + 1) % 3;
+                const Index a = triangles[f][i], b = triangles[f][j];
+                const Vec2 &at_a = model[face].uv[f][i], &at_b = model[face].uv[f][j];
+                found.try_emplace(side(a, b),
+                                  a < b ? ExactSide{face, at_a, at_b} : ExactSide{face, at_b, at_a});
+            }
+        }
+    }
+    return found;
+}
+
+/// Move the points of level lines from the facets to the exact surfaces these were cut from: beside a thin void
+/// the facets' sag is large. Points that would go further than their side is long stay, as do those of a
+/// surface that cannot be projected on.
+void put_on_surfaces(const Model& model, const std::vector<FaceId>& part, std::vector<LevelLine>& lines,
+                     const RunContext& context)
+{
+    const std::map<FacetSide, ExactSide> exact = exact_sides(model, part);
+    if (exact.empty()) return;
+    struct Moved {
+        std::vector<Vec3*> from;
+        std::vector<double> reach;
+        std::vector<Vec3> to;
+        std::vector<Vec2> uv;
+    };
+    std::map<FaceId, Moved> moved;
+    for (LevelLine& line : lines) {
+        for (std::size_t i = 0; i < line.points.size(); ++i) {
+            const auto found = exact.find(line.sides[i]);
+            if (found == exact.end()) continue;
+            const ExactSide& on = found->second;
+            const Vec3 &a = model.at(line.sides[i].first), &b = model.at(line.sides[i].second);
+            const double length = (b - a).norm();
+            const double share = length > 0 ? (line.points[i] - a).norm() / length : 0;
+            Moved& of_face = moved[on.face];
+            of_face.from.push_back(&line.points[i]);
+            of_face.reach.push_back(length);
+            of_face.to.push_back(line.points[i]);
+            of_face.uv.emplace_back((1 - share) * on.first + share * on.second);
+        }
+    }
+    for (auto& [face, points] : moved) {
+        try {
+            model[face].surface->project(points.to, points.uv, context);
+        } catch (const BackendError&) {
+            continue;
+        }
+        for (std::size_t i = 0; i < points.to.size(); ++i)
+            if ((points.to[i] - *points.from[i]).norm() <= points.reach[i]) *points.from[i] = points.to[i];
+    }
 }
 
 /// Begin a closed line at its anchor with the lowest side line.
@@ -317,11 +388,14 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
         std::optional<LevelLine> line = level_line(volume.model, (*facets)[k], heights, levels[k], up,
                                                    on_line);
         if (!line) return {};
-        start_at_first_anchor(*line);
-        if (k > 0 &&
-            (anchor_lines(*line) != anchor_lines(lines.front()) || line->closed != lines.front().closed))
-            return {};
         lines.push_back(std::move(*line));
+    }
+    put_on_surfaces(volume.model, part, lines, context);
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        start_at_first_anchor(lines[k]);
+        if (k > 0 && (anchor_lines(lines[k]) != anchor_lines(lines.front()) ||
+                      lines[k].closed != lines.front().closed))
+            return {};
     }
     if (!cut_to_shared(lines)) return {};
     PartSections result;

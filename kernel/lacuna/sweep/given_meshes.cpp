@@ -66,30 +66,6 @@ GivenMeshes given_meshes(const OpenVolume& volume, std::vector<surface::LinkingS
     return given;
 }
 
-std::vector<double> default_heights(const std::vector<surface::LinkingSurface>& links,
-                                    const surface::SizeField& size, LayerSpec spec, int least)
-{
-    double sides = 0, segments = 0;
-    for (const surface::LinkingSurface& link : links) {
-        for (const surface::RimSegment& segment : link.segments) {
-            const std::array<double, 1> low{segment.source_from};
-            const double end = link.target.length();
-            const std::array<double, 1> high{segment.target_from >= end ? segment.target_from - end
-                                                                        : segment.target_from};
-            const Vec3 from = link.source.points(low).front(), to = link.target.points(high).front();
-            ++segments;
-            sides += (to - from).norm() / size((from + to) / 2);
-        }
-    }
-    const double count = segments > 0 ? sides / segments : 1;
-    if (!(count < std::numeric_limits<Index>::max() / 16.0)) {
-        throw InvalidInput("sweep.too_many",
-                           "about " + in_short(count) + " layers would be needed at the size; give 'layers'");
-    }
-    spec.count = std::max(least, static_cast<int>(std::lround(count)));
-    return layer_heights(spec);
-}
-
 std::set<FaceId> given_faces(const OpenVolume& volume, std::set<FaceId> faces, bool wedges)
 {
     for (const Role role : {Role::wall, Role::target}) {

@@ -2,12 +2,14 @@
 #include <lacuna/sweep/detail/plan_heights.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/sweep/detail/given_meshes.h>
+#include <lacuna/surface/wall_columns.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
 #include <string>
 
 namespace lacuna::sweep {
@@ -24,58 +26,51 @@ constexpr double kSameSize = 1e-3;
 /// thickness: what rows keep to.
 constexpr double kSameRow = 0.02;
 
+/// Chords that say how far a column turns: what bends on less is no bend of the sweep. A choice.
+constexpr std::size_t kTurnChords = 8;
+
 /// What is known of the columns between both rims, in the mean.
 struct Columns {
     double length = 0;
+    double turning = 0; ///< from the source to the target [radian]
+    double sides = 0;   ///< that the size in the middle of each asks for
     /// Sides the size asks for from the source to each of some even steps; empty: it is one along the sweep.
     std::vector<double> wanted;
 };
 
-/// Points at even steps along a column: a line up the walls, or a straight one between the rims.
-std::vector<std::vector<Vec3>> sampled_columns(const OpenVolume& volume,
-                                               const std::vector<surface::LinkingSurface>& links)
+/// How far a column turns on the way: bends between chords, those at both ends like the others [radian].
+double turning_of(const std::vector<Vec3>& points)
 {
-    std::vector<std::vector<Vec3>> columns;
-    const auto sample = [&](const auto& point_at) {
-        std::vector<Vec3>& points = columns.emplace_back();
-        for (int i = 0; i <= kSamples; ++i) points.push_back(point_at(static_cast<double>(i) / kSamples));
-    };
-    for (const surface::LinkingSurface& link : links) {
-        for (const surface::LinkingLine& line : link.lines) {
-            const surface::Chain chain(volume.model, line.line.uses);
-            sample([&](double t) {
-                const double at[] = {t * chain.length()};
-                return chain.points(at).front();
-            });
-        }
-        for (const surface::RimSegment& segment : link.segments) {
-            if (!link.lines.empty()) break;
-            const double end = link.target.length();
-            const double low[] = {segment.source_from},
-                         high[] = {segment.target_from >= end ? segment.target_from - end
-                                                              : segment.target_from};
-            const Vec3 from = link.source.points(low).front(), to = link.target.points(high).front();
-            sample([&](double t) { return Vec3((1 - t) * from + t * to); });
-        }
+    const std::size_t step = (points.size() - 1) / kTurnChords;
+    double sum = 0;
+    for (std::size_t i = step; i + step < points.size(); i += step) {
+        const Vec3 in = points[i] - points[i - step], out = points[i + step] - points[i];
+        sum += std::atan2(in.cross(out).norm(), in.dot(out));
     }
-    return columns;
+    return sum * kTurnChords / (kTurnChords - 1);
 }
 
+/// @param middle  size at the middle of a column. @param size  size all along; null: not asked for.
 Columns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
-                   const surface::SizeField& size)
+                   const surface::SizeField& middle, const surface::SizeField& size)
 {
     Columns mean;
     mean.wanted.assign(kSamples + 1, 0.0);
-    const auto columns = sampled_columns(volume, links);
+    std::vector<std::vector<Vec3>> columns;
+    for (const surface::LinkingSurface& link : links)
+        std::ranges::move(surface::wall_columns(volume, link, kSamples), std::back_inserter(columns));
     const auto share = 1 / static_cast<double>(std::max<std::size_t>(columns.size(), 1));
     for (const std::vector<Vec3>& points : columns) {
-        double sides = 0;
+        double sides = 0, length = 0;
         for (std::size_t i = 1; i < points.size(); ++i) {
             const double step = (points[i] - points[i - 1]).norm();
-            mean.length += share * step;
+            length += step;
             if (size) sides += step / size((points[i] + points[i - 1]) / 2);
             mean.wanted[i] += share * sides;
         }
+        mean.length += share * length;
+        mean.turning += share * turning_of(points);
+        mean.sides += share * length / middle(points[kSamples / 2]);
     }
     double least = mean.wanted.back(), most = 0;
     for (std::size_t i = 1; i < mean.wanted.size(); ++i) {
@@ -84,6 +79,25 @@ Columns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingS
     }
     if (!(most > least * (1 + kSameSize))) mean.wanted.clear();
     return mean;
+}
+
+/// Layers that the bends of the columns ask for, at `curvature` a full turn.
+int bend_layers(const Columns& columns, const SweepOptions& options)
+{
+    constexpr double kRounding = 1e-6;
+    return static_cast<int>(
+        std::ceil(columns.turning * options.curvature / (2 * std::numbers::pi) - kRounding));
+}
+
+/// Layers about as high as the quads are wide, `least` at least. @throw InvalidInput  more than can be numbered.
+std::vector<double> default_heights(const Columns& columns, LayerSpec spec, int least)
+{
+    if (!(columns.sides < std::numeric_limits<Index>::max() / 16.0)) {
+        throw InvalidInput("sweep.too_many", "about " + in_short(columns.sides) +
+                                                 " layers would be needed at the size; give 'layers'");
+    }
+    spec.count = std::max(least, static_cast<int>(std::lround(columns.sides)));
+    return layer_heights(spec);
 }
 
 /// Sides wanted up to a share of the columns.
@@ -170,18 +184,20 @@ std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions&
 
 } // namespace
 
-std::vector<double> plan_heights(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
-                                 const surface::LayerTables& tables, const std::vector<double>& asked,
-                                 const surface::SizeField& size, const SweepOptions& options, int least)
+PlannedHeights plan_heights(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
+                            const surface::LayerTables& tables, const std::vector<double>& asked,
+                            const surface::SizeField& size, const SweepOptions& options, int least)
 {
     const std::vector<double>* const low = end_table(volume, tables, Role::source);
     const std::vector<double>* const high = end_table(volume, tables, Role::target);
-    if (low == nullptr && high == nullptr && (!asked.empty() || !options.size))
-        return asked.empty() ? default_heights(links, size, options.layers, least) : asked;
-    const Columns columns = columns_of(volume, links, options.size);
+    if (low == nullptr && high == nullptr && !asked.empty()) return {asked, false};
+    const Columns columns = columns_of(volume, links, size, options.size);
+    const int bends = asked.empty() ? bend_layers(columns, options) : 0;
+    const bool by_bends = bends > std::max(least, static_cast<int>(std::lround(columns.sides)));
+    least = std::max(least, bends);
     if (low == nullptr && high == nullptr) {
-        if (columns.wanted.empty()) return default_heights(links, size, options.layers, least);
-        return following_heights(columns, 0, 1, least);
+        if (columns.wanted.empty()) return {default_heights(columns, options.layers, least), by_bends};
+        return {following_heights(columns, 0, 1, least), by_bends};
     }
     const double below = low != nullptr ? low->back() : 0, above = high != nullptr ? high->back() : 0;
     if (!(below + above < columns.length)) {
@@ -194,13 +210,13 @@ std::vector<double> plan_heights(const OpenVolume& volume, const std::vector<sur
     const int taken = static_cast<int>((low != nullptr ? low->size() : 0) +
                                        (high != nullptr ? high->size() : 0));
     if (!asked.empty() && options.layers.heights.empty() && has_rows(asked, low, high, columns.length))
-        return asked;
+        return {asked, false};
     std::vector<double> between;
     if (!asked.empty()) {
         between = layers_between(volume, options, taken);
     } else if (columns.wanted.empty()) {
         LayerSpec spec = options.layers;
-        const std::size_t all = default_heights(links, size, spec, 1).size() - 1;
+        const std::size_t all = default_heights(columns, spec, 1).size() - 1;
         spec.count = std::max(
             {1, least - taken, static_cast<int>(std::lround((to - from) * static_cast<double>(all)))});
         between = layer_heights(spec);
@@ -216,7 +232,7 @@ std::vector<double> plan_heights(const OpenVolume& volume, const std::vector<sur
     for (std::size_t j = high != nullptr ? high->size() - 1 : 0; j-- > 0;)
         heights.push_back(1 - (*high)[j] / columns.length);
     if (high != nullptr) heights.push_back(1);
-    return heights;
+    return {std::move(heights), by_bends};
 }
 
 } // namespace lacuna::sweep

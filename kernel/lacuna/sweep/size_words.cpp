@@ -77,7 +77,8 @@ std::vector<std::string> sizes_in_words(const OpenVolume& volume, const OpenVolu
     }
     if (options.layers.count == 0 && options.layers.heights.empty()) {
         lines.push_back("layer count: " + std::to_string(layers.count) + " by default, " +
-                        (layers.by_rows ? "the rows of quads that walls came with"
+                        (layers.by_rows    ? "the rows of quads that walls came with"
+                         : layers.by_bends ? "for the bends of the walls, as curvature says"
                          : !options.size && layers.count == kDefaultGap
                              ? "about as high as the size, and three at least"
                              : "about as high as the size"));

@@ -401,9 +401,9 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     const int least_layers = surface::set_wall_breaks(split, size, links);
     const surface::LayerTables tables = surface::layer_tables(volume, options.boundary_layers);
     const bool by_rows = !given.heights.empty();
-    const std::vector<double> heights = plan_heights(
-        split, links, tables, given.heights, sizes.along, options,
-        options.size ? least_layers : std::max(least_layers, kDefaultGap));
+    const auto [heights,
+                by_bends] = plan_heights(split, links, tables, given.heights, sizes.along, options,
+                                         options.size ? least_layers : std::max(least_layers, kDefaultGap));
     surface::EdgeDemands demands{surface::rim_rows(split, links, tables),
                                  surface::find_intervals(split, links, options.intervals).sides};
     refuse_kept_source(split, demands.rows, options);
@@ -414,7 +414,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
         imprint ? surface::image_lengths(*imprint) : std::map<EdgeId, double>{}, options.wedges, demands);
     for (const std::string& note : seeds.notes) result.report.push_back("given: " + note);
     for (std::string& line : sizes_in_words(volume, split, sizes, seeds, options,
-                                            {static_cast<int>(heights.size()) - 1, by_rows}))
+                                            {static_cast<int>(heights.size()) - 1, by_rows, by_bends}))
         result.report.push_back(std::move(line));
     surface::SourceMesh source = surface::mesh_source(split, links, seeds, size_fields(size, options),
                                                       mesher_for_all(options, sizes.narrow), context);

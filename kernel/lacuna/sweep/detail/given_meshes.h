@@ -26,11 +26,6 @@ GivenMeshes given_meshes(const topology::OpenVolume& volume, std::vector<surface
                          const std::vector<double>& asked, const surface::SizeField& size,
                          const SweepOptions& options);
 
-/// Layers about as high as the quads are wide: the mean distance of places on the rims that go together, over
-/// the size between them, and `least` at least. @throw InvalidInput  more than can be numbered.
-std::vector<double> default_heights(const std::vector<surface::LinkingSurface>& links,
-                                    const surface::SizeField& size, LayerSpec spec, int least);
-
 /// `faces`, walls and targets with quads of their own: their nodes take no part in improving.
 std::set<FaceId> given_faces(const topology::OpenVolume& volume, std::set<FaceId> faces, bool wedges);
 

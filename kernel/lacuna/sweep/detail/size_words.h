@@ -22,10 +22,11 @@ struct SourceSize {
     bool narrow = false;      ///< quads are to be across places that are, or may be, narrow
 };
 
-/// How many layers there are, and whether rows of quads on walls said so.
+/// How many layers there are, and whether rows of quads on walls or bends of the walls said so.
 struct LayersTaken {
     int count = 0;
     bool by_rows = false;
+    bool by_bends = false;
 };
 
 /// A line for the size that was taken by default, or for one asked for that the shape makes smaller, and a
