@@ -3,6 +3,7 @@
 
 #include <lacuna/cad_worker/detail/cad_facets.h>
 #include <lacuna/cad_worker/detail/gmsh_api.h>
+#include <lacuna/cad_worker/detail/narrow_sides.h>
 
 #include <algorithm>
 #include <cmath>
@@ -133,7 +134,8 @@ struct Cut {
 /// Divide the edges and cut the faces, finer around those whose border crosses itself.
 Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const Progress& progress)
 {
-    std::vector<double> refinement(wire.edges.size(), 1.0);
+    divide(wire, options.fineness, std::vector<double>(wire.edges.size(), 1.0));
+    std::vector<double> refinement = narrow_refinement(wire);
     options.max_cells = std::clamp(kMaxCells / static_cast<double>(wire.faces.size()), kMinCellsOfFace,
                                    kMaxCellsOfFace);
     int failed_tag = 0;
@@ -148,8 +150,10 @@ Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const 
             if (!facets) {
                 failed = &face;
                 for (const CadFaceInfo::Side& side : face.sides) {
-                    for (const std::size_t p : wire.curves[side.curve].pieces)
-                        refinement[wire.pieces[p].edge] = 1 << division;
+                    for (const std::size_t p : wire.curves[side.curve].pieces) {
+                        double& times = refinement[wire.pieces[p].edge];
+                        times = std::max(2 * times, static_cast<double>(1 << division));
+                    }
                 }
                 continue;
             }

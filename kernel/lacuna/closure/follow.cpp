@@ -77,33 +77,50 @@ Follower::Follower(const topology::OpenVolume& volume, const std::vector<matchin
     const std::vector<std::vector<Vec3>>& levels = sections.levels;
     if (levels.front().empty()) return;
     bow_ = bow_of(levels);
-    for (std::size_t k = 0; k < levels.size(); ++k) {
-        check_cancelled(context);
-        from_source_.push_back(
-            geometry::fit_affine(levels.front(), levels[k], sections.areas.front(), sections.areas[k]));
-        from_target_.push_back(
-            geometry::fit_affine(levels.back(), levels[k], sections.areas.back(), sections.areas[k]));
+    ways_.push_back(way_of(levels, sections.areas, context));
+    for (const matching::LoopSections& loop : sections.loops) {
+        for (const Index point : loop.rim) at_rim_.emplace(point, ways_.size());
+        ways_.push_back(way_of(loop.levels, sections.areas, context));
     }
 }
 
-Vec3 Follower::morph(const Vec3& source, const Vec3& target, double t) const
+Follower::Way Follower::way_of(const std::vector<std::vector<Vec3>>& levels, const std::vector<Vec3>& areas,
+                               const RunContext& context)
 {
+    Way way;
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        check_cancelled(context);
+        way.from_source.push_back(geometry::fit_affine(levels.front(), levels[k], areas.front(), areas[k]));
+        way.from_target.push_back(geometry::fit_affine(levels.back(), levels[k], areas.back(), areas[k]));
+    }
+    return way;
+}
+
+std::size_t Follower::walls_at(Index rim_point) const
+{
+    const auto found = at_rim_.find(rim_point);
+    return found == at_rim_.end() ? 0 : found->second;
+}
+
+Vec3 Follower::morph(const Vec3& source, const Vec3& target, double t, std::size_t walls) const
+{
+    const Way& way = ways_[walls];
     const double at = std::clamp(t, 0.0, 1.0) * kLevels;
     const auto low = static_cast<std::size_t>(std::min(std::floor(at), kLevels - 1.0));
     const double f = at - static_cast<double>(low);
-    const Vec3 up = (1 - f) * from_source_[low](source) + f * from_source_[low + 1](source);
-    const Vec3 down = (1 - f) * from_target_[low](target) + f * from_target_[low + 1](target);
+    const Vec3 up = (1 - f) * way.from_source[low](source) + f * way.from_source[low + 1](source);
+    const Vec3 down = (1 - f) * way.from_target[low](target) + f * way.from_target[low + 1](target);
     return (1 - t) * up + t * down;
 }
 
 Vec3 Follower::leaving(const Vec3& source) const
 {
-    return (from_source_[1](source) - source).stableNormalized();
+    return (ways_[0].from_source[1](source) - source).stableNormalized();
 }
 
 Vec3 Follower::arriving(const Vec3& target) const
 {
-    return (target - from_target_[kLevels - 1](target)).stableNormalized();
+    return (target - ways_[0].from_target[kLevels - 1](target)).stableNormalized();
 }
 
 bool Follower::leads_astray(const topology::OpenVolume& volume, const matching::Match& match) const

@@ -6,7 +6,9 @@
 #include <lacuna/matching/match.h>
 #include <lacuna/topology/open_volume.h>
 
+#include <cstddef>
 #include <limits>
+#include <unordered_map>
 #include <vector>
 
 namespace lacuna::closure {
@@ -22,17 +24,21 @@ public:
              const RunContext& context = {});
 
     /// False where no given wall joins source and target: there is nothing to follow.
-    [[nodiscard]] bool leads() const { return !from_source_.empty(); }
+    [[nodiscard]] bool leads() const { return !ways_.empty(); }
 
+    /// The walls that lead what starts at a model point of the source's rim: the given ones of its own loop
+    /// where they say how the rest of that loop goes, else all of them.
+    [[nodiscard]] std::size_t walls_at(Index rim_point) const;
     /// Where the point that starts at `source` and ends at `target` is at height t in [0, 1]. @pre leads()
-    [[nodiscard]] Vec3 morph(const Vec3& source, const Vec3& target, double t) const;
+    /// @param walls  `walls_at()` of the rim it is beside; 0: all.
+    [[nodiscard]] Vec3 morph(const Vec3& source, const Vec3& target, double t, std::size_t walls = 0) const;
 
     /// Unit directions in which the walls move a point off the source, and onto the target. @pre leads()
     [[nodiscard]] Vec3 leaving(const Vec3& source) const;
     [[nodiscard]] Vec3 arriving(const Vec3& target) const;
 
     /// Where the walls' motion alone, from the source up, takes a point of the source. @pre leads()
-    [[nodiscard]] Vec3 carried(const Vec3& source) const { return from_source_.back()(source); }
+    [[nodiscard]] Vec3 carried(const Vec3& source) const { return ways_[0].from_source.back()(source); }
 
     /// True where a straight line between two matched vertices without walls would run so far from where the
     /// walls lead that the volume it closes would be another: by half a hundredth of the rims' radius where
@@ -48,7 +54,15 @@ public:
     }
 
 private:
-    std::vector<geometry::AffineFit> from_source_, from_target_; ///< one a level
+    /// Maps of one level each.
+    struct Way {
+        std::vector<geometry::AffineFit> from_source, from_target;
+    };
+    static Way way_of(const std::vector<std::vector<Vec3>>& levels, const std::vector<Vec3>& areas,
+                      const RunContext& context);
+
+    std::vector<Way> ways_;                         ///< of all walls, then of loops
+    std::unordered_map<Index, std::size_t> at_rim_; ///< way of points on loops with one of their own
     std::vector<double> heights_;
     bool closed_ = false; ///< some walls go all round
     double bow_ = 0;      ///< how far the walls stray from straight lines between the rims, of their radius

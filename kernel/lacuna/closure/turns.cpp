@@ -120,8 +120,8 @@ double faces_opposite(const OpenVolume& volume, const std::vector<FaceId>& part,
 }
 
 /// How far the walls of a part leave its ends on the side those face, over all their common sides; negative
-/// where they leave behind, and 0 where some do this and some that, or it has not both ends. Walls between two
-/// ends run along the void, and only a step's leave it.
+/// where they leave behind, and 0 where some do this and some that, or it has not both ends. Walls between
+/// two ends run along the void, and only a step's leave it.
 double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part)
 {
     const Model& model = volume.model;
@@ -156,10 +156,10 @@ double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part)
     return before > 0 && behind < 0 ? 0 : before + behind;
 }
 
-/// Of each part, whether its facets face the void. Of a part that lies within no other, walls that all leave its
-/// two ends to one side say so; else its ends, where they see the opposite end of another part or, of a part
-/// that lies within no other, its own; else facets face away from their middle, or towards it where the part
-/// lies within another.
+/// Of each part, whether its facets face the void. Of a part that lies within no other, walls that all leave
+/// its two ends to one side say so; else its ends, where they see the opposite end of another part or, of a
+/// part that lies within no other, its own; else facets face away from their middle, or towards it where the
+/// part lies within another.
 std::vector<bool> parts_facing_void(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts)
 {
     const Model& model = volume.model;

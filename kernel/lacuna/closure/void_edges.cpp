@@ -194,12 +194,13 @@ std::vector<Vec3> followed_course(const Model& model, const Gap& gap, const Foll
     const double below = total(gap.below), above = total(gap.above);
     const double all = below + (to - from).norm() + above;
     const double low = below / all, high = 1 - above / all;
-    const Vec3 off_from = from - follower.morph(source, target, low);
-    const Vec3 off_to = to - follower.morph(source, target, high);
+    const std::size_t walls = follower.walls_at(model[gap.source].point);
+    const Vec3 off_from = from - follower.morph(source, target, low, walls);
+    const Vec3 off_to = to - follower.morph(source, target, high, walls);
     std::vector<Vec3> points;
     for (int i = 1; i < kMostSegments; ++i) {
         const double f = static_cast<double>(i) / kMostSegments;
-        points.push_back(follower.morph(source, target, low + f * (high - low)) + (1 - f) * off_from +
+        points.push_back(follower.morph(source, target, low + f * (high - low), walls) + (1 - f) * off_from +
                          f * off_to);
     }
     return points;

@@ -228,17 +228,20 @@ double twist_of(const std::array<PatchSide, 4>& side)
     return (corner(0) - corner(1) + corner(2) - corner(3)).norm() / 4;
 }
 
-/// Facets of a rectangle of which two sides at least have few points, and whose patch is twisted: a grid inside,
-/// and facets from it to the sides as they are.
+/// Facets of a rectangle of which two sides at least have few points, and whose patch is twisted: a grid
+/// inside, and facets from it to the sides as they are.
 /// @param width, height  segments of the sides each way: their own size in the plane.
 geometry::Triangulation grid_within(const Outline& outline, double width, double height,
                                     const RunContext& context)
 {
-    // Cells each way: facets miss a twisted patch by 1/256 of what two of them do. Sides cut finer are bent, and
-    // facets inside are to be no coarser.
+    // Cells each way: facets miss a twisted patch by 1/256 of what two of them do. Sides cut finer are bent,
+    // and facets inside are to be no coarser.
     constexpr Index kCells = 16;
-    const Index across = std::max(kCells, static_cast<Index>(width));
-    const Index along = std::max(kCells, static_cast<Index>(height));
+    // Many cells: no closer than a scan's sides ask for, which a void face does not need. A choice.
+    constexpr double kMostCells = 1e5;
+    const double coarser = std::max(1.0, std::sqrt(width * height / kMostCells));
+    const Index across = std::max(kCells, static_cast<Index>(width / coarser));
+    const Index along = std::max(kCells, static_cast<Index>(height / coarser));
     geometry::Triangulation inner{outline.flat, {}};
     const auto first = static_cast<Index>(inner.points.size());
     for (Index j = 1; j < along; ++j) {
@@ -299,23 +302,28 @@ VoidFilling fill_transfinite(const Model& model, const std::vector<std::vector<E
     constexpr double kFewSegments = 8, kFlat = 1e-3;
     const double across = (side[0].points.front() - side[2].points.front()).norm();
     const bool twisted = std::min(width, height) < kFewSegments && twist_of(side) > kFlat * across;
-    const geometry::Triangulation flat = twisted ? grid_within(outline, width, height, context)
-                                         : even  ? grid_between(side, outline, width, height)
-                                                 : geometry::triangulate(outline.flat, outline.loops, {},
-                                                                         context);
+    const bool bent_both_ways = std::min(width, height) >= kFewSegments;
+    const geometry::Triangulation flat = even && !twisted ? grid_between(side, outline, width, height)
+                                         : twisted || bent_both_ways
+                                             ? grid_within(outline, width, height, context)
+                                             : geometry::triangulate(outline.flat, outline.loops, {},
+                                                                     context);
     const auto backward = [](std::vector<Vec3> points) {
         std::reverse(points.begin(), points.end());
         return points;
     };
     const geometry::SweptPatch patch(side[0].points, side[1].points, backward(side[2].points),
                                      backward(side[3].points));
+    const std::size_t walls = follower != nullptr ? follower->walls_at(side[0].chain.front()) : 0;
     VoidFilling result = filling_of(model, outline, flat, [&](std::size_t i) -> Vec3 {
         const double s = flat.points[i].x() / width, t = flat.points[i].y() / height;
         if (follower == nullptr) return patch(s, t);
-        const Vec3 left = side[3].at(1 - t) -
-                          follower->morph(side[0].points.front(), side[2].points.back(), t);
-        const Vec3 right = side[1].at(t) - follower->morph(side[0].points.back(), side[2].points.front(), t);
-        return follower->morph(side[0].at(s), side[2].at(1 - s), t) + (1 - s) * left + s * right;
+        const auto led = [&](const Vec3& from, const Vec3& to) {
+            return follower->morph(from, to, t, walls);
+        };
+        const Vec3 left = side[3].at(1 - t) - led(side[0].points.front(), side[2].points.back());
+        const Vec3 right = side[1].at(t) - led(side[0].points.back(), side[2].points.front());
+        return led(side[0].at(s), side[2].at(1 - s)) + (1 - s) * left + s * right;
     });
     const bool seam = sides[1].size() == sides[3].size() && sides[1].front().edge == sides[3].back().edge;
     result.geometry = follower != nullptr ? Geometry::followed

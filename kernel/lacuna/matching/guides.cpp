@@ -13,6 +13,8 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <span>
 
 namespace lacuna::matching {
 
@@ -172,8 +174,8 @@ std::map<FacetSide, ExactSide> exact_sides(const Model& model, const std::vector
     return found;
 }
 
-/// Move the points of level lines from the facets to the exact surfaces these were cut from: beside a thin void
-/// the facets' sag is large. Points that would go further than their side is long stay, as do those of a
+/// Move the points of level lines from the facets to the exact surfaces these were cut from: beside a thin
+/// void the facets' sag is large. Points that would go further than their side is long stay, as do those of a
 /// surface that cannot be projected on.
 void put_on_surfaces(const Model& model, const std::vector<FaceId>& part, std::vector<LevelLine>& lines,
                      const RunContext& context)
@@ -345,6 +347,25 @@ Vec3 complete(const LevelLine& line, std::vector<Vec3>& section)
     return (std::abs(area.dot(up)) + open.squaredNorm() / (4 * std::numbers::pi)) * up;
 }
 
+/// Points that `complete()` adds to an open section.
+constexpr std::size_t kAdded = 2;
+/// Open walls say how the rest of their loop goes where they reach off their gap by this share of what the
+/// loop does: a mistake in the fit is then at most about doubled there. A choice, not a measurement.
+constexpr double kReach = 0.5;
+
+/// @param section  of open walls at the rim, without what `complete()` adds. @param rim  the whole loop
+bool says_the_rest(std::span<const Vec3> section, const std::vector<Vec3>& rim)
+{
+    const Vec3 from = section.front(), gap = (section.back() - from).stableNormalized();
+    const auto furthest = [&](std::span<const Vec3> points) {
+        double most = 0;
+        for (const Vec3& p : points) most = std::max(most, ((p - from) - (p - from).dot(gap) * gap).norm());
+        return most;
+    };
+    const double reach = furthest(section);
+    return reach > 0 && reach >= kReach * furthest(rim);
+}
+
 /// True where the ends of an open line lie on side lines.
 std::pair<bool, bool> ends_anchored(const LevelLine& line)
 {
@@ -413,6 +434,40 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
     return result;
 }
 
+/// The points of the source's loop that a wall part stands on, and its sections there; those of parts on one
+/// loop together.
+void add_to_loops(const OpenVolume& volume, const std::vector<FaceId>& part, const PartSections& sections,
+                  std::vector<LoopSections>& loops)
+{
+    const Model& model = volume.model;
+    std::set<EdgeId> edges;
+    for (const FaceId face : part) {
+        for (const Loop& loop : model[face].loops) {
+            for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
+        }
+    }
+    for (const Rim& rim : rims(model, volume.faces(Role::source))) {
+        if (std::ranges::none_of(rim.uses, [&](const EdgeUse& use) { return edges.contains(use.edge); }))
+            continue;
+        std::vector<Index> points;
+        for (const EdgeUse& use : rim.uses)
+            points.insert(points.end(), model[use.edge].points.begin(), model[use.edge].points.end());
+        std::vector<Vec3> places;
+        for (const Index p : points) places.push_back(model.at(p));
+        const std::span<const Vec3> rim_section(sections.points.front());
+        if (!says_the_rest(rim_section.first(rim_section.size() - kAdded), places)) continue;
+        auto loop = std::ranges::find(loops, points, &LoopSections::rim);
+        if (loop == loops.end()) {
+            loop = loops.insert(loops.end(), {points, {}});
+            loop->levels.resize(sections.points.size());
+        }
+        for (std::size_t k = 0; k < sections.points.size(); ++k) {
+            const std::vector<Vec3>& own = sections.points[k];
+            loop->levels[k].insert(loop->levels[k].end(), own.begin(), own.end() - kAdded);
+        }
+    }
+}
+
 } // namespace
 
 Sections cut_sections(const OpenVolume& volume, const std::vector<SideLine>& lines, int count,
@@ -430,14 +485,19 @@ Sections cut_sections(const OpenVolume& volume, const std::vector<SideLine>& lin
             for (std::size_t i = 0; i + 1 < points.size(); ++i) on_line[side(points[i], points[i + 1])] = l;
         }
     }
+    std::vector<PartSections> parts;
     for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
-        const auto sections = sections_of(volume, part, result.heights, up, on_line, count, context);
-        result.closed = result.closed || sections.closed;
-        if (result.areas.empty()) result.areas.assign(result.levels.size(), Vec3::Zero());
-        for (std::size_t k = 0; k < sections.points.size(); ++k) {
-            result.areas[k] += sections.areas[k];
-            result.levels[k].insert(result.levels[k].end(), sections.points[k].begin(),
-                                    sections.points[k].end());
+        parts.push_back(sections_of(volume, part, result.heights, up, on_line, count, context));
+        result.closed = result.closed || parts.back().closed;
+        if (!parts.back().closed && !parts.back().points.empty())
+            add_to_loops(volume, part, parts.back(), result.loops);
+    }
+    if (!parts.empty()) result.areas.assign(result.levels.size(), Vec3::Zero());
+    for (const PartSections& part : parts) {
+        if (result.closed && !part.closed) continue; // it guesses what the closed ones know
+        for (std::size_t k = 0; k < part.points.size(); ++k) {
+            result.areas[k] += part.areas[k];
+            result.levels[k].insert(result.levels[k].end(), part.points[k].begin(), part.points[k].end());
         }
     }
     return result;

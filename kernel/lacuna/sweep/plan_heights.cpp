@@ -89,7 +89,8 @@ int bend_layers(const Columns& columns, const SweepOptions& options)
         std::ceil(columns.turning * options.curvature / (2 * std::numbers::pi) - kRounding));
 }
 
-/// Layers about as high as the quads are wide, `least` at least. @throw InvalidInput  more than can be numbered.
+/// Layers about as high as the quads are wide, `least` at least. @throw InvalidInput  more than can be
+/// numbered.
 std::vector<double> default_heights(const Columns& columns, LayerSpec spec, int least)
 {
     if (!(columns.sides < std::numeric_limits<Index>::max() / 16.0)) {

@@ -25,7 +25,8 @@ struct PlannedHeights {
 /// @param asked  what `LayerSpec` makes of a count or of heights, from the source; empty: none are asked for.
 /// @param size   of the source's quads.
 /// @param least  layers that the walls need.
-/// @throw InvalidInput  more layers than can be numbered; boundary layers of ends together with heights, or with fewer layers than they have.
+/// @throw InvalidInput  more layers than can be numbered; boundary layers of ends together with heights, or
+///                      with fewer layers than they have.
 /// @throw NotSweepable "sweep.layers_room"  ends closer to each other than their boundary layers are high.
 PlannedHeights plan_heights(const topology::OpenVolume& volume,
                             const std::vector<surface::LinkingSurface>& links,

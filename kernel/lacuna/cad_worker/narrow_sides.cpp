@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <lacuna/cad_worker/detail/narrow_sides.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace lacuna::cad_worker {
+
+namespace {
+
+/// Sag of a side allowed, of its distance from another edge: a ring's area is then off by about as much. A
+/// choice, not a measurement.
+constexpr double kSag = 0.01;
+/// Edges get at most so many times as many points: a whole circle 384. A choice, not a measurement.
+constexpr double kMost = 8;
+/// A face is flat where its points are off a plane by less than this part of their spread: rounding of files.
+constexpr double kFlat = 1e-6;
+
+/// A side of an edge's polyline.
+struct Side {
+    Vec3 from, to;
+    std::size_t edge = 0;
+    double sag = 0; ///< of the curve over the side [file length]
+};
+
+/// How far the curve rises over its sides: as an arc through a side's ends and the next point.
+double sag_of(const std::vector<Vec3>& line, std::size_t side)
+{
+    const auto bend = [&](std::size_t at) {
+        if (at == 0 || at + 1 >= line.size()) return 0.0;
+        const Vec3 in = line[at] - line[at - 1], out = line[at + 1] - line[at];
+        return std::atan2(in.cross(out).norm(), in.dot(out));
+    };
+    return (line[side + 1] - line[side]).norm() * std::max(bend(side), bend(side + 1)) / 8;
+}
+
+std::vector<Side> sides_of(const CadWire& wire, const std::set<std::size_t>& edges)
+{
+    std::vector<Side> sides;
+    for (const std::size_t e : edges) {
+        std::vector<Vec3> line;
+        for (const Index p : wire.edges[e].points) line.push_back(wire.points[index(p)]);
+        for (std::size_t i = 0; i + 1 < line.size(); ++i)
+            sides.push_back({line[i], line[i + 1], e, sag_of(line, i)});
+    }
+    return sides;
+}
+
+bool is_flat(const std::vector<Side>& sides)
+{
+    Vec3 middle = Vec3::Zero();
+    for (const Side& side : sides) middle += side.from / static_cast<double>(sides.size());
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const Side& side : sides) spread += (side.from - middle) * (side.from - middle).transpose();
+    const Vec3 squares = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
+    return squares[0] <= kFlat * kFlat * squares[2];
+}
+
+double distance(const Vec3& point, const Side& side)
+{
+    const Vec3 way = side.to - side.from;
+    const double square = way.squaredNorm();
+    const double at = square > 0 ? std::clamp((point - side.from).dot(way) / square, 0.0, 1.0) : 0;
+    return (point - side.from - at * way).norm();
+}
+
+bool share_a_point(const CadEdge& a, const CadEdge& b)
+{
+    const auto ends = [](const CadEdge& edge, Index p) {
+        return edge.points.front() == p || edge.points.back() == p;
+    };
+    return ends(b, a.points.front()) || ends(b, a.points.back());
+}
+
+} // namespace
+
+std::vector<double> narrow_refinement(const CadWire& wire)
+{
+    std::vector<double> refinement(wire.edges.size(), 1.0);
+    for (const CadFaceInfo& face : wire.faces) {
+        std::set<std::size_t> edges;
+        for (const CadFaceInfo::Side& side : face.sides) {
+            for (const std::size_t piece : wire.curves[side.curve].pieces)
+                edges.insert(wire.pieces[piece].edge);
+        }
+        std::vector<Side> sides = sides_of(wire, edges);
+        if (edges.size() < 2 || std::ranges::none_of(sides, [](const Side& s) { return s.sag > 0; }) ||
+            !is_flat(sides))
+            continue;
+        std::ranges::sort(sides, {}, [](const Side& side) { return std::min(side.from.x(), side.to.x()); });
+        double longest = 0; // along x
+        for (const Side& side : sides) longest = std::max(longest, std::abs(side.to.x() - side.from.x()));
+        for (const Side& side : sides) {
+            if (!(side.sag > 0)) continue;
+            const Vec3 middle = (side.from + side.to) / 2;
+            double near = side.sag / kSag; // what is further off asks for nothing
+            auto other = std::ranges::lower_bound(sides, middle.x() - near - longest, {}, [](const Side& s) {
+                return std::min(s.from.x(), s.to.x());
+            });
+            for (; other != sides.end() && std::min(other->from.x(), other->to.x()) <= middle.x() + near;
+                 ++other) {
+                if (other->edge == side.edge || share_a_point(wire.edges[other->edge], wire.edges[side.edge]))
+                    continue;
+                near = std::min(near, distance(middle, *other));
+            }
+            // The sag falls with the square of the number of points.
+            const double wanted = near > 0 ? std::sqrt(side.sag / (kSag * near)) : kMost;
+            refinement[side.edge] = std::max(refinement[side.edge], std::min(wanted, kMost));
+        }
+    }
+    return refinement;
+}
+
+} // namespace lacuna::cad_worker
