@@ -21,8 +21,8 @@ struct Bowl {
 /// hemisphere, a bore with a round end or a pocket with a rounded floor.
 ///
 /// A flat face with all else behind it is the mouth. What lies behind it is sorted by height. The plane
-/// across is where the skin leans half as much as where it is steepest, found from the bottom up, so that quads of
-/// both parts meet at like angles. Faces are split there.
+/// across is where the skin leans half as much as where it is steepest, found from the bottom up, so that
+/// quads of both parts meet at like angles. Faces are split there.
 /// @param sealed  watertight and oriented; its roles are not read.
 /// @return  nothing where no face is such a mouth, where the skin leans alike everywhere, as a cone does, or
 ///          where the plane does not part it into one bottom and a ring of walls for each rim of the mouth.
