@@ -8,6 +8,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 
 using namespace lacuna;
@@ -104,6 +106,81 @@ healing::FacetSoup stack(const std::vector<double>& halves, const std::set<int>&
     }
     add({{low, low + 1, low + 2}, {low, low + 2, low + 3}});
     return soup;
+}
+
+/// Square rings on each other, closed by a flat floor and a flat lid, and what they enclose.
+struct Rings {
+    healing::FacetSoup soup;
+    double volume = 0;
+};
+
+/// A box of half width 1 + r whose floor's rim is rounded by r. The lid may be left out.
+/// @param sides  whether floor, rounding and walls are faces of their own, a rounding and a wall each side
+Rings rounded_box(double r, double height, bool lid, bool sides)
+{
+    constexpr int kSteps = 8;
+    std::vector<std::array<double, 2>> at; // half width and height
+    for (int k = 0; k <= kSteps; ++k) {
+        const double t = k * 1.5707963267948966 / kSteps;
+        at.push_back({1 + r * std::sin(t), r * (1 - std::cos(t))});
+    }
+    at.push_back({1 + r, height});
+    Rings made;
+    for (const auto& [half, z] : at)
+        for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+            made.soup.points.emplace_back(half * x, half * y, z);
+    const auto add = [&](Triangle t, int label) {
+        made.soup.triangles.push_back(t);
+        made.soup.triangle_label.push_back(label);
+    };
+    add({0, 3, 2}, 0);
+    add({0, 2, 1}, 0);
+    for (Index k = 0; k + 1 < static_cast<Index>(at.size()); ++k) {
+        for (Index i = 0; i < 4; ++i) {
+            const Index j = (i + 1) % 4, low = 4 * k, high = low + 4;
+            const int label = sides ? 1 + i + (k < kSteps ? 0 : 4) : 0;
+            add({low + i, low + j, high + j}, label);
+            add({low + i, high + j, high + i}, label);
+        }
+        const auto& [a, za] = at[static_cast<std::size_t>(k)];
+        const auto& [b, zb] = at[static_cast<std::size_t>(k) + 1];
+        made.volume += (zb - za) * 4 * (a * a + a * b + b * b) / 3;
+    }
+    const auto top = static_cast<Index>(made.soup.points.size()) - 4;
+    if (lid) add({top, top + 1, top + 2}, 9);
+    if (lid) add({top, top + 2, top + 3}, 9);
+    return made;
+}
+
+/// A sphere's part from its south pole up to a polar angle, as one face, and its lid.
+Rings ball(double up_to, bool lid)
+{
+    constexpr int kRings = 24, kRound = 48;
+    Rings made;
+    made.soup.points.emplace_back(0, 0, -1);
+    for (int k = 1; k <= kRings; ++k) {
+        const double t = up_to * k / kRings;
+        for (int i = 0; i < kRound; ++i) {
+            const double p = 2 * 3.141592653589793 * i / kRound;
+            made.soup.points.emplace_back(std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), -std::cos(t));
+        }
+    }
+    const auto add = [&](Triangle t, int label) {
+        made.soup.triangles.push_back(t);
+        made.soup.triangle_label.push_back(label);
+    };
+    const auto at = [&](int k, int i) { return static_cast<Index>(1 + (k - 1) * kRound + i % kRound); };
+    for (int i = 0; i < kRound; ++i) add({0, at(1, i + 1), at(1, i)}, 0);
+    for (int k = 1; k < kRings; ++k) {
+        for (int i = 0; i < kRound; ++i) {
+            add({at(k, i), at(k, i + 1), at(k + 1, i + 1)}, 0);
+            add({at(k, i), at(k + 1, i + 1), at(k + 1, i)}, 0);
+        }
+    }
+    for (int i = 1; lid && i + 1 < kRound; ++i) add({at(kRings, 0), at(kRings, i), at(kRings, i + 1)}, 1);
+    const double h = 1 - std::cos(up_to);
+    made.volume = 3.141592653589793 * h * h * (3 - h) / 3;
+    return made;
 }
 
 double stack_volume(const std::vector<double>& halves)
@@ -280,4 +357,45 @@ TEST_CASE("other ways to sweep what a reading encloses enclose the same, and non
         }
     }
     CHECK(others >= 6);
+}
+
+TEST_CASE("a pocket whose floor has a rounded rim is read from its floor to its mouth")
+{
+    for (const double r : {0.1, 0.3, 0.6}) {
+        for (const bool lid : {true, false}) {
+            const Rings box = rounded_box(r, 2, lid, true);
+            const Model model = healing::split_facets(box.soup, {.whole_labels = true});
+            CAPTURE(r);
+            CAPTURE(lid);
+            const auto reading = closure::find_reading(model, all_faces(model));
+            CHECK(reading.enclosed == doctest::Approx(box.volume));
+            CHECK(reading.classification.value == (lid ? VolumeClass::closed : VolumeClass::IV));
+            REQUIRE(reading.roles.roles.source.size() == 1);
+            const FaceId source = reading.roles.roles.source.front();
+            CHECK(std::abs(face_area_vector(model, source).z()) == doctest::Approx(4));
+            CHECK(closed_volume(reading) == doctest::Approx(box.volume));
+        }
+    }
+}
+
+TEST_CASE("a hollow that has no edge between bottom and walls is parted where it bends")
+{
+    for (const bool lid : {true, false}) {
+        std::vector<Rings> hollows;
+        for (const double up_to : {0.7, 1.2, 1.5707963267948966, 2.2}) hollows.push_back(ball(up_to, lid));
+        hollows.push_back(rounded_box(0.4, 1.5, lid, false));
+        for (const Rings& hollow : hollows) {
+            const Model model = healing::split_facets(hollow.soup, {.whole_labels = true});
+            CAPTURE(lid);
+            CAPTURE(hollow.volume);
+            const auto reading = closure::find_reading(model, all_faces(model));
+            REQUIRE(reading.closure);
+            CHECK(reading.closure->void_faces.size() == (lid ? 0 : 1));
+            CHECK(closure::is_watertight(reading.volume));
+            CHECK(reading.enclosed == doctest::Approx(hollow.volume).epsilon(0.01));
+            CHECK(reading.volume.faces(Role::source).size() == 1);
+            CHECK(reading.volume.faces(Role::wall).size() == 1);
+            CHECK(reading.volume.faces(Role::target).size() == 1);
+        }
+    }
 }

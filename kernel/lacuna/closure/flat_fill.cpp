@@ -138,7 +138,6 @@ std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector
     orient_consistently(volume.model);
     volume.role.assign(faces.size(), Role::wall);
     std::vector<FlatLoop> loops;
-    bool split = false;
     for (const Rim& rim : free_loops(volume)) {
         if (is_flat(volume.model, rim)) {
             loops.push_back({rim.uses});
@@ -148,9 +147,8 @@ std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector
         if (!parts) return std::nullopt;
         result.closure.void_edges.emplace_back(volume.model.edges.size() - 1);
         loops.insert(loops.end(), parts->begin(), parts->end());
-        split = true;
+        result.each_alone = false;
     }
-    bool holes = false;
     for (const Coplanar& one : by_plane(volume.model, loops)) {
         check_cancelled(context);
         std::vector<std::vector<Vec2>> flat;
@@ -162,14 +160,13 @@ std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector
         for (const std::vector<std::size_t>& region : regions_of(flat)) {
             std::vector<std::vector<EdgeUse>> bounds;
             for (const std::size_t loop : region) bounds.push_back(loops[one.loops[loop]].uses);
-            holes = holes || region.size() > 1;
+            result.each_alone = result.each_alone && region.size() == 1;
             const FaceId face = add_partition(volume.model, bounds, one.plane, context);
             volume.model[face].name.clear();
             volume.role.push_back(Role::wall);
             result.closure.void_faces.push_back(face);
         }
     }
-    if (!holes && !split) return std::nullopt;
     build_loops(volume.model);
     orient_consistently(volume.model);
     if (!is_watertight(volume) || first_crossing(volume, context)) return std::nullopt;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/readings.h>
 
+#include <lacuna/closure/detail/bowl.h>
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/steps.h>
 #include <lacuna/core/error.h>
@@ -408,7 +409,7 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
 std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& faces, const RunContext& context)
 {
     auto filled = fill_flat_loops(model, faces, context);
-    if (!filled) return std::nullopt;
+    if (!filled || filled->each_alone) return std::nullopt;
     const std::vector<RoleCandidate> sweeps = best_sweeps(filled->volume.model, context);
     if (sweeps.empty()) return std::nullopt;
     Void found;
@@ -419,6 +420,40 @@ std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& fac
     found.sealed.closure = std::move(filled->closure);
     found.sealed.enclosed = enclosed_volume(found.sealed.volume);
     return found;
+}
+
+/// A hollow whose bottom goes over into its walls smoothly, parted where it bends.
+std::optional<Reading> read_bowl(const Model& model, const std::vector<FaceId>& faces,
+                                 const RunContext& context)
+{
+    auto filled = fill_flat_loops(model, faces, context);
+    if (!filled) return std::nullopt;
+    auto bowl = part_bowl(filled->volume, context);
+    if (!bowl) return std::nullopt;
+    Reading reading;
+    Roles& roles = reading.roles.roles;
+    for (std::size_t f = 0; f < bowl->parent.size(); ++f) {
+        const std::size_t given = bowl->parent[f].index();
+        if (given >= faces.size()) continue;
+        const Role role = bowl->volume.role[f];
+        std::vector<FaceId>& list = role == Role::source   ? roles.source
+                                    : role == Role::target ? roles.target
+                                                           : roles.walls;
+        if (std::ranges::find(list, faces[given]) == list.end()) list.push_back(faces[given]);
+    }
+    reading.classification.value = filled->closure.void_faces.empty() ? VolumeClass::closed
+                                   : roles.target.empty()             ? VolumeClass::IV
+                                                                      : VolumeClass::III;
+    reading.classification.reasons.push_back(
+        "the bottom goes over into the walls smoothly; it is parted from them " +
+        with_digits(bowl->depth, 4) + " below " + name_of(bowl->volume.model, bowl->mouth) +
+        ", where it bends");
+    reading.roles.value = reading.classification.value;
+    reading.roles.reasons = reading.classification.reasons;
+    reading.volume = std::move(bowl->volume);
+    reading.closure = std::move(filled->closure);
+    reading.enclosed = enclosed_volume(reading.volume);
+    return reading;
 }
 
 /// Add a void unless it is one of those known; only those about as likely as the likeliest stay.
@@ -461,6 +496,9 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
     std::vector<Reading> readings;
     for (Void& now : found) {
         if (auto reading = read(model, found, now, context)) readings.push_back(std::move(*reading));
+    }
+    if (readings.empty()) {
+        if (auto bowl = read_bowl(model, faces, context)) readings.push_back(std::move(*bowl));
     }
     return readings;
 }

@@ -56,6 +56,9 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// open where a reading of the given faces says the same. The next three are kept as well, for who finds that
 /// the first cannot be meshed.
 ///
+/// A hollow that has no such reading, because its bottom goes over into its walls smoothly, is split across
+/// where it bends: a hemisphere, a bore with a round end. Its bottom is the source then.
+///
 /// Free loops that flat faces close, though not one each (one has a hole, or a loop lies in two planes), are
 /// one more void.
 /// @return  empty where no reading passes.

@@ -73,14 +73,34 @@ struct WallPart {
     bool several = false;                               ///< it touches several rims of an end
 };
 
+/// The angles across edges, with those where a flat face goes on smoothly into one that bends as if they were
+/// just sharp: a floor whose rim is rounded is an end then.
+std::vector<double> parted_at_flat_faces(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
+                                         std::vector<double> angle)
+{
+    std::vector<bool> flat(model.faces.size());
+    for (std::size_t f = 0; f < flat.size(); ++f) {
+        const FaceId id(f);
+        flat[f] = face_area_vector(model, id).norm() > (1 - kOneWay) * face_area(model, id);
+    }
+    for (std::size_t e = 0; e < uses.size(); ++e) {
+        if (uses[e].size() == 2 && flat[uses[e][0].face.index()] != flat[uses[e][1].face.index()])
+            angle[e] = std::max(angle[e], kSmooth);
+    }
+    return angle;
+}
+
 class Readings {
 public:
-    Readings(const Model& model, const RunContext& context)
+    /// @param flat_alone  whether a flat face is a patch of its own where others go on from it smoothly
+    Readings(const Model& model, bool flat_alone, const RunContext& context)
         : model_(model),
+          flat_alone_(flat_alone),
           context_(context),
           uses_(edge_uses(model)),
           angle_(angles_across(model, uses_, context)),
-          patches_(smooth_patches(model, uses_, angle_, context)),
+          patches_(smooth_patches(model, uses_,
+                                  flat_alone ? parted_at_flat_faces(model, uses_, angle_) : angle_, context)),
           patch_of_use_(2 * model.edges.size(), kNone),
           next_(2 * model.edges.size()),
           patches_at_(model.vertices.size()),
@@ -125,6 +145,7 @@ public:
     {
         check_cancelled(context_);
         if (reading.source == kNone || reading.step != kNone) return true; // found out with its cost
+        if (flat_alone_ && has_fans(reading)) return false;
         windows_ = 0;
         const std::vector<WallPart> parts = wall_parts(reading);
         const SmoothPatch& source = patches_[reading.source];
@@ -419,6 +440,28 @@ private:
         return cost;
     }
 
+    /// Whether several edges of walls leave one vertex of an end: one line of nodes alone leaves it. Where
+    /// three rounded rims of a box meet it tells its floor from its sides.
+    [[nodiscard]] bool has_fans(const Reading& reading) const
+    {
+        const auto is_wall = [&](std::size_t p) {
+            return p != kNone && p != reading.source && p != reading.target;
+        };
+        std::vector<char> leaving(model_.vertices.size(), 0);
+        for (std::size_t e = 0; e < model_.edges.size(); ++e) {
+            const Edge& edge = model_.edges[e];
+            if (edge.from == edge.to || !is_wall(patch_of_use_[2 * e]) || !is_wall(patch_of_use_[2 * e + 1]))
+                continue;
+            for (const VertexId v : {edge.from, edge.to})
+                leaving[v.index()] = static_cast<char>(std::min(leaving[v.index()] + 1, 2));
+        }
+        const auto fans = [&](std::size_t end) {
+            return end != kNone && std::ranges::any_of(patches_[end].vertices,
+                                                       [&](VertexId v) { return leaving[v.index()] > 1; });
+        };
+        return fans(reading.source) || fans(reading.target);
+    }
+
     // --- what the walls between them say ------------------------------------------------------------
 
     [[nodiscard]] std::vector<FaceId> all_faces() const
@@ -574,6 +617,7 @@ private:
     }
 
     const Model& model_;
+    bool flat_alone_;
     const RunContext& context_;
     std::vector<std::vector<FaceUse>> uses_;
     std::vector<double> angle_; ///< of each edge between its faces [degrees]
@@ -608,13 +652,13 @@ std::string in_words(const Model& model, const Roles& roles, VolumeClass value)
            list("target", roles.target) + list("walls", roles.walls);
 }
 
-std::vector<RoleCandidate> role_candidates(const Model& model, const std::vector<FaceId>& faces,
-                                           const RoleOptions& options, const RunContext& context)
+namespace {
+
+/// The candidates in faces of an oriented part.
+std::vector<RoleCandidate> candidates_of(const Model& part, bool flat_alone, const RoleOptions& options,
+                                         const RunContext& context)
 {
-    Model part = extract(model, faces);
-    check_cancelled(context);
-    orient_consistently(part);
-    Readings readings(part, context);
+    Readings readings(part, flat_alone, context);
     std::vector<Reading> held;
     double least = std::numeric_limits<double>::infinity();
     // What ends alone cost only grows by what is between them.
@@ -629,8 +673,21 @@ std::vector<RoleCandidate> role_candidates(const Model& model, const std::vector
     std::stable_sort(held.begin(), held.end(),
                      [](const Reading& x, const Reading& y) { return x.cost < y.cost; });
     std::vector<RoleCandidate> candidates;
-    for (const Reading& reading : held) {
-        RoleCandidate& candidate = candidates.emplace_back(readings.candidate(reading));
+    for (const Reading& reading : held) candidates.push_back(readings.candidate(reading));
+    return candidates;
+}
+
+} // namespace
+
+std::vector<RoleCandidate> role_candidates(const Model& model, const std::vector<FaceId>& faces,
+                                           const RoleOptions& options, const RunContext& context)
+{
+    Model part = extract(model, faces);
+    check_cancelled(context);
+    orient_consistently(part);
+    std::vector<RoleCandidate> candidates = candidates_of(part, false, options, context);
+    if (candidates.empty()) candidates = candidates_of(part, true, options, context);
+    for (RoleCandidate& candidate : candidates) {
         for (std::vector<FaceId>* list :
              {&candidate.roles.source, &candidate.roles.target, &candidate.roles.walls}) {
             for (FaceId& face : *list) face = faces[face.index()];

@@ -29,9 +29,13 @@ struct RoleOptions {
 /// The ways to read some faces of `model` as source, target and walls that cost less than the cheapest and
 /// the margin, cheapest first.
 ///
-/// Faces that meet smoothly are one patch; an end is a patch. Two ends (classes I–III, closed) need as many
-/// loops on both, no vertex in common, and walls that join one loop of each. One end (IV) needs walls on
-/// its whole rim that lead to a free loop each. No end (V) needs walls in tubes with a loop at either side.
+/// Faces that meet smoothly are one patch; an end is a patch. Where no reading passes so, flat faces that
+/// others go on from smoothly are patches of their own, as the floor of a pocket with a rounded rim; then one
+/// edge of the walls at most may leave each vertex of an end.
+///
+/// Two ends (classes I–III, closed) need as many loops on both, no vertex in common, and walls that join one
+/// loop of each. One end (IV) needs walls on its whole rim that lead to a free loop each. No end (V) needs
+/// walls in tubes with a loop at either side.
 /// Between two ends a ring of walls may be missing too. Where nothing is, ends may be all flat patches that
 /// face one way and the other, at several heights. What passes is ranked by how flat ends are, how square to
 /// the walls, alike and far apart, and how many sharp edges of walls do not lead from end to end.

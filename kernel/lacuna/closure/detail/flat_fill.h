@@ -13,13 +13,13 @@ namespace lacuna::closure {
 struct FlatFilling {
     topology::OpenVolume volume;
     Closure closure;
+    bool each_alone = true; ///< whether each loop is flat and has a face of its own
 };
 
 /// Fill the free loops of some faces with flat faces. Loops in one plane that lie within each other bound one
 /// face with holes. A loop that lies in two planes, as where an end and a wall beside it are missing, is
 /// filled with two faces that meet in a straight void edge.
-/// @return  nothing where a loop lies in more planes, where each is flat and by itself, or where the result
-///          is not sealed or crosses itself.
+/// @return  nothing where a loop lies in more planes, or where the result is not sealed or crosses itself.
 /// @throw InvalidInput  faces that cannot be oriented. Cancelled.
 std::optional<FlatFilling> fill_flat_loops(const topology::Model& model, const std::vector<FaceId>& faces,
                                            const RunContext& context);

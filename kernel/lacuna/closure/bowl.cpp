@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/bowl.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/topology/section.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// As many faces are tried as the mouth, the largest first. A choice: a hollow has one, a prism six.
+constexpr std::size_t kMostMouths = 4;
+/// A face is flat where its summed area vector is as long as its area but for this. A choice: a degree.
+constexpr double kFlat = 2e-4;
+/// Heights the skin's lean is counted at: a rim rounded by a thirtieth of the depth has two. A choice.
+constexpr std::size_t kBins = 64;
+/// Below this lean at its steepest a skin is a bottom alone [radians]. A choice.
+constexpr double kLeastLean = 0.2;
+
+/// Faces in one plane that face one way.
+struct Mouth {
+    std::vector<FaceId> faces;
+    geometry::Plane plane;
+    double area = 0;
+};
+
+/// Flat faces with all else behind them, the largest first.
+std::vector<Mouth> mouths(const Model& model)
+{
+    std::vector<Mouth> found;
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        const FaceId id(f);
+        const Vec3 sum = face_area_vector(model, id);
+        const double area = face_area(model, id);
+        if (model[id].triangles.empty() || !(sum.norm() > (1 - kFlat) * area)) continue;
+        const Vec3& at = model.at(model[id].triangles.front()[0]);
+        const auto same = std::ranges::find_if(found, [&](const Mouth& mouth) {
+            return mouth.plane.normal.dot(sum) > (1 - kFlat) * area &&
+                   std::abs(geometry::height(mouth.plane, at)) <= model.tolerance;
+        });
+        if (same != found.end()) {
+            same->faces.push_back(id);
+            same->area += area;
+        } else {
+            found.push_back({{id}, geometry::plane_across(at, sum), area});
+        }
+    }
+    std::erase_if(found, [&](const Mouth& mouth) {
+        return std::ranges::any_of(model.faces, [&](const Face& face) {
+            return std::ranges::any_of(face.triangles, [&](const Triangle& t) {
+                return std::ranges::any_of(t, [&](Index p) {
+                    return geometry::height(mouth.plane, model.at(p)) > 10 * model.tolerance;
+                });
+            });
+        });
+    });
+    std::ranges::stable_sort(found, std::greater<>(), &Mouth::area);
+    if (found.size() > kMostMouths) found.resize(kMostMouths);
+    return found;
+}
+
+bool has(const std::vector<FaceId>& faces, FaceId face)
+{
+    return std::ranges::find(faces, face) != faces.end();
+}
+
+/// How deep below the mouth the bottom ends; nothing where it does not.
+std::optional<double> parting_depth(const Model& model, const Mouth& mouth)
+{
+    double depth = 0;
+    for (const Face& face : model.faces)
+        for (const Triangle& t : face.triangles)
+            for (const Index p : t) depth = std::max(depth, -geometry::height(mouth.plane, model.at(p)));
+    if (!(depth > model.tolerance)) return std::nullopt;
+    std::array<double, kBins> area{}, across{}; // from the bottom up
+    const auto bin = [&](double d) {
+        const double share = (1 - d / depth) * kBins;
+        return static_cast<std::size_t>(std::clamp(share, 0.0, kBins - 1.0));
+    };
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        if (has(mouth.faces, FaceId(f))) continue;
+        for (const Triangle& t : model.faces[f].triangles) {
+            const Vec3 twice = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+            std::array<double, 3> d{};
+            for (std::size_t i = 0; i < 3; ++i) d[i] = -geometry::height(mouth.plane, model.at(t[i]));
+            const auto [least, most] = std::ranges::minmax(d);
+            const std::size_t low = bin(most), high = bin(least);
+            for (std::size_t b = low; b <= high; ++b) {
+                area[b] += twice.norm() / static_cast<double>(high - low + 1);
+                across[b] += std::abs(twice.dot(mouth.plane.normal)) / static_cast<double>(high - low + 1);
+            }
+        }
+    }
+    const auto lean = [&](std::size_t b) {
+        return area[b] > 0 ? std::acos(std::clamp(across[b] / area[b], 0.0, 1.0)) : 0.0;
+    };
+    double steepest = 0;
+    for (std::size_t b = 0; b < kBins; ++b) steepest = std::max(steepest, lean(b));
+    if (steepest < kLeastLean || !(lean(0) < steepest / 2)) return std::nullopt;
+    std::size_t first = 0;
+    while (lean(first) < steepest / 2) ++first;
+    return depth * (1 - static_cast<double>(first) / kBins);
+}
+
+/// Whether faces are a ring with one rim on each of two others.
+bool join(const Model& model, const std::vector<FaceId>& ring)
+{
+    return rims(model, ring).size() == 2 && euler_number(model, ring) == 0;
+}
+
+std::optional<Bowl> part_at(const OpenVolume& sealed, const Mouth& mouth, const RunContext& context)
+{
+    const auto depth = parting_depth(sealed.model, mouth);
+    if (!depth) return std::nullopt;
+    Bowl bowl;
+    bowl.volume.model = sealed.model;
+    Model& model = bowl.volume.model;
+    bowl.mouth = mouth.faces.front();
+    bowl.depth = *depth;
+    geometry::Plane plane = mouth.plane;
+    plane.origin -= *depth * plane.normal;
+    std::vector<FaceId> all(model.faces.size());
+    for (std::size_t f = 0; f < all.size(); ++f) all[f] = FaceId(f);
+    const std::vector<SectionWalk> walks = section_walks(model, all, plane, model.tolerance);
+    const auto open = [](const SectionWalk& walk) { return !walk.closed; };
+    if (walks.empty() || std::ranges::any_of(walks, open)) return std::nullopt;
+    bowl.parent = imprint_walks(model, walks, plane, model.tolerance, context).parent;
+    build_loops(model);
+    std::vector<FaceId> bottom, walls, top;
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        const bool at_mouth = has(mouth.faces, bowl.parent[f]);
+        const bool below = geometry::height(plane, face_centroid(model, FaceId(f))) < 0;
+        bowl.volume.role.push_back(at_mouth ? Role::target : below ? Role::source : Role::wall);
+        (at_mouth ? top : below ? bottom : walls).emplace_back(f);
+    }
+    if (bottom.empty() || connected_parts(model, bottom).size() != 1) return std::nullopt;
+    const std::size_t loops = rims(model, top).size();
+    const auto rings = connected_parts(model, walls);
+    if (rims(model, bottom).size() != loops || rings.size() != loops) return std::nullopt;
+    if (!std::ranges::all_of(rings, [&](const auto& ring) { return join(model, ring); })) return std::nullopt;
+    return bowl;
+}
+
+} // namespace
+
+std::optional<Bowl> part_bowl(const OpenVolume& sealed, const RunContext& context)
+{
+    for (const Mouth& mouth : mouths(sealed.model)) {
+        check_cancelled(context);
+        try {
+            if (auto bowl = part_at(sealed, mouth, context)) return bowl;
+        } catch (const InvalidInput&) { // the plane would go through quads that a face came with
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace lacuna::closure
