@@ -80,7 +80,7 @@ for _, options in ipairs {
   { view = "top" }, { view = { 1, 1, 0 } },
   { colour = "layer" }, { colour = "groups" }, { colour = "origin" },
   { colour = "region" }, { edges = false }, { legend = false }, { layers = { 2, 2 } },
-  { cut = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } } },
+  { title = "A plate" }, { cut = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } } },
 } do
   check.that(drawn(options) ~= plain, "an option shows")
 end
