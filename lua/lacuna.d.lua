@@ -142,6 +142,8 @@
 ---@field width? integer default 1200 [pixels]
 ---@field height? integer default 900 [pixels]
 ---@field facets? boolean sides of the facets are drawn; default false
+---@field legend? boolean a title, and what the colours mean; default true
+---@field title? string default what is shown, counted
 ---@field view? "iso"|"front"|"back"|"left"|"right"|"top"|"bottom"|lacuna.Vector from what is seen to the eye; default "iso"
 
 ---@class lacuna.PictureOptions
@@ -152,7 +154,8 @@
 ---@field cut? { point: lacuna.Vector, normal: lacuna.Vector } cells whose centre lies behind the plane are shown whole
 ---@field layers? { [1]: integer, [2]: integer } first and last that is shown; default all
 ---@field edges? boolean sides of cells; default true
----@field legend? boolean a bar with the numbers at its ends; default true
+---@field legend? boolean a title, and what the colours mean; default true
+---@field title? string default the name of the mesh and its counts
 
 ---@class lacuna.Classification
 ---@field class lacuna.Class

@@ -18,7 +18,8 @@ namespace lacuna::lua {
 
 namespace {
 
-void read_title(lua_State* L, int index, const Where& where, view::PageOptions& options)
+template <class Options>
+void read_title(lua_State* L, int index, const Where& where, Options& options)
 {
     const char* title = read_string(L, index, where);
     guard(L, [&] { options.title = title; });
@@ -180,6 +181,7 @@ const Option<view::PictureOptions> kPictureOptions[] = {
     {"layers", read_shown_layers},
     {"edges", boolean<&view::PictureOptions::edges>},
     {"legend", boolean<&view::PictureOptions::legend>},
+    {"title", read_title},
 };
 /// Of faces, which have no cells.
 const Option<view::PictureOptions> kFacePictureOptions[] = {
@@ -187,6 +189,8 @@ const Option<view::PictureOptions> kFacePictureOptions[] = {
     {"height", count<&view::PictureOptions::height>},
     {"view", read_direction},
     {"facets", boolean<&view::PictureOptions::facets>},
+    {"legend", boolean<&view::PictureOptions::legend>},
+    {"title", read_title},
 };
 
 void draw(ModelState& state, const io::OutputPath& path, const view::PictureOptions& options,

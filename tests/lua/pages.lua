@@ -80,7 +80,7 @@ for _, options in ipairs {
   { view = "top" }, { view = { 1, 1, 0 } },
   { colour = "layer" }, { colour = "groups" }, { colour = "origin" },
   { colour = "region" }, { edges = false }, { legend = false }, { layers = { 2, 2 } },
-  { cut = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } } },
+  { title = "A plate" }, { cut = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } } },
 } do
   check.that(drawn(options) ~= plain, "an option shows")
 end
@@ -232,6 +232,70 @@ check.equal(said[11], "1 true", "it is kept by the cut, and in the middle")
 check.that(said[12]:find("cell ") and said[12]:find("scaled Jacobian") and said[12]:find("layer"), said[12])
 check.equal(said[13], "true")
 
+-- Parts that are left out are none that is seen, whatever the view. Of what moves, where drawing takes long,
+-- as few sides are drawn as one can wait for, and the coarser skin closes round like the whole.
+local fine = lacuna.synthetic.plate { holes = 2 }
+    :open_volume { source = "source", target = "target", walls = "auto" }
+    :sweep { layers = 3, size = 0.025 }
+fine:view(folder .. "/fine.html")
+local parted = play(folder .. "/fine.html", [=[
+  const D = page.drawing, n = page.sideCount;
+  const balanced = sides => {
+    const sums = new Map();
+    for (let i = 0; i < sides.length; i++) {
+      const a = sides[i], b = sides[i % 4 === 3 ? i - 3 : i + 1];
+      const key = Math.min(a, b) + "-" + Math.max(a, b);
+      if (a !== b) sums.set(key, (sums.get(key) || 0) + (a < b ? 1 : -1));
+    }
+    return [...sums.values()].every(x => x === 0);
+  };
+  const cuts = [[0, 0, 1], [1, 0, 0], [0.6, 0.5, 0.4]];
+  for (const [i, look] of [[1, -1.6, 0.9], [0, 0, 1], [-1, 0.2, -0.7]].entries()) {
+    Object.assign(page.cut, { axis: "view", normal: cuts[i], measured: false, at: 0.6 }); page.setCut();
+    page.camera.look(look); page.camera.fit(1);
+    if (i === 2) page.camera.zoom(0.2, 0.3, 0.1);
+    const parts = D.fineSkin().parts, seen = parts.seen(page.camera, 1.5);
+    say(new Set(parts.indices).size === 4 * page.sideCount, parts.indices.length === 6 * page.sideCount,
+        sidesIn(seen) < page.sideCount);
+    const left = D.shown(page.camera, [600, 400]), one = D.shown(page.camera, [600, 400], [300, 200]);
+    const own = parts.seen;
+    parts.seen = () => [[0, page.sideCount]];
+    D.gl.enable(D.gl.CULL_FACE);
+    const all = D.shown(page.camera, [600, 400]);
+    D.gl.disable(D.gl.CULL_FACE);
+    parts.seen = own;
+    say(left.every((side, at) => side === all[at]), one[0] === all[300 + 600 * 200], new Set(all).size > 100);
+  }
+  page.cut.axis = "off"; page.setCut();
+  page.camera.look([1, -1.6, 0.9]); page.camera.fit(1);
+  await sleep(1000);
+  while (!D.whole) await sleep(10);
+  D.slow = true;
+  say(n, D.render(page.camera, true), D.coarse.from.length < n / 2, D.coarse.from.length > n / 32);
+  for (const halvings of [1, 2, 3]) say(balanced(D.coarseSkin(halvings).sides));
+  let drawn = 0;
+  const draw = D.draw;
+  D.draw = (program, textures, indices, ranges, ...more) => {
+    drawn += sidesIn(ranges);
+    draw.call(D, program, textures, indices, ranges, ...more);
+  };
+  D.render(page.camera, true);
+  say(drawn <= kMovingSides, drawn > kMovingSides / 16);
+  drawn = 0;
+  say(D.render(page.camera, false));
+  while (!D.whole) await sleep(10);
+  say(drawn === sidesIn(D.fineSkin().parts.seen(page.camera, D.size()[0] / D.size()[1])), D.gl.getError());
+]=])
+for i = 1, 5, 2 do
+  check.equal(parted[i], "true true true")
+  check.equal(parted[i + 1], "true true true")
+end
+check.that(parted[7]:find("^%d+ false true true$"), parted[7])
+for i = 8, 10 do check.equal(parted[i], "true", "a coarser skin is closed") end
+check.equal(parted[11], "true true")
+check.equal(parted[12], "true")
+check.equal(parted[13], "true 0")
+
 -- The same mesh as a file: as many cells, the same skin, the same groups.
 if params.lacuna ~= "" then
   local file = play(folder .. "/plate.view.html", kClosed .. [[
@@ -322,7 +386,7 @@ local clicks = play(faces, [=[
   const click = at => { point(page, "pointerdown", at); point(page, "pointerup", at); };
   const of = side => page.data.faces[page.faceOf[side]].tag;
   say(window.hacked === undefined, document.title === page.data.faces[1].name, document.images.length);
-  page.camera.look([1, -1, 1]); page.camera.fit(1); page.moved();
+  page.camera.look([1, -1, 1]); page.camera.fit(1); page.moved(true);
   say([...document.querySelectorAll("#labels div")].map(x => x.textContent.slice(0, 3)).sort().join(","));
   say(page.state.textContent);
   click(findPixel(page, of, 2));

@@ -5,10 +5,13 @@
 #include <lacuna/view/detail/png.h>
 #include <lacuna/view/detail/raster.h>
 #include <lacuna/view/detail/scene.h>
+#include <lacuna/view/detail/stroke_font.h>
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 using namespace lacuna;
 
@@ -145,4 +148,82 @@ TEST_CASE("sizes, directions and cuts that make no picture are refused by name")
     options = from({1, 1, 1});
     options.cut = view::CutPlane{{-1, 0, 0}, Vec3::UnitX()};
     CHECK_THROWS_AS(draw(cube, options), InvalidInput);
+}
+
+TEST_CASE("every letter is drawn within its line, and no two are the same")
+{
+    std::set<std::vector<double>> seen;
+    for (char c = ' '; c <= '~'; ++c) {
+        CAPTURE(c);
+        const auto letter = view::stroked(std::string(1, c));
+        CHECK(letter.strokes.empty() == (c == ' '));
+        CHECK(letter.width >= 0);
+        std::vector<double> places;
+        for (const auto& [from, to] : letter.strokes)
+            for (const Vec2& at : {from, to}) {
+                CHECK(at.x() >= 0);
+                CHECK(at.x() <= letter.width);
+                CHECK(at.y() >= 0);
+                CHECK(at.y() <= 8 / 6.0);
+                places.insert(places.end(), {at.x(), at.y()});
+            }
+        CHECK(seen.insert(places).second);
+    }
+}
+
+TEST_CASE("a line is as wide as its letters and the gaps between them, and other letters are boxes")
+{
+    const double one = view::stroked("n").width, two = view::stroked("nn").width;
+    CHECK(view::stroked("nnnn").width == doctest::Approx(one + 3 * (two - one)));
+    CHECK(view::stroked("\xc3\xa9").strokes.size() == 4); // an e with an accent
+    CHECK(view::stroked("\xc3\xa9").width == view::stroked("\xe2\x82\xac").width);
+    CHECK(view::stroked("\n").strokes.size() == 4);
+    CHECK(view::stroked("").width == 0);
+}
+
+TEST_CASE("a legend stands on the picture, beside what is shown, however many keys it has")
+{
+    view::Legend legend;
+    legend.title = "Block";
+    for (const int keys : {0, 1, 5, 100}) {
+        legend.keys.resize(static_cast<std::size_t>(keys), {view::kGiven, "a group's name"});
+        const auto placed = view::place_legend(legend, 600, 400);
+        for (const auto& mark : placed.marks)
+            for (const Vec2& at : {mark.from, mark.to}) {
+                CHECK(at.x() >= 0);
+                CHECK(at.x() <= 600);
+                CHECK(at.y() >= 0);
+                CHECK(at.y() <= 400);
+                const bool above = at.y() <= placed.above, below = at.y() >= 400 - placed.below;
+                CHECK((above || below));
+            }
+        CHECK(placed.above + placed.below < 200);
+    }
+}
+
+TEST_CASE("a colour's key is there where the picture has the colour")
+{
+    const auto block = test::block({.columns = 2, .rows = 2, .layers = 3});
+    const view::Region regions[] = {{&block, "block"}};
+    for (const auto by : {view::ColourBy::quality, view::ColourBy::layer, view::ColourBy::group,
+                          view::ColourBy::region, view::ColourBy::origin}) {
+        auto options = from({1, 1, 1});
+        options.colour = by;
+        options.legend = true;
+        const auto legend = view::scene_of(regions, options, {}).legend;
+        CHECK(legend.title == "block: 12 cells, 3 layers");
+        CHECK(legend.ramp.empty() == legend.quantity.empty());
+        CHECK(legend.ramp.empty() == !legend.keys.empty());
+        const auto inside = [](const view::Legend& own) {
+            return std::any_of(own.keys.begin(), own.keys.end(),
+                               [](const view::Key& key) { return key.text == "inside"; });
+        };
+        CHECK(!inside(legend));
+        options.layers = {{1, 2}};
+        options.title = "Two layers";
+        const auto cut = view::scene_of(regions, options, {}).legend;
+        CHECK(cut.title == "Two layers");
+        CHECK(inside(cut) == (by == view::ColourBy::group || by == view::ColourBy::origin));
+        CHECK(view::rasterise(view::scene_of(regions, options, {}), options, {}).rgb.size() == 3 * 300 * 200);
+    }
 }

@@ -31,7 +31,8 @@ struct PictureOptions {
     std::optional<std::array<int, 2>> layers{}; ///< first and last that is shown, from 1; none: all
     bool edges = true;                          ///< sides of cells and quads
     bool facets = false;                        ///< of faces: sides of their facets
-    bool legend = true;                         ///< a bar with its ends, of quality and layers
+    bool legend = true;                         ///< title, and what the colours mean
+    std::string title{};                        ///< empty: the name of what is shown, and its counts
 };
 
 /// Draw a mesh into a PNG without a display: a parallel projection onto white, hidden parts removed by depth,

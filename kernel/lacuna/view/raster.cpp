@@ -6,24 +6,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace lacuna::view {
 
 namespace {
 
-constexpr int kSamples = 3;        // a pixel, each way
-constexpr double kMargin = 0.05;   // of the picture, that stays free round what is shown
-constexpr double kSideWidth = 1.1; // of lines between cells [pixels]
-constexpr double kSideDark = 0.75; // how dark they are: a choice, not a measurement
-constexpr double kNearer = 0.0008; // of the depth of what is shown, by which lines lie over their faces
+constexpr int kSamples = 3;         // a pixel, each way
+constexpr double kMargin = 0.05;    // of the picture, that stays free round what is shown
+constexpr double kLeastShare = 0.5; // of the height, for what is shown
+constexpr double kSideWidth = 1.1;  // of lines between cells [pixels]
+constexpr double kSideDark = 0.75;  // how dark they are: a choice, not a measurement
+constexpr double kNearer = 0.0008;  // of the depth of what is shown, by which lines lie over their faces
+constexpr double kFront = -2;       // the depth of what stands before all else
 constexpr Colour kLineColour{20, 28, 38};
 
 /// A parallel projection of the scene onto samples; depth grows away from the eye.
 class Projection {
 public:
-    Projection(const Scene& scene, const PictureOptions& options)
+    Projection(const Scene& scene, const PictureOptions& options, const PlacedLegend& legend)
     {
         const Vec3 back = options.direction.normalized();
         const Vec3 up = std::abs(back.z()) > 0.98 ? Vec3(Vec3::UnitY()) : Vec3(Vec3::UnitZ());
@@ -34,12 +35,16 @@ public:
         Eigen::AlignedBox3d box;
         for (const DrawnSide& side : scene.sides)
             for (std::size_t k = 0; k < side.count; ++k) box.extend(turn_ * side.corner[k]);
-        const double width = options.width * kSamples, height = options.height * kSamples;
+        // A picture too low for its words is shown behind them.
+        const double words = legend.above + legend.below, room = options.height - words;
+        const bool beside = room > options.height * kLeastShare;
+        const double width = options.width * kSamples;
+        const double height = (beside ? room : options.height) * kSamples;
         const Vec3 size = box.sizes();
         scale_ = std::min(width * (1 - 2 * kMargin) / std::max(size.x(), 1e-300),
                           height * (1 - 2 * kMargin) / std::max(size.y(), 1e-300));
         middle_ = box.center();
-        shift_ = {width / 2, height / 2};
+        shift_ = {width / 2, (beside ? legend.above * kSamples : 0) + height / 2};
         depth_ = std::max(size.norm(), 1e-300);
     }
     /// x to the right, y down [samples]; z away from the eye, in parts of what is shown.
@@ -156,6 +161,15 @@ public:
         });
     }
 
+    /// A rectangle before all that is drawn; a later one lies over it.
+    void draw(const Vec2& low, const Vec2& high, const Colour& colour, bool hatched)
+    {
+        each(low, high, [&](const Vec2& at, std::size_t sample) {
+            depth_[sample] = static_cast<float>(kFront);
+            colour_[sample] = hatched && on_stripe(at) ? mixed({0, 0, 0}, colour, kStriped) : colour;
+        });
+    }
+
     /// Mean of the samples of each pixel, into the picture.
     void resolve(Image& image) const
     {
@@ -213,12 +227,17 @@ private:
         });
     }
 
-    [[nodiscard]] static Colour colour_at(const Placed& side, const Vec2& at)
+    static constexpr double kStriped = 0.7; // how light a stripe is
+    [[nodiscard]] static bool on_stripe(const Vec2& at)
     {
         constexpr double kHatch = 9 * kSamples, kStripe = 2 * kSamples; // [samples]
+        return std::fmod(at.x() + at.y(), kHatch) < kStripe;
+    }
+
+    [[nodiscard]] static Colour colour_at(const Placed& side, const Vec2& at)
+    {
         Colour colour = side.colour;
-        if (side.hatched && std::fmod(at.x() + at.y(), kHatch) < kStripe)
-            colour = mixed({0, 0, 0}, colour, 0.7);
+        if (side.hatched && on_stripe(at)) colour = mixed({0, 0, 0}, colour, kStriped);
         if (side.line <= 0) return colour;
         for (std::size_t k = 0; k < side.count; ++k) {
             if ((side.hidden >> k & 1U) != 0) continue;
@@ -241,62 +260,17 @@ private:
     std::vector<Colour> colour_;
 };
 
-// --- the legend ---------------------------------------------------------------------------------------
-
-/// Strokes of a digit in a box of 2 × 4: the seven of a pocket calculator, of which it lights some.
-constexpr std::array<std::array<double, 4>, 7> kStrokes{
-    {{0, 0, 2, 0}, {2, 0, 2, 2}, {2, 2, 2, 4}, {0, 4, 2, 4}, {0, 2, 0, 4}, {0, 0, 0, 2}, {0, 2, 2, 2}}};
-constexpr std::array<unsigned, 10> kDigits{0x3f, 0x06, 0x5b, 0x4f, 0x66, 0x6d, 0x7d, 0x07, 0x7f, 0x6f};
-
-/// Write a number with its left upper corner at a place, in letters of a height.
-void write_number(Band& band, const std::string& text, Vec2 at, double height)
+/// A legend's words and colours, before all else.
+void draw_marks(Band& band, const std::vector<Mark>& marks)
 {
-    const double unit = height / 4;
-    const auto stroke = [&](double x0, double y0, double x1, double y1) {
-        band.draw({at.x() + x0 * unit, at.y() + y0 * unit, -2}, {at.x() + x1 * unit, at.y() + y1 * unit, -2},
-                  kLineColour, 0.3 * unit);
-    };
-    for (const char c : text) {
-        if (c == '.') {
-            stroke(0, 4, 0, 4);
-            at.x() += 1.2 * unit;
-        } else {
-            const unsigned lit = c == '-' ? 0x40 : kDigits[static_cast<std::size_t>(c - '0')];
-            for (std::size_t s = 0; s < kStrokes.size(); ++s)
-                if ((lit >> s & 1U) != 0)
-                    stroke(kStrokes[s][0], kStrokes[s][1], kStrokes[s][2], kStrokes[s][3]);
-            at.x() += 3.2 * unit;
-        }
+    for (const Mark& mark : marks) {
+        const Vec2 from = mark.from * kSamples, to = mark.to * kSamples;
+        if (mark.width > 0)
+            band.draw({from.x(), from.y(), kFront}, {to.x(), to.y(), kFront}, mark.colour,
+                      mark.width * kSamples / 2);
+        else
+            band.draw(from, to, mark.colour, mark.hatched);
     }
-}
-
-/// A bar at the lower left, with the numbers of its ends below.
-void draw_legend(Band& band, const Legend& legend, const PictureOptions& options)
-{
-    if (legend.ramp.empty()) return;
-    constexpr double kWide = 180, kHigh = 12, kEdgeOf = 18, kLetters = 11; // [pixels]
-    const double left = kEdgeOf * kSamples, wide = kWide * kSamples;
-    const double bottom = (options.height - kEdgeOf) * kSamples;
-    const double letters = kLetters * kSamples, top = bottom - letters - (6 + kHigh) * kSamples;
-    constexpr int kSteps = 90;
-    for (int i = 0; i < kSteps; ++i) {
-        const double x = left + wide * (i + 0.5) / kSteps, half = wide / kSteps;
-        for (double y = top + half; y <= top + kHigh * kSamples - half; y += half)
-            band.draw({x, y, -2}, {x, y, -2}, on_ramp(legend.ramp, (i + 0.5) / kSteps), half);
-    }
-    const auto text = [](double number) {
-        char digits[32];
-        const int n = std::snprintf(digits, sizeof digits, number == std::floor(number) ? "%.0f" : "%.1f",
-                                    number);
-        std::string said(digits, static_cast<std::size_t>(n));
-        std::replace(said.begin(), said.end(), ',', '.'); // the host's locale
-        return said;
-    };
-    const std::string high = text(legend.high);
-    write_number(band, text(legend.low), {left, bottom - letters}, letters);
-    write_number(band, high,
-                 {left + wide - (0.8 * static_cast<double>(high.size()) - 0.3) * letters, bottom - letters},
-                 letters);
 }
 
 void check(const PictureOptions& options)
@@ -320,7 +294,9 @@ void check(const PictureOptions& options)
 Image rasterise(const Scene& scene, const PictureOptions& options, const RunContext& context)
 {
     check(options);
-    const Projection project(scene, options);
+    const PlacedLegend legend = options.legend ? place_legend(scene.legend, options.width, options.height)
+                                               : PlacedLegend{};
+    const Projection project(scene, options, legend);
     const std::vector<Placed> sides = place_sides(scene, project);
     Image image{options.width, options.height, {}};
     image.rgb.resize(3 * static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height));
@@ -335,7 +311,7 @@ Image rasterise(const Scene& scene, const PictureOptions& options, const RunCont
             for (const Placed& side : sides) band.draw(side);
             for (const DrawnLine& line : scene.lines)
                 band.draw(project(line.from), project(line.to), line.colour, line.width * kSamples / 2);
-            if (options.legend) draw_legend(band, scene.legend, options);
+            draw_marks(band, legend.marks);
             band.resolve(image);
         }
     });

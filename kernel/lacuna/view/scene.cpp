@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t kFaceOfQuadSide[] = {2, 1, 3, 0}; // which face of the cell stands on side k of its quad
 constexpr std::size_t kBottom = 4, kTop = 5;
 constexpr Colour kFreeEdge{214, 39, 40}, kEdge{40, 50, 60}, kVoidEdge{190, 110, 10};
+constexpr Colour kPlain{240, 240, 240}; // hatched alone, in a key
 
 /// Cells of a swept region that are shown, and their sides that no other of them has.
 class ShownRegion {
@@ -157,6 +158,71 @@ void check_layers(std::span<const Region> regions, const PictureOptions& options
                                               std::to_string(most));
 }
 
+std::string counted(std::size_t count, const std::string& one)
+{
+    return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
+std::string title_of(std::span<const Region> regions)
+{
+    std::size_t cells = 0;
+    for (const Region& region : regions) cells += region.mesh->cell_count();
+    if (regions.size() > 1) return counted(regions.size(), "region") + ", " + counted(cells, "cell");
+    const auto layers = static_cast<std::size_t>(regions.front().mesh->layers);
+    return regions.front().name + ": " + counted(cells, "cell") + ", " + counted(layers, "layer");
+}
+
+std::string joined(const std::vector<std::string>& names)
+{
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+    return all;
+}
+
+/// Whether a side that lies inside the volume may be shown.
+bool laid_open(const PictureOptions& options) { return options.cut || options.layers; }
+
+Legend legend_of(std::span<const Region> regions, const std::vector<Colours>& colours,
+                 const PictureOptions& options)
+{
+    Legend legend;
+    legend.title = options.title.empty() ? title_of(regions) : options.title;
+    bool made_void = false;
+    switch (options.colour) {
+    case ColourBy::quality:
+        legend.ramp = quality_ramp();
+        legend.quantity = "scaled Jacobian, 1 is best";
+        return legend;
+    case ColourBy::layer:
+        legend.ramp = order_ramp();
+        legend.low = 1;
+        legend.quantity = "layer, from the source";
+        return legend;
+    case ColourBy::region:
+        for (std::size_t r = 0; r < regions.size(); ++r)
+            legend.keys.push_back({kind_colour(r), regions[r].name});
+        return legend;
+    case ColourBy::origin:
+        for (const Colours& own : colours)
+            for (const ShownPatch& patch : own.patches) made_void = made_void || patch.made_void;
+        legend.keys.push_back({kGiven, "given"});
+        if (made_void) legend.keys.push_back({kVoid, "void, closed", true});
+        break;
+    case ColourBy::group:
+        for (const Colours& own : colours)
+            for (std::size_t p = 0; p < own.patches.size(); ++p) {
+                const ShownPatch& patch = own.patches[p];
+                if (patch.quads == 0) continue;
+                const std::string name = patch.groups.empty() ? "patch " + std::to_string(patch.tag)
+                                                              : joined(patch.groups);
+                legend.keys.push_back({kind_colour(own.first_patch + p), name, patch.made_void});
+            }
+        break;
+    }
+    if (laid_open(options)) legend.keys.push_back({kInside, "inside"});
+    return legend;
+}
+
 } // namespace
 
 Scene scene_of(std::span<const Region> regions, const PictureOptions& options, const RunContext& context)
@@ -197,10 +263,48 @@ Scene scene_of(std::span<const Region> regions, const PictureOptions& options, c
     if (scene.sides.empty())
         throw InvalidInput("view.empty", "picture: the cut leaves no cell to show; turn its normal round or "
                                          "move its point");
-    if (options.colour == ColourBy::quality) scene.legend = {quality_ramp(), quality_low(least), 1};
-    if (options.colour == ColourBy::layer) scene.legend = {order_ramp(), 1, static_cast<double>(layers)};
+    scene.legend = legend_of(regions, colours, options);
+    if (options.colour == ColourBy::quality) scene.legend.low = quality_low(least);
+    if (options.colour == ColourBy::layer) scene.legend.high = layers;
     return scene;
 }
+
+namespace {
+
+Colour role_colour(topology::Role role)
+{
+    return role == topology::Role::source ? kSource : role == topology::Role::target ? kTarget : kWall;
+}
+
+Legend legend_of(const topology::Model& model, const std::vector<topology::Role>* roles,
+                 const std::vector<std::vector<topology::FaceUse>>& uses, const PictureOptions& options)
+{
+    std::size_t given = 0, closed = 0, free = 0;
+    for (const topology::Face& face : model.faces)
+        (face.origin == topology::Origin::made_void ? closed : given) += 1;
+    for (const auto& own : uses) free += own.size() == 1 ? 1 : 0;
+    Legend legend;
+    legend.title = options.title;
+    if (legend.title.empty())
+        legend.title = counted(given, "given face") +
+                       (closed > 0 ? ", " + std::to_string(closed) + " void" : "") + ", " +
+                       counted(free, "free edge");
+    if (roles == nullptr) {
+        legend.keys.push_back({kGiven, "given"});
+    } else {
+        const std::pair<topology::Role, const char*> names[] = {{topology::Role::source, "source"},
+                                                                {topology::Role::target, "target"},
+                                                                {topology::Role::wall, "wall"}};
+        for (const auto& [role, name] : names)
+            if (std::find(roles->begin(), roles->end(), role) != roles->end())
+                legend.keys.push_back({role_colour(role), name});
+    }
+    if (closed > 0) legend.keys.push_back({roles == nullptr ? kVoid : kPlain, "void, closed", true});
+    if (free > 0) legend.keys.push_back({kFreeEdge, "free edge", false, true});
+    return legend;
+}
+
+} // namespace
 
 Scene scene_of(const topology::Model& model, const std::vector<topology::Role>* roles,
                const PictureOptions& options)
@@ -208,9 +312,7 @@ Scene scene_of(const topology::Model& model, const std::vector<topology::Role>* 
     Scene scene;
     const auto colour_of = [&](std::size_t f) {
         if (roles == nullptr) return model.faces[f].origin == topology::Origin::made_void ? kVoid : kGiven;
-        return (*roles)[f] == topology::Role::source   ? kSource
-               : (*roles)[f] == topology::Role::target ? kTarget
-                                                       : kWall;
+        return role_colour((*roles)[f]);
     };
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         const topology::Face& face = model.faces[f];
@@ -242,6 +344,7 @@ Scene scene_of(const topology::Model& model, const std::vector<topology::Role>* 
             scene.lines.push_back(line);
         }
     }
+    scene.legend = legend_of(model, roles, uses, options);
     return scene;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/view/detail/palette.h>
+#include <lacuna/view/detail/legend.h>
 #include <lacuna/view/picture.h>
 
 #include <vector>
@@ -23,12 +23,6 @@ struct DrawnLine {
     Vec3 from, to;
     Colour colour{};
     double width = 1; ///< [pixels]
-};
-
-/// A bar of colours with the numbers at its ends.
-struct Legend {
-    std::span<const Colour> ramp; ///< empty: none
-    double low = 0, high = 1;
 };
 
 struct Scene {

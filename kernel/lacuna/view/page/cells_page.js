@@ -363,6 +363,17 @@ class CellsPage {
         const slack = cut.axis === "off" ? 0 : 1e-6 * (cut.high - cut.low);
         let n = 0;
         this.kept = 0;
+        const add = (region, cell, patch, i, j, k, l, flags) => {
+            if (n === this.sideCell.length) this.grow();
+            const { sideNodes } = this;
+            sideNodes[4 * n] = i;
+            sideNodes[4 * n + 1] = j;
+            sideNodes[4 * n + 2] = k;
+            sideNodes[4 * n + 3] = l;
+            this.colours[n] = flags << 24;
+            this.sideCell[n] = region.first + cell;
+            this.sidePatch[n++] = patch;
+        };
         regions.forEach((region, r) => {
             const mask = region.mask,
                 perLayer = region.layers ? region.quadCount : region.count;
@@ -382,13 +393,12 @@ class CellsPage {
                 if (patch >= 0 && hidden[patch]) return;
                 region.corners(c, out);
                 const curved = region.middleNodes(c, middle);
-                for (const [nodes, flags] of sidesOf(out, face, curved ? middle : null)) {
-                    if (n === this.sideCell.length) this.grow();
-                    this.sideNodes.set(nodes, 4 * n);
-                    this.colours[n] = flags << 24;
-                    this.sideCell[n] = region.first + c;
-                    this.sidePatch[n++] = skin ? patch : -2;
-                }
+                const [i, j, k, l] = kFaces[face],
+                    seen = skin ? patch : -2,
+                    plain = out[i] !== out[j] && out[j] !== out[k] && out[k] !== out[l] && out[l] !== out[i];
+                if (plain && !curved) return add(region, c, seen, out[i], out[j], out[k], out[l], 0);
+                for (const [nodes, flags] of sidesOf(out, face, curved ? middle : null))
+                    add(region, c, seen, ...nodes, flags);
             });
         });
         this.sideCount = n;
@@ -461,7 +471,7 @@ class CellsPage {
         }
         this.drawing.putColours(colours);
         this.showLegend();
-        this.stage.change();
+        this.stage.change(true);
     }
 
     // --- one cell --------------------

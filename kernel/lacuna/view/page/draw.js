@@ -65,15 +65,14 @@ void main() {
   if ((flags & ${kHatched}u) != 0u && mod(gl_FragCoord.x + gl_FragCoord.y, 9.0) < 2.0) colour *= 0.72;
   if ((flags & ${kFaint}u) != 0u) colour = mix(colour, vec3(0.97), 0.55);
   if (vSide == uHover) colour = mix(colour, vec3(1.0), 0.35);
-  vec4 width = fwidth(vEdge);
-  float line = 0.0;
-  for (int k = 0; k < 4; ++k) {
-    if ((flags >> uint(k) & 1u) != 0u) continue;
-    float apart = vEdge[k] / max(width[k], 1e-6);
-    float shown = (1.0 - smoothstep(0.1, 0.95, apart)) * (1.0 - smoothstep(0.12, 0.45, width[k]));
-    line = max(line, shown);
+  if (uEdges > 0.0) {
+    vec4 width = fwidth(vEdge);
+    vec4 shown = clamp((0.95 - vEdge / max(width, 1e-6)) / 0.85, 0.0, 1.0);
+    shown *= clamp((0.45 - width) / 0.33, 0.0, 1.0);
+    shown *= vec4(equal(uvec4(flags) & uvec4(1, 2, 4, 8), uvec4(0)));
+    float line = max(max(shown.x, shown.y), max(shown.z, shown.w));
+    colour = mix(colour, vec3(0.08, 0.11, 0.15), line * uEdges);
   }
-  colour = mix(colour, vec3(0.08, 0.11, 0.15), line * uEdges);
   oColour = vec4(colour, 1);
 }`;
 
@@ -124,10 +123,19 @@ out vec4 oColour;
 void main() { oColour = vColour; }`;
 
 const kSideTextures = { uNodes: "uNodes", uSides: "uSides", uColours: "uColours" };
+const kCoarseTextures = { uNodes: "uNodes", uSides: "coarse sides", uColours: "coarse colours" };
+const kBackground = [0.965, 0.969, 0.976, 1];
+
+// Measured on two cores without a graphics card, where a side takes 0.4 µs and four samples a pixel three
+// times as long as one.
+const kSlow = 30; // [ms] for a whole picture, beyond which what moves is drawn coarser
+const kMovingSides = 20000, // to be seen of what moves
+    kMovingPixels = 300000;
+const kPiece = 16384; // sides drawn in one go of what is still
 
 class Drawing {
     constructor(canvas, nodes) {
-        const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: false });
+        const gl = canvas.getContext("webgl2", { antialias: false });
         if (!gl) throw new Error("This page needs WebGL 2, which the browser does not offer here.");
         this.gl = gl;
         this.canvas = canvas;
@@ -135,15 +143,21 @@ class Drawing {
         this.picking = this.program(kSideVertex, kPickFragment);
         this.lines = this.program(kLineVertex, kLineFragment);
         this.textures = {};
-        this.indices = gl.createBuffer();
-        this.indexCount = 0;
+        this.targets = {};
+        this.buffers = {};
+        this.single = gl.createBuffer();
+        this.strips = { buffer: gl.createBuffer(), quads: 0 };
         this.closed = false; // skins that are closed and face outward hide what faces away
         this.sideCount = this.lineCount = this.topCount = 0;
         this.hover = -1;
         this.edges = 0.7;
         this.back = 0.8;
+        this.asked = 0; // how often
+        this.whole = false; // whether what is shown is
+        this.slow = null; // whether a whole picture takes long; null: not yet known
+        this.fine = this.coarse = null;
+        this.nodes = nodes;
         this.putNodes(nodes);
-        this.makeTarget();
     }
 
     program(vertex, fragment) {
@@ -192,58 +206,92 @@ class Drawing {
         this.put("uNodes", this.gl.RGB32F, this.gl.RGB, this.gl.FLOAT, 3, nodes);
     }
 
-    makeTarget() {
-        const gl = this.gl;
-        this.target = gl.createFramebuffer();
-        this.targetColour = gl.createRenderbuffer();
-        this.targetDepth = gl.createRenderbuffer();
-        this.targetSize = [0, 0];
-    }
-
-    // The first `n` sides: four nodes of each.
-    putSides(nodes, n) {
-        const gl = this.gl;
-        this.put("uSides", gl.RGBA32UI, gl.RGBA_INTEGER, gl.UNSIGNED_INT, 4, nodes.subarray(0, 4 * n));
+    // The first `n` sides: four nodes of each. What is given is kept and read until it is given anew.
+    putSides(sides, n) {
+        this.sideNodes = sides;
         this.sideCount = n;
+        this.fine = this.coarse = null;
+        this.putWords("uSides", 4, sides.subarray(0, 4 * n));
     }
     // Their colours, flags in the highest byte.
     putColours(colours) {
-        const gl = this.gl;
+        this.colours = colours;
+        if (this.coarse) this.coarse.painted = false;
+        this.putWords("uColours", 1, colours.subarray(0, this.sideCount));
+    }
+    putWords(name, channels, words) {
+        const gl = this.gl,
+            four = channels === 4;
         this.put(
-            "uColours",
-            gl.R32UI,
-            gl.RED_INTEGER,
+            name,
+            four ? gl.RGBA32UI : gl.R32UI,
+            four ? gl.RGBA_INTEGER : gl.RED_INTEGER,
             gl.UNSIGNED_INT,
-            1,
-            colours.subarray(0, this.sideCount),
+            channels,
+            words,
         );
+    }
+
+    // --- skins: sides in parts --------------------
+
+    makeSkin(sides, n, textures) {
+        const gl = this.gl,
+            parts = new Parts(this.nodes, sides, n, this.closed);
+        const indices = (this.buffers[textures.uSides] ??= gl.createBuffer());
+        gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, indices);
+        gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, parts.indices, gl.STATIC_DRAW);
+        return { parts, textures, indices };
+    }
+    // All sides, sorted when first drawn.
+    fineSkin() {
+        this.fine ??= this.makeSkin(this.sideNodes, this.sideCount, kSideTextures);
+        return this.fine;
+    }
+    // About a quarter of the sides for each halving, in their colours and without edges.
+    coarseSkin(halvings) {
+        if (this.coarse?.halvings !== halvings) {
+            const { area, count } = this.fineSkin().parts;
+            const found = coarsen(this.nodes, this.sideNodes, count, 2 ** halvings * Math.sqrt(area / count));
+            this.putWords("coarse sides", 4, found.sides);
+            this.coarse = {
+                ...this.makeSkin(found.sides, found.from.length, kCoarseTextures),
+                halvings,
+                ...found,
+            };
+        }
+        if (!this.coarse.painted) {
+            const colours = Uint32Array.from(this.coarse.from, s => this.colours[s] | (kHiddenEdges << 24));
+            this.putWords("coarse colours", 1, colours);
+            this.coarse.painted = true;
+        }
+        return this.coarse;
     }
 
     // Words of lines: two nodes, a colour whose highest byte is twice the width in pixels. `top`: over all.
     putLines(words, top = false) {
-        const gl = this.gl,
-            texels = new Uint32Array((4 * words.length) / 3);
+        const texels = new Uint32Array((4 * words.length) / 3);
         for (let i = 0; i < words.length / 3; i++)
             for (let k = 0; k < 3; k++) texels[4 * i + k] = words[3 * i + k];
-        this.put(top ? "top" : "lines", gl.RGBA32UI, gl.RGBA_INTEGER, gl.UNSIGNED_INT, 4, texels);
+        this.putWords(top ? "top" : "lines", 4, texels);
         if (top) this.topCount = words.length / 3;
         else this.lineCount = words.length / 3;
     }
 
     // Two triangles for each of `n` quads and more: four vertices, so that a corner is looked up once.
-    makeIndices(n) {
+    makeStrips(n) {
         const gl = this.gl,
             quads = 2 ** Math.ceil(Math.log2(n)),
             indices = new Uint32Array(6 * quads);
         for (let i = 0; i < quads; i++)
             indices.set([4 * i, 4 * i + 1, 4 * i + 2, 4 * i, 4 * i + 2, 4 * i + 3], 6 * i);
-        gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.indices);
+        gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.strips.buffer);
         gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
-        this.indexCount = indices.length;
+        this.strips.quads = quads;
     }
 
-    // Draw `n` quads by a program that looks them up in `textures`, by the names of its uniforms.
-    draw(program, textures, n, camera, size, more = {}) {
+    // Draw the quads of `ranges` of `indices` by a program that looks them up in `textures`, by the names of
+    // its uniforms.
+    draw(program, textures, indices, ranges, camera, size, more = {}) {
         const gl = this.gl,
             u = program.places;
         gl.useProgram(program.program);
@@ -256,77 +304,212 @@ class Drawing {
         if (u.uTurn) gl.uniformMatrix3fv(u.uTurn, false, camera.turnMatrix());
         if (u.uScale) gl.uniform1f(u.uScale, camera.scale);
         if (u.uSize) gl.uniform2f(u.uSize, size[0], size[1]);
-        if (u.uHover) gl.uniform1i(u.uHover, this.hover);
+        if (u.uHover) gl.uniform1i(u.uHover, textures === kSideTextures ? this.hover : -1);
         for (const [name, value] of Object.entries(more)) gl.uniform1f(u[name], value);
-        if (6 * n > this.indexCount) this.makeIndices(n);
-        gl.drawElements(gl.TRIANGLES, 6 * n, gl.UNSIGNED_INT, 0);
+        gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, indices);
+        for (const [first, n] of ranges) gl.drawElements(gl.TRIANGLES, 6 * n, gl.UNSIGNED_INT, 24 * first);
         gl.activeTexture(gl.TEXTURE0);
     }
 
-    fit() {
-        const ratio = window.devicePixelRatio || 1,
-            canvas = this.canvas;
-        const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
-        const height = Math.max(1, Math.round(canvas.clientHeight * ratio));
+    // How many pixels the window has.
+    size() {
+        const ratio = window.devicePixelRatio || 1;
+        const { clientWidth, clientHeight } = this.canvas;
+        return [clientWidth, clientHeight].map(x => Math.max(1, Math.round(ratio * x)));
+    }
+    // Give the canvas `size` pixels, which the browser stretches over the window.
+    fit(size) {
+        const canvas = this.canvas,
+            [width, height] = size;
         if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-        return [width, height];
     }
 
-    render(camera) {
-        const gl = this.gl,
-            size = this.fit();
-        gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    // Draw into the target `name` from here on; it is made of `size` where it is not.
+    into(name, size, samples, background) {
+        const gl = this.gl;
+        this.targets[name] ??= {
+            frame: gl.createFramebuffer(),
+            colour: gl.createRenderbuffer(),
+            depth: gl.createRenderbuffer(),
+            size: [0, 0],
+        };
+        const target = this.targets[name];
+        gl.bindFramebuffer(gl.FRAMEBUFFER, target.frame);
+        if (target.size[0] !== size[0] || target.size[1] !== size[1]) {
+            for (const [buffer, format, at] of [
+                [target.colour, gl.RGBA8, gl.COLOR_ATTACHMENT0],
+                [target.depth, gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT],
+            ]) {
+                gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
+                gl.renderbufferStorageMultisample(gl.RENDERBUFFER, samples, format, ...size);
+                gl.framebufferRenderbuffer(gl.FRAMEBUFFER, at, gl.RENDERBUFFER, buffer);
+            }
+            target.size = size;
+        }
+        this.begin(size, background);
+    }
+    begin(size, background) {
+        const gl = this.gl;
         gl.viewport(0, 0, ...size);
-        gl.clearColor(0.965, 0.969, 0.976, 1);
-        gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
         gl.enable(gl.DEPTH_TEST);
         gl.depthFunc(gl.LEQUAL);
+        if (background) {
+            gl.clearColor(...background);
+            gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+        }
+    }
+    // Put what was drawn into a target on the screen.
+    show(name) {
+        const gl = this.gl,
+            { frame, size } = this.targets[name];
+        this.fit(size);
+        gl.bindFramebuffer(gl.READ_FRAMEBUFFER, frame);
+        gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, null);
+        gl.blitFramebuffer(0, 0, ...size, 0, 0, ...size, gl.COLOR_BUFFER_BIT, gl.NEAREST);
+        gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    }
+    // Wait until all is drawn.
+    finish() {
+        const gl = this.gl;
+        this.into("wait", [1, 1], 0, kBackground);
+        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    }
+
+    drawSkin(skin, ranges, camera, size) {
+        const gl = this.gl;
         if (this.closed) gl.enable(gl.CULL_FACE);
-        this.draw(this.sides, kSideTextures, this.sideCount, camera, size, {
-            uEdges: this.edges,
+        this.draw(this.sides, skin.textures, skin.indices, ranges, camera, size, {
+            uEdges: skin.from ? 0 : this.edges,
             uFlat: this.back,
         });
         gl.disable(gl.CULL_FACE);
-        const ratio = window.devicePixelRatio || 1,
+    }
+    drawLines(camera, size) {
+        const gl = this.gl,
+            ratio = window.devicePixelRatio || 1,
             pixels = [size[0] / ratio, size[1] / ratio];
-        if (this.lineCount)
-            this.draw(this.lines, { uNodes: "uNodes", uLines: "lines" }, this.lineCount, camera, pixels, {
-                uNearer: 0.0008,
-            });
-        if (this.topCount) {
-            gl.disable(gl.DEPTH_TEST);
-            this.draw(this.lines, { uNodes: "uNodes", uLines: "top" }, this.topCount, camera, pixels, {
-                uNearer: 0,
-            });
+        for (const [lines, n, nearer] of [
+            ["lines", this.lineCount, 0.0008],
+            ["top", this.topCount, 0],
+        ]) {
+            if (!n) continue;
+            if (n > this.strips.quads) this.makeStrips(n);
+            if (!nearer) gl.disable(gl.DEPTH_TEST);
+            const textures = { uNodes: "uNodes", uLines: lines },
+                all = [[0, n]];
+            this.draw(this.lines, textures, this.strips.buffer, all, camera, pixels, { uNearer: nearer });
         }
+    }
+
+    // Draw. Where a whole picture takes long, what moves is drawn coarser, and what is still a piece a frame.
+    // Returns whether the picture is, or will be, a whole one.
+    render(camera, moving) {
+        const size = this.size();
+        this.asked++;
+        this.whole = false;
+        const skin = this.fineSkin();
+        if (this.slow === null) {
+            this.drawStill(camera, size, skin, [[0, Math.min(1, this.sideCount)]]); // makes the programs
+            this.finish();
+            const start = performance.now();
+            this.drawStill(camera, size, skin, skin.parts.seen(camera, size[0] / size[1]));
+            this.finish();
+            this.slow = performance.now() - start > kSlow;
+            return true;
+        }
+        if (this.slow && moving) {
+            this.drawMoving(camera, size);
+            return false;
+        }
+        const ranges = skin.parts.seen(camera, size[0] / size[1]);
+        if (this.slow && sidesIn(ranges) > kPiece) this.drawPieces(camera, size, skin, ranges, this.asked);
+        else this.drawStill(camera, size, skin, ranges);
+        return true;
+    }
+    drawStill(camera, size, skin, ranges) {
+        this.into("still", size, 4, kBackground);
+        this.drawSkin(skin, ranges, camera, size);
+        this.drawLines(camera, size);
+        this.show("still");
+        this.whole = true;
+    }
+    async drawPieces(camera, size, skin, ranges, own) {
+        let piece = [],
+            background = kBackground;
+        const draw = () => {
+            this.into("still", size, 4, background);
+            background = null;
+            this.drawSkin(skin, piece, camera, size);
+            piece = [];
+        };
+        for (const [first, n] of ranges)
+            for (let at = first; at < first + n; at += kPiece) {
+                piece.push([at, Math.min(kPiece, first + n - at)]);
+                if (sidesIn(piece) < kPiece) continue;
+                draw();
+                this.finish();
+                await new Promise(requestAnimationFrame);
+                if (own !== this.asked) return;
+            }
+        draw();
+        this.drawLines(camera, size);
+        this.show("still");
+        this.whole = true;
+    }
+    // Lift the side under the pointer, and no longer `before`. Where a whole picture takes long the two alone
+    // are drawn again; false: all has to be.
+    liftSide(camera, before) {
+        if (!this.slow) return false;
+        if (!this.whole) return true;
+        const gl = this.gl,
+            size = this.targets.still.size;
+        for (const side of [before, this.hover]) {
+            if (side < 0) continue;
+            const v = 4 * side;
+            gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.single);
+            const corners = Uint32Array.of(v, v + 1, v + 2, v, v + 2, v + 3);
+            gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, corners, gl.STREAM_DRAW);
+            this.into("still", size, 4);
+            this.drawSkin({ textures: kSideTextures, indices: this.single }, [[0, 1]], camera, size);
+        }
+        this.drawLines(camera, size);
+        this.show("still");
+        return true;
+    }
+    drawMoving(camera, size) {
+        const share = Math.min(1, Math.sqrt(kMovingPixels / (size[0] * size[1]))),
+            less = size.map(x => Math.max(1, Math.round(x * share))),
+            aspect = size[0] / size[1];
+        let skin = this.fineSkin(),
+            ranges = skin.parts.seen(camera, aspect);
+        const times = sidesIn(ranges) / kMovingSides;
+        if (times > 1) {
+            skin = this.coarseSkin(Math.ceil(Math.log2(times) / 2));
+            ranges = skin.parts.seen(camera, aspect);
+        }
+        this.fit(less);
+        this.gl.bindFramebuffer(this.gl.FRAMEBUFFER, null);
+        this.begin(less, kBackground);
+        this.drawSkin(skin, ranges, camera, less);
+        this.drawLines(camera, size);
     }
 
     // Which side each pixel of a picture of `size` shows, from 0; 2**32 - 1: none. `only`: a single pixel.
     shown(camera, size, only) {
-        const gl = this.gl;
-        gl.bindFramebuffer(gl.FRAMEBUFFER, this.target);
-        if (this.targetSize[0] !== size[0] || this.targetSize[1] !== size[1]) {
-            for (const [buffer, format, at] of [
-                [this.targetColour, gl.RGBA8, gl.COLOR_ATTACHMENT0],
-                [this.targetDepth, gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT],
-            ]) {
-                gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
-                gl.renderbufferStorage(gl.RENDERBUFFER, format, ...size);
-                gl.framebufferRenderbuffer(gl.FRAMEBUFFER, at, gl.RENDERBUFFER, buffer);
-            }
-            this.targetSize = size;
-        }
-        gl.viewport(0, 0, ...size);
+        const gl = this.gl,
+            area = only ? [...only, 1, 1] : [0, 0, ...size];
+        this.into("picked", size, 0);
         if (only) {
             gl.enable(gl.SCISSOR_TEST);
-            gl.scissor(only[0], only[1], 1, 1);
+            gl.scissor(...area);
         }
         gl.clearColor(0, 0, 0, 0);
         gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-        gl.enable(gl.DEPTH_TEST);
-        this.draw(this.picking, kSideTextures, this.sideCount, camera, size);
+        const skin = this.fineSkin(),
+            window = [0, 1].flatMap(k => [area[k], area[k] + area[k + 2]].map(x => (2 * x) / size[k] - 1));
+        const ranges = skin.parts.seen(camera, size[0] / size[1], window);
+        this.draw(this.picking, kSideTextures, skin.indices, ranges, camera, size);
         gl.disable(gl.SCISSOR_TEST);
-        const area = only ? [...only, 1, 1] : [0, 0, ...size];
         const bytes = new Uint8Array(4 * area[2] * area[3]);
         gl.readPixels(...area, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
         gl.bindFramebuffer(gl.FRAMEBUFFER, null);

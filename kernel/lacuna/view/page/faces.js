@@ -192,7 +192,9 @@ class FacesPage {
             "local void = model:open_volume {",
             ...lines,
             "}",
-            ...(data.path ? ["local mesh = void:sweep {}", `mesh:write ${luaText(meshName(data.path))}`] : []),
+            ...(data.path
+                ? ["local mesh = void:sweep {}", `mesh:write ${luaText(meshName(data.path))}`]
+                : []),
         ].join("\n");
     }
     copy() {
@@ -362,8 +364,11 @@ class FacesPage {
         return true;
     }
 
-    // Labels stand where most of a face is seen: a small picture of the faces says where.
-    moved() {
+    // Labels stand where most of a face is seen: a small picture of the faces says where. While a picture is
+    // not whole there are none.
+    moved(whole) {
+        this.labels.style.visibility = whole ? "visible" : "hidden";
+        if (!whole) return;
         const box = this.stage.canvas.getBoundingClientRect(),
             share = Math.min(1, 320 / box.width);
         const size = [

@@ -22,21 +22,26 @@ async function start() {
     // only where the pointer rests.
     const slow = 25; // [ms]
     let asked = false,
+        moving = false,
+        settling = 0,
         page = null,
         took = 0,
         resting = 0;
     const stage = {
         box,
         canvas,
-        // Draw once before the next frame, however often it is asked.
-        change() {
+        // Draw once before the next frame, however often it is asked; whole once nothing moves.
+        change(moves = false) {
+            moving ||= moves;
             if (asked || !page) return;
             asked = true;
             requestAnimationFrame(() => {
-                asked = false;
-                page.drawing.render(page.camera);
-                page.moved();
+                clearTimeout(settling);
+                const whole = page.drawing.render(page.camera, moving);
+                asked = moving = false;
+                page.moved(whole);
                 showScale(scale, page.camera, canvas.clientHeight);
+                if (!whole) settling = setTimeout(() => stage.change(), 150);
             });
         },
         flyTo(centre, size, from) {
@@ -51,7 +56,7 @@ async function start() {
                 camera.look(plus(times(old.back, 1 - s), times(back, s)));
                 camera.centre = plus(times(old.centre, 1 - s), times(centre, s));
                 camera.scale = old.scale * (size / old.scale) ** s;
-                stage.change();
+                stage.change(true);
                 stage.flying = t < 1;
                 if (stage.flying) requestAnimationFrame(step);
             };
@@ -65,7 +70,7 @@ async function start() {
             before = page.drawing.hover;
         showTip(tip, page.over(x, y), x, y);
         took = performance.now() - start;
-        if (page.drawing.hover !== before) stage.change();
+        if (page.drawing.hover !== before && !page.drawing.liftSide(page.camera, before)) stage.change();
     }
     const kind = data.kind === "cells" ? CellsPage : FacesPage;
     page = await kind.make(data, stage, document.getElementById("panel"));
@@ -73,7 +78,7 @@ async function start() {
         change: () => {
             clearTimeout(resting);
             showTip(tip, null);
-            stage.change();
+            stage.change(true);
         },
         over: (x, y) => {
             clearTimeout(resting);

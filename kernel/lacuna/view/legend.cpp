@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/view/detail/legend.h>
+
+#include <lacuna/view/detail/stroke_font.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace lacuna::view {
+
+namespace {
+
+// Choices, not measurements [pixels].
+constexpr double kEdge = 18, kTitle = 13, kLetters = 10, kRow = 24;
+constexpr double kBarWide = 180, kBarHigh = 12, kBox = 14, kGap = 7, kApart = 22;
+constexpr int kRows = 3; // of keys
+constexpr Colour kInk{20, 28, 38};
+
+double width_of(const std::string& text, double height) { return stroked(text).width * height; }
+
+/// Write from the left upper corner `at` on, in capitals of a height.
+void write(std::vector<Mark>& marks, const std::string& text, const Vec2& at, double height)
+{
+    for (const auto& [from, to] : stroked(text).strokes)
+        marks.push_back({at + height * from, at + height * to, kInk, height / 8, false});
+}
+
+std::string number(double value)
+{
+    char digits[32];
+    const int n = std::snprintf(digits, sizeof digits, value == std::floor(value) ? "%.0f" : "%.1f", value);
+    std::string said(digits, static_cast<std::size_t>(n));
+    for (char& c : said)
+        if (c == ',') c = '.'; // the host's locale
+    return said;
+}
+
+double width_of(const Key& key) { return kBox + kGap + width_of(key.text, kLetters); }
+
+/// Which row each key stands in, from the left, and how many keys there is room for.
+std::vector<std::vector<Key>> rows_of(const std::vector<Key>& keys, double wide)
+{
+    std::vector<std::vector<Key>> rows;
+    double used = 0;
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+        if (rows.empty() || used + width_of(keys[k]) > wide) {
+            if (rows.size() == kRows) {
+                Key rest{
+                    {255, 255, 255}, "and " + std::to_string(keys.size() - k + 1) + " more", false, true};
+                rows.back().back() = rest; // takes the place of the last
+                break;
+            }
+            rows.emplace_back();
+            used = 0;
+        }
+        rows.back().push_back(keys[k]);
+        used += width_of(keys[k]) + kApart;
+    }
+    return rows;
+}
+
+} // namespace
+
+PlacedLegend place_legend(const Legend& legend, int width, int height)
+{
+    PlacedLegend placed;
+    if (!legend.title.empty()) {
+        write(placed.marks, legend.title, {kEdge, kEdge}, kTitle);
+        placed.above = kEdge + kTitle + kGap;
+    }
+    double bottom = height - kEdge;
+    if (!legend.ramp.empty()) {
+        const double top = bottom - kLetters - kGap - kBarHigh, right = kEdge + kBarWide;
+        constexpr int kSteps = 90;
+        for (int i = 0; i < kSteps; ++i)
+            placed.marks.push_back({{kEdge + kBarWide * i / kSteps, top},
+                                    {kEdge + kBarWide * (i + 1) / kSteps, top + kBarHigh},
+                                    on_ramp(legend.ramp, (i + 0.5) / kSteps)});
+        const std::string low = number(legend.low), high = number(legend.high);
+        const double text = bottom - kLetters;
+        write(placed.marks, low, {kEdge, text}, kLetters);
+        write(placed.marks, high, {right - width_of(high, kLetters), text}, kLetters);
+        write(placed.marks, legend.quantity, {right + kGap * 2, top + (kBarHigh - kLetters) / 2}, kLetters);
+        bottom = top - kGap * 2;
+    }
+    const auto rows = rows_of(legend.keys, width - 2 * kEdge);
+    for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
+        double left = kEdge;
+        const double top = bottom - kBox;
+        for (const Key& key : *row) {
+            const Vec2 low(left, top), high(left + kBox, top + kBox), half(0, kBox / 2);
+            if (key.line) {
+                placed.marks.push_back({low + half, high - half, key.colour, 4, false});
+            } else {
+                placed.marks.push_back({low, high, kInk});
+                const Vec2 rim(1, 1);
+                placed.marks.push_back({low + rim, high - rim, key.colour, 0, key.hatched});
+            }
+            write(placed.marks, key.text, {left + kBox + kGap, top + (kBox - kLetters) / 2}, kLetters);
+            left += width_of(key) + kApart;
+        }
+        bottom -= kRow;
+    }
+    placed.below = height - kEdge - bottom > 0 ? height - bottom : 0;
+    return placed;
+}
+
+} // namespace lacuna::view
