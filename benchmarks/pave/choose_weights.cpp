@@ -2,8 +2,8 @@
 /// Chooses the rows of cut weights that small regions are paved with, and measures those in use.
 ///
 /// usage: choose_weights choose SEED OUTLINES [ROWS]   the best set of rows on a family of outlines, greedily
-///        choose_weights few SEED OUTLINES [ROWS]      the same for few quads: the best set without rows along
-///                                                     the boundary, each outline at 60 to 400 quads
+///        choose_weights few SEED OUTLINES [ROWS]      the same for few quads: no rows along the boundary,
+///                                                     each outline at 60 to 400 quads
 ///        choose_weights measure SEED OUTLINES         the paver as it is on a family of outlines
 ///
 /// Choose on one seed and measure on another, so that what is reported was not chosen for.

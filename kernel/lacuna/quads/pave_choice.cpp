@@ -256,7 +256,7 @@ void AttemptChooser::try_few_weights()
         Attempt attempt = begin(RowStyle::no_rows, weights);
         if (attempt.worst < -1) continue;
         const PlaneQuality quality = measure_plane(attempt.mesh, region_);
-        // Boundary nodes count twice: cleaning mends fewer of them.
+        // Boundary nodes count twice: cleaning improves fewer of them.
         begun.push_back({quality.irregular + 2 * quality.boundary_irregular, std::move(attempt)});
     }
     std::stable_sort(begun.begin(), begun.end(),
