@@ -128,14 +128,14 @@ struct Begun {
 };
 
 /// A grid over the whole region, as an attempt like others.
-Attempt grid_attempt(std::optional<PlanarQuads> mesh, const PlanarRegion& region)
+Attempt grid_attempt(std::optional<PlanarQuads> mesh, const AttemptSetting& setting)
 {
     Attempt attempt;
     if (!mesh) return attempt;
     attempt.mesh = std::move(*mesh);
     attempt.report.used = attempt.mesh.how;
     attempt.report.mapped = 1;
-    correct_row_heights(attempt.mesh, region, size_with_boundary(region));
+    correct_row_heights(attempt.mesh, setting.region, setting.size);
     judge(attempt);
     return attempt;
 }
@@ -232,11 +232,11 @@ void AttemptChooser::try_grids()
     // Shares of edges of the size asked: nearly all, where some grid has that, or at least most. Rings whose
     // loops are far from alike have fewer. Choices, not measurements.
     constexpr double kNearlyAll = 0.93, kMost = 0.85;
-    std::vector<Attempt> grids{grid_attempt(submap(region_, context_), region_)};
+    std::vector<Attempt> grids{grid_attempt(submap(region_, context_), setting_)};
     is_good_grid_ = is_good_grid(grids[0], region_, kNearlyAll);
     if (!is_good_grid_ && quads_within(region_) < kSmall) {
         for (PlanarQuads& mesh : fill_patterns(region_, context_))
-            grids.push_back(grid_attempt(std::move(mesh), region_));
+            grids.push_back(grid_attempt(std::move(mesh), setting_));
     }
     for (const double of_size : {kNearlyAll, kMost}) {
         for (Attempt& grid : grids) {

@@ -300,9 +300,10 @@ private:
         return spoke_feet(sides, false, feet) ? 0.1 : 0.4;
     }
 
-    /// Try the nodes next to the ends, in smaller and smaller steps.
+    /// Try the nodes next to the ends, in smaller and smaller steps, unless all were tried.
     [[nodiscard]] Choice refine(Choice best, double away) const
     {
+        if (stride_ == 1) return best;
         for (std::size_t step = stride_; step > 0; step /= 2) {
             const Choice start = best;
             for (const long di : {-1L, 0L, 1L}) {
