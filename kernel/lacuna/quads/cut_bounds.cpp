@@ -100,6 +100,7 @@ std::vector<CutBound> bound_cuts(const CutPlaces& places, const CutWeights& weig
 {
     std::vector<CutBound> found;
     const std::size_t n = places.size();
+    found.reserve(n * n / 2);
     std::vector<float> bound(n);
     const float room = static_cast<float>(least) - kAngleSlack;
     const float most = static_cast<float>(std::min(longest, 1e6)) * (1 + kSlack);

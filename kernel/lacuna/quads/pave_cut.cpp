@@ -8,7 +8,6 @@
 
 #include <limits>
 #include <span>
-#include <tuple>
 
 namespace lacuna::quads::paving {
 namespace {
@@ -125,9 +124,7 @@ private:
         std::optional<Choice> best, near_miss;
         // By their bounds, the most promising first: few are looked at before none can be better.
         std::vector<CutBound> bounds = bound_cuts(columns_, partial_.weights, longest, kLeastAngle, arc_[n_]);
-        const auto later = [](const CutBound& a, const CutBound& b) {
-            return std::tie(a.cost, a.from, a.to) > std::tie(b.cost, b.from, b.to);
-        };
+        const auto later = [](const CutBound& a, const CutBound& b) { return a.cost > b.cost; };
         std::make_heap(bounds.begin(), bounds.end(), later);
         for (auto end = bounds.end(); end != bounds.begin();) {
             std::pop_heap(bounds.begin(), end, later);
