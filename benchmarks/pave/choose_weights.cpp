@@ -2,6 +2,8 @@
 /// Chooses the rows of cut weights that small regions are paved with, and measures those in use.
 ///
 /// usage: choose_weights choose SEED OUTLINES [ROWS]   the best set of rows on a family of outlines, greedily
+///        choose_weights few SEED OUTLINES [ROWS]      the same for few quads: no rows along the boundary,
+///                                                     each outline at 60 to 400 quads
 ///        choose_weights measure SEED OUTLINES         the paver as it is on a family of outlines
 ///
 /// Choose on one seed and measure on another, so that what is reported was not chosen for.
@@ -31,21 +33,24 @@ RunContext one_thread()
 }
 
 /// The rows in use, and others around the default: each weight is left or taken from a few steps.
-std::vector<CutWeights> candidates()
+/// @param few  for few quads: also the default weights, more of the others, and patches taken sooner
+std::vector<CutWeights> candidates(bool few)
 {
-    constexpr int kOthers = 41; // with the seven in use forty-eight: what a few minutes measure
+    const int others = few ? 56 : 41; // with the seven in use 64 and 48: what a few minutes measure
     const auto used = quads::paving::cut_weight_rows();
     std::vector<CutWeights> rows(used.begin(), used.end());
+    if (few) rows.emplace_back();
     test::Dice dice(20'240'601);
     const auto factor = [&] {
         return std::array{1.0, 1.0, 0.5, 0.75, 1.35, 2.0}[std::size_t(dice.whole(0, 5))];
     };
-    for (int i = 0; i < kOthers; ++i) {
+    const int last = few ? 3 : 2;
+    for (int i = 0; i < others; ++i) {
         CutWeights row;
         for (double* weight : {&row.corners, &row.added, &row.length, &row.mismatch, &row.bent})
             *weight *= factor();
-        row.least_patch = std::array{0.6, 0.5, 0.7}[std::size_t(dice.whole(0, 2))];
-        row.most_patch = std::array{0.9, 0.8, 0.85}[std::size_t(dice.whole(0, 2))];
+        row.least_patch = std::array{0.6, 0.5, 0.7, 0.4}[std::size_t(dice.whole(0, last))];
+        row.most_patch = std::array{0.9, 0.8, 0.85, 0.7}[std::size_t(dice.whole(0, last))];
         rows.push_back(row);
     }
     return rows;
@@ -71,30 +76,49 @@ void print(const CutWeights& row)
     std::printf("{%s},", text.c_str());
 }
 
-/// Take the row that raises the mean of the best scores most, again and again.
-void choose(std::uint32_t seed, int outlines, int most)
+/// The scores of outlines with each of the candidates.
+struct Scores {
+    std::vector<double> best; ///< of each outline, so far
+    std::vector<std::vector<double>> with;
+};
+
+/// Pave an outline with every row, unless a grid fills it.
+void add_scores(const test::SeededDomain& seeded, const std::vector<CutWeights>& rows, bool few,
+                Scores& scores)
 {
+    using quads::paving::RowStyle;
     const RunContext context = one_thread();
-    const std::vector<CutWeights> rows = candidates();
-    std::vector<double> best;                ///< of each outline, so far
-    std::vector<std::vector<double>> scores; ///< of each outline with each row
+    quads::paving::AttemptChooser chooser(seeded.region, {}, context);
+    chooser.try_default_weights();
+    if (chooser.is_done()) return;
+    constexpr double kNone = 0; // less than any valid mesh
+    const RowStyle style = few ? RowStyle::no_rows : chooser.best().style;
+    scores.best.push_back(few ? kNone : chooser.score());
+    scores.with.emplace_back();
+    for (const CutWeights& row : rows) scores.with.back().push_back(chooser.score_with(style, row));
+}
+
+/// Take the row that raises the mean of the best scores most, again and again.
+void choose(std::uint32_t seed, int outlines, int most, bool few)
+{
+    const std::vector<CutWeights> rows = candidates(few);
+    Scores scores;
     for (int number = 0; number < outlines; ++number) {
-        const test::SeededDomain seeded = test::family_region(seed, number);
-        quads::paving::AttemptChooser chooser(seeded.region, {}, context);
-        chooser.try_default_weights();
-        if (chooser.is_done()) continue;
-        best.push_back(chooser.score());
-        scores.emplace_back();
-        for (const CutWeights& row : rows) scores.back().push_back(chooser.score_with(row));
+        if (!few) add_scores(test::family_region(seed, number), rows, few, scores);
+        for (const double quads : {60, 90, 120, 250, 400}) {
+            if (few)
+                add_scores(test::seed_domain(test::family_domain(seed, number), quads), rows, few, scores);
+        }
     }
+    std::vector<double>& best = scores.best;
     const auto mean_with = [&](std::size_t row) {
         double sum = 0;
-        for (std::size_t i = 0; i < best.size(); ++i) sum += std::max(best[i], scores[i][row]);
+        for (std::size_t i = 0; i < best.size(); ++i) sum += std::max(best[i], scores.with[i][row]);
         return sum / static_cast<double>(best.size());
     };
     double sum = 0;
     for (const double score : best) sum += score;
-    std::printf("%zu outlines of seed %u, %zu candidates; default weights score %.5f\n", best.size(), seed,
+    std::printf("%zu outlines of seed %u, %zu candidates; without them %.5f\n", best.size(), seed,
                 rows.size(), sum / static_cast<double>(best.size()));
     for (int k = 0; k < most; ++k) {
         std::size_t chosen = 0;
@@ -103,7 +127,7 @@ void choose(std::uint32_t seed, int outlines, int most)
         }
         print(rows[chosen]);
         std::printf(" // %.5f\n", mean_with(chosen));
-        for (std::size_t i = 0; i < best.size(); ++i) best[i] = std::max(best[i], scores[i][chosen]);
+        for (std::size_t i = 0; i < best.size(); ++i) best[i] = std::max(best[i], scores.with[i][chosen]);
     }
 }
 
@@ -135,13 +159,14 @@ void measure(std::uint32_t seed, int outlines)
 int main(int argc, char** argv)
 try {
     if (argc < 4) {
-        std::fprintf(stderr, "usage: choose_weights choose|measure SEED OUTLINES [ROWS]\n");
+        std::fprintf(stderr, "usage: choose_weights choose|few|measure SEED OUTLINES [ROWS]\n");
         return 2;
     }
     const auto seed = static_cast<std::uint32_t>(std::stoul(argv[2]));
     const int outlines = std::stoi(argv[3]);
-    if (argv[1] == std::string("choose"))
-        choose(seed, outlines, argc > 4 ? std::stoi(argv[4]) : 7);
+    const std::string what = argv[1];
+    if (what == "choose" || what == "few")
+        choose(seed, outlines, argc > 4 ? std::stoi(argv[4]) : 7, what == "few");
     else
         measure(seed, outlines);
     return 0;

@@ -153,7 +153,6 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
     if (!chooser.is_done()) {
         chooser.try_all_weights();
         chooser.try_triangles();
-        chooser.clean_best();
     }
     Attempt best = chooser.take_best();
     if (best.worst <= 0) {

@@ -162,9 +162,4 @@ void finish_attempt(Attempt& attempt, const AttemptSetting& setting, bool thorou
     if (attempt.worst > 0) clean_and_smooth(attempt, setting, thorough, context);
 }
 
-void clean_again(Attempt& attempt, const AttemptSetting& setting, const RunContext& context)
-{
-    if (setting.options.clean && attempt.worst > 0) clean_and_smooth(attempt, setting, true, context);
-}
-
 } // namespace lacuna::quads::paving

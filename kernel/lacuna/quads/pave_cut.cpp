@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/pave_cut.h>
 
 #include <lacuna/geometry/predicates.h>
+#include <lacuna/quads/detail/cut_bounds.h>
 #include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/detail/pave_fit.h>
 
@@ -104,37 +105,38 @@ public:
 
     std::optional<Cut> find()
     {
-        const std::vector<std::size_t> places = candidates();
+        places_ = candidates();
+        line_up();
         // A line nearly as long as what it cuts off is seldom good, so it is tried only where there is no
         // other. The bound saves time; it is a choice, not a measurement.
         constexpr double kShort = 0.85;
-        auto cut = find_among(places, kShort);
-        return cut ? cut : find_among(places, std::numeric_limits<double>::infinity());
+        auto cut = find_among(kShort);
+        return cut ? cut : find_among(std::numeric_limits<double>::infinity());
     }
 
 private:
     /// The cheapest free line. Only lines cheaper than the cheapest so far are looked at.
-    std::optional<Cut> find_among(const std::vector<std::size_t>& places, double longest)
+    std::optional<Cut> find_among(double longest)
     {
         // Nodes nearer than half an edge of the line would make a quad of half the size; a choice. Where all
         // lines pass some node that near, the cheapest of them is taken.
         constexpr double kAway = 0.5;
         std::optional<Choice> best, near_miss;
-        for (std::size_t s = 0; s < places.size(); ++s) {
-            const std::size_t i = places[s];
-            const Vec2& from = at(i);
-            for (std::size_t t = s + 1; t < places.size(); ++t) {
-                const std::size_t j = places[t];
-                const double arc = arc_[j] - arc_[i], shorter = std::min(arc, arc_[n_] - arc);
-                const double most = longest * shorter, squared = (at(j) - from).squaredNorm();
-                if (squared > most * most) continue;
-                const auto choice = judge(i, j, best ? best->cost : std::numeric_limits<double>::infinity());
-                if (!choice || !is_clear(partial_, cycle_, cycle_[i], cycle_[j])) continue;
-                if (keeps_away(*choice, kAway))
-                    best = choice;
-                else if (!near_miss || choice->cost < near_miss->cost)
-                    near_miss = choice;
-            }
+        // By their bounds, the most promising first: few are looked at before none can be better.
+        std::vector<CutBound> bounds = bound_cuts(columns_, partial_.weights, longest, kLeastAngle, arc_[n_]);
+        const auto later = [](const CutBound& a, const CutBound& b) { return a.cost > b.cost; };
+        std::make_heap(bounds.begin(), bounds.end(), later);
+        for (auto end = bounds.end(); end != bounds.begin();) {
+            std::pop_heap(bounds.begin(), end, later);
+            const CutBound& next = *--end;
+            if (best && next.cost >= best->cost) break;
+            const std::size_t i = places_[next.from], j = places_[next.to];
+            const auto choice = judge(i, j, best ? best->cost : std::numeric_limits<double>::infinity());
+            if (!choice || !is_clear(partial_, cycle_, cycle_[i], cycle_[j])) continue;
+            if (keeps_away(*choice, kAway))
+                best = choice;
+            else if (!near_miss || choice->cost < near_miss->cost)
+                near_miss = choice;
         }
         if (best) return refine(*best, kAway).cut;
         if (near_miss) return refine(*near_miss, 0).cut;
@@ -145,6 +147,28 @@ private:
         Cut cut;
         double cost = 0;
     };
+
+    /// What `bound_cuts()` reads of the places.
+    void line_up()
+    {
+        columns_.reserve(places_.size());
+        for (const std::size_t i : places_) {
+            const Vec2 from_first = at(i) - at(0);
+            columns_.x.push_back(static_cast<float>(from_first.x()));
+            columns_.y.push_back(static_cast<float>(from_first.y()));
+            columns_.arc.push_back(static_cast<float>(arc_[i]));
+            columns_.heading.push_back(static_cast<float>(heading_[i]));
+            columns_.angle.push_back(static_cast<float>(angles_[i]));
+            columns_.gain.push_back(static_cast<float>(gain(i)));
+            columns_.firm.push_back(static_cast<float>(firmness(i)));
+        }
+    }
+
+    /// What a line gains by ending at a node.
+    [[nodiscard]] double gain(std::size_t i) const
+    {
+        return angles_[i] > kBentAbove ? partial_.weights.bent : 0.0;
+    }
 
     [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
 
@@ -188,7 +212,7 @@ private:
         const Vec2 along = at(j) - at(i);
         const double length = along.norm(), arc = arc_[j] - arc_[i];
         Choice choice{{i, j, 0}, weights.length * length / std::min(arc, arc_[n_] - arc)};
-        for (const std::size_t end : {i, j}) choice.cost -= angles_[end] > kBentAbove ? weights.bent : 0.0;
+        choice.cost -= gain(i) + gain(j);
         if (choice.cost >= most) return std::nullopt;
         const double heading = std::atan2(along.y(), along.x());
         const double part_i = whole_turn(heading - heading_[i]);
@@ -273,9 +297,10 @@ private:
         return spoke_feet(sides, false, feet) ? 0.1 : 0.4;
     }
 
-    /// Try the nodes next to the ends, in smaller and smaller steps.
+    /// Try the nodes next to the ends, in smaller and smaller steps, unless all were tried.
     [[nodiscard]] Choice refine(Choice best, double away) const
     {
+        if (stride_ == 1) return best;
         for (std::size_t step = stride_; step > 0; step /= 2) {
             const Choice start = best;
             for (const long di : {-1L, 0L, 1L}) {
@@ -314,6 +339,8 @@ private:
     std::vector<double> heading_; ///< of the side that leaves each node [radians]
     std::vector<double> pace_;    ///< one over the size at each node
     std::vector<std::size_t> corners_;
+    std::vector<std::size_t> places_; ///< nodes that lines are tried between
+    CutPlaces columns_;               ///< the same
     std::size_t stride_ = 1;
 };
 

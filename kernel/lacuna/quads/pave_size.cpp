@@ -50,22 +50,24 @@ public:
         cell_ = std::max(
             {(high - low_).maxCoeff() / kAcross, kOfSide * shortest, std::numeric_limits<double>::min()});
         low_ -= Vec2::Constant(cell_);
-        nx_ = static_cast<int>((high.x() - low_.x()) / cell_) + 2;
-        ny_ = static_cast<int>((high.y() - low_.y()) / cell_) + 2;
-        const auto cells = static_cast<std::size_t>(nx_ * ny_);
-        most_.assign(cells, std::numeric_limits<double>::infinity());
-        least_.assign(cells, 0);
+        // With a rim of cells that bound nothing.
+        nx_ = static_cast<int>((high.x() - low_.x()) / cell_) + 4;
+        ny_ = static_cast<int>((high.y() - low_.y()) / cell_) + 4;
+        low_ -= Vec2::Constant(cell_);
+        bound_.assign(static_cast<std::size_t>(nx_ * ny_), {});
         for (const BoundarySide& side : sides) {
-            const std::size_t c = cell_of(side.middle);
-            most_[c] = std::min(most_[c], side.length);
-            least_[c] = std::max(least_[c], side.length);
+            Bounds& own = bound_[cell_of(side.middle)];
+            own.most = std::min(own.most, side.length);
+            own.least = std::max(own.least, side.length);
         }
         // Two rounds of two sweeps spread the bounds everywhere but around sharp bends.
+        const double rise = grading * cell_;
+        const auto row = static_cast<std::ptrdiff_t>(nx_);
         for (int round = 0; round < 2; ++round) {
-            for (int y = 0; y < ny_; ++y)
-                for (int x = 0; x < nx_; ++x) relax(x, y, -1, grading);
-            for (int y = ny_ - 1; y >= 0; --y)
-                for (int x = nx_ - 1; x >= 0; --x) relax(x, y, 1, grading);
+            for (int y = 1; y + 1 < ny_; ++y)
+                for (int x = 1; x + 1 < nx_; ++x) relax(y * row + x, -1, row, rise);
+            for (int y = ny_ - 2; y > 0; --y)
+                for (int x = nx_ - 2; x > 0; --x) relax(y * row + x, 1, row, rise);
         }
     }
 
@@ -73,16 +75,16 @@ public:
     /// holds.
     [[nodiscard]] double limit(const Vec2& p, double asked) const
     {
-        const double x = std::clamp((p.x() - low_.x()) / cell_ - 0.5, 0.0, nx_ - 1.001);
-        const double y = std::clamp((p.y() - low_.y()) / cell_ - 0.5, 0.0, ny_ - 1.001);
+        const double x = std::clamp((p.x() - low_.x()) / cell_ - 0.5, 1.0, nx_ - 2.001);
+        const double y = std::clamp((p.y() - low_.y()) / cell_ - 0.5, 1.0, ny_ - 2.001);
         const int i = static_cast<int>(x), j = static_cast<int>(y);
         const double u = x - i, v = y - j;
-        const auto mix = [&](const std::vector<double>& f) {
-            const std::size_t c = static_cast<std::size_t>(j * nx_ + i),
-                              d = c + static_cast<std::size_t>(nx_);
-            return (1 - v) * ((1 - u) * f[c] + u * f[c + 1]) + v * ((1 - u) * f[d] + u * f[d + 1]);
+        const Bounds* at = bound_.data() + j * nx_ + i;
+        const auto mix = [&](double Bounds::*f) {
+            return (1 - v) * ((1 - u) * at[0].*f + u * at[1].*f) +
+                   v * ((1 - u) * at[nx_].*f + u * at[nx_ + 1].*f);
         };
-        return std::min(std::max(asked, mix(least_)), mix(most_));
+        return std::min(std::max(asked, mix(&Bounds::least)), mix(&Bounds::most));
     }
 
 private:
@@ -93,23 +95,27 @@ private:
         return static_cast<std::size_t>(y * nx_ + x);
     }
 
-    void relax(int x, int y, int back, double grading)
+    /// Bring the bounds of a cell and of four of its neighbours together.
+    /// @param back  -1 or 1: the neighbours before the cell, or after it
+    void relax(std::ptrdiff_t cell, int back, std::ptrdiff_t row, double rise)
     {
-        const std::size_t c = static_cast<std::size_t>(y * nx_ + x);
-        for (const auto& [dx, dy] : {std::pair{back, 0}, {0, back}, {back, back}, {-back, back}}) {
-            const int i = x + dx, j = y + dy;
-            if (i < 0 || j < 0 || i >= nx_ || j >= ny_) continue;
-            const std::size_t n = static_cast<std::size_t>(j * nx_ + i);
-            const double rise = grading * cell_ * (dx != 0 && dy != 0 ? std::numbers::sqrt2 : 1.0);
-            most_[c] = std::min(most_[c], most_[n] + rise);
-            least_[c] = std::max(least_[c], least_[n] - rise);
-        }
+        const double far = rise * std::numbers::sqrt2;
+        const Bounds* at = bound_.data() + cell;
+        const Bounds &a = at[back], &b = at[back * row], &c = at[back * (row + 1)], &d = at[back * (row - 1)];
+        Bounds& own = bound_[static_cast<std::size_t>(cell)];
+        own.most = std::min({own.most, std::min(a.most, b.most) + rise, std::min(c.most, d.most) + far});
+        own.least = std::max(
+            {own.least, std::max(a.least, b.least) - rise, std::max(c.least, d.least) - far});
     }
+
+    struct Bounds {
+        double most = std::numeric_limits<double>::infinity(), least = 0;
+    };
 
     Vec2 low_;
     double cell_ = 1;
     int nx_ = 0, ny_ = 0;
-    std::vector<double> most_, least_;
+    std::vector<Bounds> bound_; ///< of each cell
 };
 
 } // namespace

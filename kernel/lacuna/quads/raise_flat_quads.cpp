@@ -42,7 +42,8 @@ bool raise(std::vector<Vec2>& points, std::span<const Spoke> star, std::size_t p
         worst = found;
         points[p] = to;
     }
-    worst = pattern_search(points[p], worst, {distance / count, kFirst, kLast, 0}, worst_at);
+    worst = pattern_search(points[p], worst, {distance / count, kFirst, kLast, 0},
+                           [&](const Vec2& to, double /*floor*/) { return worst_at(to); });
     return worst > before + kLeastGain;
 }
 

@@ -133,9 +133,12 @@ private:
         for (const Spoke& spoke : star)
             reach = std::min(reach, (points_[index(spoke.next)] - points_[p]).norm());
         const double before = least_sine(points_, star, points_[p]);
-        return pattern_search(points_[p], before, {reach, kFirst, kLast, kLeastGain}, [&](const Vec2& to) {
-                   return least_sine(points_, star, to);
-               }) > before + kLeastGain;
+        std::size_t first = 0;
+        const auto sine_at = [&](const Vec2& to, double floor) {
+            return least_sine_above(points_, star, to, floor, first);
+        };
+        return pattern_search(points_[p], before, {reach, kFirst, kLast, kLeastGain}, sine_at) >
+               before + kLeastGain;
     }
 
     std::vector<Vec2>& points_;

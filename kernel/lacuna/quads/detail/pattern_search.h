@@ -17,7 +17,8 @@ struct PatternSteps {
 /// Move a point to where a value is larger, by pattern search: eight directions, the step halved where none
 /// wins.
 /// @param best   the value at `x`.
-/// @param value  of a place, called as value(const Vec2&).
+/// @param value  of a place, called as value(const Vec2&, double floor): where it is no more than the floor it
+///               may be any number up to that.
 /// @return the value at the new `x`, at least `best`.
 template <class Value>
 double pattern_search(Vec2& x, double best, const PatternSteps& steps, const Value& value)
@@ -32,8 +33,9 @@ double pattern_search(Vec2& x, double best, const PatternSteps& steps, const Val
             const Vec2 from = x;
             for (const Vec2& direction : kDirections) {
                 const Vec2 to = from + step * direction;
-                const double found = value(to);
-                if (found <= best + steps.least_gain * step / steps.scale) continue;
+                const double floor = best + steps.least_gain * step / steps.scale;
+                const double found = value(to, floor);
+                if (found <= floor) continue;
                 best = found;
                 x = to;
                 better = true;

@@ -46,7 +46,4 @@ Attempt begin_attempt(const AttemptSetting& setting, RowStyle style, const CutWe
 void finish_attempt(Attempt& attempt, const AttemptSetting& setting, bool thorough,
                     const RunContext& context);
 
-/// Clean and smooth, with all patience, what was finished with less.
-void clean_again(Attempt& attempt, const AttemptSetting& setting, const RunContext& context);
-
 } // namespace lacuna::quads::paving

@@ -16,16 +16,15 @@ public:
     /// @param region, context  kept by reference.
     AttemptChooser(const PlanarRegion& region, const PaveOptions& options, const RunContext& context);
 
-    /// The grid of a region of right angles, then, unless that is good, rows in every style that is worth a
-    /// trial, all with the default weights.
+    /// The grid of a region of right angles. Then, unless that is good, few quads by weights of their own,
+    /// without rows. Then, unless that is good, rows in every style that is worth a trial, with the default
+    /// weights.
     void try_default_weights();
-    /// The score of the style that was best so far, with other weights of the cuts; nothing is kept.
-    [[nodiscard]] double score_with(const CutWeights& weights) const;
-    /// The rows of `cut_weight_rows()`, as long as the region is small and there is something to gain; of a
-    /// very small one only the most promising.
+    /// The score of a style with other weights of the cuts; nothing is kept.
+    [[nodiscard]] double score_with(RowStyle style, const CutWeights& weights) const;
+    /// The rows of `cut_weight_rows()`, as long as the region is small and there is something to gain; few
+    /// quads only where they are poor.
     void try_all_weights();
-    /// Clean the best attempt with more patience, where none of its kind was cleaned so.
-    void clean_best();
     /// Triangles, where nothing else fills the region well.
     void try_triangles();
 
@@ -42,6 +41,7 @@ private:
     void consider(Attempt made);
     /// The grid of a region of right angles; unless that is good, those of `fill_patterns()`.
     void try_grids();
+    void try_few_weights();
     /// Finish an attempt that was begun, unless an equal one was before, and consider it.
     void finish(Attempt begun);
     void pave_in(RowStyle style);
@@ -57,6 +57,7 @@ private:
     PaveOptions options_;
     const RunContext& context_;
     int least_irregular_; ///< that topology allows
+    bool is_few_;         ///< quads, about
     AttemptSetting setting_;
     Attempt best_;
     double best_score_ = -2;

@@ -65,4 +65,34 @@ inline double least_sine(std::span<const Vec2> points, std::span<const Spoke> st
     return least;
 }
 
+/// The same where it is more than `floor`, which is found out by the first corner that is not: in most trials
+/// it is the one of the trial before. Else some number up to `floor`.
+/// @param first  place in the star to begin with, and the one that was not above the floor
+inline double least_sine_above(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x,
+                               double floor, std::size_t& first)
+{
+    double least = 1;
+    for (std::size_t k = 0, i = first; k < star.size(); ++k, i = i + 1 < star.size() ? i + 1 : 0) {
+        const Spoke& spoke = star[i];
+        const Vec2 &n = points[index(spoke.next)], &o = points[index(spoke.across)],
+                   &r = points[index(spoke.before)];
+        const Vec2 a = n - x, b = r - x, c = o - n, d = o - r;
+        const double aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm(), dd = d.squaredNorm();
+        const double ab = cross(a, b), ac = cross(a, c), db = cross(d, b);
+        // Without a root or a division: clearly below.
+        constexpr double kClearly = 1 - 1e-12;
+        const double squared = kClearly * floor * floor;
+        const bool below = floor >= 0 && (std::min({ab, ac, db}) <= 0 || ab * ab < squared * aa * bb ||
+                                          ac * ac < squared * aa * cc || db * db < squared * dd * bb);
+        if (!below) {
+            least = std::min({least, corner_sine(ab, std::sqrt(aa * bb)), corner_sine(ac, std::sqrt(aa * cc)),
+                              corner_sine(db, std::sqrt(dd * bb))});
+        }
+        if (!below && least > floor) continue;
+        first = i;
+        return std::min(least, floor);
+    }
+    return least;
+}
+
 } // namespace lacuna::quads
