@@ -214,6 +214,15 @@ def compare(case, peers, options, folder):
     return result
 
 
+def head_of(lacuna, runs):
+    """What was measured, when and on what."""
+    version = subprocess.run([lacuna, "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
+    commit = subprocess.run(["git", "-C", str(HERE), "rev-parse", "--short", "HEAD"], stdout=subprocess.PIPE, text=True)
+    return {"date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"), "lacuna": version,
+            "commit": commit.stdout.strip(), "machine": platform.machine(), "cores": os.cpu_count(), "runs": runs,
+            "load": round(os.getloadavg()[0], 1)}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("lacuna", nargs="?", help="the program")
@@ -238,11 +247,7 @@ def main():
     options.bare = str(pathlib.Path(options.bare or pathlib.Path(options.lacuna).parent / "benchmarks/bare_loop").resolve())
 
     peers = installed(options.peers.split(","), options)
-    version = subprocess.run([options.lacuna, "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
-    commit = subprocess.run(["git", "-C", str(HERE), "rev-parse", "--short", "HEAD"], stdout=subprocess.PIPE, text=True)
-    results = {"date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
-               "lacuna": version, "commit": commit.stdout.strip(), "machine": platform.machine(),
-               "cores": os.cpu_count(), "runs": options.runs, "load": round(os.getloadavg()[0], 1), "cases": {}}
+    results = head_of(options.lacuna, options.runs) | {"cases": {}}
     with tempfile.TemporaryDirectory() as folder:
         for case in options.only.split(","):
             found = compare(case, peers, options, folder)

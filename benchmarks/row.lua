@@ -1,10 +1,12 @@
 -- SPDX-License-Identifier: MIT
 -- One open volume of `lacuna.synthetic` closed and swept into about `hexes` hexahedra: a line of JSON with
 -- seconds by stage, peak memory and quality. Each run should be a process of its own; grow.py makes many.
--- usage: lacuna row.lua [shape=disc] [hexes=100000] [threads=0] [output=] [commit=]
+-- usage: lacuna row.lua [shape=disc] [hexes=100000] [threads=0] [output=] [stream=false] [commit=]
+-- With stream the layers are made as they are written, by volume:sweep_to, without a field of quality.
 local lacuna = require "lacuna"
 
-local params = lacuna.params { shape = "disc", hexes = 100000, threads = 0, output = "", commit = "" }
+local params = lacuna.params { shape = "disc", hexes = 100000, threads = 0, output = "",
+  stream = false, commit = "" }
 
 -- What is given and what is left out, by name: every class of the paper, flat and curved, straight and bent.
 local synthetic = lacuna.synthetic
@@ -63,18 +65,30 @@ local area = named(ends.source and model or synthetic.plate { holes = 3 }, "sour
 local layers = math.max(2, math.floor(height * (params.hexes / (area * height)) ^ (1 / 3) + 0.5))
 local options = { layers = layers, size = (area * layers / params.hexes) ^ 0.5, quads = style }
 if params.threads > 0 then options.threads = params.threads end
-local mesh = volume:sweep(options)
-local swept = os.clock()
-if params.output ~= "" then mesh:write(params.output) end
+local mesh, stages, swept, least, mean
+if params.stream then
+  options.write = { quality = false }
+  mesh = volume:sweep_to(params.output, options)
+  assert(mesh.streamed, "the mesh was held in memory")
+  stages, swept, least = mesh.seconds, os.clock(), mesh.min_scaled_jacobian
+  mean = tonumber(tostring(mesh):match("at least, ([%d.]+) on average"))
+else
+  mesh = volume:sweep(options)
+  stages, swept = mesh.report.seconds, os.clock()
+  if params.output ~= "" then mesh:write(params.output) end
+end
 local written = os.clock()
+if not params.stream then
+  local quality = mesh:quality()
+  least, mean = quality.min_scaled_jacobian, quality.mean_scaled_jacobian
+end
 
-local quality = mesh:quality()
 print(encoded {
   shape = params.shape, class = volume.class, commit = params.commit, version = lacuna.version,
   hexes = mesh.hexes, layers = mesh.layers, threads = params.threads,
   processor_seconds = { close = closed - start, sweep = swept - closed, write = written - swept,
     total = written - start },
-  stage_seconds = mesh.report.seconds, hexes_per_second = mesh.hexes / (written - start),
+  stage_seconds = stages, hexes_per_second = mesh.hexes / (written - start),
   peak_mib = peak_mib(),
-  min_scaled_jacobian = quality.min_scaled_jacobian, mean_scaled_jacobian = quality.mean_scaled_jacobian,
+  min_scaled_jacobian = least, mean_scaled_jacobian = mean,
 })

@@ -349,8 +349,8 @@ function Volume:model() end
 ---@return lacuna.Mesh|lacuna.AssemblyMesh
 function Volume:sweep(options) end
 --- Sweep and write a layer at a time, in memory that the number of layers hardly matters to: the bytes of
---- sweep(options):write(path). The report has nodes, hexes, wedges, layers, min_scaled_jacobian, streamed and
---- seconds by stage.
+--- sweep(options):write(path). The report has nodes, hexes, wedges, layers, min_scaled_jacobian, streamed,
+--- processes (with mpirun) and seconds by stage.
 ---@param path string .msh, .vtu or .vtk
 ---@param options lacuna.SweepToOptions
 ---@return table report

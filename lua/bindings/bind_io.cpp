@@ -11,12 +11,12 @@
 #include <lacuna/io/deck.h>
 #include <lacuna/io/deck_file.h>
 #include <lacuna/io/facets.h>
-#include <lacuna/io/layered.h>
 #include <lacuna/io/leave_out.h>
 #include <lacuna/io/load_facets.h>
 #include <lacuna/io/msh.h>
 #include <lacuna/io/vtk.h>
 #include <lacuna/quality/second_order.h>
+#include <lacuna/team/tasks.h>
 
 #include <algorithm>
 
@@ -332,28 +332,6 @@ int write(lua_State* L)
     return 0;
 }
 
-/// Values of a metric, of some layers at a time.
-io::LayeredField layered_field(const mesh::LayeredMesh& layered, quality::Metric metric,
-                               const RunContext& context)
-{
-    return {quality::metric_name(metric), [layered, metric, &context](int first, int last) {
-                mesh::HexMesh part;
-                part.nodes_per_layer = layered.mesh.nodes_per_layer;
-                part.layers = last - first;
-                part.quads = layered.mesh.quads;
-                part.nodes.resize(mesh::corner_count(part));
-                layered.nodes.place(first, last + 1, part.nodes, context);
-                return quality::metric_values(part, metric, context);
-            }};
-}
-
-/// Whether a metric compares each cell with the mean of all, which is not known before all are made.
-bool is_of_all(quality::Metric metric)
-{
-    return metric == quality::Metric::relative_size_squared || metric == quality::Metric::shape_and_size ||
-           metric == quality::Metric::shear_and_size;
-}
-
 /// The parts of an assembly's mesh in one deck, or with the decks they fill voids of.
 io::Deck deck_of_parts(const AssemblyMeshState& state, WriteArguments& arguments, const RunContext& context)
 {
@@ -558,14 +536,14 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
     read_options(L, index, "sweep_to: write", kLayeredOptions, arguments);
     guard(L, [&] {
         const std::string ending = io::ending_of(path.text());
-        if (ending != ".msh" && ending != ".vtu" && ending != ".vtk")
+        if (!team::is_layered(ending))
             throw InvalidInput("lua.not_layered",
                                "sweep_to: " + path.text() +
                                    ": files written a layer at a time end in .msh, .vtu or "
                                    ".vtk; for others use volume:sweep(options):write(path)");
         format_of(path.text(), arguments); // refuses options that it has not
         for (const quality::Metric metric : metrics_of(arguments))
-            if (is_of_all(metric))
+            if (!team::is_layered(metric))
                 throw InvalidInput("lua.not_layered",
                                    std::string("sweep_to: quality: ") + quality::metric_name(metric) +
                                        " compares each cell with the mean of all, which is not known while "
@@ -575,7 +553,7 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
 }
 
 void write_layered(const sweep::Swept& swept, const io::OutputPath& path, WriteArguments& arguments,
-                   const RunContext& context)
+                   const Crew* crew, const RunContext& context)
 {
     const mesh::HexMesh& mesh = swept.mesh;
     report_progress(context, "writing " + path.text());
@@ -585,17 +563,8 @@ void write_layered(const sweep::Swept& swept, const io::OutputPath& path, WriteA
                 {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
         return format_of(path.text(), arguments).write(mesh, path, arguments, context);
     }
-    const mesh::LayeredMesh layered{mesh, *swept.layers};
-    std::vector<io::LayeredField> fields;
-    for (const quality::Metric metric : metrics_of(arguments))
-        fields.push_back(layered_field(layered, metric, context));
-    const std::string ending = io::ending_of(path.text());
-    if (ending == ".msh")
-        io::write_msh(layered, path, arguments.msh, fields, context);
-    else if (ending == ".vtu")
-        io::write_vtu(layered, path, fields, context);
-    else
-        io::write_vtk(layered, path, {arguments.msh.binary}, fields, context);
+    team::write_layered({mesh, *swept.layers}, *swept.plan, path,
+                        {arguments.msh.binary, arguments.msh.version, metrics_of(arguments)}, crew, context);
 }
 
 void bind_io(lua_State* L)

@@ -4,6 +4,7 @@
 #include "bindings/fixed_members.h"
 #include "bindings/full_turns.h"
 #include "bindings/io_paths.h"
+#include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
 #include "bindings/write_mesh.h"
 
@@ -871,7 +872,8 @@ int sweep_to(lua_State* L)
     WriteArguments& file = push_layered_write(L, lua_gettop(L), path);
     SweepArguments& arguments = push_arguments(L, 3, "sweep_to", state);
     RunContext& context = push_context(L);
-    context.threads = arguments.threads;
+    if (arguments.threads != 0) context.threads = arguments.threads;
+    const Crew* const crew = host(L).crew;
     lua_gc(L, LUA_GCCOLLECT);
     auto& swept = temporary<sweep::Swept>(L);
     auto& seconds = temporary<StageSeconds>(L);
@@ -885,13 +887,14 @@ int sweep_to(lua_State* L)
         close_volume(state, {}, context);
         if (!state.decks.empty()) take_given_middles(state, arguments.options.second_order);
         arguments.options.layered = true;
+        arguments.options.crew = crew;
         swept = sweep::sweep(state.volume, arguments.options, context);
         if (!state.name.empty()) swept.mesh.volume_groups = {state.name};
         if (!swept.layers)
             swept.report.push_back(
                 "sweep_to: the whole mesh was held in memory, since its nodes are more than "
                 "placed layers: moved to improve cells, of order 2 or of boundary layers");
-        write_layered(swept, path, file, context);
+        write_layered(swept, path, file, crew, context);
         seconds = clock.seconds();
     });
     lua_createtable(L, static_cast<int>(swept.report.size()), 8);
@@ -906,6 +909,7 @@ int sweep_to(lua_State* L)
     set_count(L, "layers", static_cast<std::size_t>(mesh.layers));
     set_number(L, "min_scaled_jacobian", swept.min_scaled_jacobian);
     set_boolean(L, "streamed", swept.layers.has_value());
+    set_count(L, "processes", swept.layers && crew != nullptr ? static_cast<std::size_t>(crew->size) : 1);
     set_report_meta(L, seconds);
     return 1;
 }

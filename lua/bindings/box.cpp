@@ -181,6 +181,14 @@ void raise(lua_State* L, const char* code)
     __builtin_unreachable();
 }
 
+void end_stage(lua_State* L)
+{
+    const Host& lent = host(L);
+    if (!lent.in_stage) return;
+    lent.in_stage = false;
+    if (lent.ended) lent.ended();
+}
+
 void fail(lua_State* L, const char* format, ...)
 {
     va_list arguments;

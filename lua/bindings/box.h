@@ -169,13 +169,18 @@ bool run_guarded(Failure& failure, Body& body) noexcept
     return false;
 }
 
+/// Tell the host, where it wants to know, that the stage it was told of last is over.
+void end_stage(lua_State* L);
+
 /// Run kernel code; its exceptions become Lua errors. @pre no Lua call inside that may raise.
 template <class Body>
 void guard(lua_State* L, Body&& body)
 {
     static_assert(std::is_trivially_destructible_v<std::remove_reference_t<Body>>, "capture by reference");
     Failure& failure = temporary<Failure>(L);
-    if (!run_guarded(failure, body)) raise(L, failure);
+    const bool done = run_guarded(failure, body);
+    end_stage(L);
+    if (!done) raise(L, failure);
     lua_pop(L, 1);
 }
 

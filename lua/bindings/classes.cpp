@@ -172,7 +172,10 @@ RunContext& push_context(lua_State* L)
     if (lent.log)
         context.log = [&lent](std::string_view line) { lent.log(line); }; // one pointer: no allocation
     if (lent.progress)
-        context.progress = [&lent](std::string_view stage, double share) { lent.progress(stage, share); };
+        context.progress = [&lent](std::string_view stage, double share) {
+            lent.in_stage = true;
+            lent.progress(stage, share);
+        };
     return context;
 }
 

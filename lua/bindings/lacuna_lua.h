@@ -3,6 +3,7 @@
 
 #include <lua.hpp>
 
+#include <lacuna/core/team.h>
 #include <lacuna/io/whole_file.h>
 
 #include <atomic>
@@ -21,7 +22,10 @@ struct Host {
     const std::atomic<bool>* cancel = nullptr;              ///< set by the host to stop kernel work
     std::function<void(std::string_view)> log;              ///< notes of the kernel, a line each
     std::function<void(std::string_view, double)> progress; ///< stage, share in [0, 1]
+    std::function<void()> ended;                            ///< the stage told last has ended
+    mutable bool in_stage = false;                          ///< one was told of since
     int threads = 0;                                        ///< for whom asks for none; 0: all cores
+    const Crew* crew = nullptr;                             ///< processes that help; null: there are none
     bool sandboxed = false;                                 ///< files are written below `output_folder` alone
     std::shared_ptr<const io::Folder> output_folder;        ///< null with `sandboxed`: nothing is written
 };

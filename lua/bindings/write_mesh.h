@@ -19,6 +19,6 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
 
 /// Write a mesh, whose nodes may be still to be made, with the bytes of mesh:write.
 void write_layered(const sweep::Swept& swept, const io::OutputPath& path, WriteArguments& arguments,
-                   const RunContext& context);
+                   const Crew* crew, const RunContext& context);
 
 } // namespace lacuna::lua

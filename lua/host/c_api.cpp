@@ -112,6 +112,7 @@ lacuna::InterpreterOptions options_of(const lacuna_options& asked)
     options.instructions = asked.instructions;
     options.sandbox = asked.sandbox != 0;
     options.traceback = asked.traceback != 0;
+    options.threads = asked.threads;
     if (asked.output_folder) options.output_folder = asked.output_folder;
     return options;
 }

@@ -288,6 +288,7 @@ Interpreter::State::State(InterpreterOptions asked) : options(std::move(asked))
 {
     host.cancel = &stop;
     host.threads = options.threads;
+    host.crew = options.crew;
     host.sandboxed = options.sandbox;
     if (!options.output_folder.empty())
         host.output_folder = std::make_shared<const io::Folder>(options.output_folder);
@@ -299,6 +300,7 @@ Interpreter::State::State(InterpreterOptions asked) : options(std::move(asked))
                 if (!options.progress(stage, share)) stop = true;
             });
         };
+    if (options.ended) host.ended = [this] { call_back([&] { options.ended(); }); };
     lua = lua_newstate(allocate, this);
     if (!lua) throw std::bad_alloc();
     *static_cast<State**>(lua_getextraspace(lua)) = this;

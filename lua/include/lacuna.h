@@ -58,6 +58,7 @@ typedef struct lacuna_options {
     const char* output_folder; /* with sandbox: files are written below it alone; null: nowhere */
     int sandbox;               /* not 0: no os, io, debug, package or bytecode */
     int traceback;             /* not 0: lacuna_error_traceback() has one */
+    int threads;               /* most that a sweep takes which asks for none itself; 0: all cores */
 } lacuna_options;
 
 typedef struct lacuna_buffer {

@@ -26,7 +26,8 @@ const char* const kHelp = R"(usage: lacuna [option ...] RECIPE [key=value ...]
 
 const char* const kOptionHelp = R"(
   --verbose               what the kernel notes as it works, on standard error
-  --quiet                 no line of progress while standard error is a terminal
+  --quiet                 no progress on standard error: a line on a terminal, elsewhere one every 5 seconds
+  --timing FILE           seconds by stage as a line of JSON into FILE; - for standard error
   --traceback             where in the recipe an error came from, call by call
   --threads N             most threads where a recipe asks for none; default all cores, with -j its share
   --history FILE          of the prompt: lines typed are kept there; default $LACUNA_HISTORY, else nowhere
@@ -81,9 +82,9 @@ numbers, regions and sets are kept. What the format cannot hold is named on stan
 )"},
 };
 
-const char* const kFlags[] = {"--sandbox", "--output-dir", "--memory",    "--seconds",
-                              "--verbose", "--quiet",      "--traceback", "--history",
-                              "--version", "--help",       "--json",      "--threads"};
+const char* const kFlags[] = {"--sandbox", "--output-dir", "--memory",  "--seconds", "--verbose",
+                              "--quiet",   "--traceback",  "--history", "--version", "--help",
+                              "--json",    "--threads",    "--timing"};
 
 const Command* find_command(const std::string& name)
 {
@@ -146,6 +147,8 @@ bool read_flag(const std::string& word, Words& words, CommandLine& line, bool& l
         line.traceback = true;
     else if (word == "--threads")
         line.threads = words.count_of(word);
+    else if (word == "--timing")
+        line.timing = words.value_of(word);
     else if (word == "--history")
         line.history = words.value_of(word);
     else if (word == "--output-dir")
@@ -202,6 +205,7 @@ void read_batch(Words& words, CommandLine& line)
             line.batch.push_back({word, {}});
     }
     if (line.batch.empty()) throw BadUsage("recipes are wanted after -j");
+    if (!line.timing.empty()) throw BadUsage("--timing is of one recipe, and goes without -j");
 }
 
 /// The word that says what is to be done, and what belongs to it.

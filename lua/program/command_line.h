@@ -27,6 +27,7 @@ struct CommandLine {
     bool json = false;              ///< of a command
     bool verbose = false;           ///< notes of the kernel on standard error
     bool quiet = false;             ///< no line of progress
+    std::string timing;             ///< a file for seconds by stage, "-": standard error; empty: none
     bool traceback = false;
     bool sandbox = false;
     std::string output_dir; ///< of the sandbox; empty: nothing is written

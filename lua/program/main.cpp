@@ -4,7 +4,11 @@
 #include "program/command_line.h"
 #include "program/progress_line.h"
 #include "program/prompt.h"
+#include "program/stage_times.h"
 #include "program/stopping.h"
+#ifdef LACUNA_WITH_MPI
+#include "program/several.h"
+#endif
 
 #include <lacuna/interpreter.h>
 
@@ -53,7 +57,7 @@ void run_action(const CommandLine& line, lacuna::Interpreter& interpreter, Progr
     }
 }
 
-Exit run(const CommandLine& line)
+Exit run(const CommandLine& line, const lacuna::Crew* crew)
 {
     if (line.action == Action::help) {
         std::fputs(help_text(line.command).c_str(), stdout);
@@ -63,10 +67,13 @@ Exit run(const CommandLine& line)
     ProgressLine progress(!line.quiet);
     lacuna::InterpreterOptions options;
     progress.watch(options);
+    StageTimes times;
+    if (!line.timing.empty()) times.watch(options);
     options.sandbox = line.sandbox;
     options.output_folder = line.output_dir;
     options.traceback = line.traceback;
     options.threads = line.threads;
+    options.crew = crew;
     // What a format cannot hold, and what a mesh lacks, is said by notes.
     const bool all = line.verbose || line.command == "convert";
     options.log = [&progress, all](std::string_view text) {
@@ -83,16 +90,24 @@ Exit run(const CommandLine& line)
         explicit Watched(lacuna::Interpreter* own) { watch_interrupts(own); }
         ~Watched() { watch_interrupts(nullptr); }
     } const watched(&interpreter);
+    const auto tell_times = [&] { // of what fails, too
+        if (line.timing.empty()) return;
+        progress.clear();
+        times.write(line.timing, line.file.empty() ? line.command : line.file, line.threads);
+    };
     try {
         run_action(line, interpreter, progress);
+        tell_times();
         return Exit::done;
     } catch (const lacuna::Cancelled&) {
         progress.clear();
         std::fflush(stdout); // what fails is told at the end
+        tell_times();
         return report_stop(line.seconds);
     } catch (const lacuna::ScriptError& error) {
         progress.clear();
         std::fflush(stdout);
+        tell_times();
         report(error);
         return Exit::failed;
     }
@@ -108,18 +123,29 @@ bool flushed()
     return false;
 }
 
+#ifdef LACUNA_WITH_MPI
+Exit run_alone_or_not(const CommandLine& line)
+{
+    return is_one_of_several() ? run_as_several(line, run) : run(line, nullptr);
+}
+#else
+bool is_first() { return true; }
+Exit run_alone_or_not(const CommandLine& line) { return run(line, nullptr); }
+#endif
+
 } // namespace
 
 int main(int argc, char** argv)
 {
+    const bool first = is_first();
     try {
-        const Exit result = run(parse(std::vector<std::string>(argv + 1, argv + argc)));
+        const Exit result = run_alone_or_not(parse(std::vector<std::string>(argv + 1, argv + argc)));
         return static_cast<int>(flushed() || result != Exit::done ? result : Exit::failed);
     } catch (const BadUsage& error) {
-        std::fprintf(stderr, "lacuna: %s\n`lacuna --help` says what there is\n", error.what());
+        if (first) std::fprintf(stderr, "lacuna: %s\n`lacuna --help` says what there is\n", error.what());
         return static_cast<int>(Exit::bad_usage);
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "lacuna: %s\n", error.what());
+        if (first) std::fprintf(stderr, "lacuna: %s\n", error.what());
         return static_cast<int>(Exit::failed);
     }
 }

@@ -10,12 +10,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kPatience = 500ms; // shorter work shows nothing: a choice, not a measurement
-constexpr auto kStep = 100ms;     // between two drawings, so that a slow terminal costs no time
+constexpr auto kPatience = 500ms;    // shorter work shows nothing: a choice, not a measurement
+constexpr auto kStep = 100ms;        // between two drawings, so that a slow terminal costs no time
+constexpr auto kLineStep = 5s;       // between two lines where nothing can be drawn over: a choice
+constexpr double kLeastShare = 0.02; // of less nobody can say how long the rest takes: a choice
 
 } // namespace
 
-ProgressLine::ProgressLine(bool wanted) : wanted_(wanted && isatty(STDERR_FILENO) == 1)
+ProgressLine::ProgressLine(bool wanted) : wanted_(wanted), terminal_(isatty(STDERR_FILENO) == 1)
 {
     if (wanted_) thread_ = std::thread([this] { draw(); });
 }
@@ -37,12 +39,15 @@ void ProgressLine::watch(InterpreterOptions& options)
     if (!wanted_) return;
     options.progress = [this](std::string_view stage, double share) {
         const std::lock_guard lock(mutex_);
-        if (stage_.empty()) begin_ = Clock::now();
+        const Clock::time_point now = Clock::now();
+        if (stage_.empty()) begin_ = told_ = now;
+        if (stage_ != stage) stage_begin_ = now;
         stage_ = stage;
         share_ = share;
         changed_.notify_all();
         return true;
     };
+    options.ended = [this] { clear(); };
     options.print = [this](std::string_view text) {
         clear();
         std::fwrite(text.data(), 1, text.size(), stdout);
@@ -65,6 +70,19 @@ void ProgressLine::clear()
     erase();
 }
 
+std::string ProgressLine::text(Clock::time_point now) const
+{
+    const auto seconds = [](Clock::duration time) { return std::chrono::duration<double>(time).count(); };
+    char numbers[96];
+    std::snprintf(numbers, sizeof numbers, ", %.0f s", seconds(now - begin_));
+    if (share_ >= kLeastShare && now > stage_begin_) {
+        const double rate = share_ / seconds(now - stage_begin_);
+        std::snprintf(numbers, sizeof numbers, " %.0f %%, %.1f %% a second, %.0f s, about %.0f s left",
+                      100 * share_, 100 * rate, seconds(now - begin_), (1 - share_) / rate);
+    }
+    return "lacuna: " + stage_ + numbers;
+}
+
 void ProgressLine::draw()
 {
     std::unique_lock lock(mutex_);
@@ -73,14 +91,14 @@ void ProgressLine::draw()
             changed_.wait(lock);
             continue;
         }
-        const auto taken = Clock::now() - begin_;
-        if (taken >= kPatience) {
-            const double seconds = std::chrono::duration<double>(taken).count();
-            std::fprintf(stderr, "\r\033[Klacuna: %s", stage_.c_str());
-            if (share_ > 0) std::fprintf(stderr, " %.0f %%", 100 * share_);
-            std::fprintf(stderr, ", %.0f s", seconds);
+        const Clock::time_point now = Clock::now();
+        if (terminal_ && now - begin_ >= kPatience) {
+            std::fprintf(stderr, "\r\033[K%s", text(now).c_str());
             std::fflush(stderr);
             shown_ = true;
+        } else if (!terminal_ && now - told_ >= kLineStep) {
+            std::fprintf(stderr, "%s\n", text(now).c_str());
+            told_ = now;
         }
         changed_.wait_for(lock, kStep, [this] { return ended_; });
     }

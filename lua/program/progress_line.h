@@ -11,8 +11,9 @@
 
 namespace lacuna::program {
 
-/// The one line on standard error that says what the kernel is at, where that is a terminal. It is shown when
-/// a stage goes on for a while, and goes away before anything else is written.
+/// Says on standard error what the kernel is at: the stage, and where it tells its share how fast it goes and
+/// how long the rest may take. On a terminal it is one line, which is shown when a stage goes on for a while
+/// and goes away before anything else is written. Elsewhere it is a line every few seconds.
 class ProgressLine {
 public:
     /// @param wanted  false: nothing is ever shown.
@@ -30,13 +31,16 @@ private:
     using Clock = std::chrono::steady_clock;
     void draw();
     void erase();
+    [[nodiscard]] std::string text(Clock::time_point now) const;
 
-    bool wanted_;
+    bool wanted_, terminal_;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::string stage_; ///< empty: nothing goes on
     double share_ = 0;
-    Clock::time_point begin_; ///< of what goes on without a pause
+    Clock::time_point begin_;       ///< of what goes on without a pause
+    Clock::time_point stage_begin_; ///< of the stage
+    Clock::time_point told_;        ///< when the last line was written, where there is no terminal
     bool shown_ = false, ended_ = false;
     std::thread thread_;
 };

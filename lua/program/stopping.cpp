@@ -15,6 +15,7 @@ namespace {
 enum class Stop { none, interrupt, terminate, time };
 std::atomic<Stop> g_reason{Stop::none};
 std::atomic<Interpreter*> g_interpreter{nullptr};
+std::atomic<std::atomic<bool>*> g_cancel{nullptr}; ///< of a process that runs no recipe
 std::atomic<bool> g_idle{false};
 std::atomic<long> g_asked_at{0}; ///< when a stop was first asked for [ms]
 
@@ -54,6 +55,16 @@ void on_signal(int signal)
     }
     g_asked_at = now_ms();
     if (Interpreter* const interpreter = g_interpreter) interpreter->cancel();
+    if (std::atomic<bool>* const cancel = g_cancel) *cancel = true;
+}
+
+void catch_signals()
+{
+    struct sigaction action = {};
+    action.sa_handler = on_signal;
+    for (const int signal : {SIGINT, SIGALRM, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+    // A file that grows past a limit is then an error of writing, which is told, and not the end.
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 } // namespace
@@ -61,13 +72,16 @@ void on_signal(int signal)
 void watch_interrupts(Interpreter* interpreter)
 {
     g_interpreter = interpreter;
-    struct sigaction action = {};
-    action.sa_handler = interpreter ? on_signal : SIG_DFL;
-    sigaction(SIGINT, &action, nullptr);
-    if (!interpreter) return;
-    for (const int signal : {SIGALRM, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
-    // A file that grows past a limit is then an error of writing, which is told, and not the end.
-    std::signal(SIGXFSZ, SIG_IGN);
+    if (interpreter)
+        catch_signals();
+    else
+        std::signal(SIGINT, SIG_DFL);
+}
+
+void watch_interrupts(std::atomic<bool>& cancel)
+{
+    g_cancel = &cancel;
+    catch_signals();
 }
 
 Exit report_stop(double seconds)

@@ -3,6 +3,8 @@
 
 #include <lacuna/interpreter.h>
 
+#include <atomic>
+
 namespace lacuna::program {
 
 /// Exit codes of the program.
@@ -13,6 +15,8 @@ enum class Exit { done = 0, failed = 1, bad_usage = 2, interrupted = 130, termin
 /// Ctrl-C, SIGTERM, SIGHUP and the alarm cancel `interpreter` from now on, and a second one ends the process,
 /// a Ctrl-C where it comes a second later or more; null: Ctrl-C ends it at once.
 void watch_interrupts(Interpreter* interpreter);
+/// The same signals set `cancel`, of a process that runs no recipe; it outlives them.
+void watch_interrupts(std::atomic<bool>& cancel);
 /// What a run ended by, which was cancelled; `seconds` is the time limit. Writes to standard error, and
 /// forgets the request.
 Exit report_stop(double seconds);

@@ -22,6 +22,8 @@ local plan = {
   sweep = { "closure", "surface", "quality" },
   io = { "mesh", "healing" },
   view = { "closure", "io", "quality" },
+  team = { "sweep", "io" },
+  mpi = { "team" },
   cad_protocol = { "core" },
   cad = { "cad_protocol", "closure", "healing", "io", "surface" },
   cad_worker = { "cad_protocol", "geometry" },
@@ -110,6 +112,7 @@ local function faults(folder, path, text)
       if base:match("^gmsh[%w_]*%.h") and folder ~= "cad_worker" then
         fault(number, "only cad_worker/ may include " .. include)
       end
+      if base == "mpi.h" and folder ~= "mpi" then fault(number, "only mpi/ may include " .. include) end
       if base:match("^lua.*%.hp*$") or base:match("^lauxlib%.h") or base == "lualib.h" then
         fault(number, "only lua/ may include " .. include)
       end
@@ -146,6 +149,9 @@ local samples = {
   { "cad", mit .. "#include <gmsh.h>\n", "only cad_worker/" },
   { "cad", mit .. "#include <lacuna/cad_worker/session.h>\n", "not below it" },
   { "core", mit .. "#include <lacuna/cad_worker/session.h>\n", "not below it" },
+  { "team", mit .. "#include <mpi.h>\n", "only mpi/" },
+  { "mpi", mit .. "#include <mpi.h>\n#include <lacuna/core/team.h>\n" },
+  { "io", mit .. "#include <lacuna/team/tasks.h>\n", "not below it" },
   { "cad_worker", gpl .. "#include <lua5.4/lauxlib.h>\n", "only lua/" },
   { "cad_worker", mit .. "#include <gmsh.h>\n", "licence GPL" },
   { "cad", gpl, "licence MIT" },

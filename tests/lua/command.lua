@@ -266,4 +266,33 @@ sleep 0.3; kill -INT $pid; wait $pid; echo "exit code $?"]]):format(params.lacun
       recipe .. ": " .. told)
 end
 
+-- --timing: seconds by stage, which add up, of what fails too.
+check.write(folder .. "/timed.lua", [[
+local lacuna = require "lacuna"
+local params = lacuna.params { fails = false }
+local void = lacuna.synthetic.prism { sides = 6, drop = { "wall_1" } }:open_volume {}
+void:sweep({ layers = 4, size = 0.3 }):write "timed.msh"
+local until_then = os.clock() + 0.05
+while os.clock() < until_then do end
+if params.fails then error "asked for" end
+]])
+for _, fails in ipairs { "false", "true" } do
+  local name = "timing_" .. fails .. ".json"
+  local code, _, err = run { "--timing", name, folder .. "/timed.lua", "fails=" .. fails }
+  check.equal(code, fails == "true" and 1 or 0, err)
+  local file <close> = assert(io.open(folder .. "/" .. name))
+  local line = file:read("a")
+  local all, sum, stages = tonumber(line:match('"seconds": ([%d.]+)')), 0, {}
+  for stage, seconds in line:gmatch('"stage": "([^"]*)", "seconds": ([%d.]+)') do
+    sum = sum + tonumber(seconds)
+    stages[stage] = tonumber(seconds)
+  end
+  check.that(math.abs(sum - all) < 1e-3, line)
+  check.that(stages["closing"] and stages["layers"] and stages["writing timed.msh"], line)
+  check.that(stages["recipe"] >= 0.04, "a pause of the recipe is no stage of the kernel: " .. line)
+end
+expect({ "--timing", "-", folder .. "/timed.lua" }, 0, {}, { '{"recipe": "', '"stages": [' })
+expect({ "--timing", "/nowhere/t.json", folder .. "/timed.lua" }, 1, {}, { "--timing", "/nowhere/t.json" })
+expect({ "--timing", "-", "-j", "2", jobs }, 2, {}, { "--timing", "without -j" })
+
 check.done()

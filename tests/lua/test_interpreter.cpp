@@ -237,6 +237,23 @@ TEST_CASE("the sandbox has no files and no processes")
         CHECK(error_of(host, text).code() != "nothing.failed");
 }
 
+TEST_CASE("from C: threads are those of sweeps that ask for none, and hosts that know no threads have all")
+{
+    lacuna_options options;
+    lacuna_default_options(&options);
+    options.threads = 1 << 20; // no number of threads, which is told
+    const auto code_with = [&](std::size_t size) {
+        options.size = size;
+        lacuna_interpreter* const handle = lacuna_open(&options);
+        lacuna_run_string(handle, kBox, std::strlen(kBox), nullptr);
+        const std::string message = lacuna_error_message(handle);
+        lacuna_close(handle);
+        return message;
+    };
+    CHECK(code_with(sizeof options).find("threads") != std::string::npos);
+    CHECK(code_with(offsetof(lacuna_options, threads)).empty());
+}
+
 TEST_CASE("from C: values, buffers, errors and their entities, and no exception comes out")
 {
     lacuna_options options;

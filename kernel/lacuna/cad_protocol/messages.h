@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/cad_protocol/bytes.h>
+#include <lacuna/core/bytes.h>
 
 #include <array>
 #include <cstdint>
@@ -15,6 +15,8 @@
 /// `done` or `failed`. `release` alone has no answer. The worker says `hello` once, before it is asked
 /// anything.
 namespace lacuna::cad_protocol {
+
+using lacuna::ProtocolError;
 
 enum class Opcode : std::uint16_t {
     hello = 1,

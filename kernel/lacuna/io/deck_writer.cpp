@@ -355,9 +355,7 @@ void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, con
         file.notes.push_back("materials, loads and other cards of " + deck.path +
                              " are of another format and not carried over");
     for (const std::string& note : file.notes) log_line(context, path.text() + ": " + note);
-    WholeFile whole(path);
-    write_sections(whole, file.sections, file.sizes, context);
-    whole.commit();
+    write_file(path, file.sections, file.sizes, context);
 }
 
 } // namespace lacuna::io

@@ -403,17 +403,15 @@ void write_facets(const OpenVolume& volume, const OutputPath& path, const FacetF
                                "\" says no format; facets are written as .stl, .obj and .msh");
     check_sealed(volume);
     const Skin skin = skin_of(volume);
-    WholeFile file(path);
     if (ending == ".msh")
-        write_sections(file, msh_sections(volume, skin, options.binary),
-                       options.binary ? Sizes::exact : Sizes::varying, context);
+        write_file(path, msh_sections(volume, skin, options.binary),
+                   options.binary ? Sizes::exact : Sizes::varying, context);
     else if (ending == ".obj")
-        write_sections(file, obj_text(volume, skin), Sizes::varying, context);
+        write_file(path, obj_text(volume, skin), Sizes::varying, context);
     else if (options.binary)
-        write_sections(file, stl_bytes(skin), Sizes::exact, context);
+        write_file(path, stl_bytes(skin), Sizes::exact, context);
     else
-        write_sections(file, stl_text(skin), Sizes::varying, context);
-    file.commit();
+        write_file(path, stl_text(skin), Sizes::varying, context);
 }
 
 } // namespace lacuna::io

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/team.h>
 #include <lacuna/io/msh.h>
 #include <lacuna/io/vtk.h>
 #include <lacuna/mesh/layered_nodes.h>
@@ -21,13 +22,17 @@ struct LayeredField {
 /// `write_msh()`, `write_vtu()` and `write_vtk()` of a mesh whose nodes are made as they are written: the
 /// same bytes, in memory that does not depend on the number of layers but for what the skin takes.
 /// @param options  without fields; they are given by themselves.
+/// @param team  who each write their share of it, to rank 0's path; null: this process alone.
 /// @pre  the mesh is of order 1.
 /// @throw  as those.
 void write_msh(const mesh::LayeredMesh& layered, const OutputPath& path, const MshOptions& options = {},
-               const std::vector<LayeredField>& fields = {}, const RunContext& context = {});
+               const std::vector<LayeredField>& fields = {}, const RunContext& context = {},
+               const Team* team = nullptr);
 void write_vtu(const mesh::LayeredMesh& layered, const OutputPath& path,
-               const std::vector<LayeredField>& fields = {}, const RunContext& context = {});
+               const std::vector<LayeredField>& fields = {}, const RunContext& context = {},
+               const Team* team = nullptr);
 void write_vtk(const mesh::LayeredMesh& layered, const OutputPath& path, const VtkOptions& options = {},
-               const std::vector<LayeredField>& fields = {}, const RunContext& context = {});
+               const std::vector<LayeredField>& fields = {}, const RunContext& context = {},
+               const Team* team = nullptr);
 
 } // namespace lacuna::io

@@ -413,7 +413,8 @@ void tell_lost_groups(const MshContent& content, const RunContext& context)
 }
 
 void write(const mesh::HexMesh& mesh, const NodeReader& nodes, const std::vector<FieldReader>& fields,
-           const OutputPath& path, const MshOptions& options, const RunContext& context)
+           const OutputPath& path, const MshOptions& options, const RunContext& context,
+           const Team* team = nullptr)
 {
     const bool old = options.version == 2.2;
     const MshContent content = msh_content(mesh, nodes);
@@ -426,9 +427,7 @@ void write(const mesh::HexMesh& mesh, const NodeReader& nodes, const std::vector
     for (const FieldReader& field : fields)
         add_field(sections, content, mesh::CellKinds(mesh), skin_cells, mesh.cell_count(), field,
                   options.binary);
-    WholeFile file(path);
-    write_sections(file, sections, options.binary ? Sizes::exact : Sizes::varying, context);
-    file.commit();
+    write_file(path, sections, options.binary ? Sizes::exact : Sizes::varying, context, team);
 }
 
 void check_version(const MshOptions& options)
@@ -448,11 +447,11 @@ void write_msh(const mesh::HexMesh& mesh, const OutputPath& path, const MshOptio
 }
 
 void write_msh(const mesh::LayeredMesh& layered, const OutputPath& path, const MshOptions& options,
-               const std::vector<LayeredField>& fields, const RunContext& context)
+               const std::vector<LayeredField>& fields, const RunContext& context, const Team* team)
 {
     check_version(options);
     const NodeReader nodes(layered, context);
-    write(layered.mesh, nodes, readers_of(layered, fields, context), path, options, context);
+    write(layered.mesh, nodes, readers_of(layered, fields, context, team), path, options, context, team);
 }
 
 } // namespace lacuna::io

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/node_reader.h>
 
+#include <lacuna/core/bytes.h>
+
 #include <algorithm>
 
 namespace lacuna::io {
@@ -19,7 +21,8 @@ NodeReader::NodeReader(const mesh::LayeredMesh& layered, const RunContext& conte
     });
 }
 
-FieldReader::FieldReader(const mesh::HexMesh& mesh, const LayeredField& field, const RunContext& context)
+FieldReader::FieldReader(const mesh::HexMesh& mesh, const LayeredField& field, const RunContext& context,
+                         const Team* team)
     : name_(field.name)
 {
     const int layers = mesh::layers_at_once(mesh);
@@ -31,20 +34,36 @@ FieldReader::FieldReader(const mesh::HexMesh& mesh, const LayeredField& field, c
     };
     cache_ = std::make_shared<LayerCache<double>>(values_of);
 
+    // Each part of the cells has the values of the quads before them; a team shares the parts.
     const std::vector<std::uint32_t> cells = cells_of_skin(mesh);
     skin_.resize(cells.size());
     const std::size_t all = columns * static_cast<std::size_t>(mesh.layers);
-    for (std::size_t part = 0; part * step_ < all; ++part) {
-        check_cancelled(context);
+    const std::size_t parts = (all + step_ - 1) / step_;
+    const auto each_quad = [&](std::size_t part, const auto& visit) {
         const std::size_t begin = part * step_, end = std::min(begin + step_, all);
-        const auto values = cache_->part(part);
-        const auto take = [&](std::size_t first, std::size_t last) {
+        const auto some = [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i)
-                if (cells[i] >= begin && cells[i] < end) skin_[i] = (*values)[cells[i] - begin];
+                if (cells[i] >= begin && cells[i] < end) visit(i, cells[i] - begin);
         };
-        if (begin == 0) take(0, columns);
-        if (end == all) take(columns, 2 * columns);
-        take(2 * columns + begin / columns * rim, 2 * columns + end / columns * rim);
+        if (begin == 0) some(0, columns);
+        if (end == all) some(columns, 2 * columns);
+        some(2 * columns + begin / columns * rim, 2 * columns + end / columns * rim);
+    };
+    const auto [own_begin, own_end] = share_of(team, parts);
+    Writer own;
+    for (std::size_t part = own_begin; part < own_end; ++part) {
+        check_cancelled(context);
+        const auto values = cache_->part(part);
+        each_quad(part, [&](std::size_t i, std::size_t cell) { skin_[i] = (*values)[cell]; });
+        if (team != nullptr) each_quad(part, [&](std::size_t i, std::size_t) { own(skin_[i]); });
+    }
+    if (team == nullptr) return;
+    const std::vector<std::string> all_said = gather(team, std::move(own).take());
+    for (std::size_t rank = 0; rank < all_said.size(); ++rank) {
+        Reader reader(all_said[rank]);
+        const auto [begin, end] = share_of(rank, all_said.size(), parts);
+        for (std::size_t part = begin; part < end; ++part)
+            each_quad(part, [&](std::size_t i, std::size_t) { reader(skin_[i]); });
     }
 }
 
@@ -55,12 +74,12 @@ std::vector<FieldReader> readers_of(const mesh::HexMesh& mesh, const std::vector
 }
 
 std::vector<FieldReader> readers_of(const mesh::LayeredMesh& layered, const std::vector<LayeredField>& fields,
-                                    const RunContext& context)
+                                    const RunContext& context, const Team* team)
 {
     std::set<std::string> names;
     for (const LayeredField& field : fields) check_field_name(field.name, names);
     std::vector<FieldReader> readers;
-    for (const LayeredField& field : fields) readers.emplace_back(layered.mesh, field, context);
+    for (const LayeredField& field : fields) readers.emplace_back(layered.mesh, field, context, team);
     return readers;
 }
 

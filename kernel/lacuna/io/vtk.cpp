@@ -224,26 +224,22 @@ std::vector<Section> vtk_sections(const Cells& cells, const NodeReader& nodes, c
 }
 
 void write_xml(const mesh::HexMesh& mesh, const NodeReader& nodes, const std::vector<FieldReader>& readers,
-               const OutputPath& path, const RunContext& context)
+               const OutputPath& path, const RunContext& context, const Team* team = nullptr)
 {
     const Fields fields(mesh, readers);
     const Cells cells(mesh);
     const std::vector<Section> sections = vtu_file(nodes.count(), cells.count(),
                                                    vtu_arrays(cells, nodes, fields), groups_of(mesh));
-    WholeFile file(path);
-    write_sections(file, sections, Sizes::exact, context);
-    file.commit();
+    write_file(path, sections, Sizes::exact, context, team);
 }
 
 void write_legacy(const mesh::HexMesh& mesh, const NodeReader& nodes, const std::vector<FieldReader>& readers,
-                  const OutputPath& path, bool binary, const RunContext& context)
+                  const OutputPath& path, bool binary, const RunContext& context, const Team* team = nullptr)
 {
     const Fields fields(mesh, readers);
     const Cells cells(mesh);
-    WholeFile file(path);
-    write_sections(file, vtk_sections(cells, nodes, fields, binary), binary ? Sizes::exact : Sizes::varying,
-                   context);
-    file.commit();
+    write_file(path, vtk_sections(cells, nodes, fields, binary), binary ? Sizes::exact : Sizes::varying,
+               context, team);
 }
 
 } // namespace
@@ -256,11 +252,11 @@ void write_vtu(const mesh::HexMesh& mesh, const OutputPath& path, const VtuOptio
 }
 
 void write_vtu(const mesh::LayeredMesh& layered, const OutputPath& path,
-               const std::vector<LayeredField>& fields, const RunContext& context)
+               const std::vector<LayeredField>& fields, const RunContext& context, const Team* team)
 {
     check_skin(layered.mesh);
     const NodeReader nodes(layered, context);
-    write_xml(layered.mesh, nodes, readers_of(layered, fields, context), path, context);
+    write_xml(layered.mesh, nodes, readers_of(layered, fields, context, team), path, context, team);
 }
 
 void write_vtk(const mesh::HexMesh& mesh, const OutputPath& path, const VtkOptions& options,
@@ -271,11 +267,12 @@ void write_vtk(const mesh::HexMesh& mesh, const OutputPath& path, const VtkOptio
 }
 
 void write_vtk(const mesh::LayeredMesh& layered, const OutputPath& path, const VtkOptions& options,
-               const std::vector<LayeredField>& fields, const RunContext& context)
+               const std::vector<LayeredField>& fields, const RunContext& context, const Team* team)
 {
     check_skin(layered.mesh);
     const NodeReader nodes(layered, context);
-    write_legacy(layered.mesh, nodes, readers_of(layered, fields, context), path, options.binary, context);
+    write_legacy(layered.mesh, nodes, readers_of(layered, fields, context, team), path, options.binary,
+                 context, team);
 }
 
 } // namespace lacuna::io

@@ -89,7 +89,7 @@ OutputPath OutputPath::below(const std::shared_ptr<const Folder>& folder, const 
     return result;
 }
 
-WholeFile::WholeFile(const OutputPath& path) : path_(path.text())
+WholeFile::WholeFile(const OutputPath& path, Naming naming) : path_(path.text())
 {
     if (path_.empty()) throw InvalidInput("io.no_path", "no file name was given to write to");
     if (path.folder_) {
@@ -114,7 +114,7 @@ WholeFile::WholeFile(const OutputPath& path) : path_(path.text())
         throw InvalidInput("io.not_a_file", "cannot write '" + path_ + "': it is a folder; add a file name");
     if (exists && !S_ISREG(before.st_mode))
         throw InvalidInput("io.not_a_file", "cannot write '" + path_ + "': it is not a plain file");
-    open_unnamed();
+    if (naming == Naming::none) open_unnamed();
     if (descriptor_ < 0) open_named();
     if (exists && ::fchmod(descriptor_, before.st_mode & 07777) != 0) fail(errno);
 }
@@ -148,6 +148,8 @@ WholeFile::~WholeFile()
     if (descriptor_ >= 0) ::close(descriptor_);
     if (!unfinished_.empty()) ::unlinkat(folder_->descriptor(), unfinished_.c_str(), 0);
 }
+
+std::string WholeFile::unfinished_path() const { return (fs::path(folder_->path()) / unfinished_).string(); }
 
 void WholeFile::fail(int error)
 {

@@ -60,9 +60,12 @@ private:
 /// then, and its mode is kept.
 class WholeFile {
 public:
+    /// Whether other processes open it too, which takes a name; one that is killed then leaves it behind.
+    enum class Naming { none, named };
+
     /// @throw InvalidInput  the folder does not exist, or the path is not that of a file.
     /// @throw BackendError  the folder cannot be written to.
-    explicit WholeFile(const OutputPath& path);
+    explicit WholeFile(const OutputPath& path, Naming naming = Naming::none);
     ~WholeFile();
     WholeFile(const WholeFile&) = delete;
     WholeFile& operator=(const WholeFile&) = delete;
@@ -72,6 +75,8 @@ public:
     void write_at(std::uint64_t offset, std::string_view bytes);
     /// Write bytes behind those appended so far.
     void append(std::string_view bytes);
+    /// Where it is meanwhile, beside its place. @pre it has a name
+    [[nodiscard]] std::string unfinished_path() const;
     /// Put the file in its place. @throw BackendError
     void commit();
 

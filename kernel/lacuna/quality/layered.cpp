@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/layered.h>
 
+#include <lacuna/core/bytes.h>
 #include <lacuna/quality/detail/coincident.h>
 #include <lacuna/quality/detail/findings.h>
 
@@ -28,6 +29,31 @@ std::vector<Slab> slabs_of(const HexMesh& mesh)
     return slabs;
 }
 
+/// What is found of slabs, as a team tells each other. One list of fields for writing and reading.
+template <class A, class Own>
+void put(A& with, Own& quality)
+{
+    with(quality.hexes), with(quality.wedges), with(quality.min_scaled_jacobian);
+    with(quality.mean_scaled_jacobian), with(quality.inverted), with(quality.uncertified);
+    with(quality.histogram), with(quality.volume);
+    put_each(with, quality.worst, [&](auto& cell) {
+        with(cell.cell), with(cell.layer), with(cell.centre), with(cell.scaled_jacobian);
+    });
+}
+
+/// Of all slabs in their order, where each of a team says something of its own slabs.
+template <class Value, class Read>
+std::vector<Value> gathered(const Team* team, Writer own, std::size_t count, const Read& read)
+{
+    std::vector<Value> all;
+    all.reserve(count);
+    for (const std::string& bytes : gather(team, std::move(own).take())) {
+        Reader reader(bytes);
+        while (!reader.is_empty()) all.push_back(read(reader));
+    }
+    return all;
+}
+
 /// Keep the worst of both, worst first.
 void add_worst(std::vector<WorstCell>& worst, std::vector<WorstCell> more)
 {
@@ -44,6 +70,7 @@ struct SlabBox {
     Eigen::Matrix3d frame; ///< its axes as rows
     Eigen::AlignedBox3d box;
 
+    SlabBox() = default;
     SlabBox(std::span<const Vec3> nodes, std::size_t row)
     {
         Vec3 way = Vec3::Zero();
@@ -230,38 +257,85 @@ Finding twins(const LayeredMesh& layered, const std::array<Index, 2>& pair, cons
     return coincident_nodes(name(pair[0]), name(pair[1]));
 }
 
-/// Every node is finite, and no two are in one place.
-Found check_nodes(const LayeredMesh& layered, const RunContext& context)
+/// Where a slab is, or that a node of it is nowhere.
+struct SlabPlace {
+    Index not_finite = -1; ///< a node; -1: none
+    Eigen::AlignedBox3d bounds;
+    SlabBox box;
+};
+
+template <class A, class Own>
+void put_place(A& with, Own& place)
+{
+    with(place.not_finite);
+    for (auto* box : {&place.bounds, &place.box.box})
+        for (auto* corner : {&box->min(), &box->max()}) with(*corner);
+    for (int d = 0; d < 9; ++d) with(place.box.frame.data()[d]);
+}
+
+SlabPlace place_of(const LayeredMesh& layered, const Slab& slab, std::vector<Vec3>& nodes,
+                   const RunContext& context)
+{
+    const std::size_t row = index(layered.mesh.nodes_per_layer);
+    nodes.resize(static_cast<std::size_t>(slab.last - slab.first + 1) * row);
+    layered.nodes.place(slab.first, slab.last + 1, nodes, context);
+    SlabPlace place;
+    place.bounds = finite_bounds(nodes, context);
+    if (place.bounds.isEmpty()) {
+        const auto wrong = std::find_if(nodes.begin(), nodes.end(),
+                                        [](const Vec3& p) { return !p.allFinite(); });
+        place.not_finite = static_cast<Index>(static_cast<std::size_t>(slab.first) * row) +
+                           static_cast<Index>(wrong - nodes.begin());
+        return place;
+    }
+    place.box = SlabBox(nodes, row);
+    return place;
+}
+
+Finding not_finite_node(const LayeredMesh& layered, Index node, const RunContext& context)
+{
+    const HexMesh& mesh = layered.mesh;
+    std::vector<Vec3> row(index(mesh.nodes_per_layer));
+    const int level = node / mesh.nodes_per_layer;
+    layered.nodes.place(level, level + 1, row, context);
+    return not_finite(node_name(row[index(node % mesh.nodes_per_layer)], node, mesh.nodes_per_layer,
+                                static_cast<std::size_t>(mesh.layers) + 1));
+}
+
+} // namespace
+
+std::optional<Finding> find_misplaced(const LayeredMesh& layered, const RunContext& context, const Team* team)
 {
     const HexMesh& mesh = layered.mesh;
     const std::size_t row = index(mesh.nodes_per_layer);
     const std::vector<Slab> slabs = slabs_of(mesh);
+    const auto [begin, end] = share_of(team, slabs.size());
+    std::vector<Vec3> nodes;
+    Writer own_places;
+    for (std::size_t s = begin; s < end; ++s) {
+        check_cancelled(context);
+        const SlabPlace place = place_of(layered, slabs[s], nodes, context);
+        put_place(own_places, place);
+    }
+    const auto places = gathered<SlabPlace>(team, std::move(own_places), slabs.size(), [](Reader& reader) {
+        SlabPlace place;
+        put_place(reader, place);
+        return place;
+    });
     std::vector<SlabBox> boxes;
     Eigen::AlignedBox3d bounds;
-    std::vector<Vec3> nodes;
-    for (const Slab& slab : slabs) {
-        check_cancelled(context);
-        nodes.resize(static_cast<std::size_t>(slab.last - slab.first + 1) * row);
-        layered.nodes.place(slab.first, slab.last + 1, nodes, context);
-        const Eigen::AlignedBox3d own = finite_bounds(nodes, context);
-        if (own.isEmpty()) {
-            const auto wrong = std::find_if(nodes.begin(), nodes.end(),
-                                            [](const Vec3& p) { return !p.allFinite(); });
-            const auto node = static_cast<Index>(static_cast<std::size_t>(slab.first) * row) +
-                              static_cast<Index>(wrong - nodes.begin());
-            return not_finite(
-                node_name(*wrong, node, mesh.nodes_per_layer, static_cast<std::size_t>(mesh.layers) + 1));
-        }
-        bounds.extend(own);
-        boxes.emplace_back(nodes, row);
+    for (const SlabPlace& place : places) {
+        if (place.not_finite >= 0) return not_finite_node(layered, place.not_finite, context);
+        bounds.extend(place.bounds);
+        boxes.push_back(place.box);
     }
     const double tolerance = coincidence_tolerance(bounds);
     std::optional<std::array<Index, 2>> least;
-    const auto take = [&](std::optional<std::array<Index, 2>> pair) {
+    const auto take = [&](const std::optional<std::array<Index, 2>>& pair) {
         if (pair && (!least || *pair < *least)) least = pair;
     };
     // A slab and the next one together: what it has in common with that before it was looked at with that.
-    for (std::size_t s = 0; s < slabs.size() && (s == 0 || s + 1 < slabs.size()); ++s) {
+    for (std::size_t s = begin; s < end && (s == 0 || s + 1 < slabs.size()); ++s) {
         check_cancelled(context);
         const int first = slabs[s].first, last = slabs[std::min(s + 1, slabs.size() - 1)].last;
         nodes.resize(static_cast<std::size_t>(last - first + 1) * row);
@@ -271,14 +345,21 @@ Found check_nodes(const LayeredMesh& layered, const RunContext& context)
             take(std::array<Index, 2>{(*pair)[0] + before, (*pair)[1] + before});
         }
     }
-    take(FarPairs(layered, slabs, std::move(boxes), bounds, tolerance, context).first());
+    // Bends that meet themselves are few: one looks for all.
+    if (begin == 0) take(FarPairs(layered, slabs, std::move(boxes), bounds, tolerance, context).first());
+    Writer own_pair;
+    if (least) own_pair(*least);
+    for (const auto& pair : gathered<std::array<Index, 2>>(team, std::move(own_pair), 1, [](Reader& reader) {
+             std::array<Index, 2> found;
+             reader(found);
+             return found;
+         }))
+        take(pair);
     if (!least) return std::nullopt;
     return twins(layered, *least, context);
 }
 
-} // namespace
-
-Quality measure(const LayeredMesh& layered, const RunContext& context)
+Quality measure(const LayeredMesh& layered, const RunContext& context, const Team* team)
 {
     const HexMesh& mesh = layered.mesh;
     Quality all;
@@ -286,12 +367,28 @@ Quality measure(const LayeredMesh& layered, const RunContext& context)
     HexMesh slab;
     slab.nodes_per_layer = mesh.nodes_per_layer;
     slab.quads = mesh.quads;
-    for (const Slab& part : slabs_of(mesh)) {
+    const std::vector<Slab> slabs = slabs_of(mesh);
+    const auto [begin, end] = share_of(team, slabs.size());
+    Writer own_found;
+    for (std::size_t s = begin; s < end; ++s) {
         check_cancelled(context);
+        const Slab part = slabs[s];
         slab.layers = part.last - part.first;
         slab.nodes.resize(mesh::corner_count(slab));
         layered.nodes.place(part.first, part.last + 1, slab.nodes, context);
         Quality own = measure(slab, context);
+        for (WorstCell& cell : own.worst) {
+            cell.cell += static_cast<std::size_t>(part.first) * mesh.quads.size();
+            cell.layer += part.first;
+        }
+        put(own_found, std::as_const(own));
+    }
+    // Summed in the order of the slabs, whoever measured them.
+    for (Quality& own : gathered<Quality>(team, std::move(own_found), slabs.size(), [](Reader& reader) {
+             Quality found;
+             put(reader, found);
+             return found;
+         })) {
         all.hexes += own.hexes;
         all.wedges += own.wedges;
         all.inverted += own.inverted;
@@ -299,10 +396,6 @@ Quality measure(const LayeredMesh& layered, const RunContext& context)
         all.volume += own.volume;
         sum += own.mean_scaled_jacobian * static_cast<double>(own.hexes + own.wedges);
         for (std::size_t b = 0; b < own.histogram.size(); ++b) all.histogram[b] += own.histogram[b];
-        for (WorstCell& cell : own.worst) {
-            cell.cell += static_cast<std::size_t>(part.first) * mesh.quads.size();
-            cell.layer += part.first;
-        }
         add_worst(all.worst, std::move(own.worst));
     }
     if (all.hexes + all.wedges == 0) return all;
@@ -311,8 +404,8 @@ Quality measure(const LayeredMesh& layered, const RunContext& context)
     return all;
 }
 
-Proof prove(const LayeredMesh& layered, Quality measured, double min_scaled_jacobian,
-            const RunContext& context)
+Proof prove(const LayeredMesh& layered, Quality measured, std::optional<Finding> misplaced,
+            double min_scaled_jacobian)
 {
     Proof proof;
     const auto found = [&](Found finding) {
@@ -322,7 +415,7 @@ Proof prove(const LayeredMesh& layered, Quality measured, double min_scaled_jaco
     if (found(check_arrays(layered.mesh, index(layered.mesh.nodes_per_layer)))) return proof;
     proof.quality = std::move(measured);
     if (!found(check_quality(proof.quality, min_scaled_jacobian, layered.mesh.layers)))
-        found(check_nodes(layered, context));
+        found(std::move(misplaced));
     return proof;
 }
 

@@ -20,7 +20,6 @@
 #include <lacuna/sweep/detail/mean_outline.h>
 #include <lacuna/sweep/detail/morph_ends.h>
 #include <lacuna/sweep/detail/normals.h>
-#include <lacuna/sweep/detail/placed_layers.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
 #include <lacuna/sweep/detail/size_words.h>
@@ -316,23 +315,19 @@ LayerNodes best_layers(const surface::SourceMesh& source, const Morphed& morphed
 /// they are placed.
 struct GoodLayers {
     PlacedLayers layers;
-    quality::Quality quality;
+    LayersFound found;
 };
 std::optional<GoodLayers> good_layers(const surface::SourceMesh& source, const Morphed& morphed,
                                       const RimColumns& columns, PlacementOptions placement,
                                       const SweepOptions& options, const RunContext& context)
 {
     placement.spread_residual = options.interior != Interior::affine;
-    GoodLayers good{placed_layers(source.quads, morphed.nodes, columns, placement), {}};
-    mesh::HexMesh mesh;
-    mesh.nodes_per_layer = static_cast<Index>(source.quads.nodes.size());
-    mesh.layers = columns.layers;
-    mesh.quads = source.quads.quads;
-    good.quality = quality::measure(mesh::LayeredMesh{mesh, good.layers.nodes}, context);
+    GoodLayers good{placed_layers(std::make_shared<const LayerPlan>(
+                        LayerPlan{source.quads, morphed.nodes, columns, placement})),
+                    {}};
     const double least = std::max(options.improving.good_enough, options.min_scaled_jacobian);
-    if (good.quality.inverted > 0 || good.quality.uncertified > 0 ||
-        !(good.quality.min_scaled_jacobian >= least))
-        return std::nullopt;
+    good.found = find_in_layers(good.layers, least, options.crew, context);
+    if (!good.found.good_enough) return std::nullopt;
     return good;
 }
 
@@ -462,6 +457,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     if (good) {
         layers = {source.quads.nodes, good->layers.placement, good->layers.report};
         result.layers = std::move(good->layers.nodes);
+        result.plan = std::move(good->layers.plan);
     } else {
         layers = best_layers(source, morphed, columns, placement, options, context);
     }
@@ -497,8 +493,8 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     std::set<FaceId> still = given_faces(volume, seeds.kept, options.wedges);
     if (options.beside.settle) still.merge(options.beside.settle(mesh, faces));
     quality::Proof proof =
-        good ? quality::prove(mesh::LayeredMesh{mesh, *result.layers}, std::move(good->quality),
-                              options.min_scaled_jacobian, context)
+        good ? quality::prove(mesh::LayeredMesh{mesh, *result.layers}, std::move(good->found.quality),
+                              std::move(good->found.misplaced), options.min_scaled_jacobian)
              : prove_or_improve(result, volume.model, faces, still, std::move(kept.held), options, context);
     const quality::Quality& quality = proof.quality;
     result.min_scaled_jacobian = quality.min_scaled_jacobian;

@@ -10,6 +10,7 @@
 #include <lacuna/surface/size_field.h>
 #include <lacuna/sweep/fidelity.h>
 #include <lacuna/sweep/improve.h>
+#include <lacuna/sweep/layer_plan.h>
 #include <lacuna/sweep/second_order.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -110,6 +111,7 @@ struct SweepOptions {
     Beside beside;                   ///< of volumes in an assembly, which sets it
     /// Whether the nodes of the layers may be left to be made when they are written: `Swept::layers`.
     bool layered = false;
+    const Crew* crew = nullptr; ///< others who help with layers that are left to be made; null: nobody
 };
 
 /// Whether options can be used, before any work is done. `sweep()` asks it itself; a host may ask first.
@@ -126,6 +128,7 @@ struct Swept {
     /// With `SweepOptions::layered`, where the layers came out good as they were placed: what makes the nodes
     /// that `mesh` does not hold. Proved and compared as all are.
     std::optional<mesh::LayeredNodes> layers;
+    std::shared_ptr<const LayerPlan> plan; ///< what `layers` are placed by
     double min_scaled_jacobian = 1;
     Fidelity fidelity;               ///< the skin against the sealed skin
     std::vector<FaceId> faces;       ///< of the volume's model, that of each patch of the skin

@@ -21,6 +21,8 @@ struct lua_State;
 
 namespace lacuna {
 
+struct Crew; // <lacuna/core/team.h>, of the kernel's headers
+
 /// A plain value of a recipe; std::monostate is nil, and stands for whatever is no plain value.
 using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
 
@@ -30,6 +32,7 @@ struct InterpreterOptions {
                                                       ///< to standard output
     std::function<void(std::string_view line)> log;   ///< notes of the kernel
     std::function<bool(std::string_view, double)> progress; ///< stage, share in [0, 1]; false stops the run
+    std::function<void()> ended;     ///< the stage told last is over; the recipe goes on
     std::function<bool()> cancelled; ///< asked every 10,000 instructions and before `progress`; true stops
 
     /// Most that Lua's own values may take, 0: no limit [bytes]. Meshes and models are not among them.
@@ -38,6 +41,7 @@ struct InterpreterOptions {
     bool sandbox = false;           ///< no os, io, debug, package or bytecode; files only as follows
     std::string output_folder;      ///< with `sandbox`: files are written below it alone; empty: nowhere
     int threads = 0;                ///< most that a sweep takes which asks for none itself; 0: all cores
+    const Crew* crew = nullptr;     ///< processes that help with layers that are written; null: none
     bool traceback = false;         ///< ScriptError::traceback is filled in
 };
 

@@ -8,10 +8,10 @@ _lacuna()
     COMPREPLY=()
     case $before in
         --output-dir) mapfile -t COMPREPLY < <(compgen -d -- "$word") && return ;;
-        --history) mapfile -t COMPREPLY < <(compgen -f -- "$word") && return ;;
+        --history | --timing) mapfile -t COMPREPLY < <(compgen -f -- "$word") && return ;;
         --memory | --seconds | --threads | -j) return ;;
     esac
-    local flags="--verbose --quiet --traceback --threads --help"
+    local flags="--verbose --quiet --traceback --threads --timing --help"
     case $command in
         help) mapfile -t COMPREPLY < <(compgen -W "info view check convert" -- "$word") && return ;;
         info | check) flags+=" --json" ;;

@@ -103,7 +103,9 @@ private:
 class FieldReader {
 public:
     explicit FieldReader(const CellField& field) : name_(field.name), values_(&field.values) {}
-    FieldReader(const mesh::HexMesh& mesh, const LayeredField& field, const RunContext& context);
+    /// @param team  who shares the making of values for the skin
+    FieldReader(const mesh::HexMesh& mesh, const LayeredField& field, const RunContext& context,
+                const Team* team);
 
     [[nodiscard]] const std::string& name() const { return name_; }
 
@@ -148,6 +150,6 @@ void check_field_name(const std::string& name, std::set<std::string>& names);
 /// @throw InvalidInput  as `check_fields()`
 std::vector<FieldReader> readers_of(const mesh::HexMesh& mesh, const std::vector<CellField>& fields);
 std::vector<FieldReader> readers_of(const mesh::LayeredMesh& layered, const std::vector<LayeredField>& fields,
-                                    const RunContext& context);
+                                    const RunContext& context, const Team* team);
 
 } // namespace lacuna::io

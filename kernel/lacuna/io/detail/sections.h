@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/core/team.h>
 #include <lacuna/io/whole_file.h>
 
 #include <cstddef>
@@ -23,10 +24,14 @@ struct Section {
 
 enum class Sizes { exact, varying };
 
-/// Write the sections one behind the other. Memory is bounded by a few buffers, whatever the file's size; the
-/// bytes are the same for any thread count.
-void write_sections(WholeFile& file, const std::vector<Section>& sections, Sizes sizes,
-                    const RunContext& context);
+/// Write a file of sections one behind the other, whole or not at all. Memory is bounded by a few buffers,
+/// whatever the file's size; the bytes are the same for any thread count. Progress is told in shares.
+///
+/// A team fills and writes a share of each section; it is rank 0's path that is written to. Of files whose
+/// records vary each fills its share twice, since it has to know how long those before it are.
+/// @throw  as `WholeFile`; TeamFailed
+void write_file(const OutputPath& path, const std::vector<Section>& sections, Sizes sizes,
+                const RunContext& context, const Team* team = nullptr);
 
 /// Bytes of a value as they lie in memory.
 template <class Value>

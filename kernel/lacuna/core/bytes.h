@@ -14,12 +14,13 @@
 #include <utility>
 #include <vector>
 
-namespace lacuna::cad_protocol {
+/// Values as bytes, for other processes of the same program on machines of one kind.
+namespace lacuna {
 
-/// What came over the wire is not what the protocol says.
+/// What came from another process is not what the protocol says.
 class ProtocolError : public Error {
 public:
-    explicit ProtocolError(const std::string& what) : Error("cad.protocol", what) {}
+    explicit ProtocolError(const std::string& what) : Error("core.protocol", what) {}
 };
 
 /// Values whose bytes are their meaning: numbers, and fixed arrays of numbers.
@@ -39,7 +40,8 @@ struct IsPlain<Vec3> : std::true_type {
 static_assert(std::endian::native == std::endian::little, "the wire is little-endian and never swapped");
 static_assert(sizeof(Vec2) == 2 * sizeof(double) && sizeof(Vec3) == 3 * sizeof(double));
 
-/// Puts values behind each other: numbers as they lie in memory, arrays and texts after their length.
+/// Puts values behind each other: numbers as they lie in memory, arrays and texts after their length. Arrays
+/// of other values go by `put(writer, value)` of their own namespace.
 class Writer {
 public:
     template <class T>
@@ -56,7 +58,12 @@ public:
         if constexpr (IsPlain<T>::value) {
             append(values.data(), values.size() * sizeof(T));
         } else {
-            for (const T& value : values) put(*this, value);
+            for (const T& value : values) {
+                if constexpr (requires { (*this)(value); })
+                    (*this)(value);
+                else
+                    put(*this, value);
+            }
         }
     }
     [[nodiscard]] std::string take() && { return std::move(bytes_); }
@@ -96,9 +103,16 @@ public:
             // Every element takes a byte at least, so the loop ends with the bytes.
             const std::size_t count = length(1);
             values.clear();
-            for (std::size_t i = 0; i < count; ++i) put(*this, values.emplace_back());
+            for (std::size_t i = 0; i < count; ++i) {
+                T& value = values.emplace_back();
+                if constexpr (requires { (*this)(value); })
+                    (*this)(value);
+                else
+                    put(*this, value);
+            }
         }
     }
+    [[nodiscard]] bool is_empty() const { return left_.empty(); }
     /// @throw ProtocolError  bytes are left over.
     void finish() const
     {
@@ -123,4 +137,14 @@ private:
     std::string_view left_;
 };
 
-} // namespace lacuna::cad_protocol
+/// An array, each of its values by its own fields: `put_one(value)`. One list of them writes and reads.
+template <class Archive, class Values, class PutOne>
+void put_each(Archive& with, Values& values, const PutOne& put_one)
+{
+    std::uint64_t count = values.size();
+    with(count);
+    if constexpr (!std::is_const_v<Values>) values.resize(count);
+    for (auto& value : values) put_one(value);
+}
+
+} // namespace lacuna

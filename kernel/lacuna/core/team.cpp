@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/core/team.h>
+
+#include <lacuna/core/bytes.h>
+
+#include <algorithm>
+#include <exception>
+
+namespace lacuna {
+
+namespace {
+
+// What is exchanged begins with a byte that says what it is.
+constexpr char kSaid = 's', kFailed = 'f';
+
+std::string failure(const std::string& code, const std::string& message)
+{
+    Writer writer;
+    writer(code), writer(message);
+    return kFailed + std::move(writer).take();
+}
+
+[[noreturn]] void rethrow(std::string_view said, std::size_t rank, std::size_t size)
+{
+    std::string code, message;
+    Reader reader(said.substr(1));
+    reader(code), reader(message);
+    throw TeamFailed(code,
+                     "process " + std::to_string(rank + 1) + " of " + std::to_string(size) + ": " + message);
+}
+
+} // namespace
+
+std::vector<std::string> gather(const Team* team, const std::string& own)
+{
+    if (team == nullptr) return {own};
+    std::vector<std::string> all = team->exchange(kSaid + own);
+    for (std::size_t rank = 0; rank < all.size(); ++rank)
+        if (all[rank].front() == kFailed) rethrow(all[rank], rank, all.size());
+    for (std::string& one : all) one.erase(0, 1);
+    return all;
+}
+
+void do_together(const Team* team, const std::function<void()>& work)
+{
+    if (team == nullptr) return work();
+    const auto tell = [&](const std::string& code, const std::string& message) {
+        static_cast<void>(team->exchange(failure(code, message)));
+    };
+    try {
+        work();
+        gather(team, {});
+    } catch (const TeamFailed& error) { // all know
+        if (error.code() == Cancelled().code()) throw Cancelled();
+        throw;
+    } catch (const Error& error) {
+        tell(error.code(), error.what());
+        throw;
+    } catch (const std::exception& error) {
+        tell("core.failed", error.what());
+        throw;
+    }
+}
+
+std::pair<std::size_t, std::size_t> share_of(std::size_t rank, std::size_t size, std::size_t count)
+{
+    const auto begin = [&](std::size_t r) { return r * (count / size) + std::min(r, count % size); };
+    return {begin(rank), begin(rank + 1)};
+}
+
+std::pair<std::size_t, std::size_t> share_of(const Team* team, std::size_t count)
+{
+    if (team == nullptr) return {0, count};
+    return share_of(static_cast<std::size_t>(team->rank), static_cast<std::size_t>(team->size), count);
+}
+
+} // namespace lacuna

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/mpi/detail/shared_file.h>
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <mutex>
+
+namespace lacuna::mpi {
+namespace {
+
+/// Counts of MPI are of 31 bits.
+constexpr std::size_t kMostAtOnce = std::size_t(1) << 30;
+
+class File : public SharedFile {
+public:
+    explicit File(const std::string& path) : path_(path)
+    {
+        // Each opens for itself: where one cannot, the others need not wait for it.
+        check(MPI_File_open(MPI_COMM_SELF, path.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file_),
+              "; every process must see the folder");
+    }
+    ~File() override
+    {
+        if (file_ != MPI_FILE_NULL) MPI_File_close(&file_);
+    }
+
+    void write_at(std::uint64_t offset, std::string_view bytes) override
+    {
+        const std::lock_guard<std::mutex> hold(lock_); // MPI is asked by one thread at a time
+        while (!bytes.empty()) {
+            const std::size_t count = std::min(bytes.size(), kMostAtOnce);
+            MPI_Status status;
+            check(MPI_File_write_at(file_, static_cast<MPI_Offset>(offset), bytes.data(),
+                                    static_cast<int>(count), MPI_BYTE, &status),
+                  "");
+            int written = 0;
+            MPI_Get_count(&status, MPI_BYTE, &written);
+            if (written <= 0) fail("the disk took nothing; make room, or name another");
+            offset += static_cast<std::uint64_t>(written);
+            bytes.remove_prefix(static_cast<std::size_t>(written));
+        }
+    }
+
+    void close() override { check(MPI_File_close(&file_), ""); }
+
+private:
+    void check(int code, const char* hint) const
+    {
+        if (code == MPI_SUCCESS) return;
+        char text[MPI_MAX_ERROR_STRING];
+        int length = 0;
+        MPI_Error_string(code, text, &length);
+        fail(std::string(text, static_cast<std::size_t>(length)) + hint);
+    }
+    [[noreturn]] void fail(const std::string& why) const
+    {
+        throw BackendError("io.write_failed",
+                           "cannot write '" + path_ + "': " + why + ". Nothing was left behind");
+    }
+
+    std::string path_;
+    MPI_File file_ = MPI_FILE_NULL;
+    std::mutex lock_;
+};
+
+} // namespace
+
+std::unique_ptr<SharedFile> open_shared(const std::string& path) { return std::make_unique<File>(path); }
+
+} // namespace lacuna::mpi

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/layer_plan.h>
+
+#include <lacuna/quality/layered.h>
+#include <lacuna/sweep/detail/layer_placer.h>
+
+#include <memory>
+#include <utility>
+
+namespace lacuna::sweep {
+
+namespace {
+
+/// A plan and what it is placed by.
+struct Placed {
+    std::shared_ptr<const LayerPlan> plan;
+    std::vector<Index> on_rim; ///< of each source node, its place on the rim; -1: inside
+    LayerPlacer placer;
+
+    explicit Placed(std::shared_ptr<const LayerPlan> own)
+        : plan(std::move(own)),
+          on_rim(plan->source.nodes.size(), -1),
+          placer(plan->source, plan->target, plan->columns, plan->options)
+    {
+        const std::vector<Index>& rim = plan->columns.rim;
+        for (std::size_t k = 0; k < rim.size(); ++k) on_rim[index(rim[k])] = static_cast<Index>(k);
+    }
+
+    [[nodiscard]] Vec3 on_skin(Index node) const
+    {
+        const auto row = static_cast<Index>(plan->source.nodes.size());
+        const int level = node / row;
+        const std::size_t at = index(node % row);
+        if (on_rim[at] >= 0) return plan->columns.row(level)[index(on_rim[at])];
+        return level == 0 ? plan->source.nodes[at] : plan->target[at];
+    }
+};
+
+template <class A, class Plan>
+void put_plan(A& with, Plan& plan, std::int8_t& straight, std::int8_t& spread)
+{
+    with(plan.source.nodes), with(plan.source.quads), with(plan.source.loops), with(plan.target);
+    with(plan.columns.layers), with(plan.columns.rim), with(plan.columns.points);
+    with(plan.options.heights), with(straight), with(spread);
+}
+
+/// What each of a team does.
+LayersFound find_in_share(const PlacedLayers& layers, double least, const Team* team,
+                          const RunContext& context)
+{
+    mesh::HexMesh mesh;
+    mesh.nodes_per_layer = static_cast<Index>(layers.plan->source.nodes.size());
+    mesh.layers = layers.plan->columns.layers;
+    mesh.quads = layers.plan->source.quads;
+    const mesh::LayeredMesh layered{mesh, layers.nodes};
+    LayersFound found;
+    found.quality = quality::measure(layered, context, team);
+    found.good_enough = found.quality.inverted == 0 && found.quality.uncertified == 0 &&
+                        found.quality.min_scaled_jacobian >= least;
+    if (found.good_enough) found.misplaced = quality::find_misplaced(layered, context, team);
+    return found;
+}
+
+} // namespace
+
+PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan)
+{
+    const auto placed = std::make_shared<const Placed>(plan);
+    PlacedLayers result;
+    result.plan = std::move(plan);
+    result.placement = placed->placer.placement();
+    result.report = placed->placer.report();
+    result.nodes.place = [placed](int first, int last, std::span<Vec3> out, const RunContext& context) {
+        placed->placer.place(first, last, out, context);
+    };
+    result.nodes.on_skin = [placed](Index node) { return placed->on_skin(node); };
+    return result;
+}
+
+void put(Writer& writer, const LayerPlan& plan)
+{
+    auto straight = static_cast<std::int8_t>(plan.options.straight_lines),
+         spread = static_cast<std::int8_t>(plan.options.spread_residual);
+    put_plan(writer, plan, straight, spread);
+}
+
+void put(Reader& reader, LayerPlan& plan)
+{
+    std::int8_t straight = 0, spread = 0;
+    put_plan(reader, plan, straight, spread);
+    plan.options.straight_lines = straight != 0;
+    plan.options.spread_residual = spread != 0;
+}
+
+LayersFound find_in_layers(const PlacedLayers& layers, double least, const Crew* crew,
+                           const RunContext& context)
+{
+    if (crew == nullptr) return find_in_share(layers, least, nullptr, context);
+    Writer writer;
+    put(writer, *layers.plan), writer(least);
+    const Team& team = crew->call(kLayersTask, std::move(writer).take());
+    LayersFound found;
+    do_together(&team, [&] { found = find_in_share(layers, least, &team, context); });
+    return found;
+}
+
+void help_find_in_layers(const std::string& bytes, const Team& team, const RunContext& context)
+{
+    auto plan = std::make_shared<LayerPlan>();
+    double least = 0;
+    Reader reader(bytes);
+    put(reader, *plan), reader(least);
+    reader.finish();
+    static_cast<void>(find_in_share(placed_layers(std::move(plan)), least, &team, context));
+}
+
+} // namespace lacuna::sweep

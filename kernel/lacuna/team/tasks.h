@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/core/team.h>
+#include <lacuna/io/whole_file.h>
+#include <lacuna/mesh/layered_nodes.h>
+#include <lacuna/quality/metrics.h>
+#include <lacuna/sweep/layer_plan.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What a crew does together: each the layers that are its share. Nothing that is sent grows with the cells.
+namespace lacuna::team {
+
+/// How a layered mesh is written.
+struct LayeredFile {
+    bool binary = true;
+    double version = 4.1;                   ///< of .msh
+    std::vector<quality::Metric> quality{}; ///< fields of cells
+};
+
+/// Whether files of an ending (".msh") are written a layer at a time.
+bool is_layered(const std::string& ending);
+/// Whether a metric can be made so; not where it compares each cell with the mean of all.
+bool is_layered(quality::Metric metric);
+
+/// Write a mesh whose nodes are made as they are written, in the format that the path's ending says: with a
+/// crew, where there is one.
+/// @param plan  what the layers are placed by.
+/// @pre  is_layered() of the ending and of the metrics
+/// @throw  as `io::write_msh()`; TeamFailed
+void write_layered(const mesh::LayeredMesh& layered, const sweep::LayerPlan& plan, const io::OutputPath& path,
+                   const LayeredFile& file, const Crew* crew, const RunContext& context);
+
+/// Do one's part of a task that a crew was called to.
+/// @throw  what went wrong; all of the team know of it.
+void help(std::string_view task, const std::string& bytes, const Team& team, const RunContext& context);
+
+} // namespace lacuna::team
