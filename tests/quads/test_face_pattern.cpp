@@ -202,6 +202,39 @@ TEST_CASE("a round corner takes one irregular node, wherever corners are round")
     }
 }
 
+TEST_CASE("a corner cut off at 45 degrees takes one irregular node, and no quad has its whole angle")
+{
+    // One corner, two neighbours or all four: with others sides that face each other have unlike numbers.
+    for (const int cuts : {1, 2, 3, 4, 6, 8, 9, 12, 15}) {
+        CAPTURE(cuts);
+        // Each cut goes from a third of a side of 0.6 to the other, so that sides are about 0.2 long.
+        Outline outline;
+        std::size_t count = 0;
+        const std::array<Vec2, 4> corner{Vec2(0, 0), Vec2(3, 0), Vec2(3, 2), Vec2(0, 2)};
+        std::vector<Vec2> ends;
+        for (std::size_t c = 0; c < 4; ++c) {
+            const Vec2 back = (corner[(c + 3) % 4] - corner[c]).normalized(),
+                       ahead = (corner[(c + 1) % 4] - corner[c]).normalized();
+            if (((cuts >> c) & 1) == 0) {
+                ends.push_back(corner[c]);
+                continue;
+            }
+            ++count;
+            ends.emplace_back(corner[c] + 0.6 * back);
+            ends.emplace_back(corner[c] + 0.6 * ahead);
+        }
+        for (std::size_t e = 0; e < ends.size(); ++e) {
+            const Vec2 &a = ends[e], &b = ends[(e + 1) % ends.size()];
+            // As many sides along a cut as its corner would have had on both of its sides.
+            const bool is_cut = std::abs((b - a).x()) > 0.1 && std::abs((b - a).y()) > 0.1;
+            const int sides = is_cut ? 4 : static_cast<int>(std::lround((b - a).norm() / 0.2));
+            for (int i = 0; i < sides; ++i) outline.emplace_back(a + (b - a) * i / sides);
+        }
+        if (outline.size() % 2 != 0) continue;
+        check_pattern(region_of({outline}, 0.2), count, 0.72);
+    }
+}
+
 TEST_CASE("holes take four irregular nodes each, in straight grids and in rings")
 {
     std::vector<Outline> plate{rounded({3, 1}, {0, 0, 0, 0}, 0.1)};

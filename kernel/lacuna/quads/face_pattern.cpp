@@ -153,6 +153,7 @@ struct FacePattern {
     int rows = 1;          ///< between a loop and the corners that the grid has along its round parts
     int steps = 0;         ///< rows by which the outer loop of a ring steps in where the ring is narrow
     int corners = 0;       ///< nodes at which rows of a ring change their number of sides
+    HalfEnds half = HalfEnds::soft;
 };
 
 class PatternFiller {
@@ -199,7 +200,8 @@ private:
 
     bool head(std::size_t l, const LoopFrame& frame, double weight, int turns)
     {
-        auto headed = head_loop(region_.points, region_.loops[l], frame, weight, pattern_.rows);
+        auto headed = head_loop(region_.points, region_.loops[l], frame, weight, pattern_.rows,
+                                pattern_.half);
         if (!headed) return false;
         loops_[l] = std::move(*headed);
         soft_ += std::count(loops_[l].movable.begin(), loops_[l].movable.end(), 1);
@@ -368,42 +370,113 @@ std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const Size& si
     return patterns;
 }
 
-/// Whether no other way need be tried: all quads are nearly square. Choices, not measurements.
-bool is_fine(const PlanarQuads& mesh, const PlanarRegion& region)
+/// Whether no other way need be tried: all quads are nearly square, of the size asked, and rows along the
+/// boundary as high. Choices, not measurements.
+bool is_fine(const PlanarQuads& mesh, const PlanarRegion& region, double rows)
 {
-    constexpr double kLeast = 0.75, kMean = 0.92;
+    constexpr double kLeast = 0.75, kMean = 0.92, kSizes = 0.95;
     const PlaneQuality quality = measure_plane(mesh, region);
-    return quality.min_scaled_jacobian > kLeast && quality.mean_scaled_jacobian > kMean;
+    return quality.min_scaled_jacobian > kLeast && quality.mean_scaled_jacobian > kMean &&
+           quality.size_share() > kSizes && quality.row_share() >= rows;
 }
+
+/// Whether a mesh has as many quads as asked for, a quarter more or less: what is promised.
+bool has_quads_asked(const PlanarQuads& mesh, const Size& size)
+{
+    constexpr double kOff = 0.25;
+    double asked = 0;
+    for (const Quad& quad : mesh.quads) {
+        const Vec2 &a = point(mesh.points, quad[0]), &b = point(mesh.points, quad[1]),
+                   &c = point(mesh.points, quad[2]), &d = point(mesh.points, quad[3]);
+        const double length = size((a + b + c + d) / 4);
+        asked += paving::cross(c - a, d - b) / 2 / (length * length);
+    }
+    return std::abs(static_cast<double>(mesh.quads.size()) - asked) <= kOff * asked;
+}
+
+/// Tries ways to fill a region, the likeliest first, for as long as there is something to gain.
+class PatternTrial {
+public:
+    PatternTrial(const PlanarRegion& region, const Size& size, const RunContext& context)
+        : region_(region), size_(size), context_(context), has_half_ends_(has_half_ends(region))
+    {
+    }
+
+    void run()
+    {
+        for (std::size_t l = 1; l < region_.loops.size() && !is_fine_; ++l) try_round(l);
+        if (!is_fine_) try_straight(HalfEnds::soft);
+        if (!is_square_ && has_half_ends_) try_straight(HalfEnds::hard);
+    }
+
+    /// The meshes, where ends of 135° were a choice those with as many quads as asked for, if there are any.
+    std::vector<PlanarQuads> take()
+    {
+        std::vector<PlanarQuads> fit;
+        for (std::size_t i = 0; i < made_.size(); ++i) {
+            if (fits_[i]) fit.push_back(std::move(made_[i]));
+        }
+        return fit.empty() ? std::move(made_) : std::move(fit);
+    }
+
+private:
+    /// With lines round a hole.
+    void try_round(std::size_t about)
+    {
+        const PatternFiller like = fill({about, 1});
+        if (like.more_sides() % 2 != 0 || like.more_sides() == 0 || !like.may_change()) return;
+        for (const FacePattern& unlike : unlike_rings(region_, size_, about, like.more_sides())) {
+            fill(unlike);
+            if (is_square_) return;
+        }
+    }
+
+    /// With straight lines.
+    void try_straight(HalfEnds half)
+    {
+        constexpr int kMostRows = 3; // deeper turns gain nothing; a choice
+        for (int rows = 1; rows <= kMostRows && !is_fine_; ++rows) {
+            const PatternFiller filler = fill({0, rows, 0, 0, half});
+            if (filler.turns() == 0) return; // more rows change nothing
+        }
+    }
+
+    PatternFiller fill(const FacePattern& pattern)
+    {
+        check_cancelled(context_);
+        PatternFiller filler(region_, pattern, size_);
+        if (auto mesh = filler.run(context_)) {
+            constexpr double kRows = 0.95; // of the boundary's sides; what is promised
+            made_.push_back(std::move(*mesh));
+            fits_.push_back(!has_half_ends_ || has_quads_asked(made_.back(), size_) ? 1 : 0);
+            if (fits_.back()) {
+                is_square_ = is_square_ || quads::is_fine(made_.back(), region_, 0);
+                is_fine_ = is_fine_ || quads::is_fine(made_.back(), region_, kRows);
+            }
+        }
+        return filler;
+    }
+
+    const PlanarRegion& region_;
+    const Size& size_;
+    const RunContext& context_;
+    std::vector<PlanarQuads> made_;
+    std::vector<char> fits_; ///< whether each has as many quads as asked for, where that decides
+    const bool has_half_ends_;
+    bool is_square_ = false; ///< some mesh has nearly square quads
+    bool is_fine_ = false;   ///< and good rows as well
+};
 
 } // namespace
 
 std::vector<PlanarQuads> fill_patterns(const PlanarRegion& region, const RunContext& context)
 {
-    std::vector<FacePattern> patterns;
-    for (std::size_t l = 1; l < region.loops.size(); ++l) patterns.push_back({l, 1});
-    constexpr int kMostRows = 3; // deeper turns gain nothing; a choice
-    for (int rows = 1; rows <= kMostRows; ++rows) patterns.push_back({0, rows});
     // Sides of a ring may be 1 / 0.6 times as long as asked, or as short, and rows still of the size asked.
     constexpr double kGrading = 0.3, kAlike = 1.75;
     const Size size = paving::size_with_boundary(region, kGrading, kAlike);
-    std::vector<PlanarQuads> made;
-    for (const FacePattern& pattern : patterns) {
-        check_cancelled(context);
-        PatternFiller filler(region, pattern, size);
-        if (auto mesh = filler.run(context)) made.push_back(std::move(*mesh));
-        if (filler.more_sides() % 2 == 0 && filler.more_sides() != 0 && filler.may_change()) {
-            for (const FacePattern& unlike : unlike_rings(region, size, pattern.about, filler.more_sides())) {
-                PatternFiller changing(region, unlike, size);
-                auto mesh = changing.run(context);
-                if (!mesh) continue;
-                made.push_back(std::move(*mesh));
-                if (is_fine(made.back(), region)) break;
-            }
-        }
-        if (filler.turns() == 0 && pattern.about == 0) break; // more rows change nothing
-    }
-    return made;
+    PatternTrial trial(region, size, context);
+    trial.run();
+    return trial.take();
 }
 
 } // namespace lacuna::quads

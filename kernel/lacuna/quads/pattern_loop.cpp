@@ -16,9 +16,11 @@ namespace {
 using paving::kRightAngle;
 using paving::turn_between;
 
-/// A turn is soft where the boundary's own differs from it by more than this [right angles]: as
-/// `kCornerBelow`, half way between two turns. A choice, not a measurement.
-constexpr double kSoft = 0.5 + 1e-9;
+/// A turn is soft where the boundary's own differs from it by more than this [right angles]. At an end one
+/// quad has the whole angle, so half way to a side is the most, 135° or a sine of 0.7. Three quads share a
+/// corner, so there the limit is the bar's of `least_irregular()`: each has 0.8 right angles. Choices, not
+/// measurements.
+constexpr double kSoftEnd = 0.5 + 1e-9, kSoftHalf = 0.49, kSoftCorner = 0.65;
 
 double square(double x) { return x * x; }
 
@@ -309,8 +311,21 @@ double main_angle(const PlanarRegion& region)
     return std::atan2(first.y(), first.x());
 }
 
+bool has_half_ends(const PlanarRegion& region)
+{
+    for (const auto& loop : region.loops) {
+        const std::size_t n = loop.size();
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto at = [&](std::size_t k) -> const Vec2& { return point(region.points, loop[k % n]); };
+            const double off = turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i)) / kRightAngle - 1;
+            if (off > kSoftHalf && off <= kSoftEnd) return true;
+        }
+    }
+    return false;
+}
+
 std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::vector<Index>& loop,
-                                     const LoopFrame& frame, double side_weight, int rows)
+                                     const LoopFrame& frame, double side_weight, int rows, HalfEnds half)
 {
     const LoopAngles angles = angles_of(points, loop, frame);
     HeadingSearch search(angles, side_weight);
@@ -326,7 +341,8 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
     if (headed.heading.empty()) return std::nullopt;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const int turn = headed.turn(i);
-        const bool soft = turn != 0 && std::abs(angles.turn[i] - turn) > kSoft;
+        const double limit = turn < 0 ? kSoftCorner : half == HalfEnds::hard ? kSoftEnd : kSoftHalf;
+        const bool soft = turn != 0 && std::abs(angles.turn[i] - turn) > limit;
         headed.soft.push_back(soft ? rows : 0);
         headed.movable.push_back(soft ? 1 : 0);
     }

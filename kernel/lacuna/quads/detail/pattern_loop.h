@@ -47,6 +47,15 @@ struct PatternLoop {
     }
 };
 
+/// What becomes of ends of 135°, half way to a side.
+enum class HalfEnds {
+    soft, ///< the grid turns behind a row, in a node of three quads
+    hard, ///< one quad has the whole angle
+};
+
+/// Whether a region's boundary has such ends.
+bool has_half_ends(const PlanarRegion& region);
+
 /// Give every side of a loop a heading.
 ///
 /// The headings are those of least cost, found by dynamic programming: every side costs the square of its
@@ -55,7 +64,8 @@ struct PatternLoop {
 /// @param rows  to be laid where a turn is soft.
 /// @return nothing where corners are so sharp that no headings suit them.
 std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::vector<Index>& loop,
-                                     const LoopFrame& frame, double side_weight, int rows);
+                                     const LoopFrame& frame, double side_weight, int rows,
+                                     HalfEnds half = HalfEnds::soft);
 
 /// Weights of a side's deviation. Where the grid goes round a hole the angles decide, for a slot's sides run
 /// across any circle: `kRoundWeight` is for all sides in sum. Choices, not measurements.
