@@ -185,6 +185,8 @@ void serve(Channel& channel, const std::string& missing)
             if (request.opcode != Opcode::release) channel.send(Opcode::done, reply);
         } catch (const ChannelClosed&) {
             return;
+        } catch (const ProtocolError& error) {
+            failed(Failure::backend, "cad.protocol", error.what());
         } catch (const InvalidInput& error) {
             failed(Failure::invalid_input, error.code(), error.what());
         } catch (const NotSweepable& error) {
