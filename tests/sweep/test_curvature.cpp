@@ -226,6 +226,31 @@ TEST_CASE("options of curvature, gap and deviation that mean nothing are refused
     CHECK(refused([](SweepOptions& o) { o.max_deviation = std::nan(""); }) == "sweep.max_deviation");
 }
 
+TEST_CASE("round walls are swept without a turn, though the diagonals of their facets all run one way")
+{
+    for (const double taper : {1.0, 0.6, 0.3, 1.5}) {
+        for (const int holes : {0, 1}) {
+            CAPTURE(taper);
+            CAPTURE(holes);
+            const auto volume = test::sealed({.sides = 0,
+                                              .height = 4,
+                                              .holes = holes,
+                                              .hole_sides = 0,
+                                              .cuts = 4,
+                                              .levels = 12,
+                                              .taper = taper});
+            const Swept swept = swept_valid(volume, coarse(5.0, 8, 4));
+            const auto layer = static_cast<std::size_t>(swept.mesh.nodes_per_layer);
+            for (const Segment& side : swept.mesh.rim) {
+                const Vec3& low = swept.mesh.nodes[index(side[0])];
+                const Vec3& high = swept.mesh.nodes[index(side[0]) + 4 * layer];
+                CHECK(low.head<2>().normalized().dot(high.head<2>().normalized()) >
+                      std::cos(std::numbers::pi / 180));
+            }
+        }
+    }
+}
+
 TEST_CASE("elbows and cones with holes are swept with eight sides for a full turn")
 {
     int shapes = 0;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -36,6 +37,14 @@ double half_tangent(const Vec3& a, const Vec3& b)
     return std::max(numerator / denominator, kHalfDigits);
 }
 
+/// cot(angle) between two sides, kept away from infinity.
+double cotangent(const Vec3& a, const Vec3& b)
+{
+    const double product = a.norm() * b.norm();
+    if (!(product > 0)) return 1;
+    return a.dot(b) / std::max(a.cross(b).norm(), kHalfDigits * product);
+}
+
 /// One neighbour's part in a point's mean.
 struct Weight {
     Index from, to;
@@ -43,9 +52,27 @@ struct Weight {
     double value;
 };
 
-/// The weights of every corner of every triangle, as they come.
+/// Of each point, whether it lies on a border of the triangles: there a neighbour is met once, not twice.
+std::vector<bool> on_border(const HarmonicProblem& problem)
+{
+    std::vector<std::uint32_t> met(problem.points.size(), 0); // every neighbour met twice leaves nothing
+    for (const Triangle& t : problem.triangles) {
+        for (std::size_t i = 0; i < 3; ++i)
+            met[index(t[i])] ^= static_cast<std::uint32_t>(t[(i + 1) % 3]) ^
+                                static_cast<std::uint32_t>(t[(i + 2) % 3]);
+    }
+    std::vector<bool> border;
+    border.reserve(met.size());
+    for (const std::uint32_t left : met) border.push_back(left != 0);
+    return border;
+}
+
+/// The weights of every corner of every triangle, as they come: mean value weights, and at borders cotangents.
+/// The mean of what lies on one side of a border would lean as the facets' diagonals do there; with cotangents
+/// nothing flows over it.
 std::vector<Weight> corner_weights(const HarmonicProblem& problem)
 {
+    const std::vector<bool> border = on_border(problem);
     std::vector<Weight> weights;
     weights.reserve(6 * problem.triangles.size());
     for (std::size_t t = 0; t < problem.triangles.size(); ++t) {
@@ -59,6 +86,13 @@ std::vector<Weight> corner_weights(const HarmonicProblem& problem)
         const double longest = std::max({side[0], side[1], side[2]});
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+            if (problem.least_energy || border[index(triangle[i])]) {
+                weights.push_back(
+                    {triangle[i], triangle[j], turns[j] - turns[i], cotangent(p[i] - p[k], p[j] - p[k])});
+                weights.push_back(
+                    {triangle[i], triangle[k], turns[k] - turns[i], cotangent(p[i] - p[j], p[k] - p[j])});
+                continue;
+            }
             const double tangent = half_tangent(p[j] - p[i], p[k] - p[i]);
             // Three points in one place are as near to each other as to anything.
             const auto add = [&](std::size_t to, double distance) {
@@ -138,9 +172,10 @@ std::vector<Weight> by_point(const std::vector<Weight>& weights, std::size_t poi
     return sorted;
 }
 
-/// Scale each point's weights, which are together, to the sum 1, none below what rounding can bear.
+/// Scale each point's weights, which are together, to the sum 1.
+/// @param positive  none is left below what rounding can bear
 /// @return  what the sum was, of each point
-std::vector<double> normalise(std::vector<Weight>& weights, std::size_t points)
+std::vector<double> normalise(std::vector<Weight>& weights, std::size_t points, bool positive)
 {
     std::vector<double> sums(points, 1);
     for (auto begin = weights.begin(); begin != weights.end();) {
@@ -148,7 +183,10 @@ std::vector<double> normalise(std::vector<Weight>& weights, std::size_t points)
                                       [&](const Weight& w) { return w.from != begin->from; });
         double largest = 0, sum = 0;
         for (auto w = begin; w != end; ++w) largest = std::max(largest, w->value);
-        for (auto w = begin; w != end; ++w) sum += w->value = std::max(w->value, kHalfDigits * largest);
+        for (auto w = begin; w != end; ++w) {
+            if (positive) w->value = std::max(w->value, kHalfDigits * largest);
+            sum += w->value;
+        }
         for (auto w = begin; w != end; ++w) w->value /= sum;
         sums[index(begin->from)] = sum;
         begin = end;
@@ -225,7 +263,7 @@ Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext&
     if (size == 0 || columns == 0) return values;
 
     std::vector<Weight> weights = by_point(corner_weights(problem), problem.points.size());
-    const std::vector<double> sums = normalise(weights, problem.points.size());
+    const std::vector<double> sums = normalise(weights, problem.points.size(), !problem.least_energy);
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(weights.size() + point_of.size());
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(size, columns);
@@ -244,7 +282,8 @@ Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext&
         Eigen::VectorXd row_sums(size);
         for (Index row = 0; row < size; ++row) row_sums[row] = sums[index(point_of[index(row)])];
         if (auto found = solve_by_multigrid(entries, right, row_sums, context)) {
-            if (problem.corner_turns.empty()) keep_in_range(problem.fixed_values, *found);
+            if (problem.corner_turns.empty() && !problem.least_energy)
+                keep_in_range(problem.fixed_values, *found);
             for (Index row = 0; row < size; ++row) values.row(point_of[index(row)]) = found->row(row);
             return values;
         }

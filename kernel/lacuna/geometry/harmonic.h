@@ -16,6 +16,9 @@ namespace lacuna::geometry {
 /// positive whatever the triangles' shapes. So no value leaves the range of the fixed ones, and a disc whose
 /// rim is fixed round a convex outline in order is mapped one to one (Tutte). Where the triangles lie in a
 /// plane, linear functions are reproduced.
+///
+/// Free points of a border have cotangent weights, none below zero: values leave it square (Neumann's natural
+/// condition), whichever way the diagonals of the triangles run.
 struct HarmonicProblem {
     std::span<const Vec3> points; ///< the whole model's may be given: those no triangle uses take no part
     std::span<const Triangle> triangles; ///< either way round
@@ -27,6 +30,11 @@ struct HarmonicProblem {
     /// a triangle that straddles the cut have different turns; all others may stay 0. Empty: all zero.
     std::vector<std::array<int, 3>> corner_turns;
     Eigen::RowVectorXd period; ///< k numbers; read only where there are corner_turns
+
+    /// Cotangent weights everywhere, of either sign: least Dirichlet energy. Mean value weights lean as diagonals
+    /// do that all run one way, however fine the triangles; these do not, but values may leave the range of the
+    /// fixed ones.
+    bool least_energy = false;
 };
 
 /// Solve for all points, k values each.

@@ -88,6 +88,7 @@ Eigen::MatrixXd natural_coordinate(const Model& model, const LinkingFacets& face
     }
     problem.corner_turns = geometry::turns_along(facets.triangles, cut);
     problem.period = Eigen::RowVectorXd::Ones(1);
+    problem.least_energy = true;
     return geometry::solve_harmonic(problem);
 }
 
