@@ -300,4 +300,56 @@ for _, above in ipairs { { { 10, 8, 22 }, { 24, 20, 30 } }, { { 12, 4, 22 }, { 2
   check.that(fine or tostring(why):find "face %d+", tostring(why))
 end
 
+--- The skin of cells of a grid, those of `taken` left out, a face for each plane and side; and its volume.
+local function room(x, y, z, taken)
+  local function free(i, j, k)
+    return x[i] and x[i + 1] and y[j] and y[j + 1] and z[k] and z[k + 1] and i > 0 and j > 0 and k > 0
+      and not taken[i .. j .. k]
+  end
+  local faces, order, volume = {}, {}, 0
+  local function quad(name, points)
+    if not faces[name] then
+      faces[name] = { points = {}, cells = {} }
+      order[#order + 1] = name
+    end
+    local face = faces[name]
+    local first = #face.points
+    for _, p in ipairs(points) do face.points[#face.points + 1] = p end
+    face.cells[#face.cells + 1] = { first + 1, first + 2, first + 3, first + 4 }
+  end
+  for i = 1, #x - 1 do for j = 1, #y - 1 do for k = 1, #z - 1 do
+    if free(i, j, k) then
+      local a, b, c, A, B, C = x[i], y[j], z[k], x[i + 1], y[j + 1], z[k + 1]
+      volume = volume + (A - a) * (B - b) * (C - c)
+      if not free(i - 1, j, k) then quad("x" .. a, { { a, b, c }, { a, b, C }, { a, B, C }, { a, B, c } }) end
+      if not free(i + 1, j, k) then quad("X" .. A, { { A, b, c }, { A, B, c }, { A, B, C }, { A, b, C } }) end
+      if not free(i, j - 1, k) then quad("y" .. b, { { a, b, c }, { A, b, c }, { A, b, C }, { a, b, C } }) end
+      if not free(i, j + 1, k) then quad("Y" .. B, { { a, B, c }, { a, B, C }, { A, B, C }, { A, B, c } }) end
+      if not free(i, j, k - 1) then quad("z" .. c, { { a, b, c }, { a, B, c }, { A, B, c }, { A, b, c } }) end
+      if not free(i, j, k + 1) then quad("Z" .. C, { { a, b, C }, { A, b, C }, { A, B, C }, { a, B, C } }) end
+    end
+  end end end
+  local model = lacuna.model()
+  for _, name in ipairs(order) do
+    model:add_face { name = name, points = faces[name].points, cells = faces[name].cells }
+  end
+  return model, volume, order
+end
+
+-- What stands at a wall or in a corner leaves columns of several lengths side by side. The layers asked for
+-- are those of the longest, with roles and without, the lid given or not.
+for _, taken in ipairs { { ["121"] = true }, { ["111"] = true }, { ["111"] = true, ["121"] = true } } do
+  for _, lid in ipairs { true, false } do
+    local whole, volume, names = room({ 0, 3, 8 }, { 0, 2, 4, 6 }, { 0, 2, 5 }, taken)
+    local faces = {}
+    for _, name in ipairs(names) do
+      if lid or name ~= "Z5" then faces[#faces + 1] = name end
+    end
+    local opened = whole:open_volume { faces = faces }
+    local mesh = opened:sweep { layers = 6, size = 1 }
+    check.near(mesh.fidelity.volume, volume, 1e-9)
+    check.that(mesh:quality().certified)
+  end
+end
+
 check.done()

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -529,6 +530,46 @@ void sort_by_level(std::vector<StepPiece>& pieces)
     std::ranges::stable_sort(pieces, {}, &StepPiece::level);
 }
 
+/// The way from source to target that their faces show, unit.
+Vec3 sweep_way(const OpenVolume& volume)
+{
+    Vec3 way = Vec3::Zero();
+    for (const FaceId face : volume.faces(Role::target)) way += face_area_vector(volume.model, face);
+    for (const FaceId face : volume.faces(Role::source)) way -= face_area_vector(volume.model, face);
+    return way.stableNormalized();
+}
+
+/// Of pieces side by side the level of each: 0 for the longest along the way, then as many as are longer.
+std::vector<int> levels_by_length(const std::vector<StepPiece>& pieces, const Vec3& way)
+{
+    std::vector<double> length;
+    double tolerance = 0;
+    for (const StepPiece& piece : pieces) {
+        const Model& model = piece.volume.model;
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (const Face& face : model.faces) {
+            for (const Triangle& t : face.triangles) {
+                for (const Index p : t) {
+                    low = std::min(low, model.at(p).dot(way));
+                    high = std::max(high, model.at(p).dot(way));
+                }
+            }
+        }
+        length.push_back(high - low);
+        tolerance = std::max(tolerance, 10 * model.tolerance);
+    }
+    std::vector<double> lengths = length;
+    std::ranges::sort(lengths, std::greater<>());
+    const auto same = [&](double a, double b) { return a - b <= tolerance; };
+    lengths.erase(std::unique(lengths.begin(), lengths.end(), same), lengths.end());
+    std::vector<int> levels;
+    for (const double own : length) {
+        levels.push_back(static_cast<int>(
+            std::ranges::count_if(lengths, [&](double other) { return other - own > tolerance; })));
+    }
+    return levels;
+}
+
 /// Hang faces from closed rims, of one end after the other, until no piece has any.
 std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, int round)
 {
@@ -611,8 +652,13 @@ std::vector<StepPiece> cut_steps(const OpenVolume& whole, const RunContext& cont
     std::vector<StepPiece> result;
     if (!risers.empty()) {
         // Faces hang from what is left all round.
-        for (const StepPiece& piece : cut_by_planes(volume, risers, context)) {
-            for (StepPiece& own : hang_all(piece.volume, context, 0)) result.push_back(std::move(own));
+        const std::vector<StepPiece> cut = cut_by_planes(volume, risers, context);
+        const std::vector<int> levels = levels_by_length(cut, sweep_way(volume));
+        for (std::size_t p = 0; p < cut.size(); ++p) {
+            for (StepPiece& own : hang_all(cut[p].volume, context, 0)) {
+                own.level += levels[p];
+                result.push_back(std::move(own));
+            }
         }
         sort_by_level(result);
         return result;

@@ -24,7 +24,8 @@ struct StepPiece {
 ///
 /// Where the walls at a rim of an end go away from the opposite end, void faces hang from it, straight
 /// along the sweep, to that end, whose faces are split there; first from the source, then from the target.
-/// Rims that end at other walls are cut by the planes of the flat walls at them, and where nothing can
+/// Rims that end at other walls are cut by the planes of the flat walls at them; pieces shorter than others
+/// have higher levels. Where nothing can
 /// hang, as from rims that lie above each other, the planes of all flat steps cut the volume in layers. A
 /// missing opposite end is made of the one loop that is open. The pieces keep the given faces with their
 /// tags; the void faces between two of them are both's, so that `sweep::sweep_assembly()` makes one mesh of
