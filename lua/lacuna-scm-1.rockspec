@@ -10,7 +10,7 @@ CAD files are read by the program lacuna-cad, which the environment variable LAC
   license = "MIT",
 }
 dependencies = { "lua >= 5.4, < 5.5" }
-external_dependencies = { EIGEN = { header = "eigen3/Eigen/Core" } }
+external_dependencies = { EIGEN = { header = "eigen3/Eigen/src/Core/util/Macros.h" } }
 build = {
   type = "cmake",
   variables = {
