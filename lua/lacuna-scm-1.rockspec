@@ -10,16 +10,12 @@ CAD files are read by the program lacuna-cad, which the environment variable LAC
   license = "MIT",
 }
 dependencies = { "lua >= 5.4, < 5.5" }
-external_dependencies = { EIGEN = { header = "eigen3/Eigen/Core" } }
+external_dependencies = { EIGEN = { header = "eigen3/Eigen/src/Core/util/Macros.h" } }
+-- The module alone: luarocks takes what else would be installed for modules of Lua.
 build = {
-  type = "cmake",
-  variables = {
-    CMAKE_BUILD_TYPE = "Release",
-    CMAKE_INSTALL_PREFIX = "$(PREFIX)",
-    LACUNA_LUA_MODULE_DIR = "$(LIBDIR)",
-    LUA54_INCLUDE_DIR = "$(LUA_INCDIR)",
-    LACUNA_BUILD_TESTS = "OFF",
-    LACUNA_BUILD_BENCHMARKS = "OFF",
-    LACUNA_WITH_CAD = "OFF",
-  },
+  type = "command",
+  build_command = "cmake -S . -B build.luarocks -DCMAKE_BUILD_TYPE=Release -DLACUNA_WITH_CAD=OFF "
+      .. "-DLACUNA_BUILD_TESTS=OFF -DLACUNA_BUILD_BENCHMARKS=OFF '-DLACUNA_LUA_MODULE_DIR=$(LIBDIR)' "
+      .. "'-DLUA54_INCLUDE_DIR=$(LUA_INCDIR)' && cmake --build build.luarocks --target lacuna_module",
+  install_command = "cmake --install build.luarocks --component lua --prefix '$(PREFIX)'",
 }

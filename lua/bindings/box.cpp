@@ -4,10 +4,12 @@
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 namespace lacuna::lua {
 
@@ -144,6 +146,26 @@ void push_entities(lua_State* L, const std::vector<NamedEntity>& entities)
 
 // --- classes ------------------------------------------------------------------------------------------
 
+/// Push the strings of the array at `index`, by alphabet, with commas between them.
+const char* push_sorted_names(lua_State* L, int index)
+{
+    auto& names = temporary<std::vector<std::string>>(L);
+    const std::size_t count = lua_rawlen(L, index);
+    for (std::size_t i = 1; i <= count; ++i) {
+        lua_rawgeti(L, index, static_cast<lua_Integer>(i));
+        const char* name = lua_tostring(L, -1); // the array keeps it alive after the pop
+        lua_pop(L, 1);
+        if (std::strncmp(name, "__", 2) != 0) guard(L, [&] { names.emplace_back(name); });
+    }
+    push_text(L, [&] {
+        std::sort(names.begin(), names.end());
+        std::string all;
+        for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+        return all;
+    });
+    return lua_tostring(L, -1);
+}
+
 /// Upvalues: 1 the class name, 2 its methods, 3 its fields.
 int index_class(lua_State* L)
 {
@@ -168,8 +190,8 @@ int index_class(lua_State* L)
         }
     }
     const char* nearest = nearest_in_table(L, 3, lua_tostring(L, 2));
-    fail_as(L, "lua.unknown_field", "a %s has no field or method '%s'; the nearest is '%s'",
-            lua_tostring(L, lua_upvalueindex(1)), lua_tostring(L, 2), nearest);
+    fail_as(L, "lua.unknown_field", "a %s has no field or method '%s'; the nearest is '%s'. It has: %s",
+            lua_tostring(L, lua_upvalueindex(1)), lua_tostring(L, 2), nearest, push_sorted_names(L, 3));
 }
 
 } // namespace

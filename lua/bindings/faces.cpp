@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <optional>
 
@@ -249,6 +250,23 @@ void append(lua_State* L, const Where& where, const topology::Model& model, std:
     fail_option(L, where, "%s; the model has %s", none_found, push_names(L, model, all));
 }
 
+/// Push " (did you mean ...?)" with the face's name that is nearest; nothing where no name is near.
+const char* push_meant_name(lua_State* L, const topology::Model& model, const char* wanted)
+{
+    push_text(L, [&] {
+        std::string best;
+        std::size_t least = std::strlen(wanted) / 2 + 1; // as many letters may differ
+        for (const topology::Face& face : model.faces) {
+            const std::size_t apart = edit_distance(wanted, face.name.c_str());
+            if (face.name.empty() || apart >= least) continue;
+            least = apart;
+            best = face.name;
+        }
+        return best.empty() ? best : " (did you mean \"" + best + "\"?)";
+    });
+    return lua_tostring(L, -1);
+}
+
 void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelState>& state,
                    std::vector<FaceId>& faces)
 {
@@ -273,7 +291,8 @@ void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelS
     case LUA_TSTRING: {
         const char* name = read_string(L, index, where);
         guard(L, [&] { wanted.name = name; });
-        none = lua_pushfstring(L, "names \"%s\", and no face is called that", name);
+        none = lua_pushfstring(L, "names \"%s\", and no face is called that%s", name,
+                               push_meant_name(L, model, name));
         break;
     }
     case LUA_TTABLE:

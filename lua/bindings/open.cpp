@@ -6,6 +6,8 @@
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
 
+#include <lacuna/geometry/triangulate.h>
+
 #include <cstring>
 
 namespace lacuna::lua {
@@ -55,10 +57,62 @@ int used_params_from_lua(lua_State* L)
     return 0;
 }
 
+/// cells = triangles(points, loops): of the part of the plane within loops of numbers of points { x, y }
+int triangles_from_lua(lua_State* L)
+{
+    luaL_checktype(L, 1, LUA_TTABLE);
+    luaL_checktype(L, 2, LUA_TTABLE);
+    lua_settop(L, 2);
+    auto& points = temporary<std::vector<Vec2>>(L);
+    auto& loops = temporary<std::vector<std::vector<Index>>>(L);
+    const std::size_t point_count = lua_rawlen(L, 1), loop_count = lua_rawlen(L, 2);
+    guard(L, [&] {
+        points.resize(point_count);
+        loops.resize(loop_count);
+    });
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        lua_rawgeti(L, 1, to_lua(i));
+        for (int k = 0; k < 2; ++k) {
+            lua_rawgeti(L, -1, k + 1);
+            points[i][k] = luaL_checknumber(L, -1);
+            lua_pop(L, 1);
+        }
+        lua_pop(L, 1);
+    }
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        lua_rawgeti(L, 2, to_lua(l));
+        const std::size_t length = lua_rawlen(L, -1);
+        guard(L, [&] { loops[l].resize(length); });
+        for (std::size_t i = 0; i < loops[l].size(); ++i) {
+            lua_rawgeti(L, -1, to_lua(i));
+            loops[l][i] = static_cast<Index>(luaL_checkinteger(L, -1) - 1);
+            lua_pop(L, 1);
+        }
+        lua_pop(L, 1);
+    }
+    auto& found = temporary<geometry::Triangulation>(L);
+    RunContext& context = push_context(L);
+    guard(L, [&] {
+        geometry::TriangulateOptions options;
+        options.interior_points = false;
+        found = geometry::triangulate(points, loops, options, context);
+    });
+    lua_createtable(L, static_cast<int>(found.triangles.size()), 0);
+    for (std::size_t t = 0; t < found.triangles.size(); ++t) {
+        lua_createtable(L, 3, 0);
+        for (std::size_t k = 0; k < 3; ++k) {
+            lua_pushinteger(L, to_lua(index(found.triangles[t][k])));
+            lua_rawseti(L, -2, to_lua(k));
+        }
+        lua_rawseti(L, -2, to_lua(t));
+    }
+    return 1;
+}
+
 const luaL_Reg kInternal[] = {
-    {"fail", fail_from_lua},   {"nearest", nearest_from_lua},
-    {"found", found_from_lua}, {"used_params", used_params_from_lua},
-    {nullptr, nullptr},
+    {"fail", fail_from_lua},           {"nearest", nearest_from_lua},
+    {"found", found_from_lua},         {"used_params", used_params_from_lua},
+    {"triangles", triangles_from_lua}, {nullptr, nullptr},
 };
 
 /// Upvalue-free __index of the module: what is asked of Gmsh only when somebody wants to know.

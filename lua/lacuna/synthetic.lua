@@ -138,107 +138,6 @@ local function circle(radius, x, y, facets)
   return loop
 end
 
--- --- triangles of a section
--- ----------------------------------------------------------------------------------------
-
-local function cross(a, b, c) return (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]) end
-
--- Is p in the triangle, or nearer to it than `flat` says is nothing?
-local function inside(a, b, c, p, flat)
-  return cross(a, b, p) >= -flat and cross(b, c, p) >= -flat and cross(c, a, p) >= -flat
-end
-
--- Do the open segments ab and cd meet?
-local function crosses(a, b, c, d)
-  return cross(a, b, c) * cross(a, b, d) < 0 and cross(c, d, a) * cross(c, d, b) < 0
-end
-
--- The loops joined into one by bridges: numbers of points, bridge ends twice.
-local function bridged(points, loops)
-  local chain = {}
-  for i = 1, #loops[1] do chain[i] = loops[1][i] end
-  local rest = table.move(loops, 2, #loops, 1, {})
-  while #rest > 0 do
-    -- The shortest line from a hole to the chain that crosses nothing.
-    local best
-    for h, hole in ipairs(rest) do
-      for j, q in ipairs(hole) do
-        for i, p in ipairs(chain) do
-          local dx, dy = points[p][1] - points[q][1], points[p][2] - points[q][2]
-          local length = dx * dx + dy * dy
-          if not best or length < best.length then
-            local clear = true
-            for k, a in ipairs(chain) do
-              if crosses(points[p], points[q], points[a], points[chain[k % #chain + 1]]) then
-                clear = false
-                break
-              end
-            end
-            if clear then best = { length = length, hole = h, j = j, i = i } end
-          end
-        end
-      end
-    end
-    local hole = table.remove(rest, best.hole)
-    local joined = table.move(chain, 1, best.i, 1, {})
-    for k = 0, #hole do joined[#joined + 1] = hole[(best.j - 1 + k) % #hole + 1] end
-    table.move(chain, best.i, #chain, #joined + 1, joined)
-    chain = joined
-  end
-  return chain
-end
-
--- How good an ear is: twice its area over its longest side squared; nil where it is none.
-local function ear_quality(points, chain, previous, next, i)
-  local a, b, c = points[chain[previous[i]]], points[chain[i]], points[chain[next[i]]]
-  local area = cross(a, b, c)
-  local longest = 0
-  for _, s in ipairs { { a, b }, { b, c }, { c, a } } do
-    longest = math.max(longest, (s[1][1] - s[2][1]) ^ 2 + (s[1][2] - s[2][2]) ^ 2)
-  end
-  local flat = 1e-9 * longest  -- twice the area of what is flat to rounding
-  if area <= flat then return nil end
-  local j = next[next[i]]
-  while j ~= previous[i] do
-    local p = points[chain[j]]
-    if p ~= a and p ~= b and p ~= c and inside(a, b, c, p, flat) then return nil end
-    j = next[j]
-  end
-  return area / longest
-end
-
--- Triangles of the region between the loops, by cutting off the best ear.
-local function triangulate(points, loops)
-  local chain = bridged(points, loops)
-  local n = #chain
-  local previous, next, quality, cells = {}, {}, {}, {}
-  for i = 1, n do
-    previous[i] = (i - 2) % n + 1
-    next[i] = i % n + 1
-  end
-  local alive = {}
-  for i = 1, n do
-    alive[i] = true
-    quality[i] = ear_quality(points, chain, previous, next, i)
-  end
-  for left = n, 3, -1 do
-    local best
-    for i = 1, n do
-      if alive[i] and quality[i] and (not best or quality[i] > quality[best]) then best = i end
-    end
-    if not best then break end  -- nothing but a flat rest
-    local before, after = previous[best], next[best]
-    cells[#cells + 1] = { chain[before], chain[best], chain[after] }
-    alive[best] = false
-    next[before], previous[after] = after, before
-    if left > 3 then
-      quality[before] = ear_quality(points, chain, previous, next, before)
-      quality[after] = ear_quality(points, chain, previous, next, after)
-    end
-  end
-  return cells
-end
-
 -- --- sweeping a section along
 -- ----------------------------------------------------------------------------------------
 
@@ -254,7 +153,7 @@ local function end_face(section, map, t)
   end
   local points = {}
   for i, p in ipairs(flat) do points[i] = { map(p[1], p[2], t) } end
-  local cells = triangulate(flat, loops)
+  local cells = internal.triangles(flat, loops)
   if t == 0 then
     for _, cell in ipairs(cells) do cell[2], cell[3] = cell[3], cell[2] end
   end

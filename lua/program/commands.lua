@@ -61,7 +61,7 @@ function commands.info()
 end
 
 function commands.view()
-  local page = first:match("[^/]*$"):gsub("%.[^.]*$", "") .. ".view.html"
+  local page = first:match("[^/]*$") .. ".view.html"
   lacuna.view(first, page)
   print("wrote " .. page .. "; open it in a browser")
 end

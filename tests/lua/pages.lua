@@ -52,8 +52,12 @@ if params.lacuna ~= "" then
   plate:open_volume({ source = "source", target = "target", walls = "auto" }):close()
   local code, out = check.run(params.lacuna, folder, { "view", "plate.msh" })
   check.equal(code, 0)
-  check.that(out:find("plate.view.html", 1, true), out)
-  check.that(check.exists(folder .. "/plate.view.html"))
+  check.that(out:find("plate.msh.view.html", 1, true), out)
+  check.that(check.exists(folder .. "/plate.msh.view.html"))
+  void:write_facets(folder .. "/plate.stl")
+  check.equal((check.run(params.lacuna, folder, { "view", "plate.stl" })), 0)
+  check.that(read(folder .. "/plate.stl.view.html") ~= read(folder .. "/plate.msh.view.html"), "two pages")
+  os.remove(folder .. "/plate.stl.view.html")
   check.write(folder .. "/v.lua", 'require("lacuna").synthetic.prism():view("a.html")')
   local refused, _, message = check.run(params.lacuna, folder, { "--sandbox", "v.lua" })
   check.equal(refused, 1)
@@ -298,7 +302,7 @@ check.equal(parted[13], "true 0")
 
 -- The same mesh as a file: as many cells, the same skin, the same groups.
 if params.lacuna ~= "" then
-  local file = play(folder .. "/plate.view.html", kClosed .. [[
+  local file = play(folder .. "/plate.msh.view.html", kClosed .. [[
     say(page.cellCount, page.sideCount, page.kept, closed());
     say(page.data.patches.length, page.data.patches.every(p => p.quads > 0));
     page.cut.axis = "y"; page.cut.normal = [0, 1, 0]; page.cut.at = 0.5; page.setCut();
@@ -506,7 +510,7 @@ check.equal(sewn[3], "true")
 if params.lacuna ~= "" then
   void:write_facets(folder .. "/it's a plate.stl")
   check.equal((check.run(params.lacuna, folder, { "view", "it's a plate.stl" })), 0)
-  local loads = play(folder .. "/it's a plate.view.html", [[
+  local loads = play(folder .. "/it's a plate.stl.view.html", [[
     page.role = page.data.faces.map(face =>
       face.normal[2] > 0.9 ? "source" : face.normal[2] < -0.9 ? "target" : "walls");
     page.paint();
@@ -514,7 +518,8 @@ if params.lacuna ~= "" then
   ]])
   check.write(folder .. "/made.lua", loads[1]:gsub("|", "\n") .. "\nprint(void.class)\n")
   local code, out, err = check.run(params.lacuna, folder, { "made.lua" })
-  check.equal(code .. out, "0closed\n", err)
+  check.equal(code, 0, err)
+  check.that(out:find("^Mesh of %d+ hexes, .*\t0%.%d+\nclosed\n$"), out)
   check.that(check.exists(folder .. "/it's a plate.msh"), "the recipe ends with a mesh")
 end
 

@@ -96,6 +96,19 @@ for _, sides in ipairs { 4, 6 } do
   end
 end
 
+-- Ends of tens of thousands of points, straight, round and with holes, have the area of their section.
+do
+  local function area(points, radius) return points / 2 * radius ^ 2 * math.sin(2 * math.pi / points) end
+  for _, case in ipairs {
+    { s.prism { facets = 5000, holes = 1, hole_radius = 0.4 }, area(6, 1) - area(6, 0.4) },
+    { s.annulus { facets = 20000 }, area(20000, 1) - area(20000, 0.5) },
+    { s.plate { holes = 9, hole_radius = 0.5, facets = 2000 }, 16 - 9 * area(2000, 0.5) },
+  } do
+    check.near(case[1]:face("source").area, case[2], 1e-9)
+    check.near(case[1]:face("target").area, case[2], 1e-9)
+  end
+end
+
 -- What a match was unsure of stands in the report of the mesh whose void edges were drawn by it.
 do
   local void = s.elbow { angle = 120, drop = "wall_1" }:open_volume { source = "source", target = "target" }

@@ -506,6 +506,10 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
 Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int number,
                      const RunContext& context)
 {
+    if (faces.empty())
+        throw InvalidInput("topology.no_faces",
+                           "the model has no faces to find a volume in; load a file that "
+                           "has some, or add_face{ points =, cells = }");
     std::vector<Reading> readings = find_readings(model, faces, context);
     if (readings.empty()) {
         std::string tags;

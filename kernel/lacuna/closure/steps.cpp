@@ -286,11 +286,9 @@ private:
             try {
                 made = geometry::triangulate(flat_points, loops, options, context_);
             } catch (const InvalidInput& error) { // which knows loops and no faces
-                throw InvalidInput(error.code(),
-                                   name_of(model_, id) +
-                                       " cannot be split along the outlines of what stands on it "
-                                       "or lies over it: " +
-                                       error.what());
+                refuse(name_of(model_, id) +
+                       " cannot be split along the outlines of what stands on it or lies over it: " +
+                       error.what());
             }
             Face face = before;
             face.triangles.clear();

@@ -5,6 +5,7 @@
 #include <lacuna/geometry/predicates.h>
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <string>
 #include <tuple>
@@ -29,6 +30,15 @@ std::uint32_t hilbert_key(std::uint32_t x, std::uint32_t y)
         }
     }
     return key;
+}
+
+/// A number whose bits do not follow those of `p`.
+std::uint32_t scattered(Index p)
+{
+    auto x = static_cast<std::uint32_t>(p);
+    x = (x ^ (x >> 16)) * 0x7feb352dU; // Wellons' lowbias32
+    x = (x ^ (x >> 15)) * 0x846ca68bU;
+    return x ^ (x >> 16);
 }
 
 } // namespace
@@ -61,11 +71,19 @@ DelaunayMesh::DelaunayMesh(std::span<const Vec2> points, const std::vector<Index
 
 void DelaunayMesh::insert_all(const std::vector<Index>& used, const Vec2& low, double extent)
 {
-    std::vector<std::pair<std::uint32_t, Index>> order;
+    // In rounds, each of twice as many points as those before it and each along Hilbert's curve
+    // @cite amenta_2003_order: along the curve alone, rims of many points are walked along, and each point
+    // of a line or a circle removes nearly all triangles about the last.
+    constexpr std::size_t kFirstRound = 1024; // a choice: so few are put in as they lie on the curve
+    int rounds = 0;
+    while (used.size() >> rounds > kFirstRound) ++rounds;
+    std::vector<std::tuple<int, std::uint32_t, Index>> order;
     order.reserve(used.size());
     for (const Index p : used) {
         const Vec2 cell = (at(p) - low) / extent * 65535.0;
+        const int halvings = std::countl_zero(scattered(p));
         order.emplace_back(
+            rounds - std::min(halvings, rounds),
             hilbert_key(static_cast<std::uint32_t>(cell.x()), static_cast<std::uint32_t>(cell.y())), p);
     }
     std::sort(order.begin(), order.end());
@@ -73,7 +91,7 @@ void DelaunayMesh::insert_all(const std::vector<Index>& used, const Vec2& low, d
     Cavity cavity;
     std::vector<Index> fresh;
     Index last = 0;
-    for (const auto& [key, p] : order) {
+    for (const auto& [round, key, p] : order) {
         const Index holder = locate(at(p), last);
         if (holder < 0 || !find_cavity(at(p), holder, cavity)) {
             throw InvalidInput("geometry.point_twice", "point " + std::to_string(p + 1) +

@@ -193,7 +193,11 @@ class FacesPage {
             ...lines,
             "}",
             ...(data.path
-                ? ["local mesh = void:sweep {}", `mesh:write ${luaText(meshName(data.path))}`]
+                ? [
+                      "local mesh = void:sweep {}",
+                      `mesh:write ${luaText(meshName(data.path))}`,
+                      "print(mesh, mesh:quality().min_scaled_jacobian)",
+                  ]
                 : []),
         ].join("\n");
     }
