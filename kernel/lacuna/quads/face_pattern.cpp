@@ -370,13 +370,13 @@ std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const Size& si
     return patterns;
 }
 
-/// Whether no other way need be tried: all quads are nearly square, of the size asked, and rows along the
-/// boundary as high. Choices, not measurements.
-bool is_fine(const PlanarQuads& mesh, const PlanarRegion& region, double rows)
+/// Whether all quads of a mesh are nearly square and of the size asked, and rows along the boundary as high.
+/// Choices, not measurements.
+bool is_fine(const PlanarQuads& mesh, const PlanarRegion& region, double least, double rows)
 {
-    constexpr double kLeast = 0.75, kMean = 0.92, kSizes = 0.95;
+    constexpr double kMean = 0.92, kSizes = 0.95;
     const PlaneQuality quality = measure_plane(mesh, region);
-    return quality.min_scaled_jacobian > kLeast && quality.mean_scaled_jacobian > kMean &&
+    return quality.min_scaled_jacobian > least && quality.mean_scaled_jacobian > kMean &&
            quality.size_share() > kSizes && quality.row_share() >= rows;
 }
 
@@ -397,8 +397,12 @@ bool has_quads_asked(const PlanarQuads& mesh, const Size& size)
 /// Tries ways to fill a region, the likeliest first, for as long as there is something to gain.
 class PatternTrial {
 public:
-    PatternTrial(const PlanarRegion& region, const Size& size, const RunContext& context)
-        : region_(region), size_(size), context_(context), has_half_ends_(has_half_ends(region))
+    PatternTrial(const PlanarRegion& region, const RunContext& context)
+        : region_(region),
+          context_(context),
+          size_(paving::size_with_boundary(region)),
+          ring_size_(region.loops.size() > 1 ? paving::size_with_boundary(region, kGrading, kAlike) : size_),
+          has_half_ends_(has_half_ends(region))
     {
     }
 
@@ -425,7 +429,7 @@ private:
     {
         const PatternFiller like = fill({about, 1});
         if (like.more_sides() % 2 != 0 || like.more_sides() == 0 || !like.may_change()) return;
-        for (const FacePattern& unlike : unlike_rings(region_, size_, about, like.more_sides())) {
+        for (const FacePattern& unlike : unlike_rings(region_, ring_size_, about, like.more_sides())) {
             fill(unlike);
             if (is_square_) return;
         }
@@ -444,22 +448,27 @@ private:
     PatternFiller fill(const FacePattern& pattern)
     {
         check_cancelled(context_);
-        PatternFiller filler(region_, pattern, size_);
+        PatternFiller filler(region_, pattern, pattern.about > 0 ? ring_size_ : size_);
         if (auto mesh = filler.run(context_)) {
-            constexpr double kRows = 0.95; // of the boundary's sides; what is promised
+            // With the first no ends of 135° or other changing rows are tried, with the others nothing more:
+            // discs get no better than that, and the share of rows is what is promised.
+            constexpr double kSquare = 0.75, kFine = 0.85, kRows = 0.95;
             made_.push_back(std::move(*mesh));
             fits_.push_back(!has_half_ends_ || has_quads_asked(made_.back(), size_) ? 1 : 0);
             if (fits_.back()) {
-                is_square_ = is_square_ || quads::is_fine(made_.back(), region_, 0);
-                is_fine_ = is_fine_ || quads::is_fine(made_.back(), region_, kRows);
+                is_square_ = is_square_ || quads::is_fine(made_.back(), region_, kSquare, 0);
+                is_fine_ = is_fine_ || quads::is_fine(made_.back(), region_, kFine, kRows);
             }
         }
         return filler;
     }
 
+    /// Sides of a ring may be 1 / 0.6 times as long as asked, or as short, and rows still of the size asked.
+    static constexpr double kGrading = 0.3, kAlike = 1.75;
+
     const PlanarRegion& region_;
-    const Size& size_;
     const RunContext& context_;
+    const Size size_, ring_size_;
     std::vector<PlanarQuads> made_;
     std::vector<char> fits_; ///< whether each has as many quads as asked for, where that decides
     const bool has_half_ends_;
@@ -471,10 +480,7 @@ private:
 
 std::vector<PlanarQuads> fill_patterns(const PlanarRegion& region, const RunContext& context)
 {
-    // Sides of a ring may be 1 / 0.6 times as long as asked, or as short, and rows still of the size asked.
-    constexpr double kGrading = 0.3, kAlike = 1.75;
-    const Size size = paving::size_with_boundary(region, kGrading, kAlike);
-    PatternTrial trial(region, size, context);
+    PatternTrial trial(region, context);
     trial.run();
     return trial.take();
 }
