@@ -2,6 +2,7 @@
 #include <lacuna/quads/face_pattern.h>
 
 #include <lacuna/quads/detail/partial_mesh.h>
+#include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/detail/pattern_loop.h>
 #include <lacuna/quads/detail/pattern_ring.h>
 #include <lacuna/quads/detail/pave_size.h>
@@ -394,6 +395,20 @@ bool has_quads_asked(const PlanarQuads& mesh, const Size& size)
     return std::abs(static_cast<double>(mesh.quads.size()) - asked) <= kOff * asked;
 }
 
+/// The corners of a region's only loop, where all of them suit one quad and nothing bends otherwise.
+std::vector<std::size_t> lone_corners(const PlanarRegion& region)
+{
+    std::vector<std::size_t> corners;
+    const Loop& loop = region.loops[0];
+    for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
+        const auto at = [&](std::size_t k) -> const Vec2& { return point(region.points, loop[k % n]); };
+        const int quads = paving::quads_in(paving::turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i)));
+        if (quads > 2) return {};
+        if (quads < 2) corners.push_back(i);
+    }
+    return corners;
+}
+
 /// Tries ways to fill a region, the likeliest first, for as long as there is something to gain.
 class PatternTrial {
 public:
@@ -411,6 +426,7 @@ public:
         for (std::size_t l = 1; l < region_.loops.size() && !is_fine_; ++l) try_round(l);
         if (!is_fine_) try_straight(HalfEnds::soft);
         if (!is_square_ && has_half_ends_) try_straight(HalfEnds::hard);
+        if (!is_square_ && region_.loops.size() == 1) try_corners();
     }
 
     /// The meshes, where ends of 135° were a choice those with as many quads as asked for, if there are any.
@@ -445,21 +461,57 @@ private:
         }
     }
 
+    /// With a grid at each of a few corners.
+    void try_corners()
+    {
+        const std::vector<std::size_t> corners = lone_corners(region_);
+        if (corners.size() < 3 || corners.size() > kMostSides) return;
+        std::vector<Vec2> loop;
+        for (const Index p : region_.loops[0]) loop.push_back(point(region_.points, p));
+        for (const TemplateCut& cut : find_cuts(loop, corners, 1)) {
+            check_cancelled(context_);
+            if (auto mesh = fill_corners(loop, corners, cut)) keep(std::move(*mesh));
+        }
+    }
+
+    [[nodiscard]] std::optional<PlanarQuads> fill_corners(const std::vector<Vec2>& loop,
+                                                          const std::vector<std::size_t>& corners,
+                                                          const TemplateCut& cut) const
+    {
+        const TemplateMesh filled = fill_template(loop, corners, cut);
+        PlanarQuads mesh{region_.points, filled.quads,
+                         "grids at " + std::to_string(corners.size()) + " corners"};
+        mesh.points.insert(mesh.points.end(), filled.inner.begin(), filled.inner.end());
+        const std::size_t own = loop.size(), fixed = region_.points.size();
+        for (Quad& quad : mesh.quads) {
+            for (Index& p : quad) {
+                const auto at = static_cast<std::size_t>(p);
+                p = at < own ? region_.loops[0][at] : static_cast<Index>(fixed + at - own);
+            }
+        }
+        smooth_plane(mesh.points, mesh.quads, fixed, {.size = size_}, context_);
+        paving::correct_row_heights(mesh, region_, size_);
+        if (!find_fault(mesh, region_).empty()) return std::nullopt;
+        return mesh;
+    }
+
+    void keep(PlanarQuads mesh)
+    {
+        // With the first no ends of 135° or other changing rows are tried, with the others nothing more:
+        // discs get no better than that, and the share of rows is what is promised.
+        constexpr double kSquare = 0.75, kFine = 0.85, kRows = 0.95;
+        made_.push_back(std::move(mesh));
+        fits_.push_back(!has_half_ends_ || has_quads_asked(made_.back(), size_) ? 1 : 0);
+        if (!fits_.back()) return;
+        is_square_ = is_square_ || quads::is_fine(made_.back(), region_, kSquare, 0);
+        is_fine_ = is_fine_ || quads::is_fine(made_.back(), region_, kFine, kRows);
+    }
+
     PatternFiller fill(const FacePattern& pattern)
     {
         check_cancelled(context_);
         PatternFiller filler(region_, pattern, pattern.about > 0 ? ring_size_ : size_);
-        if (auto mesh = filler.run(context_)) {
-            // With the first no ends of 135° or other changing rows are tried, with the others nothing more:
-            // discs get no better than that, and the share of rows is what is promised.
-            constexpr double kSquare = 0.75, kFine = 0.85, kRows = 0.95;
-            made_.push_back(std::move(*mesh));
-            fits_.push_back(!has_half_ends_ || has_quads_asked(made_.back(), size_) ? 1 : 0);
-            if (fits_.back()) {
-                is_square_ = is_square_ || quads::is_fine(made_.back(), region_, kSquare, 0);
-                is_fine_ = is_fine_ || quads::is_fine(made_.back(), region_, kFine, kRows);
-            }
-        }
+        if (auto mesh = filler.run(context_)) keep(std::move(*mesh));
         return filler;
     }
 
