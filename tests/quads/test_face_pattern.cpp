@@ -202,6 +202,38 @@ TEST_CASE("a round corner takes one irregular node, wherever corners are round")
     }
 }
 
+TEST_CASE("triangles, pentagons and sectors get a grid at each corner: one irregular node")
+{
+    for (const int corners : {3, 5}) {
+        for (int each = 4; each <= 16; each += 2) {
+            CAPTURE(corners);
+            CAPTURE(each);
+            const Outline at = circle({0, 0}, 1, corners, false);
+            Outline outline;
+            for (std::size_t c = 0; c < at.size(); ++c) {
+                for (int i = 0; i < each; ++i)
+                    outline.emplace_back(at[c] + (at[(c + 1) % at.size()] - at[c]) * i / each);
+            }
+            check_pattern(region_of({outline}, (at[1] - at[0]).norm() / each), 1, 0.7);
+        }
+    }
+    for (const double angle : {0.8, 1.0, 1.3}) {
+        for (int each = 8; each <= 16; each += 4) {
+            CAPTURE(angle);
+            CAPTURE(each);
+            const int round = 2 * static_cast<int>(std::lround(angle * each / 2));
+            Outline outline;
+            for (int i = 0; i < each; ++i) outline.emplace_back(static_cast<double>(i) / each, 0);
+            for (int i = 0; i < round; ++i)
+                outline.emplace_back(std::cos(angle * i / round), std::sin(angle * i / round));
+            for (int i = 0; i < each; ++i)
+                outline.emplace_back((1 - static_cast<double>(i) / each) * std::cos(angle),
+                                     (1 - static_cast<double>(i) / each) * std::sin(angle));
+            check_pattern(region_of({outline}, 1.0 / each), 1, 0.6);
+        }
+    }
+}
+
 TEST_CASE("a corner cut off at 45 degrees takes one irregular node, and no quad has its whole angle")
 {
     // One corner, two neighbours or all four: with others sides that face each other have unlike numbers.
@@ -314,12 +346,21 @@ TEST_CASE("grids over a held family of outlines are valid, have few irregular no
     CHECK(filled >= kMembers / 2);
 }
 
+TEST_CASE("a rectangle with unlike sides gets few irregular nodes")
+{
+    for (const int more : {2, 4}) {
+        CAPTURE(more);
+        Outline uneven = rounded({1, 0.5}, {0, 0, 0, 0}, 0.1);
+        for (int i = 0; i < more; ++i) uneven.insert(uneven.begin() + 5, (uneven[4] + uneven[5]) / 2);
+        const PlanarRegion region = region_of({uneven}, 0.1);
+        const auto mesh = best_pattern(region);
+        REQUIRE(mesh.has_value());
+        CHECK(quads::measure_plane(*mesh, region).irregular <= 4);
+    }
+}
+
 TEST_CASE("what fits no grid gets no pattern")
 {
-    // A rectangle with two sides more along one side than along the other; nothing is round that could give.
-    Outline uneven = rounded({1, 0.5}, {0, 0, 0, 0}, 0.1);
-    for (int i = 0; i < 2; ++i) uneven.insert(uneven.begin() + 5, (uneven[4] + uneven[5]) / 2);
-    CHECK(quads::fill_patterns(region_of({uneven}, 0.1)).empty());
     // An octagon in a square, with unlike numbers of sides: it has too many corners for a grid, and as a ring
     // unlike loops.
     Outline octagon = circle({0, 0}, 0.5, 8, true);

@@ -2,6 +2,7 @@
 #include <lacuna/quads/face_pattern.h>
 
 #include <lacuna/quads/detail/partial_mesh.h>
+#include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/detail/pattern_loop.h>
 #include <lacuna/quads/detail/pattern_ring.h>
 #include <lacuna/quads/detail/pave_size.h>
@@ -370,13 +371,13 @@ std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const Size& si
     return patterns;
 }
 
-/// Whether no other way need be tried: all quads are nearly square, of the size asked, and rows along the
-/// boundary as high. Choices, not measurements.
-bool is_fine(const PlanarQuads& mesh, const PlanarRegion& region, double rows)
+/// Whether all quads of a mesh are nearly square and of the size asked, and rows along the boundary as high.
+/// Choices, not measurements.
+bool is_fine(const PlanarQuads& mesh, const PlanarRegion& region, double least, double rows)
 {
-    constexpr double kLeast = 0.75, kMean = 0.92, kSizes = 0.95;
+    constexpr double kMean = 0.92, kSizes = 0.95;
     const PlaneQuality quality = measure_plane(mesh, region);
-    return quality.min_scaled_jacobian > kLeast && quality.mean_scaled_jacobian > kMean &&
+    return quality.min_scaled_jacobian > least && quality.mean_scaled_jacobian > kMean &&
            quality.size_share() > kSizes && quality.row_share() >= rows;
 }
 
@@ -394,11 +395,29 @@ bool has_quads_asked(const PlanarQuads& mesh, const Size& size)
     return std::abs(static_cast<double>(mesh.quads.size()) - asked) <= kOff * asked;
 }
 
+/// The corners of a region's only loop, where all of them suit one quad and nothing bends otherwise.
+std::vector<std::size_t> lone_corners(const PlanarRegion& region)
+{
+    std::vector<std::size_t> corners;
+    const Loop& loop = region.loops[0];
+    for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
+        const auto at = [&](std::size_t k) -> const Vec2& { return point(region.points, loop[k % n]); };
+        const int quads = paving::quads_in(paving::turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i)));
+        if (quads > 2) return {};
+        if (quads < 2) corners.push_back(i);
+    }
+    return corners;
+}
+
 /// Tries ways to fill a region, the likeliest first, for as long as there is something to gain.
 class PatternTrial {
 public:
-    PatternTrial(const PlanarRegion& region, const Size& size, const RunContext& context)
-        : region_(region), size_(size), context_(context), has_half_ends_(has_half_ends(region))
+    PatternTrial(const PlanarRegion& region, const RunContext& context)
+        : region_(region),
+          context_(context),
+          size_(paving::size_with_boundary(region)),
+          ring_size_(region.loops.size() > 1 ? paving::size_with_boundary(region, kGrading, kAlike) : size_),
+          has_half_ends_(has_half_ends(region))
     {
     }
 
@@ -407,6 +426,7 @@ public:
         for (std::size_t l = 1; l < region_.loops.size() && !is_fine_; ++l) try_round(l);
         if (!is_fine_) try_straight(HalfEnds::soft);
         if (!is_square_ && has_half_ends_) try_straight(HalfEnds::hard);
+        if (!is_square_ && region_.loops.size() == 1) try_corners();
     }
 
     /// The meshes, where ends of 135° were a choice those with as many quads as asked for, if there are any.
@@ -425,7 +445,7 @@ private:
     {
         const PatternFiller like = fill({about, 1});
         if (like.more_sides() % 2 != 0 || like.more_sides() == 0 || !like.may_change()) return;
-        for (const FacePattern& unlike : unlike_rings(region_, size_, about, like.more_sides())) {
+        for (const FacePattern& unlike : unlike_rings(region_, ring_size_, about, like.more_sides())) {
             fill(unlike);
             if (is_square_) return;
         }
@@ -441,25 +461,66 @@ private:
         }
     }
 
+    /// With a grid at each of a few corners.
+    void try_corners()
+    {
+        const std::vector<std::size_t> corners = lone_corners(region_);
+        if (corners.size() < 3 || corners.size() > kMostSides) return;
+        std::vector<Vec2> loop;
+        for (const Index p : region_.loops[0]) loop.push_back(point(region_.points, p));
+        for (const TemplateCut& cut : find_cuts(loop, corners, 1)) {
+            check_cancelled(context_);
+            if (auto mesh = fill_corners(loop, corners, cut)) keep(std::move(*mesh));
+        }
+    }
+
+    [[nodiscard]] std::optional<PlanarQuads> fill_corners(const std::vector<Vec2>& loop,
+                                                          const std::vector<std::size_t>& corners,
+                                                          const TemplateCut& cut) const
+    {
+        const TemplateMesh filled = fill_template(loop, corners, cut);
+        PlanarQuads mesh{region_.points, filled.quads,
+                         "grids at " + std::to_string(corners.size()) + " corners"};
+        mesh.points.insert(mesh.points.end(), filled.inner.begin(), filled.inner.end());
+        const std::size_t own = loop.size(), fixed = region_.points.size();
+        for (Quad& quad : mesh.quads) {
+            for (Index& p : quad) {
+                const auto at = static_cast<std::size_t>(p);
+                p = at < own ? region_.loops[0][at] : static_cast<Index>(fixed + at - own);
+            }
+        }
+        smooth_plane(mesh.points, mesh.quads, fixed, {.size = size_}, context_);
+        paving::correct_row_heights(mesh, region_, size_);
+        if (!find_fault(mesh, region_).empty()) return std::nullopt;
+        return mesh;
+    }
+
+    void keep(PlanarQuads mesh)
+    {
+        // With the first no ends of 135° or other changing rows are tried, with the others nothing more:
+        // discs get no better than that, and the share of rows is what is promised.
+        constexpr double kSquare = 0.75, kFine = 0.85, kRows = 0.95;
+        made_.push_back(std::move(mesh));
+        fits_.push_back(!has_half_ends_ || has_quads_asked(made_.back(), size_) ? 1 : 0);
+        if (!fits_.back()) return;
+        is_square_ = is_square_ || quads::is_fine(made_.back(), region_, kSquare, 0);
+        is_fine_ = is_fine_ || quads::is_fine(made_.back(), region_, kFine, kRows);
+    }
+
     PatternFiller fill(const FacePattern& pattern)
     {
         check_cancelled(context_);
-        PatternFiller filler(region_, pattern, size_);
-        if (auto mesh = filler.run(context_)) {
-            constexpr double kRows = 0.95; // of the boundary's sides; what is promised
-            made_.push_back(std::move(*mesh));
-            fits_.push_back(!has_half_ends_ || has_quads_asked(made_.back(), size_) ? 1 : 0);
-            if (fits_.back()) {
-                is_square_ = is_square_ || quads::is_fine(made_.back(), region_, 0);
-                is_fine_ = is_fine_ || quads::is_fine(made_.back(), region_, kRows);
-            }
-        }
+        PatternFiller filler(region_, pattern, pattern.about > 0 ? ring_size_ : size_);
+        if (auto mesh = filler.run(context_)) keep(std::move(*mesh));
         return filler;
     }
 
+    /// Sides of a ring may be 1 / 0.6 times as long as asked, or as short, and rows still of the size asked.
+    static constexpr double kGrading = 0.3, kAlike = 1.75;
+
     const PlanarRegion& region_;
-    const Size& size_;
     const RunContext& context_;
+    const Size size_, ring_size_;
     std::vector<PlanarQuads> made_;
     std::vector<char> fits_; ///< whether each has as many quads as asked for, where that decides
     const bool has_half_ends_;
@@ -471,10 +532,7 @@ private:
 
 std::vector<PlanarQuads> fill_patterns(const PlanarRegion& region, const RunContext& context)
 {
-    // Sides of a ring may be 1 / 0.6 times as long as asked, or as short, and rows still of the size asked.
-    constexpr double kGrading = 0.3, kAlike = 1.75;
-    const Size size = paving::size_with_boundary(region, kGrading, kAlike);
-    PatternTrial trial(region, size, context);
+    PatternTrial trial(region, context);
     trial.run();
     return trial.take();
 }

@@ -8,7 +8,7 @@
 
 namespace lacuna::quads {
 
-/// Fill a region with one grid, bent so that its lines run along the boundary, in every way that goes.
+/// Fill a region with one grid, or a few, bent so that lines run along the boundary, in every way that goes.
 ///
 /// 1. Every boundary side gets one of four headings, by dynamic programming over its direction and the angles
 ///    at its ends. Directions are counted from circles round a hole, or from the region's main direction.
@@ -23,11 +23,16 @@ namespace lacuna::quads {
 /// A ring whose loops have unlike numbers of sides has rows that change theirs, or a part with fewer rows
 /// where it is narrow.
 ///
+/// An outline without holes, of three to six corners, that fits no such grid gets one at each corner: a
+/// triangle, a sector, a pentagon, a rectangle with unlike numbers of sides (`patch_template`).
+///
 /// A disc so gets a square within rows; a ring whose loops have as many sides each gets rows alone; slots,
 /// rounded rectangles, plates with holes and flanges get one grid with four irregular nodes for each round
 /// loop.
-/// @return valid meshes, the likeliest first: with lines round a hole, then straight ones, by rows. None
-///         where the numbers of sides fit no grid, or quads would fold.
+/// Ends of 135° are tried as soft turns and, where those are too many for the quads asked, as hard ones.
+/// @return valid meshes, the likeliest first: with lines round a hole, then straight ones, by rows; none
+///         after one that is as good as such meshes get. None at all where the numbers of sides fit no
+///         grid, or quads would fold.
 /// @pre   loops as `pave()` demands them.
 /// @note  Deterministic. O(quads), and O(outer nodes × hole nodes), for each way.
 std::vector<PlanarQuads> fill_patterns(const PlanarRegion& region, const RunContext& context = {});

@@ -26,6 +26,8 @@ constexpr Range kRing{1 / 1.6, 1 / 0.6}, kSegment{1 / 1.25, 1.25};
 /// still have alike ones: it takes edges along one loop. A choice, not a measurement.
 constexpr double kRounding = 1.03;
 constexpr Range kRingSegment{kRing.least / kRounding, kRing.most* kRounding};
+/// Rows with holes between them bend, so that less is left. A choice, not a measurement.
+constexpr Range kRingWithHoles{1 / 1.55, 1.55};
 
 /// The sides of a segment that run one way.
 struct Run {
@@ -404,12 +406,15 @@ private:
         std::optional<std::vector<CountedLoop>> best;
         const RingWidths widths = ring_widths(region_.points, region_.loops[0], region_.loops[about]);
         const double size = mean_size();
-        const int steps = others.empty() ? widths.steps(size) : 0;
+        const bool alone = others.empty();
+        const int steps = alone ? widths.steps(size) : 0;
         // An even number, where there is one, leaves what lies beyond a loop to quads alone.
-        for (const int multiple : {std::lcm(symmetric, 2), std::lcm(fold, 2), fold}) {
-            if (!best) best = ring_ends(ends, along, multiple, std::array{2 * steps}, kRingSegment);
+        for (const int multiple : {std::lcm(alone ? symmetric : fold, 2), std::lcm(fold, 2), fold}) {
+            if (!best)
+                best = ring_ends(ends, along, multiple, std::array{2 * steps},
+                                 alone ? kRingSegment : kRingWithHoles);
         }
-        if (!best && others.empty()) {
+        if (!best && alone) {
             // Rows that change their number of sides, alike at two nodes.
             std::vector<int> more;
             for (int rows = 1; rows <= widths.changing(size); ++rows)
