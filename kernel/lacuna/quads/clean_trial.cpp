@@ -7,9 +7,10 @@ namespace lacuna::quads::cleaning {
 
 namespace {
 
-/// What a patch may lose in scaled Jacobian, summed over its quads, for each irregular point less. Measured on
-/// the named outlines, 30 of the held family and 60 generated ones: against 0.15 a sixth fewer irregular points
-/// below 1,000 quads and two fifths fewer from 20,000 on, for 0.0003 of the mean at most; 2.5 costs 0.002.
+/// What a patch may lose in scaled Jacobian, summed over its quads, for each irregular point less. Measured
+/// on the named outlines, 30 of the held family and 60 generated ones: against 0.15 a sixth fewer irregular
+/// points below 1,000 quads and two fifths fewer from 20,000 on, for 0.0003 of the mean at most; 2.5 costs
+/// 0.002.
 constexpr double kLossForgiven = 1.2;
 /// The first sweeps over a filling leave at least this share of its loss (of 6,000 fillings from six domains
 /// they left less in one of a hundred).
