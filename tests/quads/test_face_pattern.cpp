@@ -124,6 +124,46 @@ TEST_CASE("a ring whose loops have as many sides each gets rows alone, eccentric
     }
 }
 
+TEST_CASE("a ring with unlike numbers of sides gets rows that change: two irregular nodes a place")
+{
+    for (const int outer : {28, 36, 44}) {
+        for (int fewer = -8; fewer <= 16; fewer += 4) {
+            if (fewer == 0) continue;
+            CAPTURE(outer);
+            CAPTURE(fewer);
+            const PlanarRegion region = region_of(
+                {circle({0, 0}, 1, outer, false, 0.2), circle({0, 0}, 0.5, outer - fewer, true, 0.2)},
+                2 * kPi * 0.75 / outer);
+            const auto meshes = quads::fill_patterns(region);
+            REQUIRE(!meshes.empty());
+            const quads::PlaneQuality quality = quads::measure_plane(meshes[0], region);
+            CHECK(quality.irregular % 2 == 0);
+            CHECK(quality.irregular <= 8);
+            CHECK(quality.boundary_irregular == 0);
+            CHECK(quality.min_scaled_jacobian > 0.5);
+        }
+    }
+}
+
+TEST_CASE("a ring that is narrow on one side steps in there: four irregular nodes, and fewer rows")
+{
+    for (const double off : {0.3, 0.35, 0.4}) {
+        for (const int steps : {2, 3}) {
+            CAPTURE(off);
+            CAPTURE(steps);
+            const int outer = 40, inner = outer - 2 * steps;
+            const PlanarRegion region = region_of(
+                {circle({0, 0}, 1, outer, false), circle({off, 0}, 0.4, inner, true)}, 0.14);
+            const auto meshes = quads::fill_patterns(region);
+            REQUIRE(!meshes.empty());
+            const quads::PlaneQuality quality = quads::measure_plane(meshes[0], region);
+            CHECK(quality.irregular == 4);
+            CHECK(quality.boundary_irregular == 0);
+            CHECK(quality.min_scaled_jacobian > 0.5);
+        }
+    }
+}
+
 TEST_CASE("a polygon in a circle, and a circle in a slot, are rings")
 {
     for (int corners = 4; corners <= 8; ++corners) {

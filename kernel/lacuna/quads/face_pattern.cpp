@@ -3,12 +3,14 @@
 
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/pattern_loop.h>
+#include <lacuna/quads/detail/pattern_ring.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/row_heights.h>
 #include <lacuna/quads/measure_plane.h>
 #include <lacuna/quads/smooth_plane.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -149,6 +151,8 @@ void move(GridLoop& loop, int along, int across, int period)
 struct FacePattern {
     std::size_t about = 0; ///< the loop that the grid goes round; 0: none, its lines are straight
     int rows = 1;          ///< between a loop and the corners that the grid has along its round parts
+    int steps = 0;         ///< rows by which the outer loop of a ring steps in where the ring is narrow
+    int corners = 0;       ///< nodes at which rows of a ring change their number of sides
 };
 
 class PatternFiller {
@@ -178,6 +182,12 @@ public:
 
     /// Soft turns, over all loops.
     [[nodiscard]] std::ptrdiff_t turns() const { return soft_; }
+
+    /// By how many sides the outer loop has more than the hole that the grid goes round, where both are loops
+    /// of a ring.
+    [[nodiscard]] int more_sides() const { return more_sides_; }
+    /// Whether the rows of a ring may change their number of sides along one of its loops.
+    [[nodiscard]] bool may_change() const { return may_change_; }
 
 private:
     [[nodiscard]] std::string words() const
@@ -261,7 +271,9 @@ private:
             const LoopFrame frame{true, centre_of(region_.points, loop), 0};
             const double weight = kRoundWeight / static_cast<double>(loop.size());
             if (!head(l, frame, weight, 0) || !is_ring_loop(region_.points, loops_[l])) return false;
-            if (l == 0) period_ = along(loops_[l]);
+        }
+        if (!make_alike(loops_[0], loops_[pattern_.about])) return false;
+        for (const std::size_t l : {std::size_t{0}, pattern_.about}) {
             if (period_ < 3 || !close(l, l == 0 ? period_ : -period_)) return false;
             move(grid_[l], 0, 0, period_);
         }
@@ -272,6 +284,29 @@ private:
             if (l != pattern_.about && !place_beside(l, spokes, rows)) return false;
         }
         return true;
+    }
+
+    /// Bring the two loops of a ring to the same number of sides along, as the pattern says.
+    bool make_alike(PatternLoop& outer, PatternLoop& inner)
+    {
+        more_sides_ = along(outer) + along(inner);
+        may_change_ = runs_round(outer) || runs_round(inner);
+        if (pattern_.steps > 0) {
+            if (!runs_round(outer)) return false;
+            const RingWidths widths = ring_widths(points_, outer.nodes, inner.nodes);
+            if (!step_in(outer, widths.narrowest, widths.half, pattern_.steps)) return false;
+            soft_ += 4;
+        }
+        const int by = more_sides_ - 2 * pattern_.steps;
+        if (pattern_.corners > 0 && by != 0) {
+            PatternLoop& loop = pattern_.steps == 0 && runs_round(outer) ? outer : inner;
+            if (!runs_round(loop) ||
+                !change_sides(loop, &loop == &outer ? -by : by, pattern_.corners, points_, quads_, size_))
+                return false;
+            soft_ += 2L * pattern_.corners;
+        }
+        period_ = along(outer);
+        return period_ == -along(inner);
     }
 
     /// How many more sides run along heading 0 than back.
@@ -308,7 +343,38 @@ private:
     std::vector<GridLoop> grid_;
     int period_ = 0;
     std::ptrdiff_t soft_ = 0;
+    int more_sides_ = 0;
+    bool may_change_ = false;
 };
+
+/// The ways to fill a ring whose outer loop has more sides than the other, or fewer, those with the fewest
+/// irregular nodes first.
+std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const Size& size, std::size_t about,
+                                      int more_sides)
+{
+    // With more, a straight grid has as few irregular nodes: four for each loop.
+    constexpr int kMostCorners = 4;
+    const RingWidths widths = ring_widths(region.points, region.loops[0], region.loops[about]);
+    const double height = size(point(region.points, region.loops[about].front()));
+    const int pairs = std::abs(more_sides) / 2, rows = widths.changing(height);
+    std::vector<FacePattern> patterns;
+    if (widths.steps(height) > 0) {
+        if (more_sides > 0 && pairs <= rows) patterns.push_back({about, 1, pairs, 0});
+        return patterns;
+    }
+    for (int corners = 1; corners <= std::min(pairs, kMostCorners); ++corners) {
+        if ((pairs + corners - 1) / corners <= rows) patterns.push_back({about, 1, 0, corners});
+    }
+    return patterns;
+}
+
+/// Whether no other way need be tried: all quads are nearly square. Choices, not measurements.
+bool is_fine(const PlanarQuads& mesh, const PlanarRegion& region)
+{
+    constexpr double kLeast = 0.75, kMean = 0.92;
+    const PlaneQuality quality = measure_plane(mesh, region);
+    return quality.min_scaled_jacobian > kLeast && quality.mean_scaled_jacobian > kMean;
+}
 
 } // namespace
 
@@ -318,12 +384,23 @@ std::vector<PlanarQuads> fill_patterns(const PlanarRegion& region, const RunCont
     for (std::size_t l = 1; l < region.loops.size(); ++l) patterns.push_back({l, 1});
     constexpr int kMostRows = 3; // deeper turns gain nothing; a choice
     for (int rows = 1; rows <= kMostRows; ++rows) patterns.push_back({0, rows});
-    const Size size = paving::size_with_boundary(region);
+    // Sides of a ring may be 1 / 0.6 times as long as asked, or as short, and rows still of the size asked.
+    constexpr double kGrading = 0.3, kAlike = 1.75;
+    const Size size = paving::size_with_boundary(region, kGrading, kAlike);
     std::vector<PlanarQuads> made;
     for (const FacePattern& pattern : patterns) {
         check_cancelled(context);
         PatternFiller filler(region, pattern, size);
         if (auto mesh = filler.run(context)) made.push_back(std::move(*mesh));
+        if (filler.more_sides() % 2 == 0 && filler.more_sides() != 0 && filler.may_change()) {
+            for (const FacePattern& unlike : unlike_rings(region, size, pattern.about, filler.more_sides())) {
+                PatternFiller changing(region, unlike, size);
+                auto mesh = changing.run(context);
+                if (!mesh) continue;
+                made.push_back(std::move(*mesh));
+                if (is_fine(made.back(), region)) break;
+            }
+        }
         if (filler.turns() == 0 && pattern.about == 0) break; // more rows change nothing
     }
     return made;

@@ -20,6 +20,9 @@ namespace lacuna::quads {
 /// 4. Holes are placed in the grid where the boundary's own grid coordinates, interpolated, put them.
 /// 5. The grid's cells within the loops are the quads. Inner nodes are smoothed.
 ///
+/// A ring whose loops have unlike numbers of sides has rows that change theirs, or a part with fewer rows
+/// where it is narrow.
+///
 /// A disc so gets a square within rows; a ring whose loops have as many sides each gets rows alone; slots,
 /// rounded rectangles, plates with holes and flanges get one grid with four irregular nodes for each round
 /// loop.

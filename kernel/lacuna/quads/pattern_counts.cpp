@@ -2,6 +2,7 @@
 #include <lacuna/quads/pattern_counts.h>
 
 #include <lacuna/quads/detail/pattern_loop.h>
+#include <lacuna/quads/detail/pattern_ring.h>
 
 #include <algorithm>
 #include <array>
@@ -13,10 +14,18 @@
 namespace lacuna::quads {
 namespace {
 
-/// How much more or less than wanted a ring's loops may get, and other segments of four sides or more.
-/// With the first, rows of a ring are still of the size asked by the measure of `measure_plane()`; the second
-/// is what is promised for sizes. Shorter segments may change by one side.
-constexpr double kRing = 1.55, kSegmentMost = 1.25;
+/// Shares of the sides wanted that a segment may get.
+struct Range {
+    double least, most;
+};
+/// What a ring's loops may get, and other segments of four sides or more. With the first, rows of a ring are
+/// of the size asked by the measure of `measure_plane()`, edges 0.6 to 1.6 times as long; the second is what
+/// is promised for sizes. Shorter segments may change by one side.
+constexpr Range kRing{1 / 1.6, 1 / 0.6}, kSegment{1 / 1.25, 1.25};
+/// Shares by which rounding may take a ring's segments out of that range, so that loops of several segments
+/// still have alike ones: it takes edges along one loop. A choice, not a measurement.
+constexpr double kRounding = 1.03;
+constexpr Range kRingSegment{kRing.least / kRounding, kRing.most* kRounding};
 
 /// The sides of a segment that run one way.
 struct Run {
@@ -75,7 +84,7 @@ public:
         std::vector<CountedLoop> loops;
         for (std::size_t l = 0; l < region_.loops.size(); ++l) {
             auto loop = counted(l, {false, Vec2::Zero(), angle}, kStraightWeight, l == 0 ? 4 : -4);
-            if (!loop || !close(*loop, kSegmentMost)) return std::nullopt;
+            if (!loop || !close(*loop, kSegment)) return std::nullopt;
             loops.push_back(std::move(*loop));
         }
         if (loops.size() > 1) centre_holes(loops, angle);
@@ -146,7 +155,7 @@ private:
     }
 
     /// Change runs, the cheapest first, until a loop has no excess. @return false where none may change
-    [[nodiscard]] bool close(CountedLoop& loop, double most) const
+    [[nodiscard]] bool close(CountedLoop& loop, const Range& range) const
     {
         while (badness(loop.excess) > 0) {
             double least = std::numeric_limits<double>::infinity();
@@ -154,7 +163,7 @@ private:
             int best_by = 0;
             for (Run& run : loop.runs) {
                 for (const int by : {1, -1}) {
-                    if (!may_be(loop, run, run.count + by, most)) continue;
+                    if (!may_be(loop, run, run.count + by, range)) continue;
                     const double cost = cost_of(run, run.count + by) - cost_of(run, run.count);
                     if (!segments_[run.segment].fixed) {
                         if (!improves(loop, run, by, nullptr) || cost >= least) continue;
@@ -251,7 +260,7 @@ private:
                 double own = std::numeric_limits<double>::infinity();
                 for (Run& run : loop.runs) {
                     if (run.quarter != quarter + 2 * back || segments_[run.segment].fixed ||
-                        !may_be(loop, run, run.count + by, kSegmentMost))
+                        !may_be(loop, run, run.count + by, kSegment))
                         continue;
                     const double cost = cost_of(run, run.count + by) - cost_of(run, run.count);
                     if (cost >= own) continue;
@@ -269,14 +278,14 @@ private:
         for (Run* run : best) add(loop, *run, best_by);
     }
 
-    [[nodiscard]] bool may_be(const CountedLoop& loop, const Run& run, int count, double most) const
+    [[nodiscard]] bool may_be(const CountedLoop& loop, const Run& run, int count, const Range& range) const
     {
         const BoundarySegment& own = segments_[run.segment];
         if (count < 1 || own.fixed) return count >= 1;
         const int sides = sides_of(loop, run.segment) + count - run.count;
         if (count < run.count && sides < own.least) return false;
         const double off = sides / own.wanted;
-        return (off <= most && off >= 1 / most) || std::abs(sides - own.wanted) <= 1;
+        return (off <= range.most && off >= range.least) || std::abs(sides - own.wanted) <= 1;
     }
 
     static bool improves(const CountedLoop& loop, const Run& run, int by, const Run* other)
@@ -287,6 +296,17 @@ private:
             if (other != nullptr) now[k] -= by * step_of(other->quarter)[k];
         }
         return badness(now) < badness(loop.excess);
+    }
+
+    /// The sides of a loop that are not of the size asked, each of which costs as much as one too few.
+    [[nodiscard]] static double out_of_size(const CountedLoop& loop)
+    {
+        int sum = 0;
+        for (const Run& run : loop.runs) {
+            const double off = run.count / run.wanted;
+            if (off < kRing.least || off > kRing.most) sum += run.count;
+        }
+        return sum;
     }
 
     [[nodiscard]] static double sum_of_costs(const CountedLoop& loop)
@@ -315,7 +335,7 @@ private:
                                 is_end ? 0 : -4);
             if (!loop) return std::nullopt;
             if (!is_end) {
-                if (!close(*loop, kSegmentMost)) return std::nullopt;
+                if (!close(*loop, kSegment)) return std::nullopt;
                 others.push_back(std::move(*loop));
                 continue;
             }
@@ -323,30 +343,96 @@ private:
             along[e] = std::abs(loop->excess[0]);
             ends[e] = std::move(*loop);
         }
+        const int fold = alike(others, about);
+        // Numbers that leave loops as symmetric as they are, where others are as good.
+        const int symmetric = std::lcm(fold, std::lcm(repeats(0), repeats(about)));
+        std::optional<std::vector<CountedLoop>> best;
+        const RingWidths widths = ring_widths(region_.points, region_.loops[0], region_.loops[about]);
+        const double size = mean_size(about);
+        const int steps = others.empty() ? widths.steps(size) : 0;
+        // An even number, where there is one, leaves what lies beyond a loop to quads alone.
+        for (const int multiple : {std::lcm(symmetric, 2), std::lcm(fold, 2), fold}) {
+            if (!best) best = ring_ends(ends, along, multiple, std::array{2 * steps}, kRingSegment);
+        }
+        if (!best && others.empty()) {
+            // Rows that change their number of sides, alike at two nodes.
+            std::vector<int> more;
+            for (int rows = 1; rows <= widths.changing(size); ++rows)
+                more.push_back(along[0] > along[1] ? 4 * rows : -4 * rows);
+            best = ring_ends(ends, along, 2, more, kSegment);
+            if (!best) best = ring_ends(ends, along, 2, more, kRingSegment);
+        }
+        if (!best) return std::nullopt;
+        best->insert(best->end(), others.begin(), others.end());
+        return counts_of(*best);
+    }
+
+    /// The loops of a ring at the least cost in sum, each over what the loop wants.
+    /// @param multiple  that the outer loop's number of sides along must be.
+    /// @param more      sides more than the inner loop has: the numbers to be tried.
+    [[nodiscard]] std::optional<std::vector<CountedLoop>> ring_ends(const std::array<CountedLoop, 2>& ends,
+                                                                    const std::array<int, 2>& along,
+                                                                    int multiple, std::span<const int> more,
+                                                                    const Range& range) const
+    {
         std::optional<std::vector<CountedLoop>> best;
         double least = std::numeric_limits<double>::infinity();
-        const int alike_holes = alike(others, about);
         const int low = std::max(3, std::min(along[0], along[1])), high = std::max(along[0], along[1]);
-        // An even number, where there is one, leaves what lies beyond a loop to quads alone.
-        for (const int fold : {std::lcm(alike_holes, 2), alike_holes}) {
-            for (int sides = (low + fold - 1) / fold * fold; sides < high + fold; sides += fold) {
+        for (const int by : more) {
+            for (int sides = (low + multiple - 1) / multiple * multiple; sides < high + multiple;
+                 sides += multiple) {
+                if (sides - by < 3) continue;
                 double cost = 0;
                 bool closed = true;
                 std::vector<CountedLoop> tried(ends.begin(), ends.end());
                 for (std::size_t e = 0; e < 2 && closed; ++e) {
-                    tried[e].excess[0] -= e == 0 ? sides : -sides;
-                    closed = close(tried[e], kRing);
-                    cost += sum_of_costs(tried[e]) / tried[e].wanted;
+                    tried[e].excess[0] -= e == 0 ? sides : by - sides;
+                    closed = close(tried[e], range);
+                    cost += (sum_of_costs(tried[e]) + out_of_size(tried[e])) / tried[e].wanted;
                 }
                 if (!closed || cost >= least) continue;
                 least = cost;
                 best = std::move(tried);
             }
-            if (best) break;
         }
-        if (!best) return std::nullopt;
-        best->insert(best->end(), others.begin(), others.end());
-        return counts_of(*best);
+        return best;
+    }
+
+    /// The mean of the sizes asked along the loops of a ring.
+    [[nodiscard]] double mean_size(std::size_t about) const
+    {
+        double length = 0, wanted = 0;
+        for (const std::size_t l : {std::size_t{0}, about}) {
+            const std::vector<Index>& loop = region_.loops[l];
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                const Vec2 &a = region_.points[static_cast<std::size_t>(loop[i])],
+                           &b = region_.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
+                length += (b - a).norm();
+                wanted += segments_[segment_of(loop[i])].wanted / own_[segment_of(loop[i])];
+            }
+        }
+        return length / wanted;
+    }
+
+    /// How often the same segments follow each other on a loop.
+    [[nodiscard]] int repeats(std::size_t l) const
+    {
+        constexpr double kAlike = 0.01; // share by which they may differ; a choice, not a measurement
+        std::vector<double> wanted;
+        const std::vector<Index>& loop = region_.loops[l];
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const std::size_t own = segment_of(loop[i]);
+            if (i == 0 || own != segment_of(loop[i - 1])) wanted.push_back(segments_[own].wanted);
+        }
+        const std::size_t n = wanted.size();
+        for (std::size_t period = 1; period < n; ++period) {
+            if (n % period != 0) continue;
+            bool same = true;
+            for (std::size_t i = 0; i < n && same; ++i)
+                same = std::abs(wanted[i] - wanted[i % period]) <= kAlike * wanted[i];
+            if (same) return static_cast<int>(n / period);
+        }
+        return 1;
     }
 
     /// How many holes there are beside the one the grid goes round, where they are of one size and at one

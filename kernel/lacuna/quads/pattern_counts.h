@@ -20,8 +20,11 @@ struct BoundarySegment {
 ///
 /// The whole numbers n of least Σ (n − wanted)² / n for which every loop closes in the grid: as many sides
 /// one way as back; about a hole as many on the outer loop as on that hole's. Fixed segments keep theirs. A
-/// ring is taken where both its loops get 1.55 times or 1/1.55 of what they want at most. Otherwise the lines
-/// are straight, and no segment that wants four sides or more gets a quarter more or less.
+/// ring is taken where both its loops so get sides 0.6 to 1.6 times as long as asked, those alike that repeat
+/// along a loop where that goes too. Where one side of a ring is narrow, its outer loop has two more for each
+/// row that it steps in there. Otherwise a ring's loops differ by a multiple of four, which rows with two
+/// places to change take up. Where none of that goes the lines are straight, and no segment that wants four
+/// sides or more gets a quarter more or less.
 ///
 /// The equations of a loop have coefficients of 1 and -1, and no number is in two but of segments that turn.
 /// So the numbers wanted are rounded, and then changed by one, the cheapest first, until all equations hold.

@@ -120,20 +120,19 @@ private:
 
 } // namespace
 
-std::function<double(const Vec2&)> size_with_boundary(const PlanarRegion& region, double grading)
+std::function<double(const Vec2&)> size_with_boundary(const PlanarRegion& region, double grading,
+                                                      double alike)
 {
     const std::vector<BoundarySide> sides = sides_of(region);
     double sum = 0;
     for (const BoundarySide& side : sides) sum += side.length;
     std::function<double(const Vec2&)> asked = region.size;
     if (!asked) asked = [mean = sum / static_cast<double>(sides.size())](const Vec2&) { return mean; };
-    // Sides within this factor have the length asked. A choice, not a measurement.
-    constexpr double kAlike = 1.6;
-    const bool alike = std::all_of(sides.begin(), sides.end(), [&](const BoundarySide& side) {
+    const bool all_alike = std::all_of(sides.begin(), sides.end(), [&](const BoundarySide& side) {
         const double size = asked(side.middle);
-        return side.length < kAlike * size && size < kAlike * side.length;
+        return side.length < alike * size && size < alike * side.length;
     });
-    if (alike) return asked;
+    if (all_alike) return asked;
     return [asked, bounds = std::make_shared<const SizeBounds>(sides, grading)](const Vec2& p) {
         return bounds->limit(p, asked(p));
     };

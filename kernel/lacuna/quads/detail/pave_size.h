@@ -15,6 +15,8 @@ namespace lacuna::quads::paving {
 /// handed back. A region without a size has its mean boundary side.
 /// @param grading  change of size over distance; the default keeps neighbouring edges within 1.3 of each
 ///                 other [-].
-std::function<double(const Vec2&)> size_with_boundary(const PlanarRegion& region, double grading = 0.3);
+/// @param alike    a side has about the length asked where the two differ by less than this factor [-].
+std::function<double(const Vec2&)> size_with_boundary(const PlanarRegion& region, double grading = 0.3,
+                                                      double alike = 1.6);
 
 } // namespace lacuna::quads::paving

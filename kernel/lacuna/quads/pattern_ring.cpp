@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/pattern_ring.h>
+
+#include <lacuna/quads/detail/partial_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace lacuna::quads {
+namespace {
+
+const Vec2& point(std::span<const Vec2> points, Index p) { return points[static_cast<std::size_t>(p)]; }
+
+/// Rows round a loop that change its number of sides.
+class ChangingRows {
+public:
+    ChangingRows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<Quad>& quads,
+                 const std::function<double(const Vec2&)>& height)
+        : loop_(loop), points_(points), quads_(quads), height_(height)
+    {
+    }
+
+    /// Lay one row. @param corners  positions in the loop, rising; they are those in the new loop after it.
+    bool lay(std::vector<std::size_t>& corners, bool grows)
+    {
+        const std::vector<Index> nodes = loop_.nodes;
+        const std::size_t n = nodes.size();
+        // At a corner a row has one node beside three of the loop, or three beside one.
+        constexpr std::size_t kApart = 3;
+        for (std::size_t c = 0; c < corners.size(); ++c) {
+            const std::size_t next = corners[(c + 1) % corners.size()] + (c + 1 == corners.size() ? n : 0);
+            if (next < corners[c] + kApart) return false;
+        }
+        std::vector<char> turns(n, 0);
+        for (const std::size_t c : corners) turns[c] = 1;
+        std::vector<Index> first(n), last(n); // the new nodes beside each, the same but where the row grows
+        std::vector<Index> row;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (!grows && (turns[(i + 1) % n] || turns[(i + n - 1) % n])) continue;
+            const Index above = add_above(nodes, i);
+            first[i] = last[i] = above;
+            if (turns[i] && grows) {
+                first[i] = add_above(nodes, i);
+                last[i] = add_above(nodes, i);
+                row.push_back(first[i]);
+            }
+            if (turns[i])
+                corners[static_cast<std::size_t>(std::count(
+                    turns.begin(), turns.begin() + static_cast<std::ptrdiff_t>(i), 1))] = row.size();
+            row.push_back(above);
+            if (turns[i] && grows) {
+                row.push_back(last[i]);
+                quads_.push_back({nodes[i], last[i], above, first[i]});
+            }
+        }
+        if (row.size() < 3) return false;
+        for (std::size_t i = 0; i < n && !grows; ++i) {
+            if (!turns[i]) continue;
+            const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
+            last[before] = first[before] = last[after] = first[after] = first[i];
+            quads_.push_back({nodes[before], nodes[i], nodes[after], first[i]});
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t next = (i + 1) % n;
+            if (last[i] != first[next]) quads_.push_back({nodes[i], nodes[next], first[next], last[i]});
+        }
+        loop_.nodes = std::move(row);
+        make_even(corners.empty() ? 0 : corners.front());
+        return true;
+    }
+
+private:
+    Index add_above(const std::vector<Index>& nodes, std::size_t i)
+    {
+        const std::size_t n = nodes.size();
+        const Vec2 here = point(points_, nodes[i]);
+        const Vec2 along = (point(points_, nodes[(i + 1) % n]) - here).normalized() +
+                           (here - point(points_, nodes[(i + n - 1) % n])).normalized();
+        const double length = along.norm();
+        const Vec2 unit = length > 0 ? Vec2(along / length) : Vec2(1, 0);
+        points_.push_back(here + height_(here) * Vec2(-unit.y(), unit.x()));
+        return static_cast<Index>(points_.size()) - 1;
+    }
+
+    /// Spread the loop's nodes evenly along it, one of them staying where it is.
+    void make_even(std::size_t staying)
+    {
+        const std::size_t n = loop_.nodes.size();
+        std::vector<Index> nodes = loop_.nodes;
+        std::rotate(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(staying), nodes.end());
+        std::vector<Vec2> line;
+        for (const Index p : nodes) line.push_back(point(points_, p));
+        line.push_back(line.front());
+        std::vector<double> arc{0};
+        for (std::size_t i = 0; i < n; ++i) arc.push_back(arc.back() + (line[i + 1] - line[i]).norm());
+        std::size_t piece = 0;
+        for (std::size_t i = 1; i < n; ++i) {
+            const double at = arc.back() * static_cast<double>(i) / static_cast<double>(n);
+            while (piece + 1 < n && arc[piece + 1] < at) ++piece;
+            const double length = arc[piece + 1] - arc[piece];
+            const double part = length > 0 ? (at - arc[piece]) / length : 0;
+            points_[static_cast<std::size_t>(nodes[i])] = line[piece] +
+                                                          part * (line[piece + 1] - line[piece]);
+        }
+    }
+
+    PatternLoop& loop_;
+    std::vector<Vec2>& points_;
+    std::vector<Quad>& quads_;
+    const std::function<double(const Vec2&)>& height_;
+};
+
+} // namespace
+
+int RingWidths::steps(double height) const
+{
+    // As `measure_plane()`: rows of one number are of the size asked where the ring is up to 1.6 / 0.6 times
+    // as wide here as there.
+    constexpr double kMostRatio = 1.6 / 0.6;
+    if (!(least > 0) || most < kMostRatio * least) return 0;
+    // Half of what would make all rows alike, so that those beside the steps are neither high nor low.
+    return static_cast<int>(std::lround((most - least) / (2 * height)));
+}
+
+int RingWidths::changing(double height) const
+{
+    return static_cast<int>(std::lround((most + least) / (2 * height))) - 1;
+}
+
+RingWidths ring_widths(std::span<const Vec2> points, const std::vector<Index>& outer,
+                       const std::vector<Index>& inner)
+{
+    std::vector<double> width;
+    for (const Index p : outer) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const Index q : inner)
+            least = std::min(least, (point(points, q) - point(points, p)).squaredNorm());
+        width.push_back(std::sqrt(least));
+    }
+    const std::size_t n = width.size();
+    RingWidths widths;
+    widths.narrowest = static_cast<std::size_t>(std::min_element(width.begin(), width.end()) - width.begin());
+    widths.least = width[widths.narrowest];
+    widths.most = *std::max_element(width.begin(), width.end());
+    const double middle = (widths.least + widths.most) / 2;
+    std::size_t ahead = 0, back = 0;
+    while (ahead + 1 < n / 2 && width[(widths.narrowest + ahead) % n] < middle) ++ahead;
+    while (back + 1 < n / 2 && width[(widths.narrowest + n - back) % n] < middle) ++back;
+    widths.half = (ahead + back) / 2;
+    return widths;
+}
+
+bool runs_round(const PatternLoop& loop)
+{
+    return loop.turns == 0 && std::all_of(loop.heading.begin(), loop.heading.end(),
+                                          [&](int h) { return h == loop.heading.front(); });
+}
+
+bool step_in(PatternLoop& loop, std::size_t middle, std::size_t half, int rows)
+{
+    const std::size_t n = loop.size();
+    const auto d = static_cast<std::size_t>(rows);
+    if (rows < 1 || half < d + 1 || 2 * half + 2 > n) return false;
+    const std::size_t start = (middle + n - half) % n;
+    const auto set = [&](std::size_t from, int by) {
+        for (std::size_t i = 0; i < d; ++i) loop.heading[(from + i) % n] += by;
+        for (const std::size_t i : {from % n, (from + d) % n}) loop.soft[i] = loop.movable[i] = 1;
+    };
+    set(start, 1);
+    set(start + 2 * half - d, -1);
+    return true;
+}
+
+bool change_sides(PatternLoop& loop, int by, int corners, std::vector<Vec2>& points, std::vector<Quad>& quads,
+                  const std::function<double(const Vec2&)>& height)
+{
+    const std::size_t n = loop.size();
+    const bool grows = by > 0;
+    const int pairs = std::abs(by) / 2;
+    if (by % 2 != 0 || corners < 1 || pairs < corners) return false;
+    ChangingRows rows(loop, points, quads, height);
+    std::vector<std::size_t> none;
+    if (!rows.lay(none, grows)) return false;
+    std::vector<std::size_t> at;
+    for (int c = 0; c < corners; ++c)
+        at.push_back(n * static_cast<std::size_t>(c) / static_cast<std::size_t>(corners));
+    for (int row = 0; row < (pairs + corners - 1) / corners; ++row) {
+        // The last row may have sides for some of the corners only.
+        at.resize(static_cast<std::size_t>(std::min(corners, pairs - row * corners)));
+        if (!rows.lay(at, grows)) return false;
+    }
+    const int heading = loop.heading.front();
+    loop.heading.assign(loop.size(), heading);
+    loop.direction.assign(loop.size(), heading);
+    loop.soft.assign(loop.size(), 0);
+    loop.movable.assign(loop.size(), 0);
+    return true;
+}
+
+} // namespace lacuna::quads
