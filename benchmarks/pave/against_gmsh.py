@@ -26,8 +26,9 @@ over boundary nodes that of 2 - quads, are 4 times the Euler number, and boundar
 right angles fit in. Nodes of a symmetric outline are mapped by its symmetries: the error is their distance to
 the nearest node over the size asked, at most.
 
-The table goes to benchmarks/results/ as Markdown and JSON, after Ctrl-C what there is of it; pictures at the smallest sizes of 120 and 400
-beside it (PNG, irregular points dotted: 3 quads blue, 5 red, others green; the redder a quad the poorer).
+The table goes to benchmarks/results/ as Markdown and JSON, after Ctrl-C what there is of it; pictures at 120
+and 400 beside it (PNG, irregular points dotted: 3 quads blue, 5 red, others green; the redder a quad the
+poorer).
 """
 import argparse
 import contextlib
