@@ -26,10 +26,12 @@ over boundary nodes that of 2 - quads, are 4 times the Euler number, and boundar
 right angles fit in. Nodes of a symmetric outline are mapped by its symmetries: the error is their distance to
 the nearest node over the size asked, at most.
 
-The table goes to benchmarks/results/ as Markdown and JSON, pictures at the smallest sizes of 120 and 400
-beside it (PNG, irregular points dotted: 3 quads blue, 5 red, others green; the redder a quad the poorer).
+The table goes to benchmarks/results/ as Markdown and JSON, after Ctrl-C what there is of it; pictures at 120
+and 400 beside it (PNG, irregular points dotted: 3 quads blue, 5 red, others green; the redder a quad the
+poorer).
 """
 import argparse
+import contextlib
 import datetime
 import json
 import math
@@ -183,7 +185,8 @@ def montage(images, path):
     for image in images:
         whole.paste(image, (at, 0))
         at += image.width
-    whole.save(path)
+    # As few colours as show all shades: a third of the bytes.
+    whole.quantize(colors=64).save(path, optimize=True)
 
 
 def growth(results, name):
@@ -342,7 +345,8 @@ def main():
     folder.mkdir(exist_ok=True)
     report = Report()
     pictured_sizes = [s for s in sizes if s in PICTURED] or sizes[:1]
-    with tempfile.TemporaryDirectory() as scratch:
+    measured = contextlib.suppress(KeyboardInterrupt)  # then the report has what there is
+    with measured, tempfile.TemporaryDirectory() as scratch:
         for name, domain, quads in outlines:
             pictured = options.pictures and name in names and quads in pictured_sizes
             own = [m for m in meshers if not (name == "saddle" and m == "source")]

@@ -87,8 +87,8 @@ bool is_near_least(const PlanarQuads& mesh, const PlanarRegion& region, int leas
 
 /// Below so many quads a region is paved by `kFewWeights` alone, unless that is poor, and only so many of
 /// them are finished: those that begin with the fewest irregular nodes. On the outlines those rows were
-/// chosen on that scores 0.01 less than all other rows together did, with a fifth fewer irregular nodes, in a
-/// quarter of the time; the third would gain the 0.01.
+/// chosen on that scores 0.01 less than all other rows together did, with a fifth fewer irregular nodes, in
+/// a quarter of the time; the third would gain the 0.01.
 constexpr std::size_t kFewQuads = 1500, kFinished = 2;
 
 /// A number that tells meshes apart: a hash of points and quads in their order.

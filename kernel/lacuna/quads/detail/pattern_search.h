@@ -18,8 +18,7 @@ struct PatternSteps {
 /// wins.
 /// @param best   the value at `x`.
 /// @param value  of a place, called as value(const Vec2&, double floor): where it is no more than the floor
-///     it
-///               may be any number up to that.
+///               it may be any number up to that.
 /// @return the value at the new `x`, at least `best`.
 template <class Value>
 double pattern_search(Vec2& x, double best, const PatternSteps& steps, const Value& value)
