@@ -75,7 +75,8 @@ std::vector<Index> shortest_way_up(const Model& model, const LinkingFacets& face
 /// s of the linking surface with the target rim left free: how the walls themselves lead up. A row a model
 /// point.
 Eigen::MatrixXd natural_coordinate(const Model& model, const LinkingFacets& facets,
-                                   const LinkingSurface& link, const std::vector<Index>& cut)
+                                   const LinkingSurface& link, const std::vector<Index>& cut,
+                                   const RunContext& context = {})
 {
     geometry::HarmonicProblem problem;
     problem.points = model.points;
@@ -88,7 +89,7 @@ Eigen::MatrixXd natural_coordinate(const Model& model, const LinkingFacets& face
     }
     problem.corner_turns = geometry::turns_along(facets.triangles, cut);
     problem.period = Eigen::RowVectorXd::Ones(1);
-    return geometry::solve_harmonic(problem);
+    return geometry::solve_harmonic(problem, context);
 }
 
 /// Whether an edge was made, between faces that were made.
@@ -133,7 +134,8 @@ double target_coordinate(const LinkingSurface& link, double target_at)
     return 1;
 }
 
-LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, bool void_edges)
+LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, bool void_edges,
+                       const RunContext& context)
 {
     const Model& model = volume.model;
     const LinkingFacets facets = facets_of(model, link.walls);
@@ -143,8 +145,9 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     const std::vector<ChainNode> high = chain_nodes(model, link.target);
     if (link.lines.empty()) {
         cut = shortest_way_up(model, facets, link);
-        const double natural = link.branch ? *link.branch
-                                           : natural_coordinate(model, facets, link, cut)(cut.back(), 0);
+        const double natural = link.branch
+                                   ? *link.branch
+                                   : natural_coordinate(model, facets, link, cut, context)(cut.back(), 0);
         const auto end = std::find_if(high.begin(), high.end(),
                                       [&](const ChainNode& p) { return p.point == cut.back(); });
         const double wanted = target_coordinate(link, end->at);
@@ -179,7 +182,9 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     }
     problem.corner_turns = geometry::turns_along(facets.triangles, cut);
     problem.period = Eigen::RowVector2d(1, 0);
-    strip_ = geometry::solve_harmonic(problem);
+    check_cancelled(context);
+    strip_ = geometry::solve_harmonic(problem, context);
+    check_cancelled(context);
 
     // The strip's own proportions, so that the closest facet to a place off the strip by rounding is the
     // right one.
@@ -207,7 +212,9 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
             original_.push_back(static_cast<Index>(t));
         }
     }
+    check_cancelled(context);
     tree_ = geometry::FacetTree(flat, flat_triangles);
+    check_cancelled(context);
     face_of_ = facets.face;
     triangle_of_ = facets.number;
     if (link.lines.empty()) measure_heights(model);

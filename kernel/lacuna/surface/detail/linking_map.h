@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/surface/linking_surface.h>
 #include <lacuna/surface/projector.h>
@@ -24,7 +25,8 @@ struct WallPosition {
 class LinkingMap {
 public:
     /// @param void_edges  edges between void faces are among the rings and uprights.
-    LinkingMap(const topology::OpenVolume& volume, const LinkingSurface& link, bool void_edges = true);
+    LinkingMap(const topology::OpenVolume& volume, const LinkingSurface& link, bool void_edges = true,
+               const RunContext& context = {});
 
     [[nodiscard]] WallPosition locate(double s, double t) const;
 
