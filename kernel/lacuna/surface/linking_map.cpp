@@ -76,7 +76,7 @@ std::vector<Index> shortest_way_up(const Model& model, const LinkingFacets& face
 /// point.
 Eigen::MatrixXd natural_coordinate(const Model& model, const LinkingFacets& facets,
                                    const LinkingSurface& link, const std::vector<Index>& cut,
-                                   const RunContext& context = {})
+                                   const RunContext& context)
 {
     geometry::HarmonicProblem problem;
     problem.points = model.points;
@@ -102,11 +102,12 @@ bool is_void(const Model& model, EdgeId edge, const std::vector<FaceUse>& beside
 
 } // namespace
 
-double unguided_target_start(const OpenVolume& volume, const LinkingSurface& link)
+double unguided_target_start(const OpenVolume& volume, const LinkingSurface& link, const RunContext& context)
 {
     const Model& model = volume.model;
     const LinkingFacets facets = facets_of(model, link.walls);
-    const Eigen::MatrixXd s = natural_coordinate(model, facets, link, shortest_way_up(model, facets, link));
+    const Eigen::MatrixXd s = natural_coordinate(model, facets, link, shortest_way_up(model, facets, link),
+                                                 context);
     // The mean difference, on the circle, between the lead-up coordinate and the share of the target's
     // length.
     const double length = link.target.length();

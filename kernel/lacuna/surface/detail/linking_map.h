@@ -92,7 +92,8 @@ private:
 
 /// Where on the target chain of a linking surface without side lines the source chain's start belongs, so
 /// that the strip is sheared least [running length].
-double unguided_target_start(const topology::OpenVolume& volume, const LinkingSurface& link);
+double unguided_target_start(const topology::OpenVolume& volume, const LinkingSurface& link,
+                             const RunContext& context = {});
 
 /// s in [0, 1] of a running length of the target chain, by the linking surface's segments.
 double target_coordinate(const LinkingSurface& link, double target_at);
