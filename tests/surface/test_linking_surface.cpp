@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -213,4 +214,18 @@ TEST_CASE("the strip of a linking surface is one to one: neighbours stay neighbo
         }
     }
     MESSAGE(combinations << " strips");
+}
+
+TEST_CASE("linking surfaces and their maps stop where they are asked to")
+{
+    for (const int sides : {0, 4}) {
+        CAPTURE(sides);
+        const auto volume = test::sealed({.sides = sides, .levels = 4});
+        const auto links = surface::linking_surfaces(volume);
+        const std::atomic<bool> cancel{true};
+        RunContext context;
+        context.cancel = &cancel;
+        CHECK_THROWS_AS(surface::linking_surfaces(volume, surface::Turning::each, {}, context), Cancelled);
+        CHECK_THROWS_AS(surface::LinkingMap(volume, links.front(), true, context), Cancelled);
+    }
 }

@@ -67,9 +67,10 @@ std::vector<bool> on_border(const HarmonicProblem& problem)
     return border;
 }
 
-/// The weights of every corner of every triangle, as they come: mean value weights, and at borders cotangents.
-/// The mean of what lies on one side of a border would lean as the facets' diagonals do there; with cotangents
-/// nothing flows over it.
+/// The weights of every corner of every triangle, as they come: mean value weights, and at borders
+/// cotangents.
+/// The mean of what lies on one side of a border would lean as the facets' diagonals do there; with
+/// cotangents nothing flows over it.
 std::vector<Weight> corner_weights(const HarmonicProblem& problem)
 {
     const std::vector<bool> border = on_border(problem);

@@ -31,9 +31,9 @@ struct HarmonicProblem {
     std::vector<std::array<int, 3>> corner_turns;
     Eigen::RowVectorXd period; ///< k numbers; read only where there are corner_turns
 
-    /// Cotangent weights everywhere, of either sign: least Dirichlet energy. Mean value weights lean as diagonals
-    /// do that all run one way, however fine the triangles; these do not, but values may leave the range of the
-    /// fixed ones.
+    /// Cotangent weights everywhere, of either sign: least Dirichlet energy. Mean value weights lean as
+    /// diagonals do that all run one way, however fine the triangles; these do not, but values may leave the
+    /// range of the fixed ones.
     bool least_energy = false;
 };
 

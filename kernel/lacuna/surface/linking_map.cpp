@@ -75,7 +75,8 @@ std::vector<Index> shortest_way_up(const Model& model, const LinkingFacets& face
 /// s of the linking surface with the target rim left free: how the walls themselves lead up. A row a model
 /// point.
 Eigen::MatrixXd natural_coordinate(const Model& model, const LinkingFacets& facets,
-                                   const LinkingSurface& link, const std::vector<Index>& cut)
+                                   const LinkingSurface& link, const std::vector<Index>& cut,
+                                   const RunContext& context)
 {
     geometry::HarmonicProblem problem;
     problem.points = model.points;
@@ -89,7 +90,7 @@ Eigen::MatrixXd natural_coordinate(const Model& model, const LinkingFacets& face
     problem.corner_turns = geometry::turns_along(facets.triangles, cut);
     problem.period = Eigen::RowVectorXd::Ones(1);
     problem.least_energy = true;
-    return geometry::solve_harmonic(problem);
+    return geometry::solve_harmonic(problem, context);
 }
 
 /// Whether an edge was made, between faces that were made.
@@ -102,11 +103,12 @@ bool is_void(const Model& model, EdgeId edge, const std::vector<FaceUse>& beside
 
 } // namespace
 
-double unguided_target_start(const OpenVolume& volume, const LinkingSurface& link)
+double unguided_target_start(const OpenVolume& volume, const LinkingSurface& link, const RunContext& context)
 {
     const Model& model = volume.model;
     const LinkingFacets facets = facets_of(model, link.walls);
-    const Eigen::MatrixXd s = natural_coordinate(model, facets, link, shortest_way_up(model, facets, link));
+    const Eigen::MatrixXd s = natural_coordinate(model, facets, link, shortest_way_up(model, facets, link),
+                                                 context);
     // The mean difference, on the circle, between the lead-up coordinate and the share of the target's
     // length.
     const double length = link.target.length();
@@ -134,7 +136,8 @@ double target_coordinate(const LinkingSurface& link, double target_at)
     return 1;
 }
 
-LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, bool void_edges)
+LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, bool void_edges,
+                       const RunContext& context)
 {
     const Model& model = volume.model;
     const LinkingFacets facets = facets_of(model, link.walls);
@@ -144,8 +147,9 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     const std::vector<ChainNode> high = chain_nodes(model, link.target);
     if (link.lines.empty()) {
         cut = shortest_way_up(model, facets, link);
-        const double natural = link.branch ? *link.branch
-                                           : natural_coordinate(model, facets, link, cut)(cut.back(), 0);
+        const double natural = link.branch
+                                   ? *link.branch
+                                   : natural_coordinate(model, facets, link, cut, context)(cut.back(), 0);
         const auto end = std::find_if(high.begin(), high.end(),
                                       [&](const ChainNode& p) { return p.point == cut.back(); });
         const double wanted = target_coordinate(link, end->at);
@@ -180,7 +184,9 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     }
     problem.corner_turns = geometry::turns_along(facets.triangles, cut);
     problem.period = Eigen::RowVector2d(1, 0);
-    strip_ = geometry::solve_harmonic(problem);
+    check_cancelled(context);
+    strip_ = geometry::solve_harmonic(problem, context);
+    check_cancelled(context);
 
     // The strip's own proportions, so that the closest facet to a place off the strip by rounding is the
     // right one.
@@ -208,7 +214,9 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
             original_.push_back(static_cast<Index>(t));
         }
     }
+    check_cancelled(context);
     tree_ = geometry::FacetTree(flat, flat_triangles);
+    check_cancelled(context);
     face_of_ = facets.face;
     triangle_of_ = facets.number;
     if (link.lines.empty()) measure_heights(model);

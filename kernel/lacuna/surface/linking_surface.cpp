@@ -183,7 +183,7 @@ std::vector<PairedPlaces> places_of(const Model& model, const LinkingSurface& li
 
 LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& source_rim,
                          const Rim& target_rim, const std::vector<matching::SideLine>& lines,
-                         std::span<const RimPair> pairs)
+                         std::span<const RimPair> pairs, const RunContext& context)
 {
     const Model& model = volume.model;
     std::vector<EdgeUse> source = source_rim.uses;
@@ -218,7 +218,7 @@ LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, co
     const double t_end = link.target.length();
     const std::vector<PairedPlaces> places = places_of(model, link, pairs);
     if (link.lines.empty()) {
-        const double start = started ? 0 : unguided_target_start(volume, link);
+        const double start = started ? 0 : unguided_target_start(volume, link, context);
         add_paired_segments(model, link, places, 0, s_end, start, start + t_end);
     }
     for (std::size_t i = 0; i < link.lines.size(); ++i) {
@@ -250,7 +250,7 @@ void check_ring(const Model& model, const std::vector<FaceId>& part)
 } // namespace
 
 std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning turning,
-                                             std::span<const RimPair> pairs)
+                                             std::span<const RimPair> pairs, const RunContext& context)
 {
     const Model& model = volume.model;
     const RimOf source = rims_of(volume, Role::source);
@@ -260,19 +260,20 @@ std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning t
                            "the source has " + std::to_string(source.rims.size()) + " loops and the target " +
                                std::to_string(target.rims.size()) + "; a sweep needs as many on both ends");
     }
-    const std::vector<matching::SideLine> lines = matching::side_lines(volume);
+    const std::vector<matching::SideLine> lines = matching::side_lines(volume, context);
     std::vector<std::optional<LinkingSurface>> by_rim(source.rims.size());
     for (std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
         const std::size_t s = only_rim(model, part, source, "source");
         const std::size_t t = only_rim(model, part, target, "target");
         check_ring(model, part);
+        check_cancelled(context);
         if (by_rim[s]) {
             throw NotSweepable(
                 "surface.belt_twice",
                 "the walls " + names(model, part) + " and " + names(model, by_rim[s]->walls) +
                     " stand on the same source loop without touching; the loop's walls must join");
         }
-        by_rim[s] = make_link(volume, std::move(part), source.rims[s], target.rims[t], lines, pairs);
+        by_rim[s] = make_link(volume, std::move(part), source.rims[s], target.rims[t], lines, pairs, context);
     }
     std::vector<LinkingSurface> result;
     for (std::size_t s = 0; s < by_rim.size(); ++s) {

@@ -59,6 +59,7 @@ struct RimPair {
 /// @throw NotSweepable  walls that join a source loop to none or several of the target's; names them.
 std::vector<LinkingSurface> linking_surfaces(const topology::OpenVolume& volume,
                                              Turning turning = Turning::each,
-                                             std::span<const RimPair> pairs = {});
+                                             std::span<const RimPair> pairs = {},
+                                             const RunContext& context = {});
 
 } // namespace lacuna::surface

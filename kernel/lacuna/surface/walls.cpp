@@ -130,7 +130,7 @@ private:
                             std::all_of(panels.begin(), panels.end(),
                                         [&](const auto& faces) { return is_simple(faces); });
         if (!simple) {
-            map_ = std::make_unique<LinkingMap>(volume_, link_, void_edges);
+            map_ = std::make_unique<LinkingMap>(volume_, link_, void_edges, context_);
             net_ = wall_net(model_, link_, *map_);
             plan_levels();
         }
@@ -148,7 +148,7 @@ private:
             }
             if (is_simple(panels[i]) && mesh_transfinite(panels[i].front(), first, last)) continue;
             if (map_ == nullptr) {
-                map_ = std::make_unique<LinkingMap>(volume_, link_);
+                map_ = std::make_unique<LinkingMap>(volume_, link_, true, context_);
                 lay_grid();
             }
             mesh_by_map(first, last);

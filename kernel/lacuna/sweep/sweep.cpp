@@ -528,8 +528,8 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
     const bool poor = alone.proof.finding ? quality::can_be_improved(alone.proof.finding->fault)
                                           : alone.swept.min_scaled_jacobian < options.improving.good_enough;
     if (!poor) return alone;
-    const std::vector<surface::LinkingSurface> as_one = surface::linking_surfaces(volume,
-                                                                                  surface::Turning::together);
+    const std::vector<surface::LinkingSurface> as_one = surface::linking_surfaces(
+        volume, surface::Turning::together, {}, context);
     const bool same = std::none_of(as_one.begin(), as_one.end(), [](const surface::LinkingSurface& link) {
         return link.branch.has_value();
     });
@@ -564,7 +564,8 @@ ProvedSweep sweep_one_way(const OpenVolume& volume, const SourceSize& size, cons
         std::reverse(heights.begin(), heights.end());
         for (double& h : heights) h = 1 - h;
     }
-    const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(volume);
+    const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(
+        volume, surface::Turning::each, {}, context);
     return can_turn_together(links) ? better_turning(volume, links, heights, size, options, outline, context)
                                     : sweep_between(volume, links, heights, size, options, outline, context);
 }

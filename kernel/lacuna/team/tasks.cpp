@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::string_view kWriteTask = "write";
 
-/// A mesh but for its nodes, within a message.
+/// A mesh but for its nodes and quads, which its plan has, within a message.
 template <class A, class Mesh>
 void put_mesh(A& with, Mesh& mesh)
 {
-    with(mesh.nodes_per_layer), with(mesh.layers), with(mesh.quads), with(mesh.rim);
+    with(mesh.nodes_per_layer), with(mesh.layers), with(mesh.rim);
     put_each(with, mesh.patches, [&](auto& patch) { with(patch.tag), with(patch.groups), with(patch.face); });
     with(mesh.source_patch), with(mesh.target_patch), with(mesh.wall_patch);
     with(mesh.volume_groups);
@@ -111,6 +111,7 @@ void help(std::string_view task, const std::string& bytes, const Team& team, con
         const LayeredFile file = read_file(reader);
         reader.finish();
         mesh.nodes = plan->source.nodes;
+        mesh.quads = plan->source.quads;
         const sweep::PlacedLayers layers = sweep::placed_layers(std::move(plan));
         write_share({mesh, layers.nodes}, path, file, &team, context);
     });

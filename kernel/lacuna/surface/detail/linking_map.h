@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/surface/linking_surface.h>
 #include <lacuna/surface/projector.h>
@@ -24,7 +25,8 @@ struct WallPosition {
 class LinkingMap {
 public:
     /// @param void_edges  edges between void faces are among the rings and uprights.
-    LinkingMap(const topology::OpenVolume& volume, const LinkingSurface& link, bool void_edges = true);
+    LinkingMap(const topology::OpenVolume& volume, const LinkingSurface& link, bool void_edges = true,
+               const RunContext& context = {});
 
     [[nodiscard]] WallPosition locate(double s, double t) const;
 
@@ -90,7 +92,8 @@ private:
 
 /// Where on the target chain of a linking surface without side lines the source chain's start belongs, so
 /// that the strip is sheared least [running length].
-double unguided_target_start(const topology::OpenVolume& volume, const LinkingSurface& link);
+double unguided_target_start(const topology::OpenVolume& volume, const LinkingSurface& link,
+                             const RunContext& context = {});
 
 /// s in [0, 1] of a running length of the target chain, by the linking surface's segments.
 double target_coordinate(const LinkingSurface& link, double target_at);
