@@ -52,7 +52,7 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
     const double lean = std::abs(mean.dot(cone.axis));
     if (lean < kLeastLean || lean > kMostLean) return {};
     // With the axis through c, |p|² - 2 c·p + |c|² = (s h + t)² at the height h: linear in c and the rest,
-    // with the slope s that the normals say. Facets are chords, so the slope is measured anew about that axis.
+    // with the slope s that the normals say. Facets are chords, so it is measured anew about that axis.
     std::vector<Index> used;
     for (const Triangle& t : face.triangles) used.insert(used.end(), t.begin(), t.end());
     std::ranges::sort(used);
