@@ -247,8 +247,12 @@
 ---@field volume number once it is sealed [model length³]
 
 ---@class lacuna.FaceInfo: lacuna.Face
----@field fits? "cylinder"|"sphere" what its facets lie on
----@field centre? lacuna.Vector of that
+---@field fits? "cylinder"|"sphere"|"cone" what its facets lie on
+---@field centre? lacuna.Vector of that cylinder or sphere
+---@field apex? lacuna.Vector tip of that cone, whose axis leads from it
+---@field half_angle? number between axis and surface of that cone [degrees]
+---@field least_radius? number of the face on that cone [model length]
+---@field largest_radius? number of the face on that cone [model length]
 ---@field free_edges integer how many
 ---@field part integer of the sets of faces that hang together
 ---@field cavity? integer a number in `cavities`

@@ -48,6 +48,10 @@ std::string shape(const topology::Model& model, const Info& info, std::size_t fa
 {
     const std::string& kind = model.faces[face].kind;
     const auto& round = info.round[face];
+    if (const auto& cone = info.cone[face]) {
+        return (kind == "cone" ? kind : kind + ", a cone") + " of half angle " + number(cone->half_angle) +
+               " degrees, radius " + number(cone->least_radius) + " to " + number(cone->largest_radius);
+    }
     if (!round) return kind;
     const std::string fitted = round->is_sphere() ? "sphere" : "cylinder";
     return (kind == fitted || kind == "torus" ? kind : kind + ", a " + fitted) + " of radius " +
@@ -64,6 +68,7 @@ void write_face(std::ostream& out, const topology::Model& model, const Info& inf
         << number(topology::face_area(model, id)) << ", centre "
         << place(topology::face_centroid(model, id), model.diagonal);
     if (info.round[face] && info.round[face]->axis) out << ", axis " << place(*info.round[face]->axis, 1);
+    if (info.cone[face]) out << ", axis " << place(info.cone[face]->axis, 1);
     if (normal.norm() > 0) out << ", normal " << place(normal, 1);
     out << ", box " << place(info.faces[face].box.min(), model.diagonal) << " to "
         << place(info.faces[face].box.max(), model.diagonal) << ", " << edges
@@ -170,7 +175,7 @@ void push_face_info(lua_State* L, const topology::Model& model, const Info& info
     const topology::Face& face = model[id];
     std::size_t edges = 0;
     for (const topology::Loop& loop : face.loops) edges += loop.uses.size();
-    lua_createtable(L, 0, 18);
+    lua_createtable(L, 0, 24);
     lua_pushinteger(L, face.tag);
     lua_setfield(L, -2, "tag");
     set_string(L, "name", face.name.c_str());
@@ -193,6 +198,14 @@ void push_face_info(lua_State* L, const topology::Model& model, const Info& info
         set_number(L, "radius", round->radius);
         set_vector(L, "centre", round->centre);
         if (round->axis) set_vector(L, "axis", *round->axis);
+    }
+    if (const auto& cone = info.cone[f]) {
+        set_string(L, "fits", "cone");
+        set_number(L, "half_angle", cone->half_angle);
+        set_number(L, "least_radius", cone->least_radius);
+        set_number(L, "largest_radius", cone->largest_radius);
+        set_vector(L, "apex", cone->apex);
+        set_vector(L, "axis", cone->axis);
     }
 }
 

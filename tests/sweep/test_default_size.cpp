@@ -80,6 +80,25 @@ TEST_CASE("without a size finer facets make no finer mesh, and the report says t
     }
 }
 
+TEST_CASE("the size and the layers that nobody asked for are logged, once, and nothing where both were asked")
+{
+    const auto volume = test::sealed({.sides = 4, .cuts = 6});
+    for (const bool asked : {false, true}) {
+        SweepOptions options;
+        if (asked) options.size = [](const Vec3&) { return 0.5; };
+        if (asked) options.layers.count = 3;
+        std::vector<std::string> lines;
+        RunContext context;
+        context.log = [&](std::string_view line) { lines.emplace_back(line); };
+        const Swept swept = sweep::sweep(volume, options, context);
+        CHECK(swept.defaults.size() == (asked ? 0 : 2));
+        for (const std::string& line : swept.defaults) {
+            CHECK(std::count(lines.begin(), lines.end(), line) == 1);
+            CHECK(std::count(swept.report.begin(), swept.report.end(), line) == 1);
+        }
+    }
+}
+
 TEST_CASE("coarse facets ask for what they are, with some quads across and some layers at least")
 {
     const auto volume = test::sealed({.sides = 4, .cuts = 1});

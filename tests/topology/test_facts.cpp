@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/volumes.h"
 
+#include <lacuna/topology/cone_shape.h>
 #include <lacuna/topology/face_facts.h>
 #include <lacuna/topology/face_radius.h>
 #include <lacuna/topology/gaps.h>
@@ -44,6 +45,33 @@ TEST_CASE("a round wall has its radius and axis, however the prism lies")
         CHECK(std::abs(shape->axis->z()) == doctest::Approx(1));
         CHECK(shape->centre.z() == doctest::Approx(height / 2));
         CHECK(shape->centre.head<2>().norm() < 1e-9);
+    }
+}
+
+TEST_CASE("a tapered wall has the half angle, axis and tip of its cone, and no round or flat wall has any")
+{
+    for (const double taper : {0.3, 0.8, 1.5}) {
+        for (const double height : {0.7, 3.0}) {
+            const auto prism = test::prism(
+                {.sides = 0, .radius = 1.5, .height = height, .cuts = 16, .taper = taper});
+            const FaceId wall = prism.face({Role::wall});
+            CHECK(!round_shape(prism.model, wall));
+            const auto cone = cone_shape(prism.model, wall);
+            CAPTURE(taper);
+            CAPTURE(height);
+            REQUIRE(cone);
+            const double slope = std::abs(taper - 1) * 1.5 / height;
+            CHECK(cone->half_angle == doctest::Approx(std::atan(slope) * 180 / 3.14159265).epsilon(0.02));
+            CHECK(cone->axis.z() == doctest::Approx(taper < 1 ? -1 : 1));
+            CHECK(cone->apex.head<2>().norm() < 1e-6);
+            CHECK(cone->apex.z() == doctest::Approx(height / (1 - taper)).epsilon(0.02));
+            CHECK(cone->largest_radius == doctest::Approx(1.5 * std::max(1.0, taper)).epsilon(1e-6));
+            CHECK(cone->least_radius == doctest::Approx(1.5 * std::min(1.0, taper)).epsilon(1e-6));
+        }
+    }
+    for (const int sides : {0, 3, 4, 6}) {
+        const auto prism = test::prism({.sides = sides, .cuts = 6});
+        for (std::size_t f = 0; f < prism.model.faces.size(); ++f) CHECK(!cone_shape(prism.model, FaceId(f)));
     }
 }
 

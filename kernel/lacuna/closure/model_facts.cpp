@@ -15,6 +15,7 @@ ModelFacts model_facts(const topology::Model& model, const RunContext& context)
     for (std::size_t f = 0; f < facts.faces.size(); ++f) {
         check_cancelled(context);
         facts.round.push_back(topology::round_shape(model, FaceId(f)));
+        facts.cone.push_back(facts.round.back() ? std::nullopt : topology::cone_shape(model, FaceId(f)));
         if (!facts.faces[f].free_edges.empty()) facts.part_closed[facts.faces[f].part] = false;
     }
     facts.gaps = topology::gaps(model, context);

@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/cavities.h>
 #include <lacuna/core/run_context.h>
+#include <lacuna/topology/cone_shape.h>
 #include <lacuna/topology/face_facts.h>
 #include <lacuna/topology/face_radius.h>
 #include <lacuna/topology/gaps.h>
@@ -17,6 +18,7 @@ namespace lacuna::closure {
 struct ModelFacts {
     std::vector<topology::FaceFacts> faces;                 ///< of each face
     std::vector<std::optional<topology::RoundShape>> round; ///< of each face
+    std::vector<std::optional<topology::ConeShape>> cone;   ///< of each face that is not round
     std::vector<bool> part_closed; ///< of each part that hangs together: no free edge
     std::vector<topology::Gap> gaps;
     std::vector<Cavity> cavities;

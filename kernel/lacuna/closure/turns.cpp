@@ -70,36 +70,53 @@ bool faces_outward(const Model& model, const std::vector<FaceId>& faces)
 /// Facets of an end that are asked what lies over them, about so many.
 constexpr std::size_t kAsked = 50;
 
-/// Facets of some parts of the skin.
-struct SomeParts {
-    std::vector<Triangle> facets;
-    std::vector<FaceId> face; ///< of each facet
-    std::optional<geometry::FacetTree> tree;
+/// The facets of all parts of the skin, for what is seen along a ray of some of them.
+class PartsSeen {
+public:
+    PartsSeen(const Model& model, const std::vector<std::vector<FaceId>>& parts)
+    {
+        std::vector<Triangle> facets;
+        for (std::size_t p = 0; p < parts.size(); ++p) {
+            for (const FaceId face : parts[p]) {
+                const std::vector<Triangle>& own = model[face].triangles;
+                facets.insert(facets.end(), own.begin(), own.end());
+                face_.resize(facets.size(), face);
+                part_.resize(facets.size(), p);
+            }
+        }
+        tree_.emplace(model.points, facets);
+    }
+
+    /// The first face along a ray, of the part alone or of all others.
+    [[nodiscard]] std::optional<FaceId> first(const Vec3& origin, const Vec3& way, std::size_t part,
+                                              bool others) const
+    {
+        geometry::FacetTree::RayHit least;
+        tree_->all_along(origin, way, [&](const geometry::FacetTree::RayHit& hit) {
+            const bool wanted = (part_[index(hit.triangle)] != part) == others;
+            if (wanted && (least.triangle < 0 || hit.t < least.t ||
+                           (hit.t == least.t && hit.triangle < least.triangle)))
+                least = hit;
+            return true;
+        });
+        if (least.triangle < 0) return std::nullopt;
+        return face_[index(least.triangle)];
+    }
+
+private:
+    std::vector<FaceId> face_;      ///< of each facet
+    std::vector<std::size_t> part_; ///< of each facet
+    std::optional<geometry::FacetTree> tree_;
 };
 
-SomeParts parts_where(const Model& model, const std::vector<std::vector<FaceId>>& parts,
-                      const std::function<bool(std::size_t)>& wanted)
-{
-    SomeParts some;
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-        if (!wanted(p)) continue;
-        for (const FaceId face : parts[p]) {
-            const std::vector<Triangle>& own = model[face].triangles;
-            some.facets.insert(some.facets.end(), own.begin(), own.end());
-            some.face.resize(some.facets.size(), face);
-        }
-    }
-    some.tree.emplace(model.points, some.facets);
-    return some;
-}
-
-/// Area of a part's ends that see the opposite end, among `seen`, on the side they face, less that of those
-/// that see it behind them: the void lies between a source and the target it looks at.
-double faces_opposite(const OpenVolume& volume, const std::vector<FaceId>& part, const SomeParts& seen)
+/// Area of a part's ends that see the opposite end, its own or of other parts, on the side they face, less
+/// that of those that see it behind them: the void lies between a source and the target it looks at.
+double faces_opposite(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts, std::size_t p,
+                      const PartsSeen& seen, bool others)
 {
     const Model& model = volume.model;
     double before = 0;
-    for (const FaceId face : part) {
+    for (const FaceId face : parts[p]) {
         const Role role = volume.role[face.index()];
         if (role == Role::wall) continue;
         const Role opposite = role == Role::source ? Role::target : Role::source;
@@ -110,9 +127,8 @@ double faces_opposite(const OpenVolume& volume, const std::vector<FaceId>& part,
             const Vec3 area = (b - a).cross(c - a) / 2, middle = (a + b + c) / 3;
             for (const double side : {1.0, -1.0}) {
                 const Vec3 way = side * area.stableNormalized();
-                const auto hit = seen.tree->first_along(middle + model.tolerance * way, way);
-                if (hit.triangle >= 0 && volume.role[seen.face[index(hit.triangle)].index()] == opposite)
-                    before += side * area.norm();
+                const auto hit = seen.first(middle + model.tolerance * way, way, p, others);
+                if (hit && volume.role[hit->index()] == opposite) before += side * area.norm();
             }
         }
     }
@@ -164,17 +180,15 @@ std::vector<bool> parts_facing_void(const OpenVolume& volume, const std::vector<
 {
     const Model& model = volume.model;
     const std::vector<bool> inner = inner_parts(model, parts);
+    const PartsSeen seen(model, parts);
     std::vector<bool> facing;
     for (std::size_t p = 0; p < parts.size(); ++p) {
         double before = inner[p] ? 0 : leaves_before(volume, parts[p]);
         const bool ends = std::ranges::any_of(
             parts[p], [&](FaceId face) { return volume.role[face.index()] != Role::wall; });
         if (ends && before == 0 && parts.size() > 1)
-            before = faces_opposite(volume, parts[p],
-                                    parts_where(model, parts, [&](std::size_t o) { return o != p; }));
-        if (ends && before == 0 && !inner[p])
-            before = faces_opposite(volume, parts[p],
-                                    parts_where(model, parts, [&](std::size_t o) { return o == p; }));
+            before = faces_opposite(volume, parts, p, seen, true);
+        if (ends && before == 0 && !inner[p]) before = faces_opposite(volume, parts, p, seen, false);
         facing.push_back(before != 0 ? before > 0 : faces_outward(model, parts[p]) == inner[p]);
     }
     return facing;

@@ -112,10 +112,21 @@ public:
         check_no_hanging_nodes(result_, members_);
         name_groups();
         result_.report.insert(result_.report.end(), shape.begin(), shape.end());
+        log_defaults();
         return std::move(result_);
     }
 
 private:
+    /// Say once each what several members may have taken by default.
+    void log_defaults() const
+    {
+        std::set<std::string> said;
+        for (const std::size_t m : order_) {
+            for (const std::string& line : result_.parts[m].defaults)
+                if (said.insert(line).second) log_line(context_, members_[m].region + ": " + line);
+        }
+    }
+
     void check_members() const
     {
         if (members_.empty()) throw InvalidInput("assembly.empty", "an assembly needs one volume at least");

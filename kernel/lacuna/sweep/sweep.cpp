@@ -408,9 +408,9 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
         split, links, size, style_of(options, !demands.rows.empty()), sizes.sizing,
         imprint ? surface::image_lengths(*imprint) : std::map<EdgeId, double>{}, options.wedges, demands);
     for (const std::string& note : seeds.notes) result.report.push_back("given: " + note);
-    for (std::string& line : sizes_in_words(volume, split, sizes, seeds, options,
-                                            {static_cast<int>(heights.size()) - 1, by_rows, by_bends}))
-        result.report.push_back(std::move(line));
+    result.defaults = sizes_in_words(volume, split, sizes, seeds, options,
+                                     {static_cast<int>(heights.size()) - 1, by_rows, by_bends});
+    result.report.insert(result.report.end(), result.defaults.begin(), result.defaults.end());
     surface::SourceMesh source = surface::mesh_source(split, links, seeds, size_fields(size, options),
                                                       mesher_for_all(options, sizes.narrow), context);
     report_progress(context, "walls");
@@ -725,7 +725,9 @@ bool is_closer(const Fidelity& after, const Fidelity& before)
     return volume_lost(after) <= kLessLost * volume_lost(before);
 }
 
-Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
+namespace {
+
+Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {
     if (asked.fallback != Fallback::wedges || asked.wedges) return sweep_once(volume, asked, context);
     std::exception_ptr why;
@@ -748,6 +750,16 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
         log_line(context, std::string("with wedges: ") + error.what());
     }
     std::rethrow_exception(why);
+}
+
+} // namespace
+
+Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
+{
+    Swept swept = sweep_or_with_wedges(volume, asked, context);
+    if (!asked.beside.settle)
+        for (const std::string& line : swept.defaults) log_line(context, line);
+    return swept;
 }
 
 } // namespace lacuna::sweep

@@ -133,6 +133,9 @@ struct Swept {
     Fidelity fidelity;               ///< the skin against the sealed skin
     std::vector<FaceId> faces;       ///< of the volume's model, that of each patch of the skin
     std::vector<std::string> report; ///< a line a stage: seeds, quads, walls, target, layers, shape
+    /// Those lines of the report that say which size and number of layers were taken where none was asked
+    /// for. They are logged as well, once, of an assembly by whoever sweeps the whole.
+    std::vector<std::string> defaults;
 };
 
 /// Fill a sealed volume with hexahedra, and with wedges where those are asked for. What goes with what is

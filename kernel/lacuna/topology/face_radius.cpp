@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/face_radius.h>
 
+#include <lacuna/topology/cone_shape.h>
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -68,7 +70,8 @@ std::optional<RoundShape> round_shape(const Model& model, FaceId id)
     if (share[1] < kMostOff * kMostOff) return {};    // all look one way
     if (share[0] >= kMostOff) {
         const auto sphere = fitted(points);
-        if (!sphere) return {};
+        // The corners of one row of facets round a cone lie on a sphere as well.
+        if (!sphere || cone_shape(model, id)) return {};
         return RoundShape{sphere->radius, sphere->centre, {}};
     }
     const Eigen::Matrix<double, 3, 2> across = axes.eigenvectors().rightCols<2>();

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/topology/cone_shape.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace lacuna::topology {
+
+namespace {
+
+/// Of the largest radius: as `round_shape()` has it for cylinders and spheres.
+constexpr double kMostOff = 0.01;
+/// Sines of half angles beyond which a cone is a cylinder or a plane. A choice: 1° and 89°.
+constexpr double kLeastLean = 0.0175, kMostLean = 0.99985;
+/// Normals spread less than this about their mean, squared, say no axis. A choice: a turn of some degrees.
+constexpr double kLeastSpread = 1e-3;
+
+} // namespace
+
+std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
+{
+    const Face& face = model[id];
+    if (face.kind == "plane" || face.kind == "sphere") return {};
+    struct Facet {
+        Vec3 normal;
+        double area = 0;
+    };
+    std::vector<Facet> facets;
+    Vec3 mean = Vec3::Zero();
+    double area = 0;
+    for (const Triangle& t : face.triangles) {
+        const Vec3 n = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+        if (!(n.norm() > 0)) continue;
+        facets.push_back({n.normalized(), n.norm()});
+        mean += n;
+        area += n.norm();
+    }
+    if (facets.size() < 4) return {};
+    mean /= area;
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const Facet& facet : facets)
+        spread += facet.area / area * (facet.normal - mean) * (facet.normal - mean).transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+    const Vec3 shares = axes.eigenvalues(); // rising
+    if (shares[0] > kMostOff || shares[1] < kLeastSpread) return {};
+    ConeShape cone;
+    cone.axis = axes.eigenvectors().col(0);
+    const double lean = std::abs(mean.dot(cone.axis));
+    if (lean < kLeastLean || lean > kMostLean) return {};
+    // With the axis through c, |p|² - 2 c·p + |c|² = (s h + t)² at the height h: linear in c and the rest,
+    // with the slope s that the normals say. Facets are chords, so it is measured anew about that axis.
+    std::vector<Index> used;
+    for (const Triangle& t : face.triangles) used.insert(used.end(), t.begin(), t.end());
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    const auto count = static_cast<Eigen::Index>(used.size());
+    const Vec3 origin = model.at(used.front());
+    const Eigen::Matrix<double, 3, 2> across = axes.eigenvectors().rightCols<2>();
+    Eigen::MatrixXd left(count, 4), line(count, 2);
+    Eigen::VectorXd right(count);
+    const double square = lean * lean / (1 - lean * lean);
+    for (Eigen::Index p = 0; p < count; ++p) {
+        const Vec3 from = model.at(used[static_cast<std::size_t>(p)]) - origin;
+        const Vec2 q = across.transpose() * from;
+        const double h = from.dot(cone.axis);
+        left.row(p) << 2 * q.x(), 2 * q.y(), h, 1;
+        right[p] = q.squaredNorm() - square * h * h;
+        line.row(p) << h, 1;
+    }
+    const Eigen::VectorXd found = left.colPivHouseholderQr().solve(right);
+    const Vec2 centre = found.head<2>();
+    const Eigen::VectorXd radius = ((left.leftCols<2>() / 2).rowwise() - centre.transpose()).rowwise().norm();
+    const Eigen::Vector2d fit = line.colPivHouseholderQr().solve(radius);
+    if (!(std::abs(fit[0]) > kLeastLean)) return {};
+    cone.least_radius = radius.minCoeff();
+    cone.largest_radius = radius.maxCoeff();
+    if (!((line * fit - radius).cwiseAbs().maxCoeff() <= kMostOff * cone.largest_radius)) return {};
+    cone.half_angle = std::atan(std::abs(fit[0])) * 180 / std::numbers::pi;
+    cone.apex = origin + across * centre - fit[1] / fit[0] * cone.axis;
+    if (fit[0] < 0) cone.axis = -cone.axis;
+    return cone;
+}
+
+} // namespace lacuna::topology
