@@ -39,7 +39,6 @@ local function picture(of, name, options)
   options.width, options.height = options.width or 600, options.height or 450
   if of == "mesh" then
     options.colour = options.colour or "origin"
-    options.legend = false
   end
   return { of = of, name = name, options = options, path = params.root .. "/docs/gallery/" .. name .. ".png" }
 end
