@@ -781,7 +781,8 @@ bool sweep_steps(lua_State* L, const Box<VolumeState>& volume, SweepArguments& a
     return done;
 }
 
-/// Say in the report and in the log what a match was unsure of that void edges were drawn by.
+/// Say in the report what closing took though something else may have been meant, and there and in the log
+/// what a match was unsure of that void edges were drawn by.
 void tell_match(const VolumeState& state, std::vector<std::string>& report, const RunContext& context)
 {
     if (!state.match || !state.closure || state.closure->void_edges.empty()) return;
@@ -789,6 +790,7 @@ void tell_match(const VolumeState& state, std::vector<std::string>& report, cons
         report.push_back("match: " + note);
         if (context.log) context.log(report.back());
     }
+    for (const std::string& note : state.closure->notes) report.push_back("closed: " + note);
 }
 
 /// Sweep a volume as it is.

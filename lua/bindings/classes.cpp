@@ -228,6 +228,7 @@ std::string describe(const VolumeState& state)
             << state.closure->void_faces.size() << " void faces, "
             << (state.closure->watertight ? "watertight" : "not watertight") << '\n';
         for (const std::string& algorithm : state.closure->algorithms) out << "  " << algorithm << '\n';
+        for (const std::string& note : state.closure->notes) out << "  " << note << '\n';
     } else if (!state.classification.free_loops.empty()) {
         out << "open:   " << topology::free_edges(state.volume).size() << " free edges in "
             << state.classification.free_loops.size() << " loops; close() seals them\n";

@@ -77,6 +77,34 @@ TEST_CASE("smooth void edges of a bend without walls run as arcs and close to th
     MESSAGE(combinations << " bends");
 }
 
+TEST_CASE("left to itself, a bend without walls is closed as a bend past 100 degrees, and what else may be "
+          "meant is "
+          "said past 20")
+{
+    for (const int sides : {0, 4, 6}) {
+        for (const int holes : {0, 1}) {
+            for (const double bend : {0.0, 10.0, 45.0, 90.0, 110.0, 120.0}) {
+                PrismOptions options = bent(sides, bend);
+                options.holes = holes;
+                options.drop = without(false, false, true);
+                const auto prism = test::prism(options);
+                auto volume = prism.open();
+                CAPTURE(sides);
+                CAPTURE(holes);
+                CAPTURE(bend);
+                const auto closed = test::seal(volume);
+                test::check_sealed(volume);
+                CHECK(closed.notes.size() == (bend > 20 ? 1 : 0));
+                if (bend > 100)
+                    CHECK(closure::enclosed_volume(volume) ==
+                          doctest::Approx(prism.facet_volume).epsilon(0.01));
+                else
+                    for (const EdgeId edge : closed.void_edges) CHECK(volume.model[edge].points.size() < 64);
+            }
+        }
+    }
+}
+
 TEST_CASE("smooth void edges leave the ends as the walls beside them do")
 {
     int combinations = 0;

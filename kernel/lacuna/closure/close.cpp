@@ -9,8 +9,12 @@
 #include <lacuna/closure/follow.h>
 #include <lacuna/closure/void_geometry.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/number_text.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -280,6 +284,37 @@ void check_options(const OpenVolume& volume, VolumeClass value, const CloseOptio
                   " and " + name_of(volume.model, volume.faces(Role::target).front()) + " are both given");
 }
 
+/// By how much the ends of a volume are turned against each other, each facing the other [radian]; 0 where
+/// one looks past the other or encloses nothing.
+double lean_of(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    std::array<Vec3, 2> facing, middle;
+    for (const Role end : {Role::source, Role::target}) {
+        Vec3 sum = Vec3::Zero(), at = Vec3::Zero();
+        double area = 0;
+        for (const FaceId face : volume.faces(end)) {
+            sum += face_area_vector(model, face);
+            at += face_area(model, face) * face_centroid(model, face);
+            area += face_area(model, face);
+        }
+        facing[end == Role::source ? 0 : 1] = sum.stableNormalized();
+        middle[end == Role::source ? 0 : 1] = at / area;
+    }
+    const Vec3 way = middle[1] - middle[0];
+    for (Vec3& normal : facing)
+        if (normal.dot(way) < 0) normal = -normal;
+    return std::atan2(facing[0].cross(facing[1]).norm(), facing[0].dot(facing[1]));
+}
+
+/// Ends without walls that are turned by more than this are closed by a bend: straight edges would graze
+/// both.
+/// A choice, not a measurement.
+constexpr double kBend = 100 * std::numbers::pi / 180;
+/// What is closed straight between ends turned by more than this may have been meant as a bend, and it is
+/// said.
+constexpr double kLean = 20 * std::numbers::pi / 180;
+
 /// A volume being sealed as one of a class, in one way after another.
 class Sealer {
 public:
@@ -303,7 +338,9 @@ public:
         std::optional<NotClosed> first;
         for (const Way& way : wanted(match)) {
             try {
-                return seal_as(way, match);
+                Closure closure = seal_as(way, match);
+                say_what_else(way, closure);
+                return closure;
             } catch (const NotClosed& error) {
                 if (!first) first = error;
             }
@@ -335,11 +372,30 @@ private:
         if (options_.edge_shape != EdgeShape::automatic) return {{options_.edge_shape}};
         if (!has_two_ends(value_)) return {{EdgeShape::straight}};
         std::vector<Way> ways{{EdgeShape::straight}};
+        if (!leads() && lean_of(volume_) > kBend) return {{EdgeShape::smooth}, {EdgeShape::straight}};
         if (leads())
             ways.insert(follower_->leads_astray(volume_, match) ? ways.begin() : ways.end(),
                         {EdgeShape::follow});
         ways.push_back({EdgeShape::smooth});
         return ways;
+    }
+
+    /// Ends that lean against each other with no walls between leave open whether the way is straight or a
+    /// bend.
+    void say_what_else(const Way& way, Closure& closure) const
+    {
+        if (!has_two_ends(value_) || options_.edge_shape != EdgeShape::automatic || leads()) return;
+        if (closure.void_edges.empty() || !options_.void_edges.empty()) return;
+        const double lean = lean_of(volume_);
+        if (way.edges == EdgeShape::follow || !(lean > kLean)) return;
+        const bool straight = way.edges == EdgeShape::straight;
+        const std::string turned = "the ends are turned by " + with_digits(lean * 180 / std::numbers::pi, 3) +
+                                   "° and no given wall says how the way between them bends: void edges are ";
+        closure.notes.push_back(turned + (straight
+                                              ? "straight; close{ edge_shape = \"smooth\" } makes a bend"
+                                              : "curves that leave both ends square; close{ edge_shape = "
+                                                "\"straight\" } makes them straight"));
+        log_line(context_, closure.notes.back());
     }
 
     Closure seal_as(const Way& way, const matching::Match& match)

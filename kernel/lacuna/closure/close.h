@@ -47,6 +47,7 @@ struct Closure {
     std::vector<FaceId> void_faces;
     std::vector<std::string> algorithms; ///< of the paper, in the order used: "Algorithm 8", "Algorithm 4", …
     bool watertight = false;
+    std::vector<std::string> notes; ///< what was taken though something else may have been meant
 };
 
 /// Seal the volume: add void edges and faces with their geometry, and give every face its role.
