@@ -282,7 +282,7 @@ int free_edges(lua_State* L)
 /// The pieces that a volume with branches or steps is cut into, and which faces they share.
 std::string pieces_in_words(const VolumeState& state, const RunContext& context)
 {
-    if (state.closure || !closure::has_pieces(state.volume)) return "";
+    if (state.closure || !closure::has_pieces(state.volume, context)) return "";
     std::vector<closure::StepPiece> pieces;
     try {
         pieces = closure::cut_into_pieces(state.volume, context);

@@ -511,7 +511,7 @@ struct ToMesh {
 void add_members(std::vector<ToMesh>& members, const Box<VolumeState>& volume, const std::string& name,
                  const SweepArguments& arguments, const RunContext& context)
 {
-    if (!closure::has_pieces(volume->volume)) {
+    if (!closure::has_pieces(volume->volume, context)) {
         members.push_back({volume, &arguments, nullptr, false});
         return;
     }
@@ -832,7 +832,7 @@ int sweep_volume(lua_State* L)
     for (;;) {
         const int top = lua_gettop(L);
         bool steps = false;
-        guard(L, [&] { steps = closure::has_pieces(state.volume); });
+        guard(L, [&] { steps = closure::has_pieces(state.volume, context); });
         if (steps ? sweep_steps(L, volume, arguments, ways, context)
                   : sweep_whole(L, state, arguments, ways, context))
             return 1;
@@ -881,7 +881,7 @@ int sweep_to(lua_State* L)
     auto& seconds = temporary<StageSeconds>(L);
     guard(L, [&] {
         const Busy busy(state, "sweep_to");
-        if (closure::has_pieces(state.volume))
+        if (closure::has_pieces(state.volume, context))
             throw InvalidInput("lua.not_layered",
                                "sweep_to: a volume with branches or steps is swept in pieces, which are one "
                                "mesh only when all are made; use volume:sweep(options):write(path)");

@@ -146,7 +146,7 @@ void close_volume(VolumeState& state, const closure::CloseOptions& options, cons
 {
     if (state.closure) return;
     const bool whole = topology::free_edges(state.volume).empty();
-    if (has_both_ends(state.volume) && !(whole && closure::has_steps(state.volume))) {
+    if (has_both_ends(state.volume) && !(whole && closure::has_steps(state.volume, context))) {
         matching::MatchOptions by_hand;
         by_hand.vertices = closure::pairs_by_hand(state.volume, options);
         match_volume(state, by_hand, context);

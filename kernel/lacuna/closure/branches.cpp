@@ -77,8 +77,8 @@ Vec3 mean(const std::vector<Vec3>& places)
 
 class BranchFinder {
 public:
-    explicit BranchFinder(const OpenVolume& volume)
-        : volume_(volume), model_(volume.model), uses_(edge_uses(volume.model))
+    BranchFinder(const OpenVolume& volume, const RunContext& context)
+        : volume_(volume), model_(volume.model), context_(context), uses_(edge_uses(volume.model))
     {
     }
 
@@ -106,7 +106,7 @@ private:
 
     void find_lines()
     {
-        const std::vector<double> turns = concave_turns(volume_);
+        const std::vector<double> turns = concave_turns(volume_, context_);
         const std::vector<bool> is_end = at_ends();
         std::map<VertexId, std::vector<EdgeId>> at;
         geometry::UnionFind sets(model_.edges.size());
@@ -203,6 +203,7 @@ private:
 
     const OpenVolume& volume_;
     const Model& model_;
+    const RunContext& context_;
     std::vector<std::vector<FaceUse>> uses_;
     Branching result_;
 };
@@ -399,7 +400,7 @@ private:
             }
         }
         build_loops(lined.model);
-        Branching again = BranchFinder(lined).run();
+        Branching again = BranchFinder(lined, context_).run();
         return BranchCutter(lined, std::move(again), context_, true).run();
     }
 
@@ -722,11 +723,14 @@ private:
 
 } // namespace
 
-bool has_branches(const OpenVolume& volume) { return !BranchFinder(volume).run().mouths.empty(); }
+bool has_branches(const OpenVolume& volume, const RunContext& context)
+{
+    return !BranchFinder(volume, context).run().mouths.empty();
+}
 
 std::vector<StepPiece> cut_branches(const OpenVolume& volume, const RunContext& context)
 {
-    Branching found = BranchFinder(volume).run();
+    Branching found = BranchFinder(volume, context).run();
     if (found.mouths.empty()) return {{.volume = volume}};
     std::vector<StepPiece> result;
     for (const StepPiece& piece : BranchCutter(volume, std::move(found), context).run()) {
@@ -735,9 +739,9 @@ std::vector<StepPiece> cut_branches(const OpenVolume& volume, const RunContext& 
     return result;
 }
 
-bool has_pieces(const OpenVolume& volume)
+bool has_pieces(const OpenVolume& volume, const RunContext& context)
 {
-    return volume.full_turn || has_steps(volume) || has_branches(volume);
+    return volume.full_turn || has_steps(volume, context) || has_branches(volume, context);
 }
 
 std::vector<StepPiece> cut_into_pieces(const OpenVolume& volume, const RunContext& context)

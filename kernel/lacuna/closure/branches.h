@@ -12,7 +12,7 @@ namespace lacuna::closure {
 /// Whether a side branch leaves a wall of the volume: a closed line of concave edges between walls parts the
 /// skin into one side that has two ends, named or missing, and another that has an end too, or is deeper than
 /// half as wide.
-bool has_branches(const topology::OpenVolume& volume);
+bool has_branches(const topology::OpenVolume& volume, const RunContext& context = {});
 
 /// Cut a volume at its side branches into arms that can be swept: a tee into three, a manifold into two more
 /// a branch and one more between two of them.
@@ -31,7 +31,7 @@ bool has_branches(const topology::OpenVolume& volume);
 std::vector<StepPiece> cut_branches(const topology::OpenVolume& volume, const RunContext& context = {});
 
 /// Whether a volume has to be cut to be swept, by its branches or steps, or as it runs round its whole turn.
-bool has_pieces(const topology::OpenVolume& volume);
+bool has_pieces(const topology::OpenVolume& volume, const RunContext& context = {});
 /// The pieces of a volume with branches or steps, or both, or of a full turn; itself where it has none.
 std::vector<StepPiece> cut_into_pieces(const topology::OpenVolume& volume, const RunContext& context = {});
 

@@ -208,7 +208,7 @@ bool can_be_cut(const Model& skin, const Roles& roles, const RunContext& context
     for (const FaceId f : roles.source) volume.role[f.index()] = Role::source;
     for (const FaceId f : roles.target) volume.role[f.index()] = Role::target;
     try {
-        if (has_steps(volume)) cut_steps(volume, context);
+        if (has_steps(volume, context)) cut_steps(volume, context);
         return true;
     } catch (const NotSweepable&) {
         return false;

@@ -517,9 +517,9 @@ std::vector<StepPiece> cut_by_planes(const OpenVolume& volume, const std::vector
 }
 
 /// The ends of a volume whose rims turn into the walls.
-std::array<Steps, 2> steps_of(const OpenVolume& volume)
+std::array<Steps, 2> steps_of(const OpenVolume& volume, const RunContext& context)
 {
-    const std::vector<double> turns = concave_turns(volume);
+    const std::vector<double> turns = concave_turns(volume, context);
     return {find_steps(volume, Role::source, turns), find_steps(volume, Role::target, turns)};
 }
 
@@ -571,8 +571,8 @@ std::vector<int> levels_by_length(const std::vector<StepPiece>& pieces, const Ve
 /// Hang faces from closed rims, of one end after the other, until no piece has any.
 std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, int round)
 {
-    face_away(volume);
-    std::array<Steps, 2> steps = steps_of(volume);
+    face_away(volume, context);
+    std::array<Steps, 2> steps = steps_of(volume, context);
     for (const Role end : {Role::source, Role::target}) {
         Steps& own = steps[end == Role::source ? 0 : 1];
         if (own.closed.empty()) continue;
@@ -619,8 +619,8 @@ std::vector<StepPiece> cut_in_layers(const OpenVolume& volume, const std::array<
     }
     try {
         std::vector<StepPiece> pieces = cut_by_planes(volume, faces, context);
-        const bool done = std::ranges::none_of(pieces, [](const StepPiece& piece) {
-            const std::array<Steps, 2> left = steps_of(piece.volume);
+        const bool done = std::ranges::none_of(pieces, [&](const StepPiece& piece) {
+            const std::array<Steps, 2> left = steps_of(piece.volume, context);
             return is_stepped(left[0]) || is_stepped(left[1]);
         });
         if (done) return pieces;
@@ -633,17 +633,17 @@ std::vector<StepPiece> cut_in_layers(const OpenVolume& volume, const std::array<
 
 } // namespace
 
-bool has_steps(const OpenVolume& volume)
+bool has_steps(const OpenVolume& volume, const RunContext& context)
 {
-    const std::array<Steps, 2> steps = steps_of(volume);
+    const std::array<Steps, 2> steps = steps_of(volume, context);
     return is_stepped(steps[0]) || is_stepped(steps[1]);
 }
 
 std::vector<StepPiece> cut_steps(const OpenVolume& whole, const RunContext& context)
 {
     OpenVolume volume = whole;
-    face_away(volume);
-    const std::array<Steps, 2> steps = steps_of(volume);
+    face_away(volume, context);
+    const std::array<Steps, 2> steps = steps_of(volume, context);
     if (!is_stepped(steps[0]) && !is_stepped(steps[1])) return {{whole, 0}};
     std::vector<FaceId> risers = steps[0].risers;
     risers.insert(risers.end(), steps[1].risers.begin(), steps[1].risers.end());

@@ -10,7 +10,7 @@ namespace lacuna::closure {
 
 /// Whether an end of a volume lies at several heights: its faces are parts that do not hang together, or the
 /// skin turns towards the void by more than 45° at a rim of it.
-bool has_steps(const topology::OpenVolume& volume);
+bool has_steps(const topology::OpenVolume& volume, const RunContext& context = {});
 
 /// A piece of a volume that was cut.
 struct StepPiece {

@@ -33,12 +33,13 @@ std::vector<Triangle> facets_of(const Model& model, const std::vector<FaceId>& f
 }
 
 /// Of each part, whether it lies within another.
-std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<FaceId>>& parts)
+std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<FaceId>>& parts,
+                              const RunContext& context)
 {
     std::vector<bool> inner(parts.size(), false);
     if (parts.size() < 2) return inner;
     for (std::size_t o = 0; o < parts.size(); ++o) {
-        const geometry::FacetTree tree(model.points, facets_of(model, parts[o]));
+        const geometry::FacetTree tree(model.points, facets_of(model, parts[o]), context);
         for (std::size_t p = 0; p < parts.size(); ++p) {
             const Vec3& at = model.at(model[parts[p].front()].triangles.front()[0]);
             if (p != o && tree.bounds().contains(at) && std::abs(tree.winding_number(at)) > 0.5)
@@ -70,27 +71,20 @@ bool faces_outward(const Model& model, const std::vector<FaceId>& faces)
 /// Facets of an end that are asked what lies over them, about so many.
 constexpr std::size_t kAsked = 50;
 
-/// The facets of all parts of the skin, for what is seen along a ray of some of them.
+/// The facets of all parts of the skin, for what is seen along a ray of some of them. Made when first asked:
+/// most skins tell by their walls.
 class PartsSeen {
 public:
-    PartsSeen(const Model& model, const std::vector<std::vector<FaceId>>& parts)
+    PartsSeen(const Model& model, const std::vector<std::vector<FaceId>>& parts, const RunContext& context)
+        : model_(model), parts_(parts), context_(context)
     {
-        std::vector<Triangle> facets;
-        for (std::size_t p = 0; p < parts.size(); ++p) {
-            for (const FaceId face : parts[p]) {
-                const std::vector<Triangle>& own = model[face].triangles;
-                facets.insert(facets.end(), own.begin(), own.end());
-                face_.resize(facets.size(), face);
-                part_.resize(facets.size(), p);
-            }
-        }
-        tree_.emplace(model.points, facets);
     }
 
     /// The first face along a ray, of the part alone or of all others.
     [[nodiscard]] std::optional<FaceId> first(const Vec3& origin, const Vec3& way, std::size_t part,
-                                              bool others) const
+                                              bool others)
     {
+        if (!tree_) build();
         geometry::FacetTree::RayHit least;
         tree_->all_along(origin, way, [&](const geometry::FacetTree::RayHit& hit) {
             const bool wanted = (part_[index(hit.triangle)] != part) == others;
@@ -104,6 +98,23 @@ public:
     }
 
 private:
+    void build()
+    {
+        std::vector<Triangle> facets;
+        for (std::size_t p = 0; p < parts_.size(); ++p) {
+            for (const FaceId face : parts_[p]) {
+                const std::vector<Triangle>& own = model_[face].triangles;
+                facets.insert(facets.end(), own.begin(), own.end());
+                face_.resize(facets.size(), face);
+                part_.resize(facets.size(), p);
+            }
+        }
+        tree_.emplace(model_.points, facets, context_);
+    }
+
+    const Model& model_;
+    const std::vector<std::vector<FaceId>>& parts_;
+    const RunContext& context_;
     std::vector<FaceId> face_;      ///< of each facet
     std::vector<std::size_t> part_; ///< of each facet
     std::optional<geometry::FacetTree> tree_;
@@ -112,7 +123,7 @@ private:
 /// Area of a part's ends that see the opposite end, its own or of other parts, on the side they face, less
 /// that of those that see it behind them: the void lies between a source and the target it looks at.
 double faces_opposite(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts, std::size_t p,
-                      const PartsSeen& seen, bool others)
+                      PartsSeen& seen, bool others)
 {
     const Model& model = volume.model;
     double before = 0;
@@ -135,19 +146,33 @@ double faces_opposite(const OpenVolume& volume, const std::vector<std::vector<Fa
     return before;
 }
 
+std::vector<char> points_on_edges(const Model& model)
+{
+    std::vector<char> on_edge(model.points.size(), 0);
+    for (const Edge& edge : model.edges)
+        for (const Index p : edge.points) on_edge[index(p)] = 1;
+    return on_edge;
+}
+
 /// How far the walls of a part leave its ends on the side those face, over all their common sides; negative
 /// where they leave behind, and 0 where some do this and some that, or it has not both ends. Walls between
 /// two ends run along the void, and only a step's leave it.
-double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part)
+double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part,
+                     const std::vector<char>& on_edge)
 {
     const Model& model = volume.model;
+    // Faces share sides along edges alone.
+    const auto may_be_shared = [&](Index a, Index b) {
+        return on_edge[index(a)] != 0 && on_edge[index(b)] != 0;
+    };
     std::unordered_map<std::uint64_t, Vec3> ends; // unit normal of an end's facet, of each of its sides
     for (const FaceId face : part) {
         if (volume.role[face.index()] == Role::wall) continue;
         for (const Triangle& t : model[face].triangles) {
             const Vec3 normal = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
             for (std::size_t k = 0; k < 3; ++k)
-                ends.emplace(edge_key(t[k], t[(k + 1) % 3]), normal.stableNormalized());
+                if (may_be_shared(t[k], t[(k + 1) % 3]))
+                    ends.emplace(edge_key(t[k], t[(k + 1) % 3]), normal.stableNormalized());
         }
     }
     const auto has = [&](Role role) {
@@ -159,6 +184,7 @@ double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part)
         if (volume.role[face.index()] != Role::wall) continue;
         for (const Triangle& t : model[face].triangles) {
             for (std::size_t k = 0; k < 3; ++k) {
+                if (!may_be_shared(t[k], t[(k + 1) % 3])) continue;
                 const auto end = ends.find(edge_key(t[k], t[(k + 1) % 3]));
                 if (end == ends.end()) continue;
                 const Vec3 &a = model.at(t[k]), &b = model.at(t[(k + 1) % 3]), &c = model.at(t[(k + 2) % 3]);
@@ -176,18 +202,20 @@ double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part)
 /// its two ends to one side say so; else its ends, where they see the opposite end of another part or, of a
 /// part that lies within no other, its own; else facets face away from their middle, or towards it where the
 /// part lies within another.
-std::vector<bool> parts_facing_void(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts)
+std::vector<bool> parts_facing_void(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts,
+                                    const RunContext& context)
 {
     const Model& model = volume.model;
-    const std::vector<bool> inner = inner_parts(model, parts);
-    const PartsSeen seen(model, parts);
+    const std::vector<bool> inner = inner_parts(model, parts, context);
+    PartsSeen seen(model, parts, context);
     std::vector<bool> facing;
+    const std::vector<char> on_edge = points_on_edges(model);
     for (std::size_t p = 0; p < parts.size(); ++p) {
-        double before = inner[p] ? 0 : leaves_before(volume, parts[p]);
+        check_cancelled(context);
+        double before = inner[p] ? 0 : leaves_before(volume, parts[p], on_edge);
         const bool ends = std::ranges::any_of(
             parts[p], [&](FaceId face) { return volume.role[face.index()] != Role::wall; });
-        if (ends && before == 0 && parts.size() > 1)
-            before = faces_opposite(volume, parts, p, seen, true);
+        if (ends && before == 0 && parts.size() > 1) before = faces_opposite(volume, parts, p, seen, true);
         if (ends && before == 0 && !inner[p]) before = faces_opposite(volume, parts, p, seen, false);
         facing.push_back(before != 0 ? before > 0 : faces_outward(model, parts[p]) == inner[p]);
     }
@@ -196,22 +224,20 @@ std::vector<bool> parts_facing_void(const OpenVolume& volume, const std::vector<
 
 } // namespace
 
-std::vector<double> concave_turns(const OpenVolume& volume)
+std::vector<double> concave_turns(const OpenVolume& volume, const RunContext& context)
 {
     const Model& model = volume.model;
     const std::vector<std::vector<FaceId>> parts = parts_of(model);
-    const std::vector<bool> facing = parts_facing_void(volume, parts);
+    const std::vector<bool> facing = parts_facing_void(volume, parts, context);
     std::vector<double> away(model.faces.size(), 1); // from the void: +1 as the facets face
     for (std::size_t p = 0; p < parts.size(); ++p) {
         for (const FaceId face : parts[p]) away[face.index()] = facing[p] ? -1 : 1;
     }
-    std::vector<bool> on_edge(model.points.size(), false);
+    const std::vector<char> on_edge = points_on_edges(model);
     std::unordered_set<std::uint64_t> sides;
     for (const Edge& edge : model.edges) {
-        for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
+        for (std::size_t i = 0; i + 1 < edge.points.size(); ++i)
             sides.insert(edge_key(edge.points[i], edge.points[i + 1]));
-            on_edge[index(edge.points[i])] = on_edge[index(edge.points[i + 1])] = true;
-        }
     }
     struct Beside {
         Vec3 normal;
@@ -219,10 +245,12 @@ std::vector<double> concave_turns(const OpenVolume& volume)
     };
     std::unordered_map<std::uint64_t, Beside> beside; // of a directed side on an edge
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        check_cancelled(context);
         for (const Triangle& t : model.faces[f].triangles) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index a = t[k], b = t[(k + 1) % 3];
-                if (!on_edge[index(a)] || !on_edge[index(b)] || !sides.contains(edge_key(a, b))) continue;
+                if (on_edge[index(a)] == 0 || on_edge[index(b)] == 0 || !sides.contains(edge_key(a, b)))
+                    continue;
                 const Vec3 normal = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
                 beside.emplace(directed_key(a, b), Beside{normal, f});
             }
@@ -249,10 +277,10 @@ std::vector<double> concave_turns(const OpenVolume& volume)
     return turns;
 }
 
-void face_away(OpenVolume& volume)
+void face_away(OpenVolume& volume, const RunContext& context)
 {
     const std::vector<std::vector<FaceId>> parts = parts_of(volume.model);
-    const std::vector<bool> facing = parts_facing_void(volume, parts);
+    const std::vector<bool> facing = parts_facing_void(volume, parts, context);
     for (std::size_t p = 0; p < parts.size(); ++p)
         if (facing[p]) flip_faces(volume.model, parts[p]);
 }

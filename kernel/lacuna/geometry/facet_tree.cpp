@@ -16,6 +16,8 @@ using Corners = std::array<Vec3, 3>;
 
 /// Triangles a leaf holds at most.
 constexpr std::uint32_t kLeaf = 4;
+/// Subtrees of fewer triangles are made without a look at the context. A choice: a few milliseconds.
+constexpr std::uint32_t kPolled = 16384;
 /// The tree halves its triangles at each level, so 2^31 of them need at most 31 levels, and a walk down
 /// leaves one sibling a level behind.
 constexpr std::size_t kMaxDepth = 64;
@@ -122,7 +124,8 @@ FacetTree::Hit closest_on_triangle(const Vec3& p, const Corners& c)
     return closest_on_sides(p, c);
 }
 
-FacetTree::FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles)
+FacetTree::FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                     const RunContext& context)
 {
     const auto count = static_cast<std::uint32_t>(triangles.size());
     if (count == 0) return;
@@ -136,7 +139,8 @@ FacetTree::FacetTree(std::span<const Vec3> points, std::span<const Triangle> tri
     id_.resize(count);
     std::iota(id_.begin(), id_.end(), Index{0});
     node_.reserve(count);
-    build(0, count, centre, box);
+    build(0, count, centre, box, context);
+    check_cancelled(context);
     corner_.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         const Triangle& t = triangles[static_cast<std::size_t>(id_[i])];
@@ -146,8 +150,9 @@ FacetTree::FacetTree(std::span<const Vec3> points, std::span<const Triangle> tri
 }
 
 std::uint32_t FacetTree::build(std::uint32_t begin, std::uint32_t end, std::span<const Vec3> centre,
-                               std::span<const Box> box)
+                               std::span<const Box> box, const RunContext& context)
 {
+    if (end - begin > kPolled) check_cancelled(context);
     const auto self = static_cast<std::uint32_t>(node_.size());
     Node node;
     node.begin = begin;
@@ -171,8 +176,8 @@ std::uint32_t FacetTree::build(std::uint32_t begin, std::uint32_t end, std::span
         return ca != cb ? ca < cb : a < b;
     };
     std::nth_element(id_.begin() + begin, id_.begin() + middle, id_.begin() + end, before);
-    build(begin, middle, centre, box);
-    const std::uint32_t right = build(middle, end, centre, box);
+    build(begin, middle, centre, box, context);
+    const std::uint32_t right = build(middle, end, centre, box, context);
     node_[self].right = right;
     return self;
 }

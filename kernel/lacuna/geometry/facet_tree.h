@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
 
 #include <array>
@@ -22,7 +23,9 @@ class FacetTree {
 public:
     FacetTree() = default;
     /// @pre every corner is an index into `points`. O(triangles log triangles).
-    FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles);
+    /// @throw Cancelled
+    FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles,
+              const RunContext& context = {});
 
     /// The place of the facets closest to a point.
     struct Hit {
@@ -72,7 +75,7 @@ private:
         std::uint32_t right = 0;          ///< its second child; the first is the next node; 0: a leaf
     };
     std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::span<const Vec3> centre,
-                        std::span<const Eigen::AlignedBox3d> box);
+                        std::span<const Eigen::AlignedBox3d> box, const RunContext& context);
 
     /// Every facet met no further than `farthest`, which `visit` may lessen. @return false if `visit`
     /// stopped it.

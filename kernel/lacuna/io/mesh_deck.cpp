@@ -100,6 +100,13 @@ private:
                                          "middle nodes"));
     }
 
+    /// Look at the context every so often: a choice, about a millisecond.
+    void poll(std::size_t done) const
+    {
+        constexpr std::size_t kPolled = 65536;
+        if (done % kPolled == 0) check_cancelled(context_);
+    }
+
     void add_points()
     {
         const std::size_t fresh = static_cast<std::size_t>(std::ranges::count(added_.points, -1));
@@ -108,6 +115,7 @@ private:
                                  "first_node", "node");
         point_.assign(added_.points.begin(), added_.points.end());
         for (std::size_t n = 0; n < point_.size(); ++n) {
+            poll(n);
             if (point_[n] >= 0) continue;
             point_[n] = static_cast<Index>(deck_.points.size());
             deck_.points.push_back(mesh_.node(n) / added_.scale);
@@ -139,6 +147,7 @@ private:
             if (begin == end) return;
             DeckBlock& block = block_of(shape, type);
             for (std::size_t i = begin; i < end; ++i) {
+                poll(i);
                 const std::size_t c = kinds.cell(i);
                 for (const Index node : cell_nodes(mesh_, c).all())
                     block.nodes.push_back(point_[index(node)]);
@@ -288,6 +297,7 @@ private:
         std::vector<std::string> names;
         std::map<std::string, std::vector<std::uint32_t>> quads;
         for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
+            poll(i);
             if (added_.skin_cells && is_inner(i)) continue;
             for (const std::string& name : mesh_.patches[index(skin_quad(mesh_, i).patch)].groups) {
                 std::vector<std::uint32_t>& of = quads[name];

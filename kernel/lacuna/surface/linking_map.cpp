@@ -215,7 +215,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
         }
     }
     check_cancelled(context);
-    tree_ = geometry::FacetTree(flat, flat_triangles);
+    tree_ = geometry::FacetTree(flat, flat_triangles, context);
     check_cancelled(context);
     face_of_ = facets.face;
     triangle_of_ = facets.number;

@@ -561,7 +561,7 @@ private:
                 result.quad.push_back(q);
             }
         }
-        result.tree = geometry::FacetTree(points, triangles);
+        result.tree = geometry::FacetTree(points, triangles, context_);
         return result;
     }
 

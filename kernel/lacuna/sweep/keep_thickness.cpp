@@ -696,6 +696,7 @@ private:
 KeptThickness keep_thickness(const SweptParts& parts, const surface::LayerTables& tables,
                              std::vector<Vec3>& nodes, const RunContext& context)
 {
+    if (tables.heights.empty()) return {};
     return ThicknessKeeper(parts, tables, nodes, context).run();
 }
 

@@ -139,7 +139,7 @@ void check_amount(const OpenVolume& volume, const surface::SizeField& size, cons
 }
 
 /// The size asked for, or the default; smaller where the shape needs it.
-SourceSize source_size(const OpenVolume& volume, const SweepOptions& options)
+SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
 {
     SourceSize size;
     if (options.size) {
@@ -151,6 +151,7 @@ SourceSize source_size(const OpenVolume& volume, const SweepOptions& options)
     check_amount(volume, size.asked, options.layers);
     const bool maps = options.quads == Quads::automatic || options.quads == Quads::mapped;
     size.sizing = {options.curvature, options.gap};
+    check_cancelled(context);
     if (size.by_default && options.gap == 0) size.sizing = {options.curvature, kDefaultGap, maps};
     size.shape = surface::shape_size(volume, size.asked, size.sizing);
     const bool narrow_by_default = size.shape.width && options.gap == 0 && size.sizing.gap > 0;
@@ -392,6 +393,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     std::optional<surface::Imprint> imprint = imprint_of(volume, given_links, size, options.wedges);
     const OpenVolume& split = imprint ? *imprint->volume : volume;
     std::vector<surface::LinkingSurface>& links = imprint ? imprint->links : given_links;
+    check_cancelled(context);
     GivenMeshes given = given_meshes(split, links, asked, size, options);
     const int least_layers = surface::set_wall_breaks(split, size, links);
     const surface::LayerTables tables = surface::layer_tables(volume, options.boundary_layers);
@@ -404,6 +406,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     refuse_kept_source(split, demands.rows, options);
     for (std::string& note : given.notes) result.report.push_back("given: " + note);
     report_progress(context, "quads of the source");
+    check_cancelled(context);
     const surface::Seeds seeds = surface::seed_source(
         split, links, size, style_of(options, !demands.rows.empty()), sizes.sizing,
         imprint ? surface::image_lengths(*imprint) : std::map<EdgeId, double>{}, options.wedges, demands);
@@ -490,6 +493,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
                                 " is smaller than the quads there and has none, nor a group");
     }
     report_progress(context, "proof of every cell");
+    check_cancelled(context);
     std::set<FaceId> still = given_faces(volume, seeds.kept, options.wedges);
     if (options.beside.settle) still.merge(options.beside.settle(mesh, faces));
     quality::Proof proof =
@@ -602,7 +606,7 @@ void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, 
 Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
 {
     const OneWay one_way = [&](const OpenVolume& way, const SweepOptions& rest, Outline outline) {
-        return sweep_one_way(way, source_size(way, rest), rest, outline, context);
+        return sweep_one_way(way, source_size(way, rest, context), rest, outline, context);
     };
     ProvedSweep result = sweep_both_ways(volume, options, one_way, context);
     quality::require(result.proof);

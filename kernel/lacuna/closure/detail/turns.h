@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <vector>
@@ -14,9 +15,9 @@ namespace lacuna::closure {
 /// the opposite end of another part or, where it lies within none, its own; else the facets face away from
 /// their middle, or towards it where the part lies within another.
 /// @note  O(facets · parts).
-std::vector<double> concave_turns(const topology::OpenVolume& volume);
+std::vector<double> concave_turns(const topology::OpenVolume& volume, const RunContext& context);
 
 /// Turn the parts of the skin so that they face away from the void.
-void face_away(topology::OpenVolume& volume);
+void face_away(topology::OpenVolume& volume, const RunContext& context);
 
 } // namespace lacuna::closure
