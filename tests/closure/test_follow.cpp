@@ -225,6 +225,35 @@ TEST_CASE("following without a wall to follow is refused")
     CHECK(volume.model.points.size() == before);
 }
 
+TEST_CASE("left to itself, the missing wall of a barrel or an hourglass bulges as the given ones do")
+{
+    int volumes = 0;
+    for (const int holes : {0, 1}) {
+        for (const double belly : {0.8, 0.9, 0.95, 1.05, 1.1, 1.2}) {
+            for (const std::vector<int>& gone :
+                 std::vector<std::vector<int>>{{0}, {0, 1}, {0, 1, 2}, {0, 2}}) {
+                const auto prism = test::prism({.sides = 6,
+                                                .height = 4,
+                                                .holes = holes,
+                                                .hole_sides = 6,
+                                                .cuts = 4,
+                                                .levels = 24,
+                                                .belly = belly,
+                                                .drop = without(false, false, false, gone)});
+                auto volume = prism.open();
+                CAPTURE(holes);
+                CAPTURE(belly);
+                CAPTURE(gone.size());
+                test::seal(volume);
+                test::check_sealed(volume);
+                CHECK(closure::enclosed_volume(volume) == doctest::Approx(prism.facet_volume).epsilon(0.015));
+                ++volumes;
+            }
+        }
+    }
+    MESSAGE(volumes << " volumes");
+}
+
 TEST_CASE("a follower carries source points to target points, rim to rim at both heights")
 {
     for (const double bend : {0.0, 60.0, 120.0}) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <lacuna/cad_worker/detail/narrow_sides.h>
 
+#include <lacuna/geometry/segment.h>
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -59,14 +61,6 @@ bool is_flat(const std::vector<Side>& sides)
     return squares[0] <= kFlat * kFlat * squares[2];
 }
 
-double distance(const Vec3& point, const Side& side)
-{
-    const Vec3 way = side.to - side.from;
-    const double square = way.squaredNorm();
-    const double at = square > 0 ? std::clamp((point - side.from).dot(way) / square, 0.0, 1.0) : 0;
-    return (point - side.from - at * way).norm();
-}
-
 bool share_a_point(const CadEdge& a, const CadEdge& b)
 {
     const auto ends = [](const CadEdge& edge, Index p) {
@@ -104,7 +98,7 @@ std::vector<double> narrow_refinement(const CadWire& wire)
                  ++other) {
                 if (other->edge == side.edge || share_a_point(wire.edges[other->edge], wire.edges[side.edge]))
                     continue;
-                near = std::min(near, distance(middle, *other));
+                near = std::min(near, geometry::distance_to_segment(middle, other->from, other->to));
             }
             // The sag falls with the square of the number of points.
             const double wanted = near > 0 ? std::sqrt(side.sag / (kSag * near)) : kMost;

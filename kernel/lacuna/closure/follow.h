@@ -3,6 +3,7 @@
 
 #include <lacuna/core/types.h>
 #include <lacuna/geometry/affine.h>
+#include <lacuna/matching/guides.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -40,10 +41,8 @@ public:
     /// Where the walls' motion alone, from the source up, takes a point of the source. @pre leads()
     [[nodiscard]] Vec3 carried(const Vec3& source) const { return ways_[0].from_source.back()(source); }
 
-    /// True where a straight line between two matched vertices without walls would run so far from where the
-    /// walls lead that the volume it closes would be another: by half a hundredth of the rims' radius where
-    /// walls that go all round are bowed as much, by a quarter of it where all are open.
-    /// @pre leads()
+    /// True where the walls stray so far from straight lines between the rims that void walls between
+    /// straight edges would enclose another volume. @pre leads()
     [[nodiscard]] bool leads_astray(const topology::OpenVolume& volume, const matching::Match& match) const;
 
     /// Height of a model point on a given wall; NaN elsewhere.
@@ -61,10 +60,15 @@ private:
     static Way way_of(const std::vector<std::vector<Vec3>>& levels, const std::vector<Vec3>& areas,
                       const RunContext& context);
 
+    /// How far all walls together would lead the given ones of a loop off themselves, of their radius.
+    [[nodiscard]] double missed_by_all(const topology::Model& model,
+                                       const matching::LoopSections& loop) const;
+
     std::vector<Way> ways_;                         ///< of all walls, then of loops
     std::unordered_map<Index, std::size_t> at_rim_; ///< way of points on loops with one of their own
     std::vector<double> heights_;
     bool closed_ = false; ///< some walls go all round
+    bool tells_ = false;  ///< some reach far enough round to say how the rest of their loop goes
     double bow_ = 0;      ///< how far the walls stray from straight lines between the rims, of their radius
 };
 

@@ -458,9 +458,10 @@ void add_to_loops(const OpenVolume& volume, const std::vector<FaceId>& part, con
         if (!says_the_rest(rim_section.first(rim_section.size() - kAdded), places)) continue;
         auto loop = std::ranges::find(loops, points, &LoopSections::rim);
         if (loop == loops.end()) {
-            loop = loops.insert(loops.end(), {points, {}});
+            loop = loops.insert(loops.end(), {points, {}, {}});
             loop->levels.resize(sections.points.size());
         }
+        loop->faces.insert(loop->faces.end(), part.begin(), part.end());
         for (std::size_t k = 0; k < sections.points.size(); ++k) {
             const std::vector<Vec3>& own = sections.points[k];
             loop->levels[k].insert(loop->levels[k].end(), own.begin(), own.end() - kAdded);

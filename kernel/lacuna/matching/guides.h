@@ -11,6 +11,7 @@ namespace lacuna::matching {
 /// Sections of open walls that stand on one loop of the source: its own points alone.
 struct LoopSections {
     std::vector<Index> rim;                ///< model points of that loop
+    std::vector<FaceId> faces;             ///< the walls
     std::vector<std::vector<Vec3>> levels; ///< as in `Sections`
 };
 
