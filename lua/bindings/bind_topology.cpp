@@ -182,6 +182,7 @@ int faces(lua_State* L)
         push_face(L, state, found[i]);
         lua_rawseti(L, -2, to_lua(i));
     }
+    if (found.empty() && lua_istable(L, 2)) mark_found_nothing(L, 2);
     return 1;
 }
 

@@ -306,6 +306,9 @@ void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelS
     append(L, where, model, faces, none, [&] { return select(model, wanted); });
 }
 
+/// Field of the metatable of an array that a selector found nothing for: the selector, in words.
+constexpr const char* kFoundNothing = "lacuna.found_nothing";
+
 struct GrowArguments {
     Selector selector;
     double angle = healing::GrowOptions{}.angle;
@@ -389,6 +392,11 @@ void read_faces(lua_State* L, int index, const Where& where, const Box<ModelStat
         const bool array = empty || lua_type(L, -2) == LUA_TNUMBER;
         if (!empty) lua_pop(L, 2);
         if (array) {
+            if (empty && luaL_getmetafield(L, index, kFoundNothing) != LUA_TNIL)
+                fail_option(L, where,
+                            "is what model:faces{ %s } found, which is nothing; a role that none "
+                            "shall have is {}",
+                            lua_tostring(L, -1));
             read_array(L, index, where, "", [&](int element, const Where& at) {
                 if (lua_type(L, element) == LUA_TTABLE && lua_rawlen(L, element) > 0)
                     fail_value(L, at, "a Face, a tag, a name or a selector", element);
@@ -398,6 +406,34 @@ void read_faces(lua_State* L, int index, const Where& where, const Box<ModelStat
         }
     }
     read_one_face(L, index, where, model, faces);
+}
+
+void mark_found_nothing(lua_State* L, int selector)
+{
+    const int array = lua_gettop(L);
+    auto& words = temporary<std::vector<std::string>>(L);
+    lua_pushnil(L);
+    while (lua_next(L, selector) != 0) {
+        const bool text = lua_type(L, -1) == LUA_TSTRING;
+        const bool plain = text || lua_type(L, -1) == LUA_TNUMBER || lua_type(L, -1) == LUA_TBOOLEAN;
+        const char* value = plain ? luaL_tolstring(L, -1, nullptr) : (lua_pushnil(L), "…");
+        if (const char* key = lua_type(L, -3) == LUA_TSTRING ? lua_tostring(L, -3) : nullptr) {
+            guard(L, [&] {
+                words.push_back(std::string(key) + " = " + (text ? "\"" : "") + value + (text ? "\"" : ""));
+            });
+        }
+        lua_pop(L, 2);
+    }
+    lua_createtable(L, 0, 1);
+    push_text(L, [&] {
+        std::ranges::sort(words);
+        std::string all;
+        for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
+        return all;
+    });
+    lua_setfield(L, -2, kFoundNothing);
+    lua_setmetatable(L, array);
+    lua_settop(L, array);
 }
 
 Vec3 mean_normal(const topology::Model& model, FaceId face)

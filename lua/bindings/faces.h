@@ -36,7 +36,11 @@ void read_selector(lua_State* L, int index, const char* call, Selector& selector
 /// Faces a selector picks, in the model's order.
 std::vector<FaceId> select(const topology::Model& model, const Selector& selector);
 
-/// Append the faces the value at `index` means. Raises where it means none.
+/// Mark the empty array on top of the stack as what the selector at `selector` found; read_faces() refuses it
+/// by the selector's words until faces are put into it.
+void mark_found_nothing(lua_State* L, int selector);
+
+/// Append the faces the value at `index` means: none where it is {}. Raises where something else means none.
 /// @pre the model is up to date.
 void read_faces(lua_State* L, int index, const Where& where, const Box<ModelState>& model,
                 std::vector<FaceId>& faces);

@@ -439,6 +439,126 @@ TEST_CASE("curved ends and walls close watertight, and near the volume of the wh
     MESSAGE(combinations << " curved prisms");
 }
 
+namespace {
+
+/// A slot with a flat floor and round ends, milled into a curved part, whose mouth is not given.
+struct MilledSlot {
+    double length = 2; ///< of its straight sides; its half width is 1
+    double turn = 0;   ///< of the slot about its tool's axis [rad]
+    int half = 24;     ///< segments of a round end
+    std::function<double(const Vec2&)> height;
+
+    [[nodiscard]] std::vector<Vec2> outline() const
+    {
+        constexpr int kStraight = 12;
+        std::vector<Vec2> points;
+        for (const double side : {1.0, -1.0}) {
+            for (int i = 0; i < half; ++i) {
+                const double angle = std::numbers::pi * (static_cast<double>(i) / half - 0.5);
+                points.emplace_back(side * Vec2(length / 2 + std::cos(angle), std::sin(angle)));
+            }
+            for (int i = 0; length > 0 && i < kStraight; ++i)
+                points.emplace_back(side * Vec2(length * (0.5 - static_cast<double>(i) / kStraight), 1));
+        }
+        for (Vec2& p : points) p = Eigen::Rotation2Dd(turn) * p;
+        return points;
+    }
+
+    /// Open above, with its floor as source.
+    [[nodiscard]] OpenVolume open() const
+    {
+        healing::FacetSoup soup;
+        const std::vector<Vec2> rim = outline();
+        const auto n = static_cast<Index>(rim.size());
+        for (const Vec2& p : rim) soup.points.emplace_back(p.x(), p.y(), 0);
+        for (const Vec2& p : rim) soup.points.emplace_back(p.x(), p.y(), height(p));
+        for (Index i = 2; i < n; ++i) soup.triangles.push_back({0, i, i - 1});
+        for (Index i = 0; i < n; ++i) {
+            const Index next = (i + 1) % n;
+            soup.triangles.push_back({i, next, n + next});
+            soup.triangles.push_back({i, n + next, n + i});
+        }
+        for (const Triangle& t : soup.triangles) {
+            const bool floor = t[0] < n && t[1] < n && t[2] < n;
+            soup.triangle_label.push_back(floor ? 0 : 1);
+        }
+        return open_volume(healing::split_facets(soup), {{FaceId(0)}, {}, {FaceId(1)}});
+    }
+
+    /// Of the outline's prism under the height, by rings of it about its middle.
+    [[nodiscard]] double volume() const
+    {
+        constexpr int kRings = 60;
+        const std::vector<Vec2> rim = outline();
+        double sum = 0;
+        for (std::size_t i = 0; i < rim.size(); ++i) {
+            const Vec2 &a = rim[i], &b = rim[(i + 1) % rim.size()];
+            const double area = (a.x() * b.y() - a.y() * b.x()) / 2;
+            for (int k = 0; k < kRings; ++k) {
+                const double share = (k + 0.5) / kRings;
+                sum += area * 2 * share / kRings * height(share * (a + b) / 2);
+            }
+        }
+        return sum;
+    }
+};
+
+} // namespace
+
+TEST_CASE("the mouth of a slot milled into a shaft or a ball has the shaft's or the ball's shape")
+{
+    int slots = 0;
+    for (const double length : {1.0, 2.0, 6.0}) {
+        for (const double turn : {0.0, 0.6, std::numbers::pi / 2}) {
+            for (const double larger : {1.6, 2.5, 6.0}) { // the radius to what the slot reaches to
+                for (const bool ball : {false, true}) {
+                    CAPTURE(length);
+                    CAPTURE(turn);
+                    CAPTURE(larger);
+                    CAPTURE(ball);
+                    const bool along = turn == 0 && !ball;
+                    const double radius = larger * (along ? 1 : 1 + length / 2);
+                    const double floor = std::sqrt(radius * radius - (radius / larger) * (radius / larger)) -
+                                         0.5;
+                    const MilledSlot slot{length, turn, 24, [=](const Vec2& p) {
+                                              const double off = ball ? p.squaredNorm() : p.y() * p.y();
+                                              return std::sqrt(radius * radius - off) - floor;
+                                          }};
+                    OpenVolume volume = slot.open();
+                    test::seal(volume);
+                    test::check_sealed(volume);
+                    const double near = larger < 2 ? 0.04 : 0.02;
+                    CHECK(closure::enclosed_volume(volume) == doctest::Approx(slot.volume()).epsilon(near));
+                    ++slots;
+                }
+            }
+        }
+    }
+    MESSAGE(slots << " slots");
+}
+
+TEST_CASE("the mouth of a round hole, on which many curved parts fit, stays within its rim's heights")
+{
+    using Hole = std::pair<double, int>;
+    for (const auto& [radius, half] : {Hole(1.2, 24), Hole(2, 24), Hole(5, 24), Hole(1.2, 6), Hole(2, 8)}) {
+        CAPTURE(radius);
+        CAPTURE(half);
+        const MilledSlot hole{0, 0, half,
+                              [r = radius](const Vec2& p) { return std::sqrt(r * r - p.y() * p.y()); }};
+        OpenVolume volume = hole.open();
+        const Closure closed = test::seal(volume);
+        test::check_sealed(volume);
+        for (const FaceId face : closed.void_faces) {
+            for (const Triangle& t : volume.model[face].triangles) {
+                for (const Index p : t) {
+                    CHECK(volume.model.at(p).z() <= radius + volume.model.tolerance);
+                    CHECK(volume.model.at(p).z() >= std::sqrt(radius * radius - 1) - volume.model.tolerance);
+                }
+            }
+        }
+    }
+}
+
 TEST_CASE("walls missing from one row of a stack are closed")
 {
     int combinations = 0;

@@ -69,6 +69,15 @@ check.equal(class_of { source = { facing = { 0, 0, -1 } }, walls = { tags = { 2,
 check.equal(class_of { target = 1, walls = "auto", source = {} } , "IV")
 check.equal(class_of { walls = { 2, 3, 4, 5 } }, "V")
 
+-- A selection that found nothing is no way to say "none", until faces are put into it.
+local nothing = model:faces { kind = "torus", area = { 2, 3 } }
+check.equal(#nothing, 0)
+check.fails(function() return class_of { source = nothing, walls = { 2, 3, 4, 5 } } end, "'source'",
+  'model:faces{ area = …, kind = "torus" }', "found", "{}")
+check.fails(function() return class_of { source = 1, walls = nothing } end, "'walls'", '"torus"')
+nothing[1] = added[1]
+check.equal(class_of { source = nothing, walls = "auto" }, "IV")
+
 -- A volume, open and sealed.
 local void = model:open_volume { source = 1, walls = "auto" }
 local found = void:classify()
