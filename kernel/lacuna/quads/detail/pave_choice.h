@@ -17,8 +17,8 @@ public:
     AttemptChooser(const PlanarRegion& region, const PaveOptions& options, const RunContext& context);
 
     /// The grid of a region of right angles. Then, unless that is good, few quads by weights of their own
-    /// without rows, and with rows. Then, unless that is good, rows in every style that is worth a trial, with
-    /// the default weights.
+    /// without rows, and with rows. Then, unless that is good, rows in every style that is worth a trial,
+    /// with the default weights.
     void try_default_weights();
     /// The score of a style with other weights of the cuts; nothing is kept.
     [[nodiscard]] double score_with(RowStyle style, const CutWeights& weights) const;
