@@ -164,6 +164,32 @@ TEST_CASE("a ring that is narrow on one side steps in there: four irregular node
     }
 }
 
+TEST_CASE("few quads of a disc with holes have no worse quads for fewer irregular nodes")
+{
+    int good = 0, made = 0;
+    double least = 1;
+    for (int holes = 3; holes <= 6; ++holes) {
+        for (const int sides : {36, 42, 48, 54}) {
+            const double size = 2 * kPi / sides;
+            std::vector<Outline> loops{circle({0, 0}, 1, sides, false)};
+            for (int k = 0; k < holes; ++k) {
+                const double angle = 2 * kPi * k / holes;
+                loops.push_back(circle({0.6 * std::cos(angle), 0.6 * std::sin(angle)}, 0.16, 10, true));
+            }
+            const PlanarRegion region = region_of(loops, size);
+            const quads::PlanarQuads mesh = quads::pave(region).mesh;
+            CHECK(quads::find_fault(mesh, region) == "");
+            const double worst = quads::measure_plane(mesh, region).min_scaled_jacobian;
+            least = std::min(least, worst);
+            good += worst > 0.75 ? 1 : 0;
+            ++made;
+        }
+    }
+    MESSAGE(good << " of " << made << " above 0.75, least " << least);
+    CHECK(least > 0.7);
+    CHECK(2 * good >= made);
+}
+
 TEST_CASE("a polygon in a circle, and a circle in a slot, are rings")
 {
     for (int corners = 4; corners <= 8; ++corners) {

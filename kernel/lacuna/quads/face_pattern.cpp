@@ -416,7 +416,9 @@ public:
         : region_(region),
           context_(context),
           size_(paving::size_with_boundary(region)),
-          ring_size_(region.loops.size() > 1 ? paving::size_with_boundary(region, kGrading, kAlike) : size_),
+          ring_size_(region.loops.size() > 1
+                         ? paving::size_with_boundary(region, paving::kRingGrading, paving::kRingAlike)
+                         : size_),
           has_half_ends_(has_half_ends(region))
     {
     }
@@ -514,9 +516,6 @@ private:
         if (auto mesh = filler.run(context_)) keep(std::move(*mesh));
         return filler;
     }
-
-    /// Sides of a ring may be 1 / 0.6 times as long as asked, or as short, and rows still of the size asked.
-    static constexpr double kGrading = 0.3, kAlike = 1.75;
 
     const PlanarRegion& region_;
     const RunContext& context_;

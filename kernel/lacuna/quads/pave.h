@@ -51,12 +51,13 @@ struct Paved {
 /// Symmetric quads of a symmetric region are made so to rounding (`symmetrise()`), up to 20,000.
 ///
 /// Up to 4000 quads are made several times, with and without rows and by several weightings of the cuts, and
-/// the best by measure is kept. Below about 1500 they are made three times, without rows, by weightings of
-/// their own; the two that begin with the fewest irregular nodes are cleaned and smoothed, and all else is
-/// tried only where those are poor. The search ends where a mesh is good and near the fewest
-/// irregular nodes that topology allows (`least_irregular()`). Boundary nodes are kept, in order, bit for
-/// bit. The quads are counter-clockwise and convex. Flat ones are left only where the boundary's sides are
-/// long for the gap between them, which the log says.
+/// the best by measure is kept. Below about 1500 they are made three times without rows, by weightings of
+/// their own, and once with rows. The two that begin with the fewest irregular nodes are cleaned and
+/// smoothed, the others only where the worst quad of those is below 0.75; all else is tried only where they
+/// are poor. Sizes are judged by those that the given sides leave room for. The search ends where a mesh is
+/// good and near the fewest irregular nodes that topology allows (`least_irregular()`). Boundary nodes are
+/// kept, in order, bit for bit. The quads are counter-clockwise and convex. Flat ones are left only where the
+/// boundary's sides are long for the gap between them, which the log says.
 ///
 /// @throw InvalidInput "surface.pave_loops"   a loop that is too short, repeats a node, crosses another or
 ///                                            lies outside the first.

@@ -56,16 +56,16 @@ constexpr std::array<CutWeights, 3> kFewWeights{{
 /// How good quads are, to choose between two attempts; higher is better, 3.325 at most.
 ///
 /// The sum of the mean and the least scaled Jacobian, the shares of right sizes and of right row heights,
-/// less the share of irregular nodes. The least one counts double up to kGood, for a sweep repeats the worst
-/// quad and makes it worse, and half up to kBest, above which smoothing gets it anyway. The outline, not the
-/// number of quads, says how many irregular nodes there must be: below kFewNodes their share is taken of that
-/// many. The weights are choices.
+/// less the share of irregular nodes, those on the boundary among them. The least one counts double up to
+/// kGood, for a sweep repeats the worst quad and makes it worse, and half up to kBest, above which smoothing
+/// gets it anyway. The outline, not the number of quads, says how many irregular nodes there must be: below
+/// kFewNodes their share is taken of that many. The weights are choices.
 double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
 {
     constexpr double kGood = 0.6, kBest = 0.85, kFewNodes = 300;
     const PlaneQuality quality = measure_plane(mesh, region);
     const double least = quality.min_scaled_jacobian;
-    const double irregular = static_cast<double>(quality.irregular) /
+    const double irregular = static_cast<double>(quality.irregular + quality.boundary_irregular) /
                              std::max(static_cast<double>(quality.interior), kFewNodes);
     return quality.mean_scaled_jacobian + 2 * std::min(least, kGood) +
            (std::clamp(least, kGood, kBest) - kGood) / 2 + quality.size_share() / 2 +
@@ -85,11 +85,29 @@ bool is_near_least(const PlanarQuads& mesh, const PlanarRegion& region, int leas
            quality.row_share() > kFineRows;
 }
 
-/// Below so many quads a region is paved by `kFewWeights` alone, unless that is poor, and only so many of
-/// them are finished: those that begin with the fewest irregular nodes. On the outlines those rows were
-/// chosen on that scores 0.01 less than all other rows together did, with a fifth fewer irregular nodes, in
-/// a quarter of the time; the third would gain the 0.01.
+/// Below so many quads a region is paved by `kFewWeights` and with rows along the boundary alone, unless that
+/// is poor, and only so many of them are finished: those that begin with the fewest irregular nodes. On the
+/// outlines those rows were chosen on that scores 0.01 less than all other rows together did, with a fifth
+/// fewer irregular nodes, in a quarter of the time; the third would gain the 0.01.
 constexpr std::size_t kFewQuads = 1500, kFinished = 2;
+/// The others are finished too while the worst quad is below kFair, or kNearly of what the boundary's corners
+/// allow. Choices, not measurements.
+constexpr double kFair = 0.75, kNearly = 0.97;
+
+/// The best scaled Jacobian that the worst of a region's boundary corners can have: each has the quads that
+/// right angles fit in.
+double best_at_corners(const PlanarRegion& region)
+{
+    double worst = 1;
+    for (const auto& loop : region.loops) {
+        for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
+            const auto at = [&](std::size_t k) { return region.points[index(loop[k % n])]; };
+            const double angle = turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i));
+            worst = std::min(worst, std::sin(angle / quads_in(angle)));
+        }
+    }
+    return worst;
+}
 
 /// A number that tells meshes apart: a hash of points and quads in their order.
 std::uint64_t name_of(const PlanarQuads& mesh)
@@ -175,18 +193,20 @@ double flat_below(const PlanarRegion& region)
 AttemptChooser::AttemptChooser(const PlanarRegion& region, const PaveOptions& options,
                                const RunContext& context)
     : region_(region),
+      judged_(region),
       options_(options),
       context_(context),
       least_irregular_(least_irregular(region)),
       is_few_(quads_within(region) < kFewQuads),
       setting_{region_, options_, size_with_boundary(region), flat_below(region)}
 {
+    judged_.size = size_with_boundary(region, kRingGrading, kRingAlike);
 }
 
 double AttemptChooser::judge_score(Attempt& made) const
 {
     if (made.worst > 0 && !find_fault(made.mesh, region_).empty()) made.worst = -1;
-    return made.worst > setting_.flat ? score_of(made.mesh, region_) : made.worst;
+    return made.worst > setting_.flat ? score_of(made.mesh, judged_) : made.worst;
 }
 
 void AttemptChooser::consider(Attempt made)
@@ -195,7 +215,7 @@ void AttemptChooser::consider(Attempt made)
     const double score = judge_score(made);
     if (score <= best_score_) return;
     best_score_ = score;
-    is_near_least_ = made.worst > kFineWorst && is_near_least(made.mesh, region_, least_irregular_);
+    is_near_least_ = made.worst > kFineWorst && is_near_least(made.mesh, judged_, least_irregular_);
     best_ = std::move(made);
 }
 
@@ -234,14 +254,14 @@ void AttemptChooser::try_grids()
     // loops are far from alike have fewer. Choices, not measurements.
     constexpr double kNearlyAll = 0.93, kMost = 0.85;
     std::vector<Attempt> grids{grid_attempt(submap(region_, context_), setting_)};
-    is_good_grid_ = is_good_grid(grids[0], region_, kNearlyAll);
+    is_good_grid_ = is_good_grid(grids[0], judged_, kNearlyAll);
     if (!is_good_grid_ && quads_within(region_) < kSmall) {
         for (PlanarQuads& mesh : fill_patterns(region_, context_))
             grids.push_back(grid_attempt(std::move(mesh), setting_));
     }
     for (const double of_size : {kNearlyAll, kMost}) {
         for (Attempt& grid : grids) {
-            if (!is_good_grid(grid, region_, of_size)) continue;
+            if (!is_good_grid(grid, judged_, of_size)) continue;
             is_good_grid_ = true;
             consider(grid);
         }
@@ -252,19 +272,22 @@ void AttemptChooser::try_grids()
 
 void AttemptChooser::try_few_weights()
 {
+    const double fair = std::min(kFair, kNearly * best_at_corners(region_));
     std::vector<Begun> begun;
-    for (const CutWeights& weights : kFewWeights) {
-        Attempt attempt = begin(RowStyle::no_rows, weights);
-        if (attempt.worst < -1) continue;
+    const auto begin_one = [&](RowStyle style, const CutWeights& weights) {
+        Attempt attempt = begin(style, weights);
+        if (attempt.worst < -1) return;
         const PlaneQuality quality = measure_plane(attempt.mesh, region_);
         // Boundary nodes count twice: cleaning improves fewer of them.
         begun.push_back({quality.irregular + 2 * quality.boundary_irregular, std::move(attempt)});
-    }
+    };
+    for (const CutWeights& weights : kFewWeights) begin_one(RowStyle::no_rows, weights);
+    begin_one(RowStyle::by_shape, cut_weight_rows().front());
     std::stable_sort(begun.begin(), begun.end(),
                      [](const Begun& a, const Begun& b) { return a.irregular < b.irregular; });
-    begun.resize(std::min(begun.size(), kFinished));
-    for (Begun& next : begun) {
-        if (!is_good_enough()) finish(std::move(next.attempt));
+    for (std::size_t i = 0; i < begun.size() && !is_good_enough(); ++i) {
+        if (i >= kFinished && best_.worst > fair) return;
+        finish(std::move(begun[i].attempt));
     }
 }
 

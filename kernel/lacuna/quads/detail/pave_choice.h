@@ -16,9 +16,9 @@ public:
     /// @param region, context  kept by reference.
     AttemptChooser(const PlanarRegion& region, const PaveOptions& options, const RunContext& context);
 
-    /// The grid of a region of right angles. Then, unless that is good, few quads by weights of their own,
-    /// without rows. Then, unless that is good, rows in every style that is worth a trial, with the default
-    /// weights.
+    /// The grid of a region of right angles. Then, unless that is good, few quads by weights of their own
+    /// without rows, and with rows. Then, unless that is good, rows in every style that is worth a trial,
+    /// with the default weights.
     void try_default_weights();
     /// The score of a style with other weights of the cuts; nothing is kept.
     [[nodiscard]] double score_with(RowStyle style, const CutWeights& weights) const;
@@ -54,6 +54,7 @@ private:
     [[nodiscard]] bool is_good_enough() const;
 
     const PlanarRegion& region_;
+    PlanarRegion judged_; ///< the region with the size that its given sides allow
     PaveOptions options_;
     const RunContext& context_;
     int least_irregular_; ///< that topology allows

@@ -19,4 +19,8 @@ namespace lacuna::quads::paving {
 std::function<double(const Vec2&)> size_with_boundary(const PlanarRegion& region, double grading = 0.3,
                                                       double alike = 1.6);
 
+/// Sides of a ring may be 1 / 0.6 times as long as asked, or as short, and rows still of the size asked: what
+/// rings are laid out with and all meshes judged by.
+inline constexpr double kRingGrading = 0.3, kRingAlike = 1.75;
+
 } // namespace lacuna::quads::paving
