@@ -226,7 +226,8 @@ void write_deck(const mesh::HexMesh& mesh, const io::OutputPath& path, const Wri
     WriteArguments all = arguments;
     io::find_deck_format(io::ending_of(path.text()), all.deck.format);
     const io::DeckFormat format = all.deck.format;
-    if (arguments.with.empty()) return io::write_deck(io::deck_of(mesh, all.deck), format, path, context);
+    if (arguments.with.empty())
+        return io::write_deck(io::deck_of(mesh, all.deck, context), format, path, context);
     const JoinedMesh one{&mesh, arguments.deck.material};
     io::write_deck(joined_deck({&one, 1}, all, context), format, path, context,
                    {arguments.msh.binary, arguments.msh.version});
@@ -537,10 +538,11 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
     guard(L, [&] {
         const std::string ending = io::ending_of(path.text());
         if (!team::is_layered(ending))
-            throw InvalidInput("lua.not_layered",
-                               "sweep_to: " + path.text() +
-                                   ": files written a layer at a time end in .msh, .vtu or "
-                                   ".vtk; for others use volume:sweep(options):write(path)");
+            throw InvalidInput(
+                "lua.not_layered",
+                "sweep_to: " + path.text() +
+                    ": files written a layer at a time end in .msh, .vtu, .vtk, "
+                    ".inp, .bdf, .nas, .dat or .unv; for others use volume:sweep(options):write(path)");
         format_of(path.text(), arguments); // refuses options that it has not
         for (const quality::Metric metric : metrics_of(arguments))
             if (!team::is_layered(metric))
@@ -552,19 +554,24 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
     return arguments;
 }
 
-void write_layered(const sweep::Swept& swept, const io::OutputPath& path, WriteArguments& arguments,
-                   const Crew* crew, const RunContext& context)
+void write_layered(const sweep::Swept& swept, const std::string& material, const io::OutputPath& path,
+                   WriteArguments& arguments, const Crew* crew, const RunContext& context)
 {
+    arguments.deck.material = material;
     const mesh::HexMesh& mesh = swept.mesh;
     report_progress(context, "writing " + path.text());
     if (!swept.layers) {
-        for (const quality::Metric metric : metrics_of(arguments))
+        const std::vector<quality::Metric> metrics = format_of(path.text(), arguments).is_deck
+                                                         ? std::vector<quality::Metric>{}
+                                                         : metrics_of(arguments);
+        for (const quality::Metric metric : metrics)
             arguments.msh.fields.push_back(
                 {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
         return format_of(path.text(), arguments).write(mesh, path, arguments, context);
     }
     team::write_layered({mesh, *swept.layers}, *swept.plan, path,
-                        {arguments.msh.binary, arguments.msh.version, metrics_of(arguments)}, crew, context);
+                        {arguments.msh.binary, arguments.msh.version, metrics_of(arguments), material}, crew,
+                        context);
 }
 
 void bind_io(lua_State* L)

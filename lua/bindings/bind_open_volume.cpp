@@ -6,6 +6,7 @@
 
 #include <lacuna/closure/branches.h>
 #include <lacuna/closure/readings.h>
+#include <lacuna/core/progress.h>
 #include <lacuna/sweep/assembly.h>
 #include <lacuna/topology/auto_walls.h>
 
@@ -192,6 +193,7 @@ int open_volume(lua_State* L)
     RunContext& context = push_context(L);
     auto& box = new_box<VolumeState>(L);
     guard(L, [&] {
+        report_progress(context, "roles");
         box = std::make_shared<VolumeState>(make_volume(model->model, arguments, context));
         box->decks = model->decks;
         box->scale = model->scale;

@@ -896,7 +896,7 @@ int sweep_to(lua_State* L)
             swept.report.push_back(
                 "sweep_to: the whole mesh was held in memory, since its nodes are more than "
                 "placed layers: moved to improve cells, of order 2 or of boundary layers");
-        write_layered(swept, path, file, crew, context);
+        write_layered(swept, state.material, path, file, crew, context);
         seconds = clock.seconds();
     });
     lua_createtable(L, static_cast<int>(swept.report.size()), 8);

@@ -18,7 +18,8 @@ struct WriteArguments;
 WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath& path);
 
 /// Write a mesh, whose nodes may be still to be made, with the bytes of mesh:write.
-void write_layered(const sweep::Swept& swept, const io::OutputPath& path, WriteArguments& arguments,
-                   const Crew* crew, const RunContext& context);
+/// @param material  the volume's, which decks name.
+void write_layered(const sweep::Swept& swept, const std::string& material, const io::OutputPath& path,
+                   WriteArguments& arguments, const Crew* crew, const RunContext& context);
 
 } // namespace lacuna::lua

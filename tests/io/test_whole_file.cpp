@@ -165,6 +165,37 @@ TEST_CASE("a process that is killed while it writes leaves nothing")
     CHECK(folder.entries() == 1);
 }
 
+TEST_CASE("what a killed process left under a name goes once it is old, and nothing else does")
+{
+    const test::Folder folder;
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        io::WholeFile file(folder.file("a.txt"), io::WholeFile::Naming::named);
+        ::raise(SIGKILL);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    CHECK(folder.entries() == 1);
+    const std::string left = folder.file(".a.txt.unfinished-" + std::to_string(child) + "-0");
+    REQUIRE(std::filesystem::exists(left));
+    const std::string running = folder.file(".a.txt.unfinished-" + std::to_string(::getpid()) + "-7");
+    const std::string other = folder.file(".b.txt.unfinished-" + std::to_string(child) + "-0");
+    const std::string word = folder.file(".a.txt.unfinished-" + std::to_string(child) + "x");
+    for (const std::string& path : {running, other, word}) test::put_bytes(path, "");
+    const auto write = [&] {
+        io::WholeFile file(folder.file("a.txt"), io::WholeFile::Naming::named);
+        file.commit();
+    };
+    write();
+    CHECK(std::filesystem::exists(left)); // it may be written on another machine
+    const auto old = std::filesystem::file_time_type::clock::now() - std::chrono::hours(2);
+    for (const std::string& path : {left, running, other, word}) std::filesystem::last_write_time(path, old);
+    write();
+    CHECK(!std::filesystem::exists(left));
+    for (const std::string& path : {running, other, word}) CHECK(std::filesystem::exists(path));
+}
+
 TEST_CASE("below a folder that is held, no path leads out of it")
 {
     const test::Folder folder;

@@ -288,7 +288,7 @@ for _, fails in ipairs { "false", "true" } do
     stages[stage] = tonumber(seconds)
   end
   check.that(math.abs(sum - all) < 1e-3, line)
-  check.that(stages["closing"] and stages["layers"] and stages["writing timed.msh"], line)
+  check.that(stages["roles"] and stages["closing"] and stages["layers"] and stages["writing timed.msh"], line)
   check.that(stages["recipe"] >= 0.04, "a pause of the recipe is no stage of the kernel: " .. line)
 end
 expect({ "--timing", "-", folder .. "/timed.lua" }, 0, {}, { '{"recipe": "', '"stages": [' })

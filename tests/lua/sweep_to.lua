@@ -17,6 +17,7 @@ local formats = {
   { "msh", { version = 2.2, binary = false, quality = true } }, { "msh", { quality = false } },
   { "msh", { quality = { "shape", "volume" } } },
   { "vtu" }, { "vtk" }, { "vtk", { binary = false, quality = "skew" } },
+  { "inp" }, { "bdf" }, { "unv" },
 }
 
 -- Sweep one volume both ways and compare the bytes; the volume is made anew for each.
@@ -55,9 +56,17 @@ for name, options in pairs(classes) do
   same("class " .. name, make, { layers = 7, size = 0.2 })
 end
 
+-- --- decks: the volume's name and material, wedges
+
+local decks = { { "inp" }, { "nas" }, { "dat" }, { "unv" } }
+local function named()
+  return lacuna.synthetic.prism(drop()):open_volume { name = "bar 1", material = "steel" }
+end
+same("a name and a material", named, { layers = 5, size = 0.2 }, decks)
+
 -- --- placements: affine, fitted, straight; holes; what comes with heights of its own
 
-local few = { { "msh" }, { "vtu" } }
+local few = { { "msh" }, { "vtu" }, { "inp" } }
 same("holes", open("prism", { holes = 2, sides = 8 }), { layers = 5, size = 0.1 }, few)
 same("a taper", open("prism", { taper = 0.6, twist = 30 }), { layers = { 0.1, 0.3, 1 }, size = 0.2 }, few)
 same("an elbow", open("elbow", { angle = 90 }), { layers = 20, size = 0.2 }, few)
@@ -88,8 +97,9 @@ local function refused(name, options, ...)
   check.fails(function() void:sweep_to(path(name), options) end, ...)
   check.that(not io.open(path(name), "rb"), name .. " is there")
 end
-refused("no.inp", { layers = 4 }, ".msh, .vtu or .vtk", "volume:sweep(options):write(path)")
-refused("no.bdf", { layers = 4 }, ".msh, .vtu or .vtk")
+refused("no.exo", { layers = 4 }, ".inp", "volume:sweep(options):write(path)")
+refused("no.txt", { layers = 4 }, ".dat or .unv")
+refused("no.inp", { layers = 4, write = { quality = "shape" } }, "quality")
 refused("no.msh", { layers = 4, write = { with = 1 } }, "write", "with")
 refused("no.msh", { layers = 4, write = 3 }, "write", "a table of options")
 refused("no.vtu", { layers = 4, write = { version = 2.2 } }, "version")

@@ -41,7 +41,10 @@ const std::vector<std::pair<std::string, team::LayeredFile>> kFiles{
     {".msh", {false, 2.2, {}}},
     {".vtu", {true, 4.1, {quality::Metric::scaled_jacobian}}},
     {".vtk", {true, 4.1, {quality::Metric::shape}}},
-    {".vtk", {false, 4.1, {quality::Metric::shape}}}};
+    {".vtk", {false, 4.1, {quality::Metric::shape}}},
+    {".inp", {.material = "steel"}},
+    {".bdf", {}},
+    {".unv", {}}};
 
 } // namespace
 

@@ -94,7 +94,10 @@ Cards cards_of(const Deck& deck)
 
 class AbaqusWriter {
 public:
-    explicit AbaqusWriter(const Deck& deck) : deck_(deck), same_(is_flat(deck)) {}
+    AbaqusWriter(const Deck& deck, const LayeredBulk* layered)
+        : deck_(deck), bulk_(deck, layered), same_(is_flat(deck))
+    {
+    }
 
     DeckFile write()
     {
@@ -128,18 +131,18 @@ private:
 
     void add_nodes()
     {
-        file_.sections.push_back({"*NODE\n", deck_.points.size(), kNumberBytes + 3 * (kWidth + 2) + 1,
-                                  [this_deck = &deck_](std::size_t begin, std::size_t end, char* out) {
-                                      for (std::size_t p = begin; p < end; ++p) {
-                                          out = put_text(out,
-                                                         static_cast<long long>(this_deck->point_tags[p]));
-                                          for (const double x : this_deck->points[p]) {
-                                              *out++ = ',';
-                                              *out++ = ' ';
-                                              out = put_real(out, x, kWidth);
-                                          }
-                                          *out++ = '\n';
-                                      }
+        file_.sections.push_back({"*NODE\n", bulk_.points(), kNumberBytes + 3 * (kWidth + 2) + 1,
+                                  [bulk = bulk_](std::size_t begin, std::size_t end, char* out) {
+                                      bulk.each_point(begin, end,
+                                                      [&](std::size_t, DeckTag tag, const Vec3& point) {
+                                                          out = put_text(out, static_cast<long long>(tag));
+                                                          for (const double x : point) {
+                                                              *out++ = ',';
+                                                              *out++ = ' ';
+                                                              out = put_real(out, x, kWidth);
+                                                          }
+                                                          *out++ = '\n';
+                                                      });
                                       return out;
                                   }});
     }
@@ -158,7 +161,7 @@ private:
             for (std::size_t s = 0; s < deck_.sets.size(); ++s) {
                 const DeckSet& set = deck_.sets[s];
                 if (set.kind != DeckSet::Kind::elements || !same_word(set.name, deck_.regions[r].name) ||
-                    set.members != members[r])
+                    (set.members != members[r] && !bulk_.is_all(set)))
                     continue;
                 by_elements_[s] = true;
                 makes_set_[r] = true;
@@ -177,31 +180,46 @@ private:
         for (std::size_t e = 0; e < block.count(); ++e)
             of_region[block.regions[e]].push_back(static_cast<std::uint32_t>(e));
         const auto nodes = static_cast<std::size_t>(shape_info(block.shape).nodes);
+        if (bulk_.is_made(block)) {
+            file_.sections.push_back({head_of(type, 0), bulk_.count(block), (nodes + 1) * kNumberBytes + 4,
+                                      [bulk = bulk_, &block](std::size_t begin, std::size_t end, char* out) {
+                                          for (std::size_t e = begin; e < end; ++e)
+                                              out = put_element(bulk, block, e, out);
+                                          return out;
+                                      }});
+        }
         for (auto& [region, elements] : of_region) {
-            std::string head = "*ELEMENT, TYPE=" + std::string(type);
-            if (region >= 0 && makes_set_[index(region)] && !deck_.regions[index(region)].name.empty())
-                head += ", ELSET=" + name_of(deck_.regions[index(region)].name);
             const std::size_t count = elements.size();
-            file_.sections.push_back({head + "\n", count, (nodes + 1) * kNumberBytes + 4,
-                                      [deck = &deck_, of = &block, all = std::move(elements)](
+            file_.sections.push_back({head_of(type, region), count, (nodes + 1) * kNumberBytes + 4,
+                                      [bulk = bulk_, &block, all = std::move(elements)](
                                           std::size_t begin, std::size_t end, char* out) {
                                           for (std::size_t i = begin; i < end; ++i)
-                                              out = put_element(*deck, *of, all[i], out);
+                                              out = put_element(bulk, block, all[i], out);
                                           return out;
                                       }});
         }
     }
 
-    static char* put_element(const Deck& deck, const DeckBlock& block, std::size_t e, char* out)
+    [[nodiscard]] std::string head_of(std::string_view type, Index region) const
     {
-        out = put_text(out, static_cast<long long>(block.tags[e]));
-        std::size_t written = 1;
-        for (const Index node : block.element(e)) {
-            *out++ = ',';
-            *out++ = written++ % kPerLine == 0 ? '\n' : ' ';
-            out = put_text(out, static_cast<long long>(deck.point_tags[index(node)]));
-        }
-        *out++ = '\n';
+        std::string head = "*ELEMENT, TYPE=" + std::string(type);
+        if (region >= 0 && makes_set_[index(region)] && !deck_.regions[index(region)].name.empty())
+            head += ", ELSET=" + name_of(deck_.regions[index(region)].name);
+        return head + "\n";
+    }
+
+    static char* put_element(const BulkReader& bulk, const DeckBlock& block, std::size_t e, char* out)
+    {
+        bulk.element(block, e, [&](DeckTag tag, Index, std::span<const Index> nodes) {
+            out = put_text(out, static_cast<long long>(tag));
+            std::size_t written = 1;
+            for (const Index node : nodes) {
+                *out++ = ',';
+                *out++ = written++ % kPerLine == 0 ? '\n' : ' ';
+                out = put_text(out, static_cast<long long>(bulk.point_tag(node)));
+            }
+            *out++ = '\n';
+        });
         return out;
     }
 
@@ -219,11 +237,11 @@ private:
         }
         const std::string word = set.kind == DeckSet::Kind::nodes ? "NSET" : "ELSET";
         file_.sections.push_back(
-            {"*" + word + ", " + word + "=" + name_of(set.name) + "\n", set.members.size(), kNumberBytes + 2,
-             [&set](std::size_t begin, std::size_t end, char* out) {
+            {"*" + word + ", " + word + "=" + name_of(set.name) + "\n", bulk_.count(set), kNumberBytes + 2,
+             [bulk = bulk_, &set](std::size_t begin, std::size_t end, char* out) {
                  for (std::size_t i = begin; i < end; ++i) {
-                     out = put_text(out, static_cast<long long>(set.members[i]));
-                     const bool last = (i + 1) % kPerLine == 0 || i + 1 == set.members.size();
+                     out = put_text(out, static_cast<long long>(bulk.member(set, i)));
+                     const bool last = (i + 1) % kPerLine == 0 || i + 1 == bulk.count(set);
                      *out++ = last ? '\n' : ',';
                      if (!last) *out++ = ' ';
                  }
@@ -242,6 +260,7 @@ private:
     }
 
     const Deck& deck_;
+    BulkReader bulk_;
     bool same_; ///< names and text stay
     DeckFile file_;
     std::vector<bool> by_elements_; ///< sets
@@ -250,6 +269,9 @@ private:
 
 } // namespace
 
-DeckFile abaqus_file(const Deck& deck) { return AbaqusWriter(deck).write(); }
+DeckFile abaqus_file(const Deck& deck, const LayeredBulk* layered)
+{
+    return AbaqusWriter(deck, layered).write();
+}
 
 } // namespace lacuna::io

@@ -44,7 +44,7 @@ bool find_deck_format(std::string_view ending, DeckFormat& format);
 ///                     "io.no_such_element"  the mesh is of hex27, which Nastran, Abaqus and UNV have not.
 ///                     "io.number_taken"  a first number is below 1, or the last would be too high.
 /// @note  O(nodes + cells).
-Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options);
+Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options, const RunContext& context = {});
 
 /// The same of several swept meshes that have nodes in common: a region each, groups named as theirs.
 /// @param interfaces  where groups are sets of quads: quads that two of the meshes have are elements too, one

@@ -6,6 +6,7 @@
 #include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/deck_formats.h>
+#include <lacuna/io/detail/mesh_deck.h>
 #include <lacuna/io/detail/unv.h>
 
 #include <algorithm>
@@ -282,6 +283,19 @@ void refuse_element(const DeckBlock& block, std::string_view format, std::string
                                                  std::string(why));
 }
 
+std::size_t BulkReader::count(const DeckBlock& block) const
+{
+    if (!is_made(block)) return block.count();
+    const std::size_t hexes = layered_->kinds.hexes();
+    return shape_info(block.shape).corners == 8 ? hexes : layered_->mesh.cell_count() - hexes;
+}
+
+std::size_t BulkReader::made_cell(const DeckBlock& block, std::size_t e) const
+{
+    const mesh::CellKinds& kinds = layered_->kinds;
+    return kinds.cell(shape_info(block.shape).corners == 8 ? e : kinds.hexes() + e);
+}
+
 DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& options)
 {
     switch (format) {
@@ -300,6 +314,25 @@ DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& opt
     default:
         return unv_file(deck);
     }
+}
+
+bool is_layered(DeckFormat format)
+{
+    return format == DeckFormat::nastran || format == DeckFormat::abaqus || format == DeckFormat::unv;
+}
+
+void write_deck(const mesh::LayeredMesh& layered, const MeshDeckOptions& options, const OutputPath& path,
+                const RunContext& context, const Team* team)
+{
+    const Deck deck = deck_without_bulk(layered.mesh, options, context);
+    const NodeReader nodes(layered, context);
+    const LayeredBulk bulk{layered.mesh, nodes};
+    const DeckFile file = options.format == DeckFormat::nastran  ? nastran_file(deck, &bulk)
+                          : options.format == DeckFormat::abaqus ? abaqus_file(deck, &bulk)
+                                                                 : unv_file(deck, &bulk);
+    if (team == nullptr || team->rank == 0)
+        for (const std::string& note : file.notes) log_line(context, path.text() + ": " + note);
+    write_file(path, file.sections, file.sizes, context, team);
 }
 
 bool find_deck_format(std::string_view ending, DeckFormat& format)

@@ -2,6 +2,7 @@
 #include <lacuna/io/facets.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/io/deck.h>
 #include <lacuna/io/detail/msh_content.h>
 #include <lacuna/io/detail/sections.h>
 #include <lacuna/topology/skin_groups.h>
@@ -380,15 +381,6 @@ std::vector<Section> msh_sections(const OpenVolume& volume, const Skin& skin, bo
     }
     sections.push_back({line + "$EndElements\n", 0, 0, {}});
     return sections;
-}
-
-std::string ending_of(const std::string& path)
-{
-    const std::size_t dot = path.find_last_of('.');
-    if (dot == std::string::npos || path.find('/', dot) != std::string::npos) return {};
-    std::string ending = path.substr(dot);
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return ending;
 }
 
 } // namespace

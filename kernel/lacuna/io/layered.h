@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/team.h>
+#include <lacuna/io/deck_file.h>
 #include <lacuna/io/msh.h>
 #include <lacuna/io/vtk.h>
 #include <lacuna/mesh/layered_nodes.h>
@@ -34,5 +35,14 @@ void write_vtu(const mesh::LayeredMesh& layered, const OutputPath& path,
 void write_vtk(const mesh::LayeredMesh& layered, const OutputPath& path, const VtkOptions& options = {},
                const std::vector<LayeredField>& fields = {}, const RunContext& context = {},
                const Team* team = nullptr);
+
+/// Whether decks of a format are written so: Nastran's, Abaqus's and universal files.
+bool is_layered(DeckFormat format);
+/// `write_deck()` of `deck_of()` the mesh, numbered from 1, in such a format: the same bytes, and memory as
+/// above. The files are text, which a team fills twice.
+/// @param options  without first numbers.
+/// @pre  is_layered(), and the mesh is of order 1.
+void write_deck(const mesh::LayeredMesh& layered, const MeshDeckOptions& options, const OutputPath& path,
+                const RunContext& context = {}, const Team* team = nullptr);
 
 } // namespace lacuna::io

@@ -7,6 +7,7 @@
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/msh_content.h>
+#include <lacuna/mesh/layered_nodes.h>
 
 #include <algorithm>
 #include <map>
@@ -107,8 +108,20 @@ private:
         if (done % kPolled == 0) check_cancelled(context_);
     }
 
+    /// The deck's point that a node of the mesh is, and its number.
+    [[nodiscard]] Index point(Index node) const { return added_.bulk_elsewhere ? node : point_[index(node)]; }
+    [[nodiscard]] DeckTag point_tag(Index node) const
+    {
+        return added_.bulk_elsewhere ? DeckTag(node) + 1 : deck_.point_tags[index(point_[index(node)])];
+    }
+
     void add_points()
     {
+        if (added_.bulk_elsewhere) {
+            std::vector<DeckTag> none;
+            free_from(1, mesh::corner_count(mesh_), {}, none, 0, "first_node", "node");
+            return;
+        }
         const std::size_t fresh = static_cast<std::size_t>(std::ranges::count(added_.points, -1));
         std::vector<DeckTag> taken = deck_.point_tags;
         DeckTag next = free_from(options_.first_node, fresh, texts_.nodes, taken, deck_.gap.node,
@@ -146,11 +159,10 @@ private:
         const auto add = [&](DeckShape shape, const std::string& type, std::size_t begin, std::size_t end) {
             if (begin == end) return;
             DeckBlock& block = block_of(shape, type);
-            for (std::size_t i = begin; i < end; ++i) {
+            for (std::size_t i = begin; i < end && !added_.bulk_elsewhere; ++i) {
                 poll(i);
                 const std::size_t c = kinds.cell(i);
-                for (const Index node : cell_nodes(mesh_, c).all())
-                    block.nodes.push_back(point_[index(node)]);
+                for (const Index node : cell_nodes(mesh_, c).all()) block.nodes.push_back(point(node));
                 block.tags.push_back(first_cell_ + static_cast<DeckTag>(c));
                 block.regions.push_back(region);
             }
@@ -204,7 +216,7 @@ private:
     {
         DeckSet& set = set_of(DeckSet::Kind::elements, group);
         if (group == volume_) set.name = name_of_region();
-        for (std::size_t c = 0; c < mesh_.cell_count(); ++c)
+        for (std::size_t c = 0; c < mesh_.cell_count() && !added_.bulk_elsewhere; ++c)
             set.members.push_back(first_cell_ + static_cast<DeckTag>(c));
     }
 
@@ -232,8 +244,7 @@ private:
             for (std::size_t k = begin; k < end; ++k) {
                 const std::size_t i = kinds.skin(k);
                 if (is_inner(i) || is_there(i)) continue;
-                for (const Index node : skin_nodes(mesh_, i).all())
-                    block.nodes.push_back(point_[index(node)]);
+                for (const Index node : skin_nodes(mesh_, i).all()) block.nodes.push_back(point(node));
                 block.tags.push_back(skin_tag(i));
                 block.regions.push_back(region);
             }
@@ -335,8 +346,7 @@ private:
         }
         DeckSet& nodes = add(DeckSet::Kind::nodes);
         for (const std::uint32_t i : quads)
-            for (const Index node : skin_nodes(mesh_, i).all())
-                nodes.members.push_back(deck_.point_tags[index(point_[index(node)])]);
+            for (const Index node : skin_nodes(mesh_, i).all()) nodes.members.push_back(point_tag(node));
         tidy(nodes.members);
         if (!has_sides()) return;
         if (options_.format == DeckFormat::abaqus) {
@@ -460,11 +470,19 @@ bool has_skin_cells(DeckFormat format)
 
 } // namespace
 
-Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options)
+Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options, const RunContext& context)
 {
     Deck deck = empty_deck(options.format);
     const std::vector<Index> points(mesh.node_count(), -1);
-    add_mesh(deck, mesh, {.points = points, .skin_cells = has_skin_cells(options.format)}, options);
+    add_mesh(deck, mesh, {.points = points, .skin_cells = has_skin_cells(options.format)}, options, context);
+    return deck;
+}
+
+Deck deck_without_bulk(const mesh::HexMesh& mesh, const MeshDeckOptions& options, const RunContext& context)
+{
+    Deck deck = empty_deck(options.format);
+    add_mesh(deck, mesh, {.points = {}, .skin_cells = has_skin_cells(options.format), .bulk_elsewhere = true},
+             options, context);
     return deck;
 }
 

@@ -148,27 +148,29 @@ std::string_view text_of_place(const Further& further, std::size_t place)
     return at != further.end() && at->first == place ? std::string_view(at->second) : std::string_view();
 }
 
-void add_nodes(const Deck& deck, bool same, DeckFile& file)
+void add_nodes(const Deck& deck, const BulkReader& bulk, bool same, DeckFile& file)
 {
     const std::size_t more = same ? room_of(deck.point_more) : 0;
     file.sections.push_back({{},
-                             deck.points.size(),
+                             bulk.points(),
                              CardWriter::room(5, kLarge) + more,
-                             [&deck, same](std::size_t begin, std::size_t end, char* out) {
+                             [&deck, bulk, same](std::size_t begin, std::size_t end, char* out) {
                                  CardWriter card;
-                                 for (std::size_t p = begin; p < end; ++p) {
-                                     card.begin();
-                                     card.add_number(deck.point_tags[p]);
-                                     card.add({});
-                                     for (const double x : deck.points[p]) card.add_real(x);
-                                     if (same) card.add_text(text_of_place(deck.point_more, p));
-                                     out = card.put(out, "GRID", true);
-                                 }
+                                 bulk.each_point(begin, end,
+                                                 [&](std::size_t p, DeckTag tag, const Vec3& point) {
+                                                     card.begin();
+                                                     card.add_number(tag);
+                                                     card.add({});
+                                                     for (const double x : point) card.add_real(x);
+                                                     if (same)
+                                                         card.add_text(text_of_place(deck.point_more, p));
+                                                     out = card.put(out, "GRID", true);
+                                                 });
                                  return out;
                              }});
 }
 
-void add_elements(const Deck& deck, const DeckBlock& block, bool same, DeckFile& file)
+void add_elements(const Deck& deck, const BulkReader& bulk, const DeckBlock& block, bool same, DeckFile& file)
 {
     const std::string_view name = same && !block.type.empty() ? std::string_view(block.type)
                                                               : card_of(block.shape);
@@ -177,15 +179,13 @@ void add_elements(const Deck& deck, const DeckBlock& block, bool same, DeckFile&
     const std::size_t more = same ? room_of(block.more) : 0;
     file.sections.push_back(
         {{},
-         block.count(),
+         bulk.count(block),
          CardWriter::room(nodes + 2, kNumber) + more,
-         [&deck, &block, name, nodes, same](std::size_t begin, std::size_t end, char* out) {
+         [&deck, bulk, &block, name, nodes, same](std::size_t begin, std::size_t end, char* out) {
              CardWriter card;
-             for (std::size_t e = begin; e < end; ++e) {
-                 const std::span<const Index> element = block.element(e);
+             const auto put = [&](std::size_t e, DeckTag tag, Index region, std::span<const Index> element) {
                  card.begin();
-                 card.add_number(block.tags[e]);
-                 const Index region = block.regions[e];
+                 card.add_number(tag);
                  const int property = region < 0 ? 0 : deck.regions[index(region)].tag;
                  if (property > 0)
                      card.add_number(property);
@@ -196,11 +196,15 @@ void add_elements(const Deck& deck, const DeckBlock& block, bool same, DeckFile&
                      if (node < 0)
                          card.add({});
                      else
-                         card.add_number(deck.point_tags[index(node)]);
+                         card.add_number(bulk.point_tag(node));
                  }
                  if (same) card.add_text(text_of_place(block.more, e));
                  out = card.put(out, name);
-             }
+             };
+             for (std::size_t e = begin; e < end; ++e)
+                 bulk.element(block, e, [&](DeckTag tag, Index region, std::span<const Index> element) {
+                     put(e, tag, region, element);
+                 });
              return out;
          }});
 }
@@ -244,14 +248,15 @@ std::string property_text(const Deck& deck)
 
 } // namespace
 
-DeckFile nastran_file(const Deck& deck)
+DeckFile nastran_file(const Deck& deck, const LayeredBulk* layered)
 {
+    const BulkReader bulk(deck, layered);
     const bool same = deck.format == DeckFormat::nastran;
     DeckFile file;
     file.sections.push_back({same ? text_at(deck, DeckText::Place::head) : "BEGIN BULK\n", 0, 0, {}});
-    add_nodes(deck, same, file);
+    add_nodes(deck, bulk, same, file);
     std::size_t surfaces = 0;
-    for (const DeckBlock& block : deck.blocks) add_elements(deck, block, same, file);
+    for (const DeckBlock& block : deck.blocks) add_elements(deck, bulk, block, same, file);
     std::string text = same ? text_at(deck, DeckText::Place::cards) : std::string();
     int number = static_cast<int>(numbers_in_text(deck).set);
     for (const DeckSet& set : deck.sets) {

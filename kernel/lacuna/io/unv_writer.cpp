@@ -63,23 +63,23 @@ int shell_of(DeckShape shape)
     }
 }
 
-void add_nodes(const Deck& deck, DeckFile& file)
+void add_nodes(const BulkReader& bulk, DeckFile& file)
 {
-    file.sections.push_back({std::string(kMark) + "  2411\n", deck.points.size(),
-                             5 * kNumberBytes + 3 * kReal,
-                             [&deck](std::size_t begin, std::size_t end, char* out) {
-                                 for (std::size_t p = begin; p < end; ++p) {
-                                     out = put_column(out, deck.point_tags[p]);
-                                     out = put_words(out, "         1         1        11\n");
-                                     for (const double x : deck.points[p]) out = put_double(out, x);
-                                     *out++ = '\n';
-                                 }
+    file.sections.push_back({std::string(kMark) + "  2411\n", bulk.points(), 5 * kNumberBytes + 3 * kReal,
+                             [bulk](std::size_t begin, std::size_t end, char* out) {
+                                 bulk.each_point(begin, end,
+                                                 [&](std::size_t, DeckTag tag, const Vec3& point) {
+                                                     out = put_column(out, tag);
+                                                     out = put_words(out, "         1         1        11\n");
+                                                     for (const double x : point) out = put_double(out, x);
+                                                     *out++ = '\n';
+                                                 });
                                  return out;
                              }});
     file.sections.push_back({std::string(kMark), 0, 0, {}});
 }
 
-void add_elements(const Deck& deck, const DeckBlock& block, DeckFile& file)
+void add_elements(const Deck& deck, const BulkReader& bulk, const DeckBlock& block, DeckFile& file)
 {
     const auto solid = std::ranges::find(kUnvSolids, block.shape, &UnvSolid::shape);
     const bool is_solid = solid != std::end(kUnvSolids);
@@ -98,37 +98,37 @@ void add_elements(const Deck& deck, const DeckBlock& block, DeckFile& file)
                             : static_cast<std::uint8_t>(unv_face_place(corners, nodes / corners, k));
     file.sections.push_back(
         {{},
-         block.count(),
+         bulk.count(block),
          (nodes + 7) * kNumberBytes + 4,
-         [&deck, &block, place, nodes, descriptor](std::size_t begin, std::size_t end, char* out) {
-             for (std::size_t e = begin; e < end; ++e) {
-                 const Index region = block.regions[e];
-                 out = put_column(out, block.tags[e]);
+         [&deck, bulk, &block, place, nodes, descriptor](std::size_t begin, std::size_t end, char* out) {
+             const auto put = [&](DeckTag tag, Index region, std::span<const Index> element) {
+                 out = put_column(out, tag);
                  out = put_column(out, descriptor);
                  out = put_column(out, region < 0 ? 0 : deck.regions[index(region)].tag);
                  out = put_words(out, "         1         7");
                  out = put_column(out, static_cast<long long>(nodes));
                  for (std::size_t k = 0; k < nodes; ++k) {
                      if (k % kPerLine == 0) *out++ = '\n';
-                     out = put_column(out, deck.point_tags[index(block.element(e)[place[k]])]);
+                     out = put_column(out, bulk.point_tag(element[place[k]]));
                  }
                  *out++ = '\n';
-             }
+             };
+             for (std::size_t e = begin; e < end; ++e) bulk.element(block, e, put);
              return out;
          }});
 }
 
 /// Members of one kind, two to a line.
-void add_members(const DeckSet& set, std::string head, DeckFile& file)
+void add_members(const DeckSet& set, const BulkReader& bulk, std::string head, DeckFile& file)
 {
     const int kind = set.kind == DeckSet::Kind::nodes ? kUnvNode : kUnvElement;
-    file.sections.push_back({std::move(head), set.members.size(), 4 * kNumberBytes + 1,
-                             [&set, kind](std::size_t begin, std::size_t end, char* out) {
+    file.sections.push_back({std::move(head), bulk.count(set), 4 * kNumberBytes + 1,
+                             [&set, bulk, kind](std::size_t begin, std::size_t end, char* out) {
                                  for (std::size_t i = begin; i < end; ++i) {
                                      out = put_column(out, kind);
-                                     out = put_column(out, set.members[i]);
+                                     out = put_column(out, bulk.member(set, i));
                                      out = put_words(out, "         0         0");
-                                     if (i % 2 == 1 || i + 1 == set.members.size()) *out++ = '\n';
+                                     if (i % 2 == 1 || i + 1 == bulk.count(set)) *out++ = '\n';
                                  }
                                  return out;
                              }});
@@ -149,16 +149,17 @@ void check_numbers(const Deck& deck)
 
 } // namespace
 
-DeckFile unv_file(const Deck& deck)
+DeckFile unv_file(const Deck& deck, const LayeredBulk* layered)
 {
+    const BulkReader bulk(deck, layered);
     check_numbers(deck);
     const bool same = deck.format == DeckFormat::unv;
     DeckFile file;
     if (same) file.sections.push_back({text_at(deck, DeckText::Place::cards), 0, 0, {}});
-    add_nodes(deck, file);
+    add_nodes(bulk, file);
     file.sections.push_back({std::string(kMark) + "  2412\n", 0, 0, {}});
     std::size_t surfaces = 0;
-    for (const DeckBlock& block : deck.blocks) add_elements(deck, block, file);
+    for (const DeckBlock& block : deck.blocks) add_elements(deck, bulk, block, file);
     file.sections.push_back({std::string(kMark), 0, 0, {}});
     if (same) file.sections.push_back({text_at(deck, DeckText::Place::tail), 0, 0, {}});
     std::string head = std::string(kMark) + "  2467\n";
@@ -167,19 +168,19 @@ DeckFile unv_file(const Deck& deck)
     for (const DeckSet& set : deck.sets) number = std::max(number, set.tag);
     for (std::size_t s = 0; s < deck.sets.size(); ++s) {
         const DeckSet& set = deck.sets[s];
-        if (set.kind == DeckSet::Kind::sides || set.members.empty()) {
+        if (set.kind == DeckSet::Kind::sides || bulk.count(set) == 0) {
             surfaces += set.kind == DeckSet::Kind::sides ? 1 : 0;
             continue;
         }
         // Elements and nodes of one group were read as two sets.
         const bool two = s + 1 < deck.sets.size() && set.tag > 0 && deck.sets[s + 1].tag == set.tag &&
                          deck.sets[s + 1].name == set.name && deck.sets[s + 1].kind == DeckSet::Kind::nodes;
-        const std::size_t count = set.members.size() + (two ? deck.sets[s + 1].members.size() : 0);
+        const std::size_t count = bulk.count(set) + (two ? deck.sets[s + 1].members.size() : 0);
         head += columns({set.tag > 0 ? set.tag : ++number, 0, 0, 0, 0, 0, 0, static_cast<long long>(count)});
         head += set.name + "\n";
-        add_members(set, std::move(head), file);
+        add_members(set, bulk, std::move(head), file);
         groups = true;
-        if (two) add_members(deck.sets[++s], {}, file);
+        if (two) add_members(deck.sets[++s], bulk, {}, file);
         head.clear();
     }
     if (groups) file.sections.push_back({std::string(kMark), 0, 0, {}});

@@ -4,10 +4,14 @@
 #include <lacuna/core/error.h>
 
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <system_error>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -34,13 +38,22 @@ fs::path resolved(const std::string& path)
                                            "; make it first, or name another place");
 }
 
-std::string numbered(const std::string& name, int attempt)
+/// What names of unfinished files begin with, before the number of the process.
+std::string unfinished_prefix(const std::string& name)
 {
     // Whatever the name is, this one must not be too long for the file system.
     constexpr std::size_t kLongest = 200;
-    return "." + name.substr(0, kLongest) + ".unfinished-" + std::to_string(::getpid()) + "-" +
-           std::to_string(attempt);
+    return "." + name.substr(0, kLongest) + ".unfinished-";
 }
+
+std::string numbered(const std::string& name, int attempt)
+{
+    return unfinished_prefix(name) + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+}
+
+/// So long nothing was written to a file that is left over [s]. Its process may run on another machine, where
+/// its number says nothing: a choice.
+constexpr std::time_t kLeftOver = 3600;
 
 } // namespace
 
@@ -128,8 +141,36 @@ void WholeFile::open_unnamed()
 #endif
 }
 
+void WholeFile::remove_left_over()
+{
+    const int listed = ::openat(folder_->descriptor(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (listed < 0) return;
+    DIR* const folder = ::fdopendir(listed);
+    if (folder == nullptr) {
+        ::close(listed);
+        return;
+    }
+    const std::string prefix = unfinished_prefix(name_);
+    while (const dirent* const entry = ::readdir(folder)) {
+        const std::string_view name = entry->d_name;
+        if (!name.starts_with(prefix)) continue;
+        pid_t process = 0;
+        const char* const number = name.data() + prefix.size();
+        const auto read = std::from_chars(number, name.data() + name.size(), process);
+        if (read.ec != std::errc() || *read.ptr != '-' || process <= 0) continue;
+        if (::kill(process, 0) == 0 || errno != ESRCH) continue; // it runs
+        struct stat status = {};
+        if (::fstatat(listed, entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(status.st_mode) ||
+            std::time(nullptr) - status.st_mtime < kLeftOver)
+            continue;
+        ::unlinkat(listed, entry->d_name, 0);
+    }
+    ::closedir(folder);
+}
+
 void WholeFile::open_named()
 {
+    remove_left_over();
     // The name is taken by whoever makes the file first, so that two writers never share one.
     for (int attempt = 0; descriptor_ < 0; ++attempt) {
         unfinished_ = numbered(name_, attempt);

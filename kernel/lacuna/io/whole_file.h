@@ -60,7 +60,8 @@ private:
 /// then, and its mode is kept.
 class WholeFile {
 public:
-    /// Whether other processes open it too, which takes a name; one that is killed then leaves it behind.
+    /// Whether other processes open it too, which takes a name. One that is killed then leaves it behind; the
+    /// next such writing of the same file removes it, an hour after it was last written to.
     enum class Naming { none, named };
 
     /// @throw InvalidInput  the folder does not exist, or the path is not that of a file.
@@ -84,6 +85,7 @@ private:
     [[noreturn]] void fail(int error);
     void open_unnamed();
     void open_named();
+    void remove_left_over();
     void publish_unnamed();
 
     std::string path_;                     ///< for messages

@@ -27,6 +27,7 @@ void put_file(Writer& writer, const LayeredFile& file)
     std::vector<int> metrics;
     for (const quality::Metric metric : file.quality) metrics.push_back(static_cast<int>(metric));
     writer(static_cast<std::int8_t>(file.binary)), writer(file.version), writer(metrics);
+    writer(file.material);
 }
 
 LayeredFile read_file(Reader& reader)
@@ -35,6 +36,7 @@ LayeredFile read_file(Reader& reader)
     std::int8_t binary = 0;
     std::vector<int> metrics;
     reader(binary), reader(file.version), reader(metrics);
+    reader(file.material);
     file.binary = binary != 0;
     for (const int metric : metrics) file.quality.push_back(static_cast<quality::Metric>(metric));
     return file;
@@ -67,6 +69,8 @@ void write_share(const mesh::LayeredMesh& layered, const io::OutputPath& path, c
         io::write_vtu(layered, path, fields, context, team);
     else if (ending == ".vtk")
         io::write_vtk(layered, path, {file.binary}, fields, context, team);
+    else if (io::DeckFormat format{}; io::find_deck_format(ending, format) && io::is_layered(format))
+        io::write_deck(layered, {.format = format, .material = file.material}, path, context, team);
     else
         throw InvalidInput("io.not_layered", path.text() + ": files of this ending are written whole alone");
 }
@@ -75,7 +79,9 @@ void write_share(const mesh::LayeredMesh& layered, const io::OutputPath& path, c
 
 bool is_layered(const std::string& ending)
 {
-    return ending == ".msh" || ending == ".vtu" || ending == ".vtk";
+    io::DeckFormat format{};
+    return ending == ".msh" || ending == ".vtu" || ending == ".vtk" ||
+           (io::find_deck_format(ending, format) && io::is_layered(format));
 }
 
 bool is_layered(quality::Metric metric)

@@ -19,7 +19,8 @@ namespace lacuna::team {
 struct LayeredFile {
     bool binary = true;
     double version = 4.1;                   ///< of .msh
-    std::vector<quality::Metric> quality{}; ///< fields of cells
+    std::vector<quality::Metric> quality{}; ///< fields of cells; decks have none
+    std::string material{};                 ///< of decks
 };
 
 /// Whether files of an ending (".msh") are written a layer at a time.

@@ -21,6 +21,10 @@ struct AddedMesh {
     /// Sets from this one on are those of meshes added before, and join this one's of the same names.
     std::size_t own_sets = std::numeric_limits<std::size_t>::max();
     Index region = -1; ///< of the deck, that the cells are more of; -1: one of their own
+    /// Nodes and cells are not put in the deck: only regions, sets and empty blocks of the cells' shapes.
+    /// Sets of elements without members are all cells then.
+    /// @pre the deck is empty, and no first numbers are asked for
+    bool bulk_elsewhere = false;
     /// Of each quad of the skin, whether it is left out of the elements; empty: none is.
     std::vector<char> inner{};
     /// Of the elements beside the mesh, and the name of their region; empty: none is known.
@@ -29,6 +33,9 @@ struct AddedMesh {
 /// Add nodes, hexahedra, their region and the sets of the skin to a deck. @throw as `join_deck()`.
 void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
               const RunContext& context = {});
+
+/// `deck_of()` without nodes and cells; see `AddedMesh::bulk_elsewhere`.
+Deck deck_without_bulk(const mesh::HexMesh& mesh, const MeshDeckOptions& options, const RunContext& context);
 
 /// The deck's middle nodes that are the mesh's on the sides they share.
 /// @param matched  quads of the skin that are faces of the deck's elements.
