@@ -94,7 +94,9 @@ TEST_CASE("whatever stage a cancel comes in, the work stops within half a second
                 io::write_msh(swept.mesh, path, {}, context);
         };
         const double before = processor_time();
-        work({.threads = 1});
+        RunContext alone;
+        alone.threads = 1;
+        work(alone);
         const double whole = processor_time() - before;
         CHECK(folder.entries() == 1);
         std::filesystem::remove(path);
