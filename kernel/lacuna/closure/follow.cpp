@@ -17,9 +17,9 @@ constexpr int kLevels = 64;
 /// How far walls that go all round may be bowed, of the rims' radius, for void walls between straight edges:
 /// what is lost of a section is about twice that. A choice, not a measurement.
 constexpr double kAstray = 0.005;
-/// The same for open walls that say how the rest of their loop goes, and for others: a single twisted wall of
-/// few facets is bowed by 0.02. Choices, not measurements.
-constexpr double kAstrayOpen = 0.012, kAstrayGuessed = 0.03;
+/// The same for open walls that say how the rest of their loop goes, and for others: walls that came with a
+/// mesh, and single twisted walls of few facets, are that rough. Choices, not measurements.
+constexpr double kAstrayOpen = 0.03, kAstrayGuessed = 0.04;
 /// Open walls bowed by more than this, of the rims' radius, may be no walls of a sweep at all: then void
 /// edges are to stray from straight ones by so much that these are out of the question. Choices, not
 /// measurements.
