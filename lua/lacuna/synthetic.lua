@@ -27,6 +27,17 @@ local function fail(call, ...)
   internal.fail("lua.bad_value", "synthetic." .. call .. ": " .. string.format(...))
 end
 
+-- Facets a synthetic volume may have; a recipe that asks for more has an option wrong, or wants a file.
+local most_facets = 2e7
+
+-- Refuse a rim, before it is made, that alone would have as many.
+local function check_rim(call, points, options)
+  if not (2 * points <= most_facets) then
+    fail(call, "the walls would have %.3g facets, and %.3g are the most; lower %s", 2 * points,
+         most_facets, options)
+  end
+end
+
 -- Options laid over their defaults. spec: key -> { default, kind }.
 local function read_options(call, spec, given)
   if given == nil then given = {} end
@@ -60,6 +71,7 @@ local function read_options(call, spec, given)
       end
       value = math.tointeger(value) or value
     end
+    if key == "facets" and value then check_rim(call, value, "'facets'") end
     read[key] = value
   end
   return read, given.drop
@@ -196,9 +208,6 @@ local function walls_of(section)
   return walls
 end
 
--- Facets a synthetic volume may have; a recipe that asks for more has an option wrong, or wants a file.
-local most_facets = 2e7
-
 local function build(call, section, map, levels, drop)
   local around = 0
   for _, loop in ipairs(section) do around = around + #loop.points end
@@ -273,6 +282,7 @@ function synthetic.prism(given)
   end
   local side = 2 * o.radius * sin(pi / o.sides)
   local cuts = o.facets or (o.twist ~= 0 and 6 or 2)
+  check_rim("prism", o.sides * cuts * (1 + o.holes), "'sides', 'holes' or 'facets'")
   local section = { regular(o.sides, o.radius, 0, 0, cuts), table.unpack(prism_holes("prism", o, cuts)) }
   local straight, twist = axis(o.height, o.bend), math.rad(o.twist)
   local function map(x, y, t)

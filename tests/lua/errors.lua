@@ -39,6 +39,8 @@ local failures = {
   { "lua.wrong_object", function() prism.faces {} end, "colon" },
   { "lua.parameter", function() lacuna.params(3) end, "table" },
   { "lua.bad_value", function() lacuna.synthetic.prism { sides = 1 } end, "sides" },
+  { "lua.bad_value", function() lacuna.synthetic.prism { sides = 1e8 } end, "'sides'", "the most" },
+  { "lua.bad_value", function() lacuna.synthetic.barrel { facets = 1e9 } end, "'facets'" },
   { "lua.face_in_parts", function()
     local parts = lacuna.model()
     local apart = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 5, 0, 0 }, { 6, 0, 0 }, { 6, 1, 0 } }
