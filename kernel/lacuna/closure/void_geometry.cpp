@@ -274,16 +274,6 @@ void by_height(PatchSide& side, const Follower& follower, bool rising)
     side.share.back() = 1;
 }
 
-/// Whether a side is one straight line, to rounding.
-bool is_straight(const PatchSide& side)
-{
-    constexpr double kRounding = 1e-9; // of its length
-    const Vec3 from = side.points.front(), way = side.points.back() - from;
-    return std::ranges::all_of(side.points, [&](const Vec3& p) {
-        return (p - from).cross(way).norm() <= kRounding * way.squaredNorm();
-    });
-}
-
 /// Facets of a rectangle whose opposite sides have as many points: the grid between them, so that no facet
 /// cuts a corner that the sides do not.
 geometry::Triangulation grid_between(const std::array<PatchSide, 4>& side, const Outline& outline,
@@ -408,12 +398,10 @@ VoidFilling fill_transfinite(const Model& model, const std::vector<std::vector<E
     };
     const geometry::SweptPatch patch(side[0].points, side[1].points, backward(side[2].points),
                                      backward(side[3].points));
-    const bool ruled = is_straight(side[1]) && is_straight(side[3]);
     const std::size_t walls = follower != nullptr ? follower->walls_at(side[0].chain.front()) : 0;
     VoidFilling result = filling_of(model, outline, flat, [&](std::size_t i) -> Vec3 {
         const double s = flat.points[i].x() / width, t = flat.points[i].y() / height;
-        if (follower == nullptr)
-            return ruled ? Vec3((1 - t) * side[0].at(s) + t * side[2].at(1 - s)) : patch(s, t);
+        if (follower == nullptr) return patch(s, t);
         const auto led = [&](const Vec3& from, const Vec3& to) {
             return follower->morph(from, to, t, walls);
         };
