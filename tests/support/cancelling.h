@@ -6,25 +6,38 @@
 
 #include <atomic>
 #include <chrono>
+#include <ctime>
 #include <functional>
 #include <optional>
 #include <thread>
 
 namespace lacuna::test {
 
-/// How long work goes on once it is asked to stop [s]; nothing where it ended before that, or took no notice.
-inline std::optional<double> stops_within(std::chrono::milliseconds wait,
-                                          const std::function<void(const RunContext&)>& work)
+/// By a clock of the system [s].
+template <clockid_t kClock>
+double clock_time()
 {
-    using Clock = std::chrono::steady_clock;
-    std::atomic<bool> cancel{false};
-    Clock::time_point asked;
+    timespec now{};
+    clock_gettime(kClock, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+constexpr auto wall_time = &clock_time<CLOCK_MONOTONIC>;
+constexpr auto processor_time = &clock_time<CLOCK_PROCESS_CPUTIME_ID>; ///< of the whole process
+
+/// How long work goes on once it is asked to stop, so long after it began [s], both by the same clock.
+/// Nothing where it ended before that, or took no notice.
+inline std::optional<double> stops_after(double seconds, double (*clock)(), RunContext context,
+                                         const std::function<void(const RunContext&)>& work)
+{
+    std::atomic<bool> cancel{false}, over{false};
+    double asked = 0;
+    const double begun = clock();
     std::thread host([&] {
-        std::this_thread::sleep_for(wait);
-        asked = Clock::now();
+        while (!over && clock() - begun < seconds) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        asked = clock();
         cancel = true;
     });
-    RunContext context;
     context.cancel = &cancel;
     bool stopped = false;
     try {
@@ -32,10 +45,18 @@ inline std::optional<double> stops_within(std::chrono::milliseconds wait,
     } catch (const Cancelled&) {
         stopped = true;
     }
-    const Clock::time_point ended = Clock::now();
+    const double ended = clock();
+    over = true;
     host.join();
     if (!stopped) return std::nullopt;
-    return std::chrono::duration<double>(ended - asked).count();
+    return ended - asked;
+}
+
+/// The same by the clock on the wall.
+inline std::optional<double> stops_within(std::chrono::milliseconds wait,
+                                          const std::function<void(const RunContext&)>& work)
+{
+    return stops_after(std::chrono::duration<double>(wait).count(), wall_time, {}, work);
 }
 
 /// Whether work that is cancelled before it begins says so.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "io/folder.h"
+#include "support/cancelling.h"
 #include "support/volumes.h"
 
 #include <lacuna/closure/close.h>
-#include <lacuna/core/error.h>
 #include <lacuna/io/deck_file.h>
 #include <lacuna/io/layered.h>
 #include <lacuna/io/msh.h>
@@ -13,57 +13,13 @@
 
 #include <doctest/doctest.h>
 
-#include <atomic>
-#include <chrono>
-#include <ctime>
 #include <functional>
 #include <optional>
 #include <random>
-#include <thread>
 #include <vector>
 
 using namespace lacuna;
 using test::without;
-
-namespace {
-
-/// Of the whole process [s].
-double processor_time()
-{
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// Processor time that work takes after it is asked to stop; nothing where it ended before.
-std::optional<double> stops_after(double seconds, const std::function<void(const RunContext&)>& work)
-{
-    std::atomic<bool> cancel{false}, over{false};
-    double asked = 0;
-    const double begun = processor_time();
-    std::thread host([&] {
-        while (!over && processor_time() - begun < seconds)
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        asked = processor_time();
-        cancel = true;
-    });
-    RunContext context;
-    context.threads = 1;
-    context.cancel = &cancel;
-    bool stopped = false;
-    try {
-        work(context);
-    } catch (const Cancelled&) {
-        stopped = true;
-    }
-    const double ended = processor_time();
-    over = true;
-    host.join();
-    if (!stopped) return std::nullopt;
-    return ended - asked;
-}
-
-} // namespace
 
 TEST_CASE("whatever stage a cancel comes in, the work stops within half a second and leaves no file")
 {
@@ -93,11 +49,11 @@ TEST_CASE("whatever stage a cancel comes in, the work stops within half a second
             else
                 io::write_msh(swept.mesh, path, {}, context);
         };
-        const double before = processor_time();
+        const double before = test::processor_time();
         RunContext alone;
         alone.threads = 1;
         work(alone);
-        const double whole = processor_time() - before;
+        const double whole = test::processor_time() - before;
         CHECK(folder.entries() == 1);
         std::filesystem::remove(path);
         std::uniform_real_distribution<double> moment(0, 0.95 * whole);
@@ -105,7 +61,7 @@ TEST_CASE("whatever stage a cancel comes in, the work stops within half a second
             const double at = moment(random);
             CAPTURE(whole);
             CAPTURE(at);
-            const std::optional<double> after = stops_after(at, work);
+            const std::optional<double> after = test::stops_after(at, test::processor_time, alone, work);
             if (after) CHECK(*after < kAllowed);
             CHECK(folder.entries() == (after ? 0 : 1));
             std::filesystem::remove(path);

@@ -4,6 +4,7 @@
 #include <lacuna/cad_worker/detail/face_grid.h>
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/geometry/delaunay.h>
+#include <lacuna/geometry/segment.h>
 
 #include <algorithm>
 #include <cmath>
@@ -277,14 +278,6 @@ private:
     std::unordered_map<Index, std::vector<Index>> nodes_of_point_;
 };
 
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b)
-{
-    const Vec2 side = b - a;
-    const double t = side.squaredNorm() > 0 ? std::clamp((p - a).dot(side) / side.squaredNorm(), 0.0, 1.0)
-                                            : 0;
-    return (a + t * side - p).norm();
-}
-
 /// Grid crossings inside the border that keep their distance to it, as nodes without a model point yet.
 void add_grid_points(GridDomain& domain, const FaceGrid& grid)
 {
@@ -305,7 +298,7 @@ void add_grid_points(GridDomain& domain, const FaceGrid& grid)
              j <= clip(std::floor(high.y() + kClearance), nv); ++j) {
             for (int i = clip(std::ceil(low.x() - kClearance), nu);
                  i <= clip(std::floor(high.x() + kClearance), nu); ++i) {
-                if (distance_to_segment(Vec2(i, j), a, b) < kClearance) near[at(i, j)] = 1;
+                if (geometry::distance_to_segment<Vec2>(Vec2(i, j), a, b) < kClearance) near[at(i, j)] = 1;
             }
             if (s.slit) continue;
             // Half open, so that a corner on the line counts once.

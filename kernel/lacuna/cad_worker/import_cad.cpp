@@ -136,12 +136,11 @@ Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const 
 {
     divide(wire, options.fineness, std::vector<double>(wire.edges.size(), 1.0));
     std::vector<double> refinement = narrow_refinement(wire);
+    if (std::ranges::any_of(refinement, [](double times) { return times > 1; }))
+        divide(wire, options.fineness, refinement);
     options.max_cells = std::clamp(kMaxCells / static_cast<double>(wire.faces.size()), kMinCellsOfFace,
                                    kMaxCellsOfFace);
-    int failed_tag = 0;
     for (int division = 1;; ++division) {
-        divide(wire, options.fineness, refinement);
-        if (division > 1 && wire.points.size() > kMostDivided) throw_not_cut(path, failed_tag);
         Cut cut;
         cut.point_count = wire.points.size();
         const CadFaceInfo* failed = nullptr;
@@ -162,8 +161,9 @@ Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const 
             progress(static_cast<double>(cut.faces.size()) / static_cast<double>(wire.faces.size()));
         }
         if (failed == nullptr) return cut;
-        failed_tag = failed->tag;
-        if (division == kDivisions) throw_not_cut(path, failed_tag);
+        if (division == kDivisions) throw_not_cut(path, failed->tag);
+        divide(wire, options.fineness, refinement);
+        if (wire.points.size() > kMostDivided) throw_not_cut(path, failed->tag);
     }
 }
 

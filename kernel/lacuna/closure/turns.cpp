@@ -160,6 +160,10 @@ std::vector<char> points_on_edges(const Model& model)
 double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part,
                      const std::vector<char>& on_edge)
 {
+    const auto has = [&](Role role) {
+        return std::ranges::any_of(part, [&](FaceId face) { return volume.role[face.index()] == role; });
+    };
+    if (!has(Role::source) || !has(Role::target)) return 0;
     const Model& model = volume.model;
     // Faces share sides along edges alone.
     const auto may_be_shared = [&](Index a, Index b) {
@@ -175,10 +179,6 @@ double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part,
                     ends.emplace(edge_key(t[k], t[(k + 1) % 3]), normal.stableNormalized());
         }
     }
-    const auto has = [&](Role role) {
-        return std::ranges::any_of(part, [&](FaceId face) { return volume.role[face.index()] == role; });
-    };
-    if (!has(Role::source) || !has(Role::target)) return 0;
     double before = 0, behind = 0;
     for (const FaceId face : part) {
         if (volume.role[face.index()] != Role::wall) continue;

@@ -312,8 +312,8 @@ double twist_of(const std::array<PatchSide, 4>& side)
     return (corner(0) - corner(1) + corner(2) - corner(3)).norm() / 4;
 }
 
-/// Facets of a rectangle of which two sides at least have few points, and whose patch is twisted: a grid
-/// inside, and facets from it to the sides as they are.
+/// Facets of a rectangle whose patch is twisted or bent both ways: a grid inside, no coarser than the sides,
+/// and facets from it to the sides as they are.
 /// @param width, height  segments of the sides each way: their own size in the plane.
 geometry::Triangulation grid_within(const Outline& outline, double width, double height,
                                     const RunContext& context)

@@ -5,6 +5,7 @@
 #include <lacuna/geometry/triangulate.h>
 
 #include <lacuna/geometry/predicates.h>
+#include <lacuna/geometry/segment.h>
 
 #include <algorithm>
 #include <numeric>
@@ -92,14 +93,6 @@ private:
     std::vector<std::size_t> order_;
     std::vector<Node> nodes_;
 };
-
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b)
-{
-    const Vec2 along = b - a;
-    const double length2 = along.squaredNorm();
-    const double t = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-    return (a + t * along - p).norm();
-}
 
 bool within_box(const Vec2& p, const Vec2& a, const Vec2& b)
 {

@@ -7,13 +7,14 @@
 
 namespace lacuna::geometry {
 
-/// Distance of a point from the straight line between two others.
-inline double distance_to_segment(const Vec3& point, const Vec3& from, const Vec3& to)
+/// Distance of a point from the straight line between two others, in the plane or in space.
+template <class Vec>
+double distance_to_segment(const Vec& point, const Vec& from, const Vec& to)
 {
-    const Vec3 way = to - from;
+    const Vec way = to - from;
     const double square = way.squaredNorm();
-    const double at = square > 0 ? std::clamp((point - from).dot(way) / square, 0.0, 1.0) : 0;
-    return (point - from - at * way).norm();
+    const double at = square > 0 ? std::clamp((point - from).dot(way) / square, 0.0, 1.0) : 0.0;
+    return (from + at * way - point).norm();
 }
 
 } // namespace lacuna::geometry
