@@ -115,6 +115,14 @@ struct Words {
         if (empty() || all[next].starts_with("--")) throw BadUsage(flag + " wants a value");
         return take();
     }
+    /// The name of a file that is written: no recipe's, which would be lost.
+    const std::string& file_of(const std::string& flag)
+    {
+        const std::string& name = value_of(flag);
+        if (name.ends_with(".lua"))
+            throw BadUsage(flag + " wants the name of a file to write, found a recipe, " + name);
+        return name;
+    }
     int count_of(const std::string& flag)
     {
         constexpr double kMost = 1024;
@@ -148,9 +156,9 @@ bool read_flag(const std::string& word, Words& words, CommandLine& line, bool& l
     else if (word == "--threads")
         line.threads = words.count_of(word);
     else if (word == "--timing")
-        line.timing = words.value_of(word);
+        line.timing = words.file_of(word);
     else if (word == "--history")
-        line.history = words.value_of(word);
+        line.history = words.file_of(word);
     else if (word == "--output-dir")
         line.output_dir = words.value_of(word), limits = true;
     else if (word == "--memory")

@@ -294,5 +294,10 @@ end
 expect({ "--timing", "-", folder .. "/timed.lua" }, 0, {}, { '{"recipe": "', '"stages": [' })
 expect({ "--timing", "/nowhere/t.json", folder .. "/timed.lua" }, 1, {}, { "--timing", "/nowhere/t.json" })
 expect({ "--timing", "-", "-j", "2", jobs }, 2, {}, { "--timing", "without -j" })
+-- A recipe in the place of the file is not written over.
+for _, flag in ipairs { "--timing", "--history" } do
+  expect({ flag, folder .. "/timed.lua", "fails=no" }, 2, {}, { flag, "found a recipe", "timed.lua" })
+end
+expect({ "--timing", "-", folder .. "/timed.lua" }, 0, {}, { '"stages": [' })
 
 check.done()
