@@ -643,7 +643,7 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<ToMesh>& all,
                                                  const RunContext& context)
 {
     std::vector<sweep::AssemblyMember> members;
-    std::vector<std::string> materials, turn_of;
+    std::vector<std::string> materials;
     std::vector<std::unique_ptr<Busy>> busy;
     auto mesh = std::make_shared<AssemblyMeshState>();
     for (std::size_t m = 0; m < all.size(); ++m) {
@@ -651,9 +651,8 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<ToMesh>& all,
         if (const FixedMember* fixed = all[m].fixed.get()) {
             const mesh::HexMesh& own = fixed->swept.mesh;
             materials.push_back(fixed->material);
-            turn_of.emplace_back();
             members.push_back(
-                {&fixed->skin.volume, {}, fixed->region.empty() ? number : fixed->region, &fixed->swept});
+                {&fixed->skin.volume, {}, fixed->region.empty() ? number : fixed->region, &fixed->swept, {}});
             members.back().options.order = own.order();
             members.back().options.second_order.serendipity = own.order() > 1 && !own.middles.full;
             continue;
@@ -667,8 +666,7 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<ToMesh>& all,
         };
         if (all[m].left_out || !do_or_leave_out(left_out, region, *all[m].arguments, close)) continue;
         materials.push_back(state.material);
-        turn_of.push_back(state.turn_of);
-        members.push_back({&state.volume, all[m].arguments->options, region});
+        members.push_back({&state.volume, all[m].arguments->options, region, nullptr, state.turn_of});
         if (state.level > 0) members.back().options.layers = {};
         share_layers(state, members.back().options.layers);
     }
@@ -676,10 +674,10 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<ToMesh>& all,
     for (sweep::AssemblyMember& member : members) keep_known_faces(member);
     if (members.empty() && !left_out.empty())
         throw NotSweepable(left_out.front().code, left_out.front().message);
-    mesh->swept = sweep_turns(members, turn_of, context);
+    mesh->swept = sweep::sweep_assembly(members, context);
     std::vector<std::string> turns; // of each part
     for (const std::size_t m : mesh->swept.member) {
-        turns.push_back(turn_of[m]);
+        turns.push_back(members[m].turn_of);
         mesh->regions.push_back(members[m].region);
         mesh->materials.push_back(materials[m]);
     }

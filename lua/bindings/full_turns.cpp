@@ -1,66 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "bindings/full_turns.h"
 
-#include <lacuna/core/error.h>
-
 #include <algorithm>
-#include <map>
-#include <optional>
 
 namespace lacuna::lua {
-
-namespace {
-
-/// What all pieces of a turn come to.
-std::map<std::string, sweep::Fidelity> whole_turns(const sweep::SweptAssembly& swept,
-                                                   const std::vector<std::string>& turn_of)
-{
-    std::map<std::string, sweep::Fidelity> whole;
-    for (std::size_t p = 0; p < swept.parts.size(); ++p) {
-        const std::string& turn = turn_of[swept.member[p]];
-        if (turn.empty()) continue;
-        whole[turn].volume += swept.parts[p].fidelity.volume;
-        whole[turn].sealed_volume += swept.parts[p].fidelity.sealed_volume;
-    }
-    return whole;
-}
-
-} // namespace
-
-sweep::SweptAssembly sweep_turns(std::vector<sweep::AssemblyMember>& members,
-                                 const std::vector<std::string>& turn_of, const RunContext& context)
-{
-    sweep::SweptAssembly best = sweep::sweep_assembly(members, context);
-    for (bool refined = true; refined;) {
-        refined = false;
-        const std::map<std::string, sweep::Fidelity> before = whole_turns(best, turn_of);
-        std::vector<sweep::AssemblyMember> next = members;
-        for (std::size_t m = 0; m < members.size(); ++m) {
-            const auto whole = before.find(turn_of[m]);
-            if (turn_of[m].empty() || whole == before.end()) continue;
-            if (const auto sides = sweep::sides_for_lost_volume(whole->second, members[m].options)) {
-                next[m].options.curvature = *sides;
-                refined = true;
-            }
-        }
-        if (!refined) break;
-        try {
-            sweep::SweptAssembly again = sweep::sweep_assembly(next, context);
-            const std::map<std::string, sweep::Fidelity> after = whole_turns(again, turn_of);
-            const bool closer = std::ranges::any_of(after, [&](const auto& turn) {
-                const auto was = before.find(turn.first);
-                return was != before.end() && sweep::is_closer(turn.second, was->second);
-            });
-            if (!closer) break;
-            best = std::move(again);
-            members = std::move(next);
-        } catch (const NotSweepable& error) {
-            log_line(context, std::string("more sides for a full turn: ") + error.what());
-            break;
-        }
-    }
-    return best;
-}
 
 void join_turns(AssemblyMeshState& mesh, const std::vector<std::string>& turn_of)
 {

@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/sweep/detail/assembly_imprint.h>
 #include <lacuna/sweep/detail/assembly_nodes.h>
+#include <lacuna/sweep/detail/assembly_order.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
 #include <lacuna/sweep/detail/carry_lines.h>
 #include <lacuna/sweep/detail/shared_faces.h>
@@ -98,7 +99,7 @@ public:
     {
         check_members();
         find_shared();
-        find_order();
+        before_ = members_before(members_, result_.shared);
         plan_ = plan_assembly(members_, result_.shared, context_);
         try {
             sweep_all();
@@ -224,115 +225,13 @@ private:
     {
         return members_[m].volume->model[face].origin == Origin::made_void;
     }
-    [[nodiscard]] bool is_wall(std::size_t m, FaceId face) const
-    {
-        return members_[m].volume->role[face.index()] == Role::wall;
-    }
-
-    /// Which members come after which: a face is what is given before what was made there, and rows before
-    /// ends, if they can.
-    void find_order()
-    {
-        after_.resize(members_.size());
-        for (const SharedFace& face : result_.shared) {
-            const bool void_a = is_void(face.a, face.face_a), void_b = is_void(face.b, face.face_b);
-            if (void_a && !void_b) after_[face.a].insert(face.b);
-            if (void_b && !void_a) after_[face.b].insert(face.a);
-        }
-        std::vector<std::size_t> order = order_of({});
-        if (order.size() == members_.size()) return;
-        std::string names;
-        for (std::size_t m = 0; m < members_.size(); ++m) {
-            if (std::ranges::find(order, m) == order.end())
-                names += (names.empty() ? "" : ", ") + members_[m].region;
-        }
-        throw NotSweepable("assembly.round",
-                           "each of " + names +
-                               " lacks a face that the next one has, all round, so none can "
-                               "be meshed first; give one of them that face too");
-    }
-
-    /// Whether faces of a member came with quads or triangles that stay.
-    [[nodiscard]] bool came_with_mesh(std::size_t m) const
-    {
-        return std::ranges::any_of(members_[m].volume->model.faces, [&](const Face& face) {
-            return face.keeps_nodes && has_cells_to_keep(face, members_[m].options.wedges);
-        });
-    }
-
-    /// Of each member, whether source and target are several faces each, or another of which they are waits
-    /// for it: such a member imprints one end on the other while no one has meshed them.
-    [[nodiscard]] std::vector<bool> split_at_both_ends() const
-    {
-        std::vector<bool> early(members_.size(), false);
-        std::vector<std::size_t> open;
-        const auto add = [&](std::size_t m) {
-            if (early[m]) return;
-            early[m] = true;
-            open.push_back(m);
-        };
-        for (std::size_t m = 0; m < members_.size(); ++m) {
-            const OpenVolume& volume = *members_[m].volume;
-            if (volume.faces(Role::source).size() > 1 && volume.faces(Role::target).size() > 1) add(m);
-        }
-        while (!open.empty()) {
-            const std::size_t m = open.back();
-            open.pop_back();
-            for (const std::size_t before : after_[m]) add(before);
-        }
-        return early;
-    }
-
-    /// Members by what they wait for; of those that are free to come, fixed ones, then `first` as listed,
-    /// those that came with meshes, those with boundary layers, those with both ends in parts, those that
-    /// share an end with one that is there, those whose walls are no one's ends that wait, and by number.
-    [[nodiscard]] std::vector<std::size_t> order_of(std::span<const std::size_t> first) const
-    {
-        std::vector<char> placed(members_.size(), 0);
-        std::vector<std::size_t> order;
-        const std::vector<bool> early = split_at_both_ends();
-        const auto has = [&](std::size_t m, bool wall, bool other_wall, bool there) {
-            return std::ranges::any_of(result_.shared, [&](const SharedFace& face) {
-                if (face.a != m && face.b != m) return false;
-                const bool is_a = face.a == m;
-                const std::size_t other = is_a ? face.b : face.a;
-                return (placed[other] != 0) == there &&
-                       is_wall(m, is_a ? face.face_a : face.face_b) == wall &&
-                       is_wall(other, is_a ? face.face_b : face.face_a) == other_wall;
-            });
-        };
-        for (;;) {
-            std::size_t next = members_.size();
-            const auto take = [&](std::size_t m, bool ready) {
-                if (next == members_.size() && placed[m] == 0 && ready &&
-                    std::ranges::all_of(after_[m], [&](std::size_t other) { return placed[other] != 0; }))
-                    next = m;
-            };
-            for (std::size_t m = 0; m < members_.size(); ++m) take(m, members_[m].fixed != nullptr);
-            for (const std::size_t m : first) take(m, true);
-            for (std::size_t m = 0; m < members_.size(); ++m) take(m, came_with_mesh(m));
-            for (std::size_t m = 0; m < members_.size(); ++m)
-                take(m, !members_[m].options.boundary_layers.empty());
-            for (std::size_t m = 0; m < members_.size(); ++m)
-                take(m, early[m] && !has(m, false, false, true) && !has(m, false, true, true));
-            const auto waits = [&](std::size_t m) { return has(m, false, true, false); };
-            for (std::size_t m = 0; m < members_.size(); ++m)
-                take(m, has(m, false, false, true) && !waits(m));
-            for (std::size_t m = 0; m < members_.size(); ++m) take(m, !waits(m));
-            for (std::size_t m = 0; m < members_.size(); ++m) take(m, true);
-            if (next == members_.size()) return order;
-            placed[next] = 1;
-            order.push_back(next);
-        }
-    }
-
     /// In the plan's order; where a member cannot keep what others have made, it goes before them.
     void sweep_all()
     {
         std::vector<std::size_t> first;
         std::optional<Failed> reason;
         for (std::size_t attempt = 0; attempt <= members_.size(); ++attempt) {
-            const std::vector<std::size_t> order = order_of(first);
+            const std::vector<std::size_t> order = order_members(members_, result_.shared, before_, first);
             if (!first.empty() && order == order_) break;
             order_ = order;
             const std::optional<Failed> failed = sweep_in_order();
@@ -366,15 +265,24 @@ private:
     }
 
     /// Members of order 1 that lose more of their volume on bends than they may: their own sweeps give bends
-    /// more sides, but not those that others have too.
+    /// more sides, but not those that others have too. Pieces of a turn are judged together.
     [[nodiscard]] std::vector<std::size_t> losing() const
     {
+        std::map<std::string, Fidelity> turns;
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            Fidelity& whole = turns[members_[m].turn_of];
+            whole.volume += result_.parts[m].fidelity.volume;
+            whole.sealed_volume += result_.parts[m].fidelity.sealed_volume;
+        }
         std::vector<std::size_t> found;
         for (std::size_t m = 0; m < members_.size(); ++m) {
             const AssemblyMember& member = members_[m];
-            if (member.fixed == nullptr && member.options.order == 1 && !plan_.nodes[m].empty() &&
-                loses_volume(result_.parts[m].fidelity, member.options))
-                found.push_back(m);
+            if (member.fixed != nullptr || member.options.order > 1) continue;
+            const bool loses = member.turn_of.empty()
+                                   ? !plan_.nodes[m].empty() &&
+                                         loses_volume(result_.parts[m].fidelity, member.options)
+                                   : loses_volume(turns.at(member.turn_of), member.options);
+            if (loses) found.push_back(m);
         }
         return found;
     }
@@ -400,8 +308,13 @@ private:
     {
         std::vector<std::string> lines;
         for (std::vector<std::size_t> few = losing(); !few.empty(); few = losing()) {
-            std::string names;
-            for (const std::size_t m : few) names += (names.empty() ? "" : ", ") + members_[m].region;
+            std::string names, last;
+            for (const std::size_t m : few) {
+                const std::string& name = members_[m].turn_of.empty() ? members_[m].region
+                                                                      : members_[m].turn_of;
+                if (name != last) names += (names.empty() ? "" : ", ") + name;
+                last = name;
+            }
             const double before = lost_by(few), worst = least_jacobian();
             Made made{std::move(result_), plan_, members_, order_, std::move(pairs_)};
             result_ = {};
@@ -418,7 +331,7 @@ private:
                                      " % of the sealed volume on bends; with " + std::to_string(sides) +
                                      " sides for a full turn ";
             std::string why = sweep_anew(sides);
-            if (why.empty() && lost_by(few) > kLessLost * before) why = "it is no less";
+            if (why.empty() && !is_closer(lost_by(few), before)) why = "it is no less";
             if (why.empty() &&
                 least_jacobian() < std::min(worst, members_[few[0]].options.improving.good_enough))
                 why = "cells are worse";
@@ -486,7 +399,8 @@ private:
             } catch (const Cancelled&) {
                 throw;
             } catch (const Error& error) {
-                const std::string why = came_with_mesh(m) ? error.what() : without_load_hint(error.what());
+                const std::string why = came_with_mesh(members_[m]) ? error.what()
+                                                                    : without_load_hint(error.what());
                 Failed failed{m, error.code(), members_[m].region + ": " + why};
                 if (!neighbours.empty()) return failed;
                 throw MemberFailed(m, failed.code, failed.why);
@@ -767,7 +681,7 @@ private:
     std::vector<std::string> notes_;    ///< of the report: what was imprinted, near misses
     const RunContext& context_;
     AssemblyPlan plan_;
-    std::vector<std::set<std::size_t>> after_; ///< of each member, those that must come before it
+    std::vector<std::set<std::size_t>> before_; ///< of each member, those that must come before it
     std::vector<std::size_t> order_;
     std::vector<std::optional<Inputs>> inputs_;          ///< of each part that is there
     std::vector<int> times_swept_;                       ///< of each part, tries that failed too

@@ -25,6 +25,9 @@ struct AssemblyMember {
     /// Null, or the mesh it came with, which stays as it is: then `volume` is its skin, whose faces keep
     /// their quads, and `faces` of it are those of `volume`. Of the options `order` alone counts.
     const Swept* fixed = nullptr;
+    /// Of a piece of a full turn, the region that the whole is: their volumes are judged together. Empty: it
+    /// is no such piece.
+    std::string turn_of = {};
 };
 
 /// A face that two members have in common, each on its own side of it.

@@ -698,7 +698,9 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunC
         try {
             Swept next = sweep_compared(volume, rest, context);
             const double enough = std::min(best.min_scaled_jacobian, options.improving.good_enough);
-            if (!is_closer(next.fidelity, best.fidelity) || next.min_scaled_jacobian < enough) break;
+            if (!is_closer(volume_lost(next.fidelity), volume_lost(best.fidelity)) ||
+                next.min_scaled_jacobian < enough)
+                break;
             next.report.push_back("shape: " + std::to_string(rest.curvature) +
                                   " sides for a full turn instead of " + std::to_string(options.curvature) +
                                   ", by which the volume was " + in_short(100 * volume_lost(best.fidelity)) +
@@ -714,22 +716,6 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunC
     if (options.max_deviation <= 0 && options.order == 1) require_volume(best.fidelity, best.mesh.layers);
     return best;
 }
-
-} // namespace
-
-std::optional<int> sides_for_lost_volume(const Fidelity& fidelity, const SweepOptions& options)
-{
-    if (!loses_volume(fidelity, options)) return std::nullopt;
-    const int sides = sides_for_volume(options.volume_share, options.curvature);
-    return sides > kMostPerTurn ? std::nullopt : std::optional(sides);
-}
-
-bool is_closer(const Fidelity& after, const Fidelity& before)
-{
-    return volume_lost(after) <= kLessLost * volume_lost(before);
-}
-
-namespace {
 
 Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {

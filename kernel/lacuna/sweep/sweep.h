@@ -160,10 +160,4 @@ struct Swept {
 ///        sealed skin as far as `max_deviation` says.
 Swept sweep(const topology::OpenVolume& volume, const SweepOptions& options, const RunContext& context = {});
 
-/// Sides for a full turn to sweep with anew where a mesh lacks more of the sealed volume than the options'
-/// `volume_share`; nothing where it does not, or has as many as help.
-std::optional<int> sides_for_lost_volume(const Fidelity& fidelity, const SweepOptions& options);
-/// Whether a mesh made with more sides is to take the place of the one before it: it lacks clearly less.
-bool is_closer(const Fidelity& after, const Fidelity& before);
-
 } // namespace lacuna::sweep

@@ -21,4 +21,17 @@ int sides_for_volume(double share, int before)
     return std::max(before + before / 4 + 1, static_cast<int>(std::ceil(wanted)));
 }
 
+std::optional<int> sides_for_lost_volume(const Fidelity& fidelity, const SweepOptions& options)
+{
+    if (!loses_volume(fidelity, options)) return std::nullopt;
+    const int sides = sides_for_volume(options.volume_share, options.curvature);
+    return sides > kMostPerTurn ? std::nullopt : std::optional(sides);
+}
+
+bool is_closer(double after, double before)
+{
+    constexpr double kLessLost = 0.75; // a choice, not a measurement
+    return after <= kLessLost * before;
+}
+
 } // namespace lacuna::sweep

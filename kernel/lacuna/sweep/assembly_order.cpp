@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/assembly_order.h>
+
+#include <lacuna/core/error.h>
+
+#include <algorithm>
+#include <string>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+/// Of each member, whether source and target are several faces each, or another of which they are waits for
+/// it: such a member imprints one end on the other while no one has meshed them.
+std::vector<bool> split_at_both_ends(std::span<const AssemblyMember> members,
+                                     std::span<const std::set<std::size_t>> before)
+{
+    std::vector<bool> early(members.size(), false);
+    std::vector<std::size_t> open;
+    const auto add = [&](std::size_t m) {
+        if (early[m]) return;
+        early[m] = true;
+        open.push_back(m);
+    };
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const OpenVolume& volume = *members[m].volume;
+        if (volume.faces(Role::source).size() > 1 && volume.faces(Role::target).size() > 1) add(m);
+    }
+    while (!open.empty()) {
+        const std::size_t m = open.back();
+        open.pop_back();
+        for (const std::size_t other : before[m]) add(other);
+    }
+    return early;
+}
+
+bool is_wall(const AssemblyMember& member, FaceId face)
+{
+    return member.volume->role[face.index()] == Role::wall;
+}
+
+} // namespace
+
+bool came_with_mesh(const AssemblyMember& member)
+{
+    return std::ranges::any_of(member.volume->model.faces, [&](const Face& face) {
+        return face.keeps_nodes && has_cells_to_keep(face, member.options.wedges);
+    });
+}
+
+std::vector<std::set<std::size_t>> members_before(std::span<const AssemblyMember> members,
+                                                  std::span<const SharedFace> shared)
+{
+    const auto is_void = [&](std::size_t m, FaceId face) {
+        return members[m].volume->model[face].origin == Origin::made_void;
+    };
+    std::vector<std::set<std::size_t>> before(members.size());
+    for (const SharedFace& face : shared) {
+        const bool void_a = is_void(face.a, face.face_a), void_b = is_void(face.b, face.face_b);
+        if (void_a && !void_b) before[face.a].insert(face.b);
+        if (void_b && !void_a) before[face.b].insert(face.a);
+    }
+    const std::vector<std::size_t> order = order_members(members, shared, before, {});
+    if (order.size() == members.size()) return before;
+    std::string names;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        if (std::ranges::find(order, m) == order.end())
+            names += (names.empty() ? "" : ", ") + members[m].region;
+    }
+    throw NotSweepable("assembly.round", "each of " + names +
+                                             " lacks a face that the next one has, all round, so none can "
+                                             "be meshed first; give one of them that face too");
+}
+
+std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
+                                       std::span<const SharedFace> shared,
+                                       std::span<const std::set<std::size_t>> before,
+                                       std::span<const std::size_t> first)
+{
+    std::vector<char> placed(members.size(), 0);
+    std::vector<std::size_t> order;
+    const std::vector<bool> early = split_at_both_ends(members, before);
+    const auto has = [&](std::size_t m, bool wall, bool other_wall, bool there) {
+        return std::ranges::any_of(shared, [&](const SharedFace& face) {
+            if (face.a != m && face.b != m) return false;
+            const bool is_a = face.a == m;
+            const std::size_t other = is_a ? face.b : face.a;
+            return (placed[other] != 0) == there &&
+                   is_wall(members[m], is_a ? face.face_a : face.face_b) == wall &&
+                   is_wall(members[other], is_a ? face.face_b : face.face_a) == other_wall;
+        });
+    };
+    for (;;) {
+        std::size_t next = members.size();
+        const auto take = [&](std::size_t m, bool ready) {
+            if (next == members.size() && placed[m] == 0 && ready &&
+                std::ranges::all_of(before[m], [&](std::size_t other) { return placed[other] != 0; }))
+                next = m;
+        };
+        for (std::size_t m = 0; m < members.size(); ++m) take(m, members[m].fixed != nullptr);
+        for (const std::size_t m : first) take(m, true);
+        for (std::size_t m = 0; m < members.size(); ++m) take(m, came_with_mesh(members[m]));
+        for (std::size_t m = 0; m < members.size(); ++m) take(m, !members[m].options.boundary_layers.empty());
+        for (std::size_t m = 0; m < members.size(); ++m)
+            take(m, early[m] && !has(m, false, false, true) && !has(m, false, true, true));
+        const auto waits = [&](std::size_t m) { return has(m, false, true, false); };
+        for (std::size_t m = 0; m < members.size(); ++m) take(m, has(m, false, false, true) && !waits(m));
+        for (std::size_t m = 0; m < members.size(); ++m) take(m, !waits(m));
+        for (std::size_t m = 0; m < members.size(); ++m) take(m, true);
+        if (next == members.size()) return order;
+        placed[next] = 1;
+        order.push_back(next);
+    }
+}
+
+} // namespace lacuna::sweep
