@@ -80,6 +80,81 @@ do
   assert(message:find("source", 1, true) and message:find("auto", 1, true), message)
 end
 
+-- Both ends of a sector came with meshes, no walls: shapes leave open how it turns, the given sides do not.
+do
+  local function patch(model, name, radius, across, round, turn)
+    local points, cells = {}, {}
+    for j = 0, round do
+      for i = 0, across do
+        local at = turn * j / round
+        points[#points + 1] = { 0.1 * i / across, radius * math.cos(at), radius * math.sin(at) }
+      end
+    end
+    for j = 0, round - 1 do
+      for i = 1, across do
+        local a = j * (across + 1) + i
+        cells[#cells + 1] = { a, a + 1, a + across + 2, a + across + 1 }
+      end
+    end
+    model:add_face { name = name, points = points, cells = cells, keep_mesh = true }
+    return #points
+  end
+  for _, far in ipairs { 0.15, 0.3, 0.5, 0.7, 0.85 } do
+    for _, grid in ipairs { { 2, 4 }, { 4, 2 }, { 1, 3 }, { 5, 4 } } do
+      for _, degrees in ipairs { 20, 30, 45 } do
+        local model = lacuna.model()
+        local count = patch(model, "source", 0.1, grid[1], grid[2], math.rad(degrees))
+        patch(model, "target", far, grid[1], grid[2], math.rad(degrees))
+        local mesh = model:open_volume({ source = "source", target = "target" }):sweep { layers = 4 }
+        local kept = 0
+        for _, line in ipairs(mesh.report) do
+          if line:find(("%d of %d nodes coincide"):format(count, count), 1, true) then kept = kept + 1 end
+        end
+        check.equal(kept, 2)
+      end
+    end
+  end
+end
+
+-- Ends that came with as many sides, of other lengths and with more corners: nodes meet nodes.
+do
+  local function patch(model, name, across, along, height, grading, bump)
+    local points, cells = {}, {}
+    for j = 0, along do
+      for i = 0, across do
+        local x, y = 3 * i / across, 5 * (j / along) ^ grading
+        if bump and i == across and j == bump then x = x + 1.2 end
+        points[#points + 1] = { x, y, height }
+      end
+    end
+    for j = 0, along - 1 do
+      for i = 1, across do
+        local a = j * (across + 1) + i
+        cells[#cells + 1] = { a, a + 1, a + across + 2, a + across + 1 }
+      end
+    end
+    model:add_face { name = name, points = points, cells = cells, keep_mesh = true }
+    return #points
+  end
+  for _, grading in ipairs { 1, 1.4, 2 } do
+    for _, grid in ipairs { { 3, 6 }, { 4, 9 }, { 6, 12 } } do
+      for _, bump in ipairs { 2, 4 } do
+        for _, turned in ipairs { false, true } do
+          local model = lacuna.model()
+          local count = patch(model, "source", grid[1], grid[2], 0, 1, turned and bump)
+          patch(model, "target", grid[1], grid[2], 2, grading, not turned and bump)
+          local mesh = model:open_volume({ source = "source", target = "target" }):sweep { layers = 3 }
+          local kept = 0
+          for _, line in ipairs(mesh.report) do
+            if line:find(("%d of %d nodes coincide"):format(count, count), 1, true) then kept = kept + 1 end
+          end
+          check.equal(kept, 2)
+        end
+      end
+    end
+  end
+end
+
 -- A size that changes: the rim's nodes stand as close as it asks at each place.
 do
   local model = box { keep_mesh = false }

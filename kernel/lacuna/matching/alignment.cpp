@@ -237,6 +237,22 @@ bool differ(const Problem& problem, std::size_t s, std::size_t t, const Alignmen
     return 2 * std::min(apart, kSamples - apart) * most >= kSamples;
 }
 
+std::size_t unlike_sides(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment)
+{
+    if (problem.paired_by_length(s, t)) return 0;
+    const LoopShape& source = problem.source[s];
+    const LoopShape& target = problem.target[t];
+    const std::size_t n = source.vertices.size();
+    std::size_t unlike = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t j = alignment.backward ? (alignment.shift + 2 * n - i - 1) % n
+                                                 : (alignment.shift + i) % n;
+        const std::size_t here = source.sides[i], there = target.sides[j];
+        unlike += here > 0 && there > 0 && here != there ? 1 : 0;
+    }
+    return unlike;
+}
+
 void choose_how(Problem& problem)
 {
     problem.by_length.clear();

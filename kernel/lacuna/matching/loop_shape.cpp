@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace lacuna::matching {
 
@@ -41,7 +42,7 @@ std::vector<Vec3> edge_samples(const LoopShape& shape, std::size_t start, bool b
     return result;
 }
 
-LoopShape shape_of(const Model& model, const Rim& rim)
+LoopShape shape_of(const Model& model, const Rim& rim, const std::set<EdgeId>& kept)
 {
     LoopShape shape;
     for (const EdgeUse& use : rim.uses) shape.vertices.push_back(use_from(model, use));
@@ -49,6 +50,7 @@ LoopShape shape_of(const Model& model, const Rim& rim)
     for (const EdgeUse& use : rim.uses) {
         const std::vector<Index> chain = use_points(model, use);
         first.push_back(shape.points.size());
+        shape.sides.push_back(kept.contains(use.edge) ? chain.size() - 1 : 0);
         for (std::size_t i = 0; i + 1 < chain.size(); ++i) shape.points.push_back(model.at(chain[i]));
     }
     shape.area = geometry::newell_vector(shape.points);
@@ -64,6 +66,25 @@ LoopShape shape_of(const Model& model, const Rim& rim)
     }
     shape.centroid /= shape.length > 0 ? shape.length : 1;
     return shape;
+}
+
+std::size_t given_sides(const LoopShape& shape)
+{
+    if (std::ranges::find(shape.sides, std::size_t{0}) != shape.sides.end()) return 0;
+    return std::accumulate(shape.sides.begin(), shape.sides.end(), std::size_t{0});
+}
+
+void count_by_sides(LoopShape& shape)
+{
+    const double side = shape.length / static_cast<double>(given_sides(shape));
+    for (std::size_t i = 0; i < shape.arc.size(); ++i) shape.arc[i] = side * static_cast<double>(i);
+    std::size_t before = 0;
+    for (std::size_t k = 0; k < shape.sides.size(); ++k) {
+        shape.vertex_arc[k] = side * static_cast<double>(before);
+        before += shape.sides[k];
+    }
+    shape.arc.back() = shape.length;
+    shape.by_sides = true;
 }
 
 } // namespace lacuna::matching

@@ -22,6 +22,41 @@ namespace {
 /// Confidence below which the second best is named beside the best: it fits within a quarter as well.
 /// A choice, not a measurement.
 constexpr double kUnsure = 0.25;
+/// Confidence below which given sides that agree outweigh a better fit: 2.5 times as good. Ends that are
+/// sectors of rings, the one eight times as far out as the other, need it.
+constexpr double kUnsureBesideSides = 0.6;
+
+/// How sure an alignment is, against another.
+double sureness(const Alignment& best, const Alignment& second)
+{
+    return 1 - std::min(1.0, std::max(best.score, 1e-12) / std::max(second.score, 1e-12));
+}
+
+/// Of loops measured by their given sides: the offset near one found by shapes where nodes meet nodes, and
+/// most vertices vertices.
+double offset_of_sides(const LoopShape& source, const LoopShape& target, bool backward, double offset)
+{
+    const auto sides = static_cast<std::ptrdiff_t>(given_sides(target));
+    const auto nodes_of = [](const LoopShape& shape) {
+        std::vector<std::ptrdiff_t> nodes{0};
+        for (const std::size_t count : shape.sides)
+            nodes.push_back(nodes.back() + static_cast<std::ptrdiff_t>(count));
+        nodes.pop_back();
+        return nodes;
+    };
+    const std::vector<std::ptrdiff_t> from = nodes_of(source), to = nodes_of(target);
+    const auto met = [&](std::ptrdiff_t start) {
+        return std::ranges::count_if(from, [&](std::ptrdiff_t node) {
+            const std::ptrdiff_t at = ((backward ? start - node : start + node) % sides + sides) % sides;
+            return std::ranges::binary_search(to, at);
+        });
+    };
+    const std::ptrdiff_t nearest = std::lround(offset * static_cast<double>(sides));
+    std::ptrdiff_t best = nearest;
+    for (const std::ptrdiff_t other : {nearest - 1, nearest + 1})
+        if (met(other) > met(best)) best = other;
+    return static_cast<double>((best + sides) % sides) / static_cast<double>(sides);
+}
 
 /// Where another alignment of a loop fits about as well, say which two there are: the recipe can choose.
 void note_candidates(const Problem& problem, std::size_t s, std::size_t t, const Alignment& best,
@@ -83,6 +118,7 @@ private:
         if (arrangement != nullptr) {
             found = {arrangement->alignment};
             if (arrangement->next) found.push_back(*arrangement->next);
+            if (!flip && chosen_.size() == 1) prefer_given_sides(s, t, found);
         }
         if (flip || arrangement == nullptr) {
             Problem local = problem_;
@@ -105,6 +141,22 @@ private:
         known_.add(samples(problem_, s, t, best));
     }
 
+    /// Where the shape of a loop leaves open how it lies, ends that came with meshes are laid so that both
+    /// can stay.
+    void prefer_given_sides(std::size_t s, std::size_t t, std::vector<Alignment>& found) const
+    {
+        std::size_t least = unlike_sides(problem_, s, t, found.front());
+        if (least == 0) return;
+        const Alignment likeliest = found.front();
+        for (const Alignment& other : alignments_of(problem_, s, t, true)) {
+            if (sureness(likeliest, other) >= kUnsureBesideSides ||
+                unlike_sides(problem_, s, t, other) >= least)
+                continue;
+            least = unlike_sides(problem_, s, t, other);
+            found = {other, likeliest};
+        }
+    }
+
     /// How sure an alignment is, against the next one. One hard pair settles all of a loop.
     void rate(std::size_t s, const std::vector<Alignment>& found)
     {
@@ -116,9 +168,9 @@ private:
         if (second == found.end() || problem_.has_hard(s)) return;
         // The pairs of the loops may have been chosen for their shapes, and not be the best by where they
         // land.
-        const double ratio = std::min(1.0, std::max(best.score, 1e-12) / std::max(second->score, 1e-12));
-        match_.confidence = std::min(match_.confidence, 1 - ratio);
-        if (1 - ratio < kUnsure) note_candidates(problem_, s, t, best, *second, match_);
+        const double sure = sureness(best, *second);
+        match_.confidence = std::min(match_.confidence, sure);
+        if (sure < kUnsure) note_candidates(problem_, s, t, best, *second, match_);
     }
 
     /// Samples lie where they happen to: slide a loop that goes by length to where all the others want it.
@@ -139,6 +191,9 @@ private:
             known.to.insert(known.to.end(), kSamples, problem_.target[its].centroid);
         }
         chosen_[s] = refined(problem_, s, t, chosen_[s], known);
+        const LoopShape &source = problem_.source[s], &to = problem_.target[t];
+        if (source.by_sides && to.by_sides)
+            chosen_[s].offset = offset_of_sides(source, to, chosen_[s].backward, chosen_[s].offset);
     }
 
     void pair_by_vertices(std::size_t s)

@@ -3,8 +3,10 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/matching/guides.h>
+#include <lacuna/topology/give_mesh.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 
 namespace lacuna::matching {
@@ -147,6 +149,21 @@ void read_options(Problem& problem)
     }
 }
 
+/// Loops that all came with sides, as many on both ends, are measured by them: nodes meet nodes then.
+void count_given_sides(Problem& problem)
+{
+    const auto sides_of = [](const std::vector<LoopShape>& loops) {
+        std::vector<std::size_t> sides;
+        for (const LoopShape& loop : loops) sides.push_back(given_sides(loop));
+        std::ranges::sort(sides);
+        return sides;
+    };
+    const std::vector<std::size_t> sides = sides_of(problem.source);
+    if (sides.empty() || sides.front() == 0 || sides != sides_of(problem.target)) return;
+    for (LoopShape& loop : problem.source) count_by_sides(loop);
+    for (LoopShape& loop : problem.target) count_by_sides(loop);
+}
+
 } // namespace
 
 bool Problem::has_hard(std::size_t s) const
@@ -160,8 +177,10 @@ Problem problem_of(const OpenVolume& volume, const MatchOptions& options, Match&
 {
     Problem problem{volume, options, context, {}, {}, {}, {}, {}, {}, {}, {}, {}};
     problem.on_wall = volume.on_wall();
-    for (const Rim& rim : match.source_loops) problem.source.push_back(shape_of(volume.model, rim));
-    for (const Rim& rim : match.target_loops) problem.target.push_back(shape_of(volume.model, rim));
+    const std::set<EdgeId> kept = kept_edges(volume.model);
+    for (const Rim& rim : match.source_loops) problem.source.push_back(shape_of(volume.model, rim, kept));
+    for (const Rim& rim : match.target_loops) problem.target.push_back(shape_of(volume.model, rim, kept));
+    count_given_sides(problem);
     problem.forced.assign(problem.source.size(), -1);
     match.side_lines = side_lines(volume, context);
     read_walls(problem, *match.side_lines);

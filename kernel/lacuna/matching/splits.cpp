@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/matching/detail/splits.h>
 
+#include <lacuna/geometry/polyline.h>
 #include <lacuna/topology/split_edge.h>
 
 #include <algorithm>
@@ -49,6 +50,16 @@ void sort_pairs(const Model& model, Match& match)
     match.hard = std::move(sorted.hard);
 }
 
+/// Length along a loop of a place that may be counted by sides.
+double length_at(const LoopShape& shape, double place)
+{
+    if (!shape.by_sides) return place;
+    const std::vector<double> length = geometry::arc_lengths(shape.points);
+    const double at = place / shape.length * static_cast<double>(length.size() - 1);
+    const auto side = std::min(static_cast<std::size_t>(at), length.size() - 2);
+    return length[side] + (at - static_cast<double>(side)) * (length[side + 1] - length[side]);
+}
+
 } // namespace
 
 Split split_at(const Rim& rim, const LoopShape& shape, double share)
@@ -57,7 +68,9 @@ Split split_at(const Rim& rim, const LoopShape& shape, double share)
     std::size_t i = rim.uses.size() - 1;
     while (i > 0 && shape.vertex_arc[i] > wanted) --i;
     const double end = i + 1 < shape.vertex_arc.size() ? shape.vertex_arc[i + 1] : shape.length;
-    const double along = std::clamp((wanted - shape.vertex_arc[i]) / (end - shape.vertex_arc[i]), 0.0, 1.0);
+    const double from = length_at(shape, shape.vertex_arc[i]);
+    const double along = std::clamp((length_at(shape, wanted) - from) / (length_at(shape, end) - from), 0.0,
+                                    1.0);
     Split split;
     split.edge = rim.uses[i].edge;
     split.fraction = rim.uses[i].reversed ? 1 - along : along;

@@ -39,6 +39,10 @@ PointPairs samples(const Problem& problem, std::size_t s, std::size_t t, const A
 /// Whether two alignments are not the same but for a little sliding along a smooth loop.
 bool differ(const Problem& problem, std::size_t s, std::size_t t, const Alignment& a, const Alignment& b);
 
+/// Edges of a source loop that came with sides and meet, by an alignment vertex to vertex, edges that came
+/// with another number of them.
+std::size_t unlike_sides(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment);
+
 /// Say of each two loops whether their vertices tell how they lie on each other, or lengths have to.
 ///
 /// Loops with unlike numbers of vertices go by length, and those with one each. Others go vertex to vertex,

@@ -5,6 +5,7 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <cstddef>
+#include <set>
 #include <vector>
 
 namespace lacuna::matching {
@@ -17,15 +18,25 @@ inline constexpr std::size_t kSamples = 64;
 struct LoopShape {
     std::vector<VertexId> vertices;
     std::vector<Vec3> points;       ///< polyline, closed: first repeated at the end
-    std::vector<double> arc;        ///< running length of `points`
+    std::vector<double> arc;        ///< running length of `points`, or as count_by_sides() has it
     std::vector<double> vertex_arc; ///< running length at each vertex
     std::vector<bool> corner;       ///< of each vertex: the loop turns there
+    std::vector<std::size_t> sides; ///< of the edge from each vertex on: its given sides, 0: none are given
     Vec3 centroid = Vec3::Zero();
     Vec3 area = Vec3::Zero();
     double length = 0;
+    bool by_sides = false; ///< count_by_sides() was called
 };
 
-LoopShape shape_of(const topology::Model& model, const topology::Rim& rim);
+/// @param kept  topology::kept_edges() of the model
+LoopShape shape_of(const topology::Model& model, const topology::Rim& rim, const std::set<EdgeId>& kept);
+
+/// Number of sides of a loop whose edges all came with sides; 0 where some did not.
+std::size_t given_sides(const LoopShape& shape);
+
+/// Take every given side for as long as the others: loops that came with as many are then the same all along.
+/// @pre given_sides()
+void count_by_sides(LoopShape& shape);
 
 /// Sample a loop evenly from a running length on.
 std::vector<Vec3> even_samples(const LoopShape& shape, double start, bool backward);
