@@ -94,17 +94,30 @@ std::vector<Alignment> alignments_by_vertices(const Problem& problem, const Hard
     return sorted(std::move(result));
 }
 
+/// The number of the first given side of each edge of a loop.
+std::vector<std::size_t> first_sides(const LoopShape& shape)
+{
+    std::vector<std::size_t> first{0};
+    for (const std::size_t sides : shape.sides) first.push_back(first.back() + sides);
+    first.pop_back();
+    return first;
+}
+
+/// Places where the source's start may lie on a loop paired by length: nodes, where sides are given.
+std::size_t places_of(const LoopShape& target) { return target.by_sides ? given_sides(target) : kSamples; }
+
 std::vector<Alignment> alignments_by_length(const Problem& problem, const LoopShape& source,
                                             const LoopShape& target, bool with_scale, const PointPairs& known)
 {
     const std::vector<Vec3> from = with(even_samples(source, 0, false), known.from);
+    const std::size_t places = places_of(target);
     std::vector<Alignment> result;
     for (const bool backward : {true, false}) {
         if (problem.backward && *problem.backward != backward) continue;
-        for (std::size_t shift = 0; shift < kSamples; ++shift) {
+        for (std::size_t shift = 0; shift < places; ++shift) {
             check_cancelled(problem.context);
-            Alignment& alignment = result.emplace_back(
-                Alignment{shift, static_cast<double>(shift) / kSamples, backward, 0, {}});
+            const double offset = static_cast<double>(shift) / static_cast<double>(places);
+            Alignment& alignment = result.emplace_back(Alignment{shift, offset, backward, 0, {}});
             rate(alignment, problem, source, target, from,
                  even_samples(target, target.length * alignment.offset, backward), known, with_scale);
         }
@@ -232,18 +245,30 @@ bool differ(const Problem& problem, std::size_t s, std::size_t t, const Alignmen
 {
     if (a.backward != b.backward || !problem.paired_by_length(s, t))
         return a.backward != b.backward || a.shift != b.shift;
-    const std::size_t apart = (a.shift + kSamples - b.shift) % kSamples;
+    const std::size_t places = places_of(problem.target[t]);
+    const std::size_t apart = (a.shift + places - b.shift) % places;
     const std::size_t most = std::max(problem.source[s].vertices.size(), problem.target[t].vertices.size());
-    return 2 * std::min(apart, kSamples - apart) * most >= kSamples;
+    return 2 * std::min(apart, places - apart) * most >= places;
 }
 
 std::size_t unlike_sides(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment)
 {
-    if (problem.paired_by_length(s, t)) return 0;
     const LoopShape& source = problem.source[s];
     const LoopShape& target = problem.target[t];
     const std::size_t n = source.vertices.size();
     std::size_t unlike = 0;
+    if (problem.paired_by_length(s, t)) {
+        if (!target.by_sides) return 0;
+        const std::size_t all = given_sides(target);
+        const std::vector<std::size_t> nodes = first_sides(target);
+        std::size_t met = 0;
+        for (const std::size_t node : first_sides(source)) {
+            const std::size_t at =
+                (alignment.backward ? alignment.shift + all - node : alignment.shift + node) % all;
+            met += std::ranges::binary_search(nodes, at) ? 1 : 0;
+        }
+        return std::min(n, nodes.size()) - met;
+    }
     for (std::size_t i = 0; i < n; ++i) {
         const std::size_t j = alignment.backward ? (alignment.shift + 2 * n - i - 1) % n
                                                  : (alignment.shift + i) % n;

@@ -32,32 +32,6 @@ double sureness(const Alignment& best, const Alignment& second)
     return 1 - std::min(1.0, std::max(best.score, 1e-12) / std::max(second.score, 1e-12));
 }
 
-/// Of loops measured by their given sides: the offset near one found by shapes where nodes meet nodes, and
-/// most vertices vertices.
-double offset_of_sides(const LoopShape& source, const LoopShape& target, bool backward, double offset)
-{
-    const auto sides = static_cast<std::ptrdiff_t>(given_sides(target));
-    const auto nodes_of = [](const LoopShape& shape) {
-        std::vector<std::ptrdiff_t> nodes{0};
-        for (const std::size_t count : shape.sides)
-            nodes.push_back(nodes.back() + static_cast<std::ptrdiff_t>(count));
-        nodes.pop_back();
-        return nodes;
-    };
-    const std::vector<std::ptrdiff_t> from = nodes_of(source), to = nodes_of(target);
-    const auto met = [&](std::ptrdiff_t start) {
-        return std::ranges::count_if(from, [&](std::ptrdiff_t node) {
-            const std::ptrdiff_t at = ((backward ? start - node : start + node) % sides + sides) % sides;
-            return std::ranges::binary_search(to, at);
-        });
-    };
-    const std::ptrdiff_t nearest = std::lround(offset * static_cast<double>(sides));
-    std::ptrdiff_t best = nearest;
-    for (const std::ptrdiff_t other : {nearest - 1, nearest + 1})
-        if (met(other) > met(best)) best = other;
-    return static_cast<double>((best + sides) % sides) / static_cast<double>(sides);
-}
-
 /// Where another alignment of a loop fits about as well, say which two there are: the recipe can choose.
 void note_candidates(const Problem& problem, std::size_t s, std::size_t t, const Alignment& best,
                      const Alignment& second, Match& match)
@@ -173,12 +147,12 @@ private:
         if (sure < kUnsure) note_candidates(problem_, s, t, best, *second, match_);
     }
 
-    /// Samples lie where they happen to: slide a loop that goes by length to where all the others want it.
-    /// Those that can slide themselves count by their middles, as much as the loop.
+    /// Samples lie where they happen to, unless they are nodes: slide a loop that goes by length to where all
+    /// the others want it. Those that can slide themselves count by their middles, as much as the loop.
     void slide(std::size_t s)
     {
         const std::size_t t = target(s);
-        if (!problem_.paired_by_length(s, t) || problem_.has_hard(s)) return;
+        if (!problem_.paired_by_length(s, t) || problem_.has_hard(s) || problem_.source[s].by_sides) return;
         PointPairs known;
         for (std::size_t other = 0; other < chosen_.size(); ++other) {
             if (other == s) continue;
@@ -191,9 +165,6 @@ private:
             known.to.insert(known.to.end(), kSamples, problem_.target[its].centroid);
         }
         chosen_[s] = refined(problem_, s, t, chosen_[s], known);
-        const LoopShape &source = problem_.source[s], &to = problem_.target[t];
-        if (source.by_sides && to.by_sides)
-            chosen_[s].offset = offset_of_sides(source, to, chosen_[s].backward, chosen_[s].offset);
     }
 
     void pair_by_vertices(std::size_t s)

@@ -15,10 +15,11 @@ inline constexpr double kMostTwist = 1.0 / 32;
 
 /// One way a source loop lies on a target loop.
 struct Alignment {
-    std::size_t shift =
-        0; ///< target vertex that the source's first vertex meets; of loops paired by length the sample
-    double offset =
-        0; ///< of loops paired by length: share of the target's length where the source's start lies
+    /// Target vertex that the source's first vertex meets; of loops paired by length the sample, or the node
+    /// where sides are given.
+    std::size_t shift = 0;
+    /// Of loops paired by length: share of the target's length where the source's start lies.
+    double offset = 0;
     bool backward = true; ///< the target loop is walked against its own direction
     double score = std::numeric_limits<double>::infinity();
     geometry::RigidFit fit;
@@ -39,8 +40,9 @@ PointPairs samples(const Problem& problem, std::size_t s, std::size_t t, const A
 /// Whether two alignments are not the same but for a little sliding along a smooth loop.
 bool differ(const Problem& problem, std::size_t s, std::size_t t, const Alignment& a, const Alignment& b);
 
-/// Edges of a source loop that came with sides and meet, by an alignment vertex to vertex, edges that came
-/// with another number of them.
+/// What of two loops that came with sides does not meet by an alignment: edges of the source that meet edges
+/// with another number of sides; of loops measured by their sides, vertices of the one with fewer that meet
+/// none.
 std::size_t unlike_sides(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment);
 
 /// Say of each two loops whether their vertices tell how they lie on each other, or lengths have to.
