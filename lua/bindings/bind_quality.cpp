@@ -160,10 +160,8 @@ int mesh_quality(lua_State* L)
     const Box<MeshState>& mesh = hold_box<MeshState>(L, 1);
     auto& source = temporary<QualitySource>(L);
     const int at = lua_gettop(L);
-    RunContext& context = push_context(L);
     guard(L, [&] {
-        if (!mesh->quality) mesh->quality = quality::measure(mesh->swept.mesh, context);
-        source.quality = *mesh->quality;
+        source.quality = mesh->swept.quality;
         source.mesh = mesh;
     });
     push_quality(L, at);

@@ -96,7 +96,6 @@ void close_volume(VolumeState& state, const closure::CloseOptions& options, cons
 
 struct MeshState {
     sweep::Swept swept;
-    std::optional<quality::Quality> quality;
     std::string material; ///< of the volume
     StageSeconds seconds; ///< of the sweep
 };

@@ -63,6 +63,29 @@ TEST_CASE("a side line rises at every corner between walls, and no two share a v
     MESSAGE(combinations << " prisms");
 }
 
+TEST_CASE("side lines are the same however finely their walls are divided")
+{
+    for (const int sides : {3, 5}) {
+        for (const int rows : {1, 2}) {
+            // Beyond 2,000 points the heights that lines are told by come from another solver.
+            std::vector<std::vector<std::size_t>> uses;
+            for (const int levels : {4, 900}) {
+                CAPTURE(levels);
+                const auto prism = test::prism(
+                    {.sides = sides, .height = 4, .rows = rows, .levels = levels, .taper = 0.7});
+                std::vector<std::size_t>& own = uses.emplace_back();
+                for (const auto& line : matching::side_lines(prism.open())) {
+                    own.push_back(line.source.index());
+                    for (const EdgeUse& use : line.uses) own.push_back(use.edge.index());
+                    own.push_back(line.target.index());
+                }
+                CHECK(own.size() == static_cast<std::size_t>(sides * (rows + 2)));
+            }
+            CHECK(uses[0] == uses[1]);
+        }
+    }
+}
+
 TEST_CASE("heights rise from 0 on the source rim to 1 on the target rim, and are even on a straight prism")
 {
     for (const int sides : {0, 5}) {

@@ -208,7 +208,10 @@ FacetTree::Hit FacetTree::closest(const Vec3& p, double max_distance2) const
             continue;
         }
         for (std::uint32_t i = node.begin; i < node.end; ++i) {
-            Hit hit = closest_on_triangle(p, corner_[i]);
+            const Corners& c = corner_[i];
+            const Box box(c[0].cwiseMin(c[1]).cwiseMin(c[2]), c[0].cwiseMax(c[1]).cwiseMax(c[2]));
+            if (distance2(box, p) > reach) continue;
+            Hit hit = closest_on_triangle(p, c);
             if (hit.distance2 > reach) continue;
             if (best.triangle >= 0 && hit.distance2 == best.distance2 && id_[i] > best.triangle) continue;
             best = hit;

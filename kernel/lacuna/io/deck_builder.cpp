@@ -4,7 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/triangulate.h>
-#include <lacuna/io/detail/large_pages.h>
+#include <lacuna/core/large_pages.h>
 
 #include <algorithm>
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/exodus.h>
-#include <lacuna/io/detail/large_pages.h>
+#include <lacuna/core/large_pages.h>
 #include <lacuna/io/detail/vtk_cells.h>
 
 #include <algorithm>

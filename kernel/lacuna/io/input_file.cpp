@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/input_file.h>
 
-#include <lacuna/io/detail/large_pages.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/large_pages.h>
 
 #include <cerrno>
 #include <cstdint>
 #include <system_error>
 
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -77,15 +76,5 @@ private:
 void check_file(const std::string& path) { const InputFile file(path); }
 
 std::string read_file(const std::string& path) { return InputFile(path).read(path); }
-
-void use_large_pages(void* memory, std::size_t bytes)
-{
-    constexpr std::size_t kLarge = std::size_t(1)
-                                   << 21; // bytes, of x86 and most ARM; elsewhere nothing is gained
-    const auto begin = (reinterpret_cast<std::uintptr_t>(memory) + kLarge - 1) / kLarge * kLarge;
-    const auto end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / kLarge * kLarge;
-    if (begin >= end) return;
-    static_cast<void>(::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE));
-}
 
 } // namespace lacuna::io

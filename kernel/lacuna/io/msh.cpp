@@ -8,6 +8,7 @@
 #include <lacuna/io/detail/node_reader.h>
 #include <lacuna/io/detail/sections.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -118,6 +119,28 @@ char* put_element(char* out, std::uint64_t number, const mesh::CellNodes& nodes)
     return out + bytes;
 }
 
+/// Cells of eight nodes alone, [begin, end) of those of a mesh, with the numbers from `number` on: as many
+/// columns of them as the source has quads, which come before its triangles.
+char* put_hexes(char* out, const mesh::HexMesh& mesh, std::size_t columns, std::size_t begin, std::size_t end,
+                std::uint64_t number)
+{
+    while (begin < end) {
+        const std::size_t layer = begin / columns, stop = std::min(end, (layer + 1) * columns);
+        const std::uint64_t low = node_tag(static_cast<Index>(layer) * mesh.nodes_per_layer);
+        const std::uint64_t high = low + static_cast<std::uint64_t>(mesh.nodes_per_layer);
+        for (const Quad* quad = mesh.quads.data() + begin % columns; begin < stop; ++begin, ++quad) {
+            std::array<std::uint64_t, 9> record{number++};
+            for (std::size_t k = 0; k < 4; ++k) {
+                const auto own = static_cast<std::uint64_t>((*quad)[k]);
+                record[1 + k] = low + own;
+                record[5 + k] = high + own;
+            }
+            out = put(out, record);
+        }
+    }
+    return out;
+}
+
 std::string block_head(int dimension, int tag, int third, std::size_t count)
 {
     std::string text;
@@ -146,6 +169,10 @@ void add_binary_elements(std::vector<Section>& sections, const Elements& element
                            block.count);
         sections.push_back({head, block.count, (block.nodes() + 1) * sizeof(std::uint64_t),
                             [elements, block](std::size_t begin, std::size_t end, char* out) {
+                                const mesh::HexMesh& mesh = elements.mesh;
+                                if (block.shape == DeckShape::hex8)
+                                    return put_hexes(out, mesh, block.count / index(mesh.layers), begin, end,
+                                                     block.first + begin + 1);
                                 for (std::size_t i = block.first + begin; i < block.first + end; ++i)
                                     out = put_element(out, i + 1, elements.nodes(i));
                                 return out;

@@ -5,7 +5,7 @@
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/input_file.h>
-#include <lacuna/io/detail/large_pages.h>
+#include <lacuna/core/large_pages.h>
 #include <lacuna/io/detail/msh_shapes.h>
 
 #include <algorithm>

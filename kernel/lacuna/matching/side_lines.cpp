@@ -47,6 +47,96 @@ std::set<EdgeId> edges_of(const OpenVolume& volume, Role role)
     return edges;
 }
 
+/// Share of the length of its side line below each point between the rims.
+std::map<Index, double> heights_along(const Model& model, const std::vector<SideLine>& lines)
+{
+    std::map<Index, double> heights;
+    for (const SideLine& line : lines) {
+        std::vector<Index> chain;
+        for (const EdgeUse& use : line.uses) {
+            const std::vector<Index> points = use_points(model, use);
+            chain.insert(chain.end(), points.begin() + (chain.empty() ? 0 : 1), points.end());
+        }
+        std::vector<double> run{0};
+        for (std::size_t i = 1; i < chain.size(); ++i)
+            run.push_back(run.back() + (model.at(chain[i]) - model.at(chain[i - 1])).norm());
+        for (std::size_t i = 1; i + 1 < chain.size(); ++i) heights[chain[i]] = run[i] / run.back();
+    }
+    return heights;
+}
+
+/// The points that triangles use, rising, each numbered in `local`.
+std::vector<Index> points_of(const std::vector<Triangle>& triangles, std::vector<Index>& local)
+{
+    std::vector<Index> used;
+    for (const Triangle& t : triangles) {
+        for (const Index p : t) {
+            if (local[index(p)] >= 0) continue;
+            local[index(p)] = 0;
+            used.push_back(p);
+        }
+    }
+    std::sort(used.begin(), used.end());
+    for (std::size_t i = 0; i < used.size(); ++i) local[index(used[i])] = static_cast<Index>(i);
+    return used;
+}
+
+enum class Digits { all, nine };
+
+std::vector<double> heights_of(const OpenVolume& volume, const std::vector<SideLine>& lines, Digits digits,
+                               const RunContext& context)
+{
+    const Model& model = volume.model;
+    std::vector<double> heights(model.points.size(), kNaN);
+    const std::vector<Index> low = rim_points(model, volume.faces(Role::source));
+    const std::vector<Index> high = rim_points(model, volume.faces(Role::target));
+    const std::map<Index, double> on_lines = heights_along(model, lines);
+    std::vector<Index> local(model.points.size(), -1); // of each point, its number in the part at hand
+    for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
+        std::vector<Triangle> triangles;
+        for (const FaceId face : part)
+            triangles.insert(triangles.end(), model[face].triangles.begin(), model[face].triangles.end());
+        const std::vector<Index> used = points_of(triangles, local);
+        const auto cleared = [&] {
+            for (const Index p : used) local[index(p)] = -1;
+        };
+        geometry::HarmonicProblem problem;
+        problem.nine_digits = digits == Digits::nine;
+        std::vector<double> values;
+        const auto fix = [&](Index p, double value) {
+            if (local[index(p)] < 0) return false;
+            problem.fixed.push_back(local[index(p)]);
+            values.push_back(value);
+            return true;
+        };
+        const auto fix_all = [&](const std::vector<Index>& points, double value) {
+            bool any = false;
+            for (const Index p : points) any = fix(p, value) || any;
+            return any;
+        };
+        const bool joins_source = fix_all(low, 0);
+        const bool joins_target = fix_all(high, 1);
+        if (!joins_source || !joins_target) {
+            cleared();
+            continue;
+        }
+        for (const auto& [p, height] : on_lines) fix(p, height);
+        std::vector<Vec3> points;
+        points.reserve(used.size());
+        for (const Index p : used) points.push_back(model.at(p));
+        for (Triangle& t : triangles)
+            for (Index& p : t) p = local[index(p)];
+        problem.points = points;
+        problem.triangles = triangles;
+        problem.fixed_values = Eigen::Map<const Eigen::MatrixXd>(values.data(),
+                                                                 static_cast<Eigen::Index>(values.size()), 1);
+        const Eigen::MatrixXd solution = geometry::solve_harmonic(problem, context);
+        for (const Index p : used) heights[index(p)] = solution(local[index(p)], 0);
+        cleared();
+    }
+    return heights;
+}
+
 /// Edges that climb, by the vertex they leave.
 struct Rise {
     EdgeUse use;
@@ -55,20 +145,72 @@ struct Rise {
 };
 using Rises = std::map<VertexId, std::vector<Rise>>;
 
-Rises rises(const OpenVolume& volume, const std::vector<double>& heights)
+/// Edges between walls that may climb.
+std::set<EdgeId> edges_between(const OpenVolume& volume)
 {
-    const Model& model = volume.model;
+    std::set<EdgeId> between = edges_of(volume, Role::wall);
+    for (const Role end : {Role::source, Role::target})
+        for (const EdgeId edge : edges_of(volume, end)) between.erase(edge);
+    return between;
+}
+
+std::set<VertexId> rim_vertices(const OpenVolume& volume, Role role)
+{
+    std::set<VertexId> vertices;
+    for (const Rim& rim : rims(volume.model, volume.faces(role))) {
+        for (const EdgeUse& use : rim.uses) vertices.insert(use_from(volume.model, use));
+    }
+    return vertices;
+}
+
+/// Whether some vertex has more than one way up or down, so that it counts which one is the shortest: an
+/// inner one with more than two edges, one of a rim with more than one.
+bool has_choices(const OpenVolume& volume, const std::set<EdgeId>& edges)
+{
+    std::map<VertexId, int> room;
+    for (const Role end : {Role::source, Role::target})
+        for (const VertexId vertex : rim_vertices(volume, end)) room[vertex] = 1;
+    for (const EdgeId edge : edges) {
+        for (const bool reversed : {false, true}) {
+            const VertexId vertex = use_from(volume.model, EdgeUse{edge, reversed});
+            if (--room.try_emplace(vertex, 2).first->second < 0) return true;
+        }
+    }
+    return false;
+}
+
+/// How steeply each of some edges climbs.
+std::vector<double> climbs(const OpenVolume& volume, const std::set<EdgeId>& edges,
+                           const std::vector<double>& heights)
+{
     const std::vector<double> gradient = height_gradient(volume, heights);
-    const std::set<EdgeId> source = edges_of(volume, Role::source);
-    const std::set<EdgeId> target = edges_of(volume, Role::target);
+    std::vector<double> up;
+    for (const EdgeId edge : edges) up.push_back(climb(volume.model, edge, heights, gradient));
+    return up;
+}
+
+Rises rises(const OpenVolume& volume, const RunContext& context)
+{
+    // Heights of nine digits leave no doubt about what climbs but this near to it. A choice: they give the
+    // climb to six digits.
+    constexpr double kDoubt = 1e-3;
+    const Model& model = volume.model;
+    const std::set<EdgeId> between = edges_between(volume);
+    if (between.empty()) return {};
+    std::vector<double> up;
+    const auto in_doubt = [](double u) { return std::abs(std::abs(u) - kLevel) <= kDoubt; };
+    if (!has_choices(volume, between))
+        up = climbs(volume, between, heights_of(volume, {}, Digits::nine, context));
+    if (up.empty() || std::any_of(up.begin(), up.end(), in_doubt))
+        up = climbs(volume, between, wall_heights(volume, {}, context));
     Rises result;
-    for (const EdgeId edge : edges_of(volume, Role::wall)) {
-        if (source.contains(edge) || target.contains(edge)) continue;
-        const double up = climb(model, edge, heights, gradient);
-        if (!(std::abs(up) > kLevel)) continue;
-        const EdgeUse use{edge, up < 0};
+    auto climb = up.begin();
+    for (const EdgeId edge : between) {
+        const double own = *climb++;
+        if (!(std::abs(own) > kLevel)) continue;
+        const EdgeUse use{edge, own < 0};
         result[use_from(model, use)].push_back(
-            {use, use_to(model, use), edge_length(model, edge) / std::abs(up)});
+            {use, use_to(model, use), edge_length(model, edge) / std::abs(own)});
     }
     return result;
 }
@@ -113,93 +255,12 @@ std::optional<Path> climb_from(VertexId start, const Rises& graph, const std::se
     return std::nullopt;
 }
 
-/// Share of the length of its side line below each point between the rims.
-std::map<Index, double> heights_along(const Model& model, const std::vector<SideLine>& lines)
-{
-    std::map<Index, double> heights;
-    for (const SideLine& line : lines) {
-        std::vector<Index> chain;
-        for (const EdgeUse& use : line.uses) {
-            const std::vector<Index> points = use_points(model, use);
-            chain.insert(chain.end(), points.begin() + (chain.empty() ? 0 : 1), points.end());
-        }
-        std::vector<double> run{0};
-        for (std::size_t i = 1; i < chain.size(); ++i)
-            run.push_back(run.back() + (model.at(chain[i]) - model.at(chain[i - 1])).norm());
-        for (std::size_t i = 1; i + 1 < chain.size(); ++i) heights[chain[i]] = run[i] / run.back();
-    }
-    return heights;
-}
-
-/// The points that triangles use, rising, each numbered in `local`.
-std::vector<Index> points_of(const std::vector<Triangle>& triangles, std::vector<Index>& local)
-{
-    std::vector<Index> used;
-    for (const Triangle& t : triangles) {
-        for (const Index p : t) {
-            if (local[index(p)] >= 0) continue;
-            local[index(p)] = 0;
-            used.push_back(p);
-        }
-    }
-    std::sort(used.begin(), used.end());
-    for (std::size_t i = 0; i < used.size(); ++i) local[index(used[i])] = static_cast<Index>(i);
-    return used;
-}
-
 } // namespace
 
 std::vector<double> wall_heights(const OpenVolume& volume, const std::vector<SideLine>& lines,
                                  const RunContext& context)
 {
-    const Model& model = volume.model;
-    std::vector<double> heights(model.points.size(), kNaN);
-    const std::vector<Index> low = rim_points(model, volume.faces(Role::source));
-    const std::vector<Index> high = rim_points(model, volume.faces(Role::target));
-    const std::map<Index, double> on_lines = heights_along(model, lines);
-    std::vector<Index> local(model.points.size(), -1); // of each point, its number in the part at hand
-    for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
-        std::vector<Triangle> triangles;
-        for (const FaceId face : part)
-            triangles.insert(triangles.end(), model[face].triangles.begin(), model[face].triangles.end());
-        const std::vector<Index> used = points_of(triangles, local);
-        const auto cleared = [&] {
-            for (const Index p : used) local[index(p)] = -1;
-        };
-        geometry::HarmonicProblem problem;
-        std::vector<double> values;
-        const auto fix = [&](Index p, double value) {
-            if (local[index(p)] < 0) return false;
-            problem.fixed.push_back(local[index(p)]);
-            values.push_back(value);
-            return true;
-        };
-        const auto fix_all = [&](const std::vector<Index>& points, double value) {
-            bool any = false;
-            for (const Index p : points) any = fix(p, value) || any;
-            return any;
-        };
-        const bool joins_source = fix_all(low, 0);
-        const bool joins_target = fix_all(high, 1);
-        if (!joins_source || !joins_target) {
-            cleared();
-            continue;
-        }
-        for (const auto& [p, height] : on_lines) fix(p, height);
-        std::vector<Vec3> points;
-        points.reserve(used.size());
-        for (const Index p : used) points.push_back(model.at(p));
-        for (Triangle& t : triangles)
-            for (Index& p : t) p = local[index(p)];
-        problem.points = points;
-        problem.triangles = triangles;
-        problem.fixed_values = Eigen::Map<const Eigen::MatrixXd>(values.data(),
-                                                                 static_cast<Eigen::Index>(values.size()), 1);
-        const Eigen::MatrixXd solution = geometry::solve_harmonic(problem, context);
-        for (const Index p : used) heights[index(p)] = solution(local[index(p)], 0);
-        cleared();
-    }
-    return heights;
+    return heights_of(volume, lines, Digits::all, context);
 }
 
 std::vector<double> height_gradient(const OpenVolume& volume, const std::vector<double>& heights)
@@ -247,18 +308,11 @@ double climb(const Model& model, EdgeId edge, const std::vector<double>& heights
 std::vector<SideLine> side_lines(const OpenVolume& volume, const RunContext& context)
 {
     const Model& model = volume.model;
-    const Rises graph = rises(volume, wall_heights(volume, {}, context));
-    const auto rim_vertices = [&](Role role) {
-        std::set<VertexId> vertices;
-        for (const Rim& rim : rims(model, volume.faces(role))) {
-            for (const EdgeUse& use : rim.uses) vertices.insert(use_from(model, use));
-        }
-        return vertices;
-    };
-    const std::set<VertexId> targets = rim_vertices(Role::target);
+    const Rises graph = rises(volume, context);
+    const std::set<VertexId> targets = rim_vertices(volume, Role::target);
     std::vector<Path> waiting; // the cheapest rise of each vertex of the source, by vertex
     std::set<VertexId> taken;
-    for (const VertexId start : rim_vertices(Role::source)) {
+    for (const VertexId start : rim_vertices(volume, Role::source)) {
         check_cancelled(context);
         if (auto path = climb_from(start, graph, targets, taken, model)) waiting.push_back(std::move(*path));
     }

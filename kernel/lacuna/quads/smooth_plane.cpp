@@ -43,41 +43,15 @@ public:
         std::fill(awake_.begin() + static_cast<std::ptrdiff_t>(first), awake_.end(), 1);
     }
 
-    /// One step for every point that is awake. @return how many moved by more than next to nothing.
+    /// One step for every point that is awake, with the widest vectors the machine has; they change no bit.
+    /// @return how many moved by more than next to nothing.
     std::size_t sweep(double floor, double overstep)
     {
-        std::size_t moved = 0;
-        StarEnergy here;
-        for (std::size_t p = fixed_; p < points_.size(); ++p) {
-            if (awake_[p] == 0) continue;
-            awake_[p] = 0;
-            const auto star = stars_[p];
-            if (star.empty() || !differentiate(points_, star, p, points_[p], areas_, here)) continue;
-            const double det = here.xx * here.yy - here.xy * here.xy;
-            if (!(det > 0)) continue;
-            const Vec2 step(-(here.yy * here.slope.x() - here.xy * here.slope.y()) / det,
-                            -(here.xx * here.slope.y() - here.xy * here.slope.x()) / det);
-            const double side = here.sides / static_cast<double>(2 * star.size());
-            constexpr int kTries = 4; // of steps, each shorter than the last; a choice
-            double length = overstep;
-            for (int tries = 0; tries < kTries; ++tries, length = (length > 1 ? 1 : length / 2)) {
-                const Vec2 to = points_[p] + length * step;
-                const double least = floor * floor;
-                double energy = energy_around(points_, star, p, to, areas_, least);
-                if (energy > here.value && least > 0) { // where the sine is less already, it may stay so
-                    const double sine = least_sine(points_, star, points_[p]);
-                    if (sine < floor) energy = energy_around(points_, star, p, to, areas_, sine * sine);
-                }
-                if (energy > here.value) continue;
-                points_[p] = to;
-                if (length * length * step.squaredNorm() > kStill * kStill * side) {
-                    ++moved;
-                    wake(p, awake_);
-                }
-                break;
-            }
-        }
-        return moved;
+#if defined(__GNUC__) && defined(__x86_64__)
+        static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
+        if (avx2) return sweep_avx2(floor, overstep);
+#endif
+        return sweep_points(floor, overstep);
     }
 
     /// Move the points of poor quads to where the least sine around is largest; later only those with a
@@ -112,6 +86,51 @@ public:
     }
 
 private:
+    LACUNA_LANES_INLINE std::size_t sweep_points(double floor, double overstep)
+    {
+        std::size_t moved = 0;
+        StarEnergy here;
+        for (std::size_t p = fixed_; p < points_.size(); ++p) {
+            if (awake_[p] == 0) continue;
+            awake_[p] = 0;
+            const auto star = stars_[p];
+            if (star.empty()) continue;
+            lanes_.set(points_, star, p, areas_);
+            if (!lanes_.differentiate(points_[p], areas_.weight, here)) continue;
+            const double det = here.xx * here.yy - here.xy * here.xy;
+            if (!(det > 0)) continue;
+            const Vec2 step(-(here.yy * here.slope.x() - here.xy * here.slope.y()) / det,
+                            -(here.xx * here.slope.y() - here.xy * here.slope.x()) / det);
+            const double side = here.sides / static_cast<double>(2 * star.size());
+            constexpr int kTries = 4; // of steps, each shorter than the last; a choice
+            double length = overstep;
+            for (int tries = 0; tries < kTries; ++tries, length = (length > 1 ? 1 : length / 2)) {
+                const Vec2 to = points_[p] + length * step;
+                const double least = floor * floor;
+                double energy = lanes_.energy(to, areas_.weight, least);
+                if (energy > here.value && least > 0) { // where the sine is less already, it may stay so
+                    const double sine = least_sine(points_, star, points_[p]);
+                    if (sine < floor) energy = lanes_.energy(to, areas_.weight, sine * sine);
+                }
+                if (energy > here.value) continue;
+                points_[p] = to;
+                if (length * length * step.squaredNorm() > kStill * kStill * side) {
+                    ++moved;
+                    wake(p, awake_);
+                }
+                break;
+            }
+        }
+        return moved;
+    }
+
+#if defined(__GNUC__) && defined(__x86_64__)
+    [[gnu::target("avx2")]] std::size_t sweep_avx2(double floor, double overstep)
+    {
+        return sweep_points(floor, overstep);
+    }
+#endif
+
     /// Mark a point and its neighbours.
     void wake(std::size_t p, std::vector<char>& marks) const
     {
@@ -149,6 +168,7 @@ private:
     std::vector<char> awake_;    ///< points to be swept
     std::vector<char> restless_; ///< points to be raised where quads are poor
     TargetAreas areas_;
+    StarLanes lanes_; ///< the star of the point at hand
 };
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/detail/coincident.h>
 
+#include <lacuna/core/large_pages.h>
 #include <lacuna/core/parallel.h>
 
 #include <algorithm>
@@ -88,6 +89,7 @@ std::unique_ptr<ChunkHashes[]> hashes_of(std::span<const Vec3> points, const Gri
 {
     const std::size_t chunks = chunk_count(points.size());
     auto hashes = std::make_unique_for_overwrite<ChunkHashes[]>(chunks);
+    use_large_pages(hashes.get(), chunks * sizeof(ChunkHashes));
     parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
             ChunkHashes& chunk = hashes[c];
@@ -109,7 +111,7 @@ std::unique_ptr<ChunkHashes[]> hashes_of(std::span<const Vec3> points, const Gri
 
 /// Entries of some bins, bin after bin; in an order that does not depend on threads.
 struct Bins {
-    std::vector<Entry> entries;
+    std::unique_ptr<Entry[]> entries;
     std::vector<std::size_t> start; ///< of each bin from the first, and the end
 };
 
@@ -129,8 +131,9 @@ void sort_into_bins(std::size_t points, const ChunkHashes* hashes, std::size_t f
         }
     }
     bins.start[width] = total;
-    std::vector<Entry>().swap(bins.entries); // growing would hold both
-    bins.entries.resize(total);
+    bins.entries.reset(); // else both would be held
+    bins.entries = std::make_unique_for_overwrite<Entry[]>(total);
+    use_large_pages(bins.entries.get(), total * sizeof(Entry));
     parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
             const auto enter = [&](std::uint32_t hash, Index point) {
@@ -221,7 +224,7 @@ std::optional<Pair> find_coincident(std::span<const Vec3> points, double toleran
         parallel_for(context, width, 16, [&](std::size_t begin, std::size_t end) {
             std::vector<std::int32_t> table;
             for (std::size_t b = begin; b < end; ++b) {
-                const std::span<const Entry> all(bins.entries);
+                const std::span<const Entry> all(bins.entries.get(), bins.start[width]);
                 found[first + b] = search_bin(all.subspan(bins.start[b], bins.start[b + 1] - bins.start[b]),
                                               points, grid.tolerance, table);
             }

@@ -4,6 +4,8 @@
 #include <lacuna/core/parallel.h>
 #include <lacuna/surface/detail/trimming.h>
 
+#include <array>
+
 namespace lacuna::surface {
 
 using namespace topology;
@@ -55,8 +57,18 @@ Projector::~Projector() = default;
 std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext& context) const
 {
     std::vector<geometry::FacetTree::Hit> hits(points.size());
+    const auto distance2_to = [&](Index facet, const Vec3& p) {
+        const Face& face = (*model_)[face_of_[index(facet)]];
+        const Triangle& t = face.triangles[index(triangle_of_[index(facet)])];
+        const std::array<Vec3, 3> corners{model_->at(t[0]), model_->at(t[1]), model_->at(t[2])};
+        return geometry::closest_on_triangle(p, corners).distance2;
+    };
     parallel_for(context, points.size(), 512, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) hits[i] = tree_.closest(points[i]);
+        // The facet nearest to one point is near the next: none that is further need be looked at.
+        for (std::size_t i = begin; i < end; ++i) {
+            if (i > begin) hits[i] = tree_.closest(points[i], distance2_to(hits[i - 1].triangle, points[i]));
+            if (hits[i].triangle < 0) hits[i] = tree_.closest(points[i]); // or that distance was rounded
+        }
     });
     std::map<FaceId, std::vector<std::size_t>> on_face;
     std::vector<FaceId> faces(points.size());

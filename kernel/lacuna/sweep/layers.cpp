@@ -6,6 +6,7 @@
 #include <lacuna/sweep/detail/layer_placer.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/large_pages.h>
 #include <lacuna/core/parallel.h>
 #include <lacuna/sweep/detail/rim.h>
 #include <lacuna/sweep/detail/words.h>
@@ -184,7 +185,9 @@ LayerNodes place_layers(const mesh::QuadMesh& source, std::span<const Vec3> targ
     LayerNodes result;
     result.placement = placer.placement();
     result.report = placer.report();
-    result.nodes.resize((static_cast<std::size_t>(columns.layers) + 1) * source.nodes.size());
+    const std::size_t count = (static_cast<std::size_t>(columns.layers) + 1) * source.nodes.size();
+    reserve_large(result.nodes, count);
+    result.nodes.resize(count);
     placer.place(0, columns.layers + 1, result.nodes, context);
     return result;
 }

@@ -510,6 +510,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
                             std::to_string(quality.min_scaled_jacobian) + " at least, " +
                             std::to_string(quality.mean_scaled_jacobian) + " on average");
     report_given(volume, result, options.wedges);
+    result.quality = quality;
     return {std::move(result), std::move(proof), faces, seeds.kept};
 }
 
@@ -568,6 +569,7 @@ ProvedSweep sweep_one_way(const OpenVolume& volume, const SourceSize& size, cons
         std::reverse(heights.begin(), heights.end());
         for (double& h : heights) h = 1 - h;
     }
+    report_progress(context, "linking surfaces");
     const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(
         volume, surface::Turning::each, {}, context);
     return can_turn_together(links) ? better_turning(volume, links, heights, size, options, outline, context)
@@ -587,6 +589,7 @@ void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, 
     swept.report.push_back("cells of order 2: all certified, scaled Jacobian " +
                            std::to_string(quality.min_scaled_jacobian) + " at least, " +
                            std::to_string(quality.mean_scaled_jacobian) + " on average");
+    swept.quality = quality;
     if (quality.min_scaled_jacobian < options.min_scaled_jacobian) {
         throw NotSweepable("quality.below_limit", "at order 2 the smallest scaled Jacobian is " +
                                                       in_full(quality.min_scaled_jacobian) +
@@ -610,6 +613,7 @@ Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, cons
     };
     ProvedSweep result = sweep_both_ways(volume, options, one_way, context);
     quality::require(result.proof);
+    report_progress(context, "shape of the skin");
     Swept& swept = result.swept;
     // Quads handed on by a neighbour are compared too: they are no part of that shape.
     const OpenVolume& shape = shape_of(volume, options);
@@ -685,6 +689,7 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
 Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {
     check_cancelled(context);
+    report_progress(context, "size");
     check(asked, context);
     if (!closure::is_watertight(volume)) {
         throw NotSweepable("sweep.not_closed",

@@ -5,6 +5,7 @@
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/quads/region.h>
+#include <lacuna/quality/quality.h>
 #include <lacuna/surface/boundary_layers.h>
 #include <lacuna/surface/intervals.h>
 #include <lacuna/surface/size_field.h>
@@ -130,6 +131,7 @@ struct Swept {
     std::optional<mesh::LayeredNodes> layers;
     std::shared_ptr<const LayerPlan> plan; ///< what `layers` are placed by
     double min_scaled_jacobian = 1;
+    quality::Quality quality;        ///< of the cells, as they were proved
     Fidelity fidelity;               ///< the skin against the sealed skin
     std::vector<FaceId> faces;       ///< of the volume's model, that of each patch of the skin
     std::vector<std::string> report; ///< a line a stage: seeds, quads, walls, target, layers, shape

@@ -6,6 +6,7 @@
 #include <lacuna/io/whole_file.h>
 
 #include <cstddef>
+#include <cstring>
 #include <functional>
 #include <string>
 #include <vector>
@@ -37,9 +38,8 @@ void write_file(const OutputPath& path, const std::vector<Section>& sections, Si
 template <class Value>
 char* put(char* out, const Value& value)
 {
-    const char* bytes = reinterpret_cast<const char*>(&value);
-    for (std::size_t i = 0; i < sizeof value; ++i) *out++ = bytes[i];
-    return out;
+    std::memcpy(out, &value, sizeof value);
+    return out + sizeof value;
 }
 
 template <class Value>

@@ -5,7 +5,8 @@
 
 #include <lacuna/quads/detail/plane_stars.h>
 
-#include <Eigen/Core>
+#include <limits>
+#include <vector>
 
 namespace lacuna::quads {
 
@@ -29,48 +30,65 @@ struct StarEnergy {
     double sides = 0; ///< squared lengths of the sides at the point, each quad's two
 };
 
-/// Up to four quads of a star side by side, so that the processor takes two or four at a time.
+#if defined(__GNUC__)
+#define LACUNA_LANES_INLINE [[gnu::always_inline]] inline
+#else
+#define LACUNA_LANES_INLINE inline
+#endif
+
+/// A number for each of four quads; the processor takes two or four at a time. They may lie anywhere.
+using Lanes = double __attribute__((vector_size(32), aligned(8)));
+
+LACUNA_LANES_INLINE double sum_of(const Lanes& v) { return (v[0] + v[2]) + (v[1] + v[3]); }
+LACUNA_LANES_INLINE bool all_above(const Lanes& v, double limit)
+{
+    return v[0] > limit && v[1] > limit && v[2] > limit && v[3] > limit;
+}
+
+/// Up to four quads of a star side by side.
+///
+/// All of it is compiled into who calls it, for the processor that is compiled for there. No vector is handed
+/// on by value: how that is done depends on the processor.
 class SpokeLanes {
 public:
-    using Lanes = Eigen::Array4d;
     static constexpr std::size_t kLanes = 4;
 
-    SpokeLanes(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t first, std::size_t p,
-               const TargetAreas& areas)
-        : has_area_(!areas.asked.empty())
+    /// @param p  the point that the star is of
+    LACUNA_LANES_INLINE void set(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t first,
+                                 std::size_t p, const TargetAreas& areas)
     {
+        has_area_ = !areas.asked.empty();
         const std::size_t last = star.size() - 1;
         for (std::size_t k = 0; k < kLanes; ++k) {
-            const auto i = static_cast<Eigen::Index>(k);
-            const Spoke& spoke = star[std::min(first + k, last)];
+            const Spoke& spoke = star[first + k < last ? first + k : last];
             const auto n = static_cast<std::size_t>(spoke.next), r = static_cast<std::size_t>(spoke.before);
             const Vec2 &pn = points[n], &po = points[index(spoke.across)], &pr = points[r];
-            nx_[i] = pn.x();
-            ny_[i] = pn.y();
-            ox_[i] = po.x();
-            oy_[i] = po.y();
-            rx_[i] = pr.x();
-            ry_[i] = pr.y();
-            counts_[i] = first + k <= last ? 1 : 0;
+            nx_[k] = pn.x();
+            ny_[k] = pn.y();
+            ox_[k] = po.x();
+            oy_[k] = po.y();
+            rx_[k] = pr.x();
+            ry_[k] = pr.y();
+            counts_[k] = first + k <= last ? 1 : 0;
             if (!has_area_) continue;
-            area_n_[i] = areas.asked[n].area;
-            inverse_n_[i] = areas.asked[n].inverse;
-            area_r_[i] = areas.asked[r].area;
-            inverse_r_[i] = areas.asked[r].inverse;
+            area_n_[k] = areas.asked[n].area;
+            inverse_n_[k] = areas.asked[n].inverse;
+            area_r_[k] = areas.asked[r].area;
+            inverse_r_[k] = areas.asked[r].inverse;
         }
         if (!has_area_) return;
-        area_p_.setConstant(areas.asked[p].area);
-        inverse_p_.setConstant(areas.asked[p].inverse);
+        area_p_ = Lanes{} + areas.asked[p].area;
+        inverse_p_ = Lanes{} + areas.asked[p].inverse;
     }
 
     /// Add the energy of these quads and its derivatives. @return false where a corner is folded
-    bool add_to(StarEnergy& around, const Vec2& x, double weight) const
+    LACUNA_LANES_INLINE bool add_to(StarEnergy& around, const Vec2& x, double weight) const
     {
         const Lanes ax = nx_ - x.x(), ay = ny_ - x.y(), bx = rx_ - x.x(), by = ry_ - x.y();
         const Lanes cx = ox_ - nx_, cy = oy_ - ny_, dx = ox_ - rx_, dy = oy_ - ry_;
         const Lanes aa = ax * ax + ay * ay, bb = bx * bx + by * by;
         const Lanes det_p = ax * by - ay * bx, det_n = ax * cy - ay * cx, det_r = dx * by - dy * bx;
-        if (!(det_p.min(det_n).min(det_r).minCoeff() > 0)) return false;
+        if (!(all_above(det_p, 0) && all_above(det_n, 0) && all_above(det_r, 0))) return false;
         Sums sums;
         sums.add(det_p, ay - by, bx - ax, aa + bb, -2 * (ax + bx), -2 * (ay + by), 4);
         if (has_area_) sums.ask(area_p_, inverse_p_, weight, ay - by, bx - ax);
@@ -78,29 +96,31 @@ public:
         if (has_area_) sums.ask(area_n_, inverse_n_, weight, -cy, cx);
         sums.add(det_r, dy, -dx, bb + dx * dx + dy * dy, -2 * bx, -2 * by, 2);
         if (has_area_) sums.ask(area_r_, inverse_r_, weight, dy, -dx);
-        around.value += (sums.value * counts_).sum();
-        around.slope.x() += (sums.gx * counts_).sum();
-        around.slope.y() += (sums.gy * counts_).sum();
-        around.xx += (sums.xx * counts_).sum();
-        around.xy += (sums.xy * counts_).sum();
-        around.yy += (sums.yy * counts_).sum();
-        around.sides += ((aa + bb) * counts_).sum();
+        around.value += sum_of(sums.value * counts_);
+        around.slope.x() += sum_of(sums.gx * counts_);
+        around.slope.y() += sum_of(sums.gy * counts_);
+        around.xx += sum_of(sums.xx * counts_);
+        around.xy += sum_of(sums.xy * counts_);
+        around.yy += sum_of(sums.yy * counts_);
+        around.sides += sum_of((aa + bb) * counts_);
         return true;
     }
 
     /// Add the energy alone. @return false where a corner is folded, or its sine squared is less than `least`
-    bool add_to(double& value, const Vec2& x, double weight, double least) const
+    LACUNA_LANES_INLINE bool add_to(double& value, const Vec2& x, double weight, double least) const
     {
         const Lanes ax = nx_ - x.x(), ay = ny_ - x.y(), bx = rx_ - x.x(), by = ry_ - x.y();
         const Lanes cx = ox_ - nx_, cy = oy_ - ny_, dx = ox_ - rx_, dy = oy_ - ry_;
         const Lanes aa = ax * ax + ay * ay, bb = bx * bx + by * by, cc = cx * cx + cy * cy,
                     dd = dx * dx + dy * dy;
         const Lanes det_p = ax * by - ay * bx, det_n = ax * cy - ay * cx, det_r = dx * by - dy * bx;
-        if (!(det_p.min(det_n).min(det_r).minCoeff() > 0)) return false;
+        if (!(all_above(det_p, 0) && all_above(det_n, 0) && all_above(det_r, 0))) return false;
         if (least > 0) {
             const Lanes over_p = det_p * det_p - least * aa * bb, over_n = det_n * det_n - least * aa * cc,
                         over_r = det_r * det_r - least * bb * dd;
-            if (over_p.min(over_n).min(over_r).minCoeff() < 0) return false;
+            const Lanes over_pn = over_p < over_n ? over_p : over_n;
+            const Lanes over = over_pn < over_r ? over_pn : over_r;
+            if (over[0] < 0 || over[1] < 0 || over[2] < 0 || over[3] < 0) return false;
         }
         const Lanes ip = 1 / det_p, in = 1 / det_n, ir = 1 / det_r;
         const Lanes fp = (aa + bb) * ip, fn = (aa + cc) * in, fr = (bb + dd) * ir;
@@ -108,21 +128,20 @@ public:
         if (has_area_)
             sum += (weight / 2) * (det_p * inverse_p_ + area_p_ * ip + det_n * inverse_n_ + area_n_ * in +
                                    det_r * inverse_r_ + area_r_ * ir);
-        value += (sum * counts_).sum();
+        value += sum_of(sum * counts_);
         return true;
     }
 
 private:
     struct Sums {
-        Lanes value = Lanes::Zero(), gx = Lanes::Zero(), gy = Lanes::Zero();
-        Lanes xx = Lanes::Zero(), xy = Lanes::Zero(), yy = Lanes::Zero();
+        Lanes value{}, gx{}, gy{}, xx{}, xy{}, yy{};
         Lanes det, over;
 
         /// f² of a corner, f = sum / 2 det.
         /// @param d    determinant; linear in the point, slope `dx`, `dy`
         /// @param sum  squared lengths of its sides; slope `sx`, `sy`, curvature `curve` in x and in y
-        void add(const Lanes& d, const Lanes& dx, const Lanes& dy, const Lanes& sum, const Lanes& sx,
-                 const Lanes& sy, double curve)
+        LACUNA_LANES_INLINE void add(const Lanes& d, const Lanes& dx, const Lanes& dy, const Lanes& sum,
+                                     const Lanes& sx, const Lanes& sy, double curve)
         {
             det = d;
             over = 1 / det;
@@ -137,7 +156,8 @@ private:
         }
 
         /// The size of the corner added last.
-        void ask(const Lanes& area, const Lanes& inverse, double weight, const Lanes& dx, const Lanes& dy)
+        LACUNA_LANES_INLINE void ask(const Lanes& area, const Lanes& inverse, double weight, const Lanes& dx,
+                                     const Lanes& dy)
         {
             const Lanes v = area * over;
             const Lanes first = (weight / 2) * (inverse - v * over), second = weight * v * over * over;
@@ -156,27 +176,42 @@ private:
     bool has_area_;
 };
 
-/// The energy with its derivatives. @return false where a corner is folded
-inline bool differentiate(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t p,
-                          const Vec2& x, const TargetAreas& areas, StarEnergy& around)
-{
-    around = {};
-    for (std::size_t i = 0; i < star.size(); i += SpokeLanes::kLanes) {
-        if (!SpokeLanes(points, star, i, p, areas).add_to(around, x, areas.weight)) return false;
+/// The star of one point after the other, read once for all that is asked of it.
+class StarLanes {
+public:
+    /// @pre the star is not empty
+    LACUNA_LANES_INLINE void set(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t p,
+                                 const TargetAreas& areas)
+    {
+        count_ = (star.size() + SpokeLanes::kLanes - 1) / SpokeLanes::kLanes;
+        if (count_ > lanes_.size()) lanes_.resize(count_);
+        for (std::size_t i = 0; i < count_; ++i)
+            lanes_[i].set(points, star, i * SpokeLanes::kLanes, p, areas);
     }
-    return true;
-}
 
-/// The energy alone; infinite where a corner is folded, or its sine squared is less than `least`.
-inline double energy_around(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t p,
-                            const Vec2& x, const TargetAreas& areas, double least)
-{
-    double value = 0;
-    for (std::size_t i = 0; i < star.size(); i += SpokeLanes::kLanes) {
-        if (!SpokeLanes(points, star, i, p, areas).add_to(value, x, areas.weight, least))
-            return std::numeric_limits<double>::infinity();
+    /// The energy with its derivatives. @return false where a corner is folded
+    LACUNA_LANES_INLINE bool differentiate(const Vec2& x, double weight, StarEnergy& around) const
+    {
+        around = {};
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (!lanes_[i].add_to(around, x, weight)) return false;
+        }
+        return true;
     }
-    return value;
-}
+
+    /// The energy alone; infinite where a corner is folded, or its sine squared is less than `least`.
+    LACUNA_LANES_INLINE double energy(const Vec2& x, double weight, double least) const
+    {
+        double value = 0;
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (!lanes_[i].add_to(value, x, weight, least)) return std::numeric_limits<double>::infinity();
+        }
+        return value;
+    }
+
+private:
+    std::vector<SpokeLanes> lanes_{1};
+    std::size_t count_ = 0;
+};
 
 } // namespace lacuna::quads

@@ -4,11 +4,10 @@
 #include <cstddef>
 #include <vector>
 
-/// Memory for much data. Internal to this folder.
-namespace lacuna::io {
+namespace lacuna {
 
-/// Ask the system for large pages where memory is, before it is first touched: reading a file of 100 MB then
-/// takes some 50 page faults and not 25,000. A wish, which changes nothing but time.
+/// Ask the system for large pages where memory is, before it is first touched: 100 MB then take some 50 page
+/// faults and not 25,000. A wish, which changes nothing but time.
 void use_large_pages(void* memory, std::size_t bytes);
 
 /// Room for `count` values, in large pages where there are many.
@@ -20,4 +19,4 @@ void reserve_large(std::vector<Value>& values, std::size_t count)
     use_large_pages(values.data() + values.size(), (count - values.size()) * sizeof(Value));
 }
 
-} // namespace lacuna::io
+} // namespace lacuna

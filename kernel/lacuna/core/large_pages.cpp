@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/core/large_pages.h>
+
+#include <cstdint>
+
+#include <sys/mman.h>
+
+namespace lacuna {
+
+void use_large_pages(void* memory, std::size_t bytes)
+{
+    // Bytes of one, on x86 and most ARM; elsewhere nothing is gained.
+    constexpr std::size_t kLarge = std::size_t(1) << 21;
+    const auto begin = (reinterpret_cast<std::uintptr_t>(memory) + kLarge - 1) / kLarge * kLarge;
+    const auto end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / kLarge * kLarge;
+    if (begin >= end) return;
+    static_cast<void>(::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE));
+}
+
+} // namespace lacuna
