@@ -33,6 +33,7 @@ public:
 /// Those who do one piece of work at the same time, each its share of it.
 struct Team {
     int rank = 0, size = 1;
+    bool one_machine = false; ///< all are on one: a file that one has open can be opened by the others
     /// What each has to say, by rank. All call it, and each waits until all have.
     std::function<std::vector<std::string>(std::string own)> exchange;
     /// Open a file that is there. Each opens it for itself. @throw BackendError

@@ -39,7 +39,7 @@ void write_vtk(const mesh::LayeredMesh& layered, const OutputPath& path, const V
 /// Whether decks of a format are written so: Nastran's, Abaqus's and universal files.
 bool is_layered(DeckFormat format);
 /// `write_deck()` of `deck_of()` the mesh, numbered from 1, in such a format: the same bytes, and memory as
-/// above. The files are text, which a team fills twice.
+/// above.
 /// @param options  without first numbers.
 /// @pre  is_layered(), and the mesh is of order 1.
 void write_deck(const mesh::LayeredMesh& layered, const MeshDeckOptions& options, const OutputPath& path,

@@ -10,11 +10,12 @@
 #include <charconv>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
 #include <utility>
+
+#include <unistd.h>
 
 namespace lacuna::io {
 namespace {
@@ -118,94 +119,165 @@ void write_exact(const std::vector<Chunk>& chunks, const WriteAt& write, Share& 
                  });
 }
 
-/// Fill a wave of chunks together, then hand them on in order.
-template <class Take>
-void fill_in_order(const std::vector<Chunk>& chunks, const RunContext& context, Share& share,
-                   const Take& take)
+/// Places are known once the text before is: a wave of chunks is filled together, then written in order.
+void write_varying(const std::vector<Chunk>& chunks, const WriteAt& write, Share& share,
+                   const RunContext& context)
 {
     std::vector<Buffer> buffers(4 * static_cast<std::size_t>(thread_count(context)));
     std::vector<std::string_view> filled(buffers.size());
+    std::uint64_t offset = 0;
     for (std::size_t first = 0; first < chunks.size(); first += buffers.size()) {
         const std::size_t count = std::min(buffers.size(), chunks.size() - first);
         parallel_for(context, count, 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) filled[i] = buffers[i].filled(chunks[first + i]);
         });
-        for (std::size_t i = 0; i < count; ++i) take(chunks[first + i], filled[i]);
+        for (std::size_t i = 0; i < count; offset += filled[i++].size()) write(offset, filled[i]);
         share.add(count);
     }
 }
 
-/// Where this process's share of each section begins, of a team whose shares are of any length.
-std::vector<std::uint64_t> places_in_team(const std::vector<Section>& sections,
-                                          const std::vector<Chunk>& chunks, Share& share,
-                                          const RunContext& context, const Team& team)
+/// The same by a team, in rounds: each fills the next chunks, which wait until all have said how long theirs
+/// are. So nothing is filled twice, and of a file each has a few megabytes in memory.
+void write_in_rounds(const std::vector<Chunk>& chunks, const WriteAt& write, Share& share,
+                     const RunContext& context, const Team& team)
 {
-    std::vector<std::uint64_t> own(sections.size(), 0);
-    fill_in_order(chunks, context, share, [&](const Chunk& chunk, std::string_view bytes) {
-        own[static_cast<std::size_t>(chunk.section - sections.data())] += bytes.size();
-    });
-    Writer writer;
-    writer(own);
-    std::vector<std::vector<std::uint64_t>> sizes;
-    for (const std::string& bytes : gather(&team, std::move(writer).take())) {
-        Reader reader(bytes);
-        reader(sizes.emplace_back());
-    }
-    std::vector<std::uint64_t> places(sections.size());
+    // 64 MB a round at most, of which text takes about half: a choice.
+    constexpr std::size_t kChunks = 128;
     std::uint64_t offset = 0;
-    for (std::size_t s = 0; s < sections.size(); ++s)
-        for (std::size_t rank = 0; rank < sizes.size(); ++rank) {
-            if (rank == static_cast<std::size_t>(team.rank)) places[s] = offset;
-            offset += sizes[rank][s];
+    std::vector<Buffer> buffers(std::min(kChunks, chunks.size()));
+    std::vector<std::string_view> filled(buffers.size());
+    const std::size_t round = kChunks * static_cast<std::size_t>(team.size);
+    for (std::size_t first = 0; first < chunks.size(); first += round) {
+        const auto [begin, end] = share_of(&team, std::min(round, chunks.size() - first));
+        const std::size_t count = end - begin;
+        parallel_for(context, count, 1, [&, from = first + begin](std::size_t low, std::size_t high) {
+            for (std::size_t i = low; i < high; ++i) filled[i] = buffers[i].filled(chunks[from + i]);
+        });
+        check_cancelled(context);
+        std::uint64_t own = 0;
+        for (std::size_t i = 0; i < count; ++i) own += filled[i].size();
+        Writer writer;
+        writer(own);
+        const std::vector<std::string> said = gather(&team, std::move(writer).take());
+        std::uint64_t at = offset;
+        for (std::size_t rank = 0; rank < said.size(); ++rank) {
+            std::uint64_t length = 0;
+            Reader reader(said[rank]);
+            reader(length);
+            if (rank < static_cast<std::size_t>(team.rank)) at += length;
+            offset += length;
         }
-    return places;
+        for (std::size_t i = 0; i < count; at += filled[i++].size()) write(at, filled[i]);
+        share.add(std::min(round, chunks.size() - first));
+    }
 }
 
 void write_sections(const std::vector<Section>& sections, Sizes sizes, const WriteAt& write,
                     const std::string& stage, const RunContext& context, const Team* team)
 {
-    const std::vector<Chunk> chunks = cut(sections, team);
-    const bool in_two = sizes == Sizes::varying && team != nullptr;
-    Share share(context, stage, in_two ? 2 * chunks.size() : chunks.size());
+    const bool in_rounds = sizes == Sizes::varying && team != nullptr;
+    const std::vector<Chunk> chunks = cut(sections, in_rounds ? nullptr : team);
+    Share share(context, stage, chunks.size());
     if (sizes == Sizes::exact) return write_exact(chunks, write, share, context);
-    std::vector<std::uint64_t> places;
-    if (in_two) places = places_in_team(sections, chunks, share, context, *team);
-    std::uint64_t offset = 0; // places are known once the text before is
-    const Section* section = nullptr;
-    fill_in_order(chunks, context, share, [&](const Chunk& chunk, std::string_view bytes) {
-        if (in_two && chunk.section != section)
-            offset = places[static_cast<std::size_t>(chunk.section - sections.data())];
-        section = chunk.section;
-        write(offset, bytes);
-        offset += bytes.size();
-    });
+    if (in_rounds) return write_in_rounds(chunks, write, share, context, *team);
+    write_varying(chunks, write, share, context);
 }
+
+/// Files of rank 0 that all of a team write to.
+class SharedFiles {
+public:
+    SharedFiles(const std::vector<OutputPath>& paths, const Team* team) : team_(team)
+    {
+        if (team == nullptr || team->one_machine) {
+            begin(paths, WholeFile::Naming::none);
+            if (team == nullptr || all_can_open()) return;
+        }
+        begin(paths, WholeFile::Naming::named);
+    }
+
+    /// Write a file's sections: of a team's file a share of each. @param sharing  null: this process alone
+    void write(std::size_t f, const std::vector<Section>& sections, Sizes sizes, const std::string& stage,
+               const RunContext& context, const Team* sharing)
+    {
+        if (team_ == nullptr) {
+            WholeFile& file = *files[f];
+            return write_sections(
+                sections, sizes,
+                [&](std::uint64_t offset, std::string_view bytes) { file.write_at(offset, bytes); }, stage,
+                context, nullptr);
+        }
+        const std::unique_ptr<SharedFile> shared = team_->open(names_[f]);
+        write_sections(
+            sections, sizes,
+            [&](std::uint64_t offset, std::string_view bytes) { shared->write_at(offset, bytes); }, stage,
+            context, sharing);
+        shared->close();
+    }
+
+    std::vector<std::unique_ptr<WholeFile>> files; ///< of rank 0; elsewhere none
+
+private:
+    void begin(const std::vector<OutputPath>& paths, WholeFile::Naming naming)
+    {
+        files.clear();
+        Writer names;
+        if (team_ == nullptr || team_->rank == 0)
+            for (const OutputPath& path : paths) {
+                files.push_back(std::make_unique<WholeFile>(path, naming));
+                names(files.back()->unfinished_path());
+            }
+        if (team_ == nullptr) return;
+        const std::string told = gather(team_, std::move(names).take()).front();
+        Reader reader(told);
+        names_.resize(paths.size());
+        for (std::string& name : names_) reader(name);
+    }
+
+    /// Whether nobody is kept from the open files of rank 0, as the system may.
+    [[nodiscard]] bool all_can_open() const
+    {
+        Writer writer;
+        writer(static_cast<std::int8_t>(::access(names_.front().c_str(), W_OK) == 0));
+        bool all = true;
+        for (const std::string& said : gather(team_, std::move(writer).take())) {
+            std::int8_t can = 0;
+            Reader reader(said);
+            reader(can);
+            all = all && can != 0;
+        }
+        return all;
+    }
+
+    const Team* team_;
+    std::vector<std::string> names_;
+};
 
 } // namespace
 
 void write_file(const OutputPath& path, const std::vector<Section>& sections, Sizes sizes,
                 const RunContext& context, const Team* team)
 {
-    const std::string stage = "writing " + path.text();
-    if (team == nullptr) {
-        WholeFile file(path);
-        write_sections(
-            sections, sizes,
-            [&](std::uint64_t offset, std::string_view bytes) { file.write_at(offset, bytes); }, stage,
-            context, nullptr);
-        return file.commit();
-    }
-    std::optional<WholeFile> file;
-    if (team->rank == 0) file.emplace(path, WholeFile::Naming::named);
-    const std::string name = gather(team, file ? file->unfinished_path() : "").front();
-    const std::unique_ptr<SharedFile> shared = team->open(name);
-    write_sections(
-        sections, sizes,
-        [&](std::uint64_t offset, std::string_view bytes) { shared->write_at(offset, bytes); }, stage,
-        context, team);
-    shared->close();
+    SharedFiles shared({path}, team);
+    shared.write(0, sections, sizes, "writing " + path.text(), context, team);
     gather(team, {}); // all is there
-    if (file) file->commit();
+    if (!shared.files.empty()) shared.files.front()->commit();
+}
+
+void write_files(const std::vector<FileOfSet>& files, const OutputPath& head_path, const std::string& head,
+                 const RunContext& context, const Team* team)
+{
+    std::vector<OutputPath> paths;
+    for (const FileOfSet& file : files) paths.push_back(file.path);
+    paths.push_back(head_path);
+    SharedFiles shared(paths, team);
+    const auto [begin, end] = share_of(team, files.size());
+    for (std::size_t f = begin; f < end; ++f)
+        shared.write(f, files[f].sections(), Sizes::exact, "writing " + files[f].path.text(), context,
+                     nullptr);
+    gather(team, {}); // all is there
+    if (shared.files.empty()) return;
+    shared.files.back()->append(head);
+    commit_together(shared.files);
 }
 
 char* put_text(char* out, double value) { return std::to_chars(out, out + kNumberBytes, value).ptr; }

@@ -102,6 +102,14 @@ OutputPath OutputPath::below(const std::shared_ptr<const Folder>& folder, const 
     return result;
 }
 
+OutputPath OutputPath::beside(const std::string& name) const
+{
+    OutputPath other((fs::path(path_).parent_path() / name).string());
+    other.folder_ = folder_;
+    if (folder_) other.name_ = name;
+    return other;
+}
+
 WholeFile::WholeFile(const OutputPath& path, Naming naming) : path_(path.text())
 {
     if (path_.empty()) throw InvalidInput("io.no_path", "no file name was given to write to");
@@ -190,12 +198,18 @@ WholeFile::~WholeFile()
     if (!unfinished_.empty()) ::unlinkat(folder_->descriptor(), unfinished_.c_str(), 0);
 }
 
-std::string WholeFile::unfinished_path() const { return (fs::path(folder_->path()) / unfinished_).string(); }
+std::string WholeFile::unfinished_path() const
+{
+    if (unfinished_.empty())
+        return "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(descriptor_);
+    return (fs::path(folder_->path()) / unfinished_).string();
+}
 
 void WholeFile::fail(int error)
 {
     std::string hint;
     if (error == ENOSPC || error == EDQUOT || error == EFBIG) hint = "; make room, or name another disk";
+    if (error == EMFILE) hint = "; ask for fewer partitions";
     throw BackendError("io.write_failed", "cannot write '" + path_ +
                                               "': " + std::generic_category().message(error) + hint +
                                               ". Nothing was left behind");
@@ -249,6 +263,21 @@ void WholeFile::commit()
     if (::renameat(folder_->descriptor(), unfinished_.c_str(), folder_->descriptor(), name_.c_str()) != 0)
         fail(errno);
     unfinished_.clear();
+}
+
+void WholeFile::remove_placed() const noexcept { ::unlinkat(folder_->descriptor(), name_.c_str(), 0); }
+
+void commit_together(std::span<const std::unique_ptr<WholeFile>> files)
+{
+    if (files.empty()) return;
+    files.back()->remove_placed();
+    std::size_t placed = 0;
+    try {
+        for (; placed < files.size(); ++placed) files[placed]->commit();
+    } catch (...) {
+        for (std::size_t f = 0; f < placed; ++f) files[f]->remove_placed();
+        throw;
+    }
 }
 
 } // namespace lacuna::io

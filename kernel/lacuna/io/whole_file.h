@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -42,6 +43,8 @@ public:
     /// @throw InvalidInput "io.outside"  the path leads out of the folder, through `..` or a link.
     static OutputPath below(const std::shared_ptr<const Folder>& folder, const std::string& path);
 
+    /// Another file of the same folder. @param name  one component of a path
+    [[nodiscard]] OutputPath beside(const std::string& name) const;
     /// As the person knows it; its ending says the format.
     [[nodiscard]] const std::string& text() const { return path_; }
 
@@ -60,8 +63,8 @@ private:
 /// then, and its mode is kept.
 class WholeFile {
 public:
-    /// Whether other processes open it too, which takes a name. One that is killed then leaves it behind; the
-    /// next such writing of the same file removes it, an hour after it was last written to.
+    /// Whether processes of other machines open it too, which takes a name. One that is killed then leaves it
+    /// behind; the next such writing of the same file removes it, an hour after it was last written to.
     enum class Naming { none, named };
 
     /// @throw InvalidInput  the folder does not exist, or the path is not that of a file.
@@ -76,17 +79,20 @@ public:
     void write_at(std::uint64_t offset, std::string_view bytes);
     /// Write bytes behind those appended so far.
     void append(std::string_view bytes);
-    /// Where it is meanwhile, beside its place. @pre it has a name
+    /// Where other processes find it meanwhile: beside its place where it has a name, else among the open
+    /// files of this process, which those of its machine and user can open.
     [[nodiscard]] std::string unfinished_path() const;
     /// Put the file in its place. @throw BackendError
     void commit();
 
 private:
+    friend void commit_together(std::span<const std::unique_ptr<WholeFile>> files);
     [[noreturn]] void fail(int error);
     void open_unnamed();
     void open_named();
     void remove_left_over();
     void publish_unnamed();
+    void remove_placed() const noexcept;
 
     std::string path_;                     ///< for messages
     std::shared_ptr<const Folder> folder_; ///< the file is in
@@ -95,5 +101,12 @@ private:
     int descriptor_ = -1;
     std::uint64_t end_ = 0;
 };
+
+/// Put files in their places that are one together, of which the last names the others: where one cannot be
+/// placed, none is. The last is placed last, and one that was there before is removed first, so that it never
+/// names files of two writings. A kill between the few system calls that this takes leaves some of the others
+/// without it.
+/// @throw BackendError
+void commit_together(std::span<const std::unique_ptr<WholeFile>> files);
 
 } // namespace lacuna::io

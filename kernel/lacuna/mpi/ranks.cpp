@@ -129,6 +129,7 @@ Ranks::Ranks() : state_(std::make_unique<State>())
 
     state.team.rank = state.place.rank;
     state.team.size = state.place.size;
+    state.team.one_machine = state.here == state.place.size;
     state.team.exchange = [&state](const std::string& own) { return state.exchange(own); };
     state.team.open = open_shared;
     state.crew.size = state.place.size;

@@ -28,11 +28,24 @@ enum class Sizes { exact, varying };
 /// Write a file of sections one behind the other, whole or not at all. Memory is bounded by a few buffers,
 /// whatever the file's size; the bytes are the same for any thread count. Progress is told in shares.
 ///
-/// A team fills and writes a share of each section; it is rank 0's path that is written to. Of files whose
-/// records vary each fills its share twice, since it has to know how long those before it are.
+/// A team fills and writes a share of each section; it is rank 0's path that is written to. Files whose
+/// records vary are filled in rounds, a share of each by each, since a share's place is known once those before
+/// it are filled.
 /// @throw  as `WholeFile`; TeamFailed
 void write_file(const OutputPath& path, const std::vector<Section>& sections, Sizes sizes,
                 const RunContext& context, const Team* team = nullptr);
+
+/// One of several files, whose sizes are exact: its sections are made when it is written.
+struct FileOfSet {
+    OutputPath path;
+    std::function<std::vector<Section>()> sections;
+};
+
+/// Write files and one that names them: all of them whole, or none is there. A team shares out the files.
+/// @param head  text of the last
+/// @throw  as `write_file()`
+void write_files(const std::vector<FileOfSet>& files, const OutputPath& head_path, const std::string& head,
+                 const RunContext& context, const Team* team = nullptr);
 
 /// Bytes of a value as they lie in memory.
 template <class Value>
