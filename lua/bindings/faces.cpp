@@ -267,6 +267,18 @@ const char* push_meant_name(lua_State* L, const topology::Model& model, const ch
     return lua_tostring(L, -1);
 }
 
+/// Push why there is no face of a tag: what loading says of it, where it does.
+const char* push_why_missing(lua_State* L, const topology::Model& model, int tag)
+{
+    push_text(L, [&] {
+        const std::string begin = "face " + std::to_string(tag) + " ";
+        const auto note = std::ranges::find_if(
+            model.notes, [&](const std::string& text) { return text.starts_with(begin); });
+        return note == model.notes.end() ? std::string("is not there") : "was not read: " + *note;
+    });
+    return lua_tostring(L, -1);
+}
+
 void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelState>& state,
                    std::vector<FaceId>& faces)
 {
@@ -285,7 +297,7 @@ void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelS
     case LUA_TNUMBER: {
         const int tag = read_whole(L, index, where, 0);
         guard(L, [&] { wanted.tags = {tag}; });
-        none = lua_pushfstring(L, "names face %d, which is not there", tag);
+        none = lua_pushfstring(L, "names face %d, which %s", tag, push_why_missing(L, model, tag));
         break;
     }
     case LUA_TSTRING: {

@@ -116,3 +116,62 @@ TEST_CASE("faces that come twice stay, on edges they share")
     // Each solid is turned outward by itself.
     CHECK(test::enclosed_volume(model) == doctest::Approx(2));
 }
+
+TEST_CASE("a face no wider than the tolerance is left out, and its neighbours are joined")
+{
+    const test::TempFolder folder;
+    for (const double width : {2e-7, 5e-7, 9e-7}) {
+        CAPTURE(width);
+        const std::string path = folder.gmsh("sliver.brep", [&] {
+            occ::addRectangle(0, 0, 0, 1, 1);
+            occ::addRectangle(1, 0, 0, width, 1);
+            occ::addRectangle(1 + width, 0, 0, 1, 1);
+        });
+        const topology::Model model = cad::load({path}, {.tolerance = 1e-6});
+        test::check_model(model);
+        REQUIRE(model.faces.size() == 2);
+        CHECK(model.faces[0].tag == 1);
+        CHECK(model.faces[1].tag == 3);
+        CHECK(model.edges.size() == 7);
+        REQUIRE(model.notes.size() == 1);
+        CHECK(model.notes[0].starts_with("face 2 is no wider than the tolerance and is left out"));
+    }
+}
+
+TEST_CASE("a face whose boundary runs over itself is left out by name, and the others are read as they are")
+{
+    const test::TempFolder folder;
+    const auto outline = [](const std::vector<Vec2>& corners) {
+        std::vector<int> points, lines;
+        for (const Vec2& p : corners) points.push_back(occ::addPoint(p.x(), p.y(), 0));
+        for (std::size_t i = 0; i < points.size(); ++i)
+            lines.push_back(occ::addLine(points[i], points[(i + 1) % points.size()]));
+        occ::addPlaneSurface({occ::addCurveLoop(lines)});
+    };
+    const auto box = [] { occ::addBox(20, 0, 0, 1, 2, 3); };
+    const topology::Model sound = cad::load({folder.gmsh("sound.brep", [&] {
+        box();
+        outline({{0, 0}, {6, 0}, {6, 12}, {0, 12}});
+    })});
+    const std::vector<std::vector<Vec2>> outlines{
+        {{0, 0}, {6, 0}, {6, 12}, {0, 12}, {0, 10}, {6, 10}, {6, 2}, {0, 2}}, // a bracket without a back
+        {{0, 0}, {6, 12}, {6, 0}, {0, 12}}};                                  // a bow tie
+    for (const std::vector<Vec2>& corners : outlines) {
+        const std::string path = folder.gmsh("crossing.brep", [&] {
+            box();
+            outline(corners);
+        });
+        const topology::Model model = cad::load({path});
+        test::check_model(model);
+        CHECK(model.faces.size() == 6);
+        CHECK(model.edges.size() == 12);
+        for (std::size_t e = 0; e < model.edges.size(); ++e)
+            CHECK(model.edges[e].points.size() == sound.edges[e].points.size());
+        CHECK(test::enclosed_volume(model) == doctest::Approx(6));
+        REQUIRE(model.notes.size() == 1);
+        CHECK(model.notes[0].starts_with("face 7 could not be cut into facets"));
+
+        const std::string only = folder.gmsh("only.brep", [&] { outline(corners); });
+        CHECK_THROWS_AS((void)cad::load({only}), BackendError);
+    }
+}

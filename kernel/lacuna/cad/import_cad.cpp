@@ -75,6 +75,7 @@ topology::Model build_model(LoadReply reply, double scale, const std::shared_ptr
 {
     topology::Model model;
     model.source = source->path();
+    model.notes = std::move(reply.notes);
     model.points = std::move(reply.points);
     add_edges(model, reply, source);
     for (LoadReply::Face& cad : reply.faces) {

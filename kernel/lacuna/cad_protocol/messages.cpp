@@ -31,7 +31,7 @@ void put(A& with, M& m)
         with(m.tag), with(m.name), with(m.kind), with(m.triangles), with(m.uv);
     } else if constexpr (std::is_same_v<T, LoadReply>) {
         with(m.model), with(m.diagonal), with(m.points), with(m.vertex_tags), with(m.edges), with(m.faces);
-        with(m.solids);
+        with(m.solids), with(m.notes);
     } else if constexpr (std::is_same_v<T, EvaluateRequest>) {
         with(m.model), with(m.curve), with(m.params);
     } else if constexpr (std::is_same_v<T, EvaluateReply>) {

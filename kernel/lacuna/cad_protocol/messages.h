@@ -86,6 +86,7 @@ struct LoadReply {
     std::vector<Edge> edges;
     std::vector<Face> faces;
     std::vector<std::vector<Index>> solids; ///< the faces of each solid, then those of none
+    std::vector<std::string> notes;         ///< what was left out, a sentence each
 };
 
 struct EvaluateRequest {

@@ -351,6 +351,18 @@ std::vector<Triangle> triangulate(const GridDomain& domain)
     return inside;
 }
 
+/// Whether two facets have a side from one point to another in common: a surface that a file takes round its
+/// axis twice covers itself.
+bool covers_itself(const std::vector<Triangle>& triangles)
+{
+    std::vector<std::pair<Index, Index>> sides;
+    for (const Triangle& t : triangles) {
+        for (std::size_t k = 0; k < 3; ++k) sides.emplace_back(t[k], t[(k + 1) % 3]);
+    }
+    std::ranges::sort(sides);
+    return std::ranges::adjacent_find(sides) != sides.end();
+}
+
 } // namespace
 
 std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo& face,
@@ -396,7 +408,7 @@ std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo&
         facets.triangles.push_back(corners);
         facets.uv.push_back(uv);
     }
-    if (facets.triangles.empty()) return std::nullopt;
+    if (facets.triangles.empty() || covers_itself(facets.triangles)) return std::nullopt;
     return facets;
 }
 

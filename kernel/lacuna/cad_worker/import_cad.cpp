@@ -123,31 +123,71 @@ struct Cut {
     std::size_t point_count = 0;
 };
 
-[[noreturn]] void throw_not_cut(const std::string& path, int face)
+std::string not_cut_in_words(int face)
 {
-    throw BackendError("cad.face_failed",
-                       path + ": face " + std::to_string(face) +
-                           " could not be cut into facets, however fine: its boundary crosses itself or "
-                           "does not close; repair the face in the CAD system");
+    return "face " + std::to_string(face) +
+           " could not be cut into facets, however fine: its boundary crosses itself or does not close";
 }
 
-/// Divide the edges and cut the faces, finer around those whose border crosses itself.
-Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const Progress& progress)
+/// Whether the curves around a face lie on each other in pairs, within the tolerance: it has no inside then.
+/// A sphere's one seam, and a lune between two meridians, are no such pairs.
+bool is_sliver(const CadWire& wire, const CadFaceInfo& face)
 {
-    divide(wire, options.fineness, std::vector<double>(wire.edges.size(), 1.0));
-    std::vector<double> refinement = narrow_refinement(wire);
+    std::unordered_map<std::size_t, int> uses;
+    for (const CadFaceInfo::Side& side : face.sides) {
+        if (side.uses > 1) return false;
+        for (const std::size_t piece : wire.curves[side.curve].pieces) ++uses[wire.pieces[piece].edge];
+    }
+    return std::ranges::all_of(uses, [](const auto& use) { return use.second % 2 == 0; });
+}
+
+/// Points of all edges, divided `refinement` times as finely.
+void divide_all(CadWire& wire, const Fineness& fineness, std::vector<double>& refinement)
+{
+    refinement.assign(wire.edges.size(), 1.0);
+    divide(wire, fineness, refinement);
+    refinement = narrow_refinement(wire);
     if (std::ranges::any_of(refinement, [](double times) { return times > 1; }))
-        divide(wire, options.fineness, refinement);
+        divide(wire, fineness, refinement);
+}
+
+/// Take faces out of the wire, and say so. @throw BackendError  none is left.
+void leave_out(CadWire& wire, const std::vector<int>& tags, const std::string& path,
+               std::vector<std::string>& notes)
+{
+    for (const int tag : tags) {
+        const auto face = std::ranges::find(wire.faces, tag, &CadFaceInfo::tag);
+        notes.push_back(is_sliver(wire, *face)
+                            ? "face " + std::to_string(tag) +
+                                  " is no wider than the tolerance and is left out; give a smaller tolerance "
+                                  "if it is to stay"
+                            : not_cut_in_words(tag) + "; it is left out: repair it in the CAD system if it "
+                                                      "is needed");
+        wire.faces.erase(face);
+    }
+    if (wire.faces.empty())
+        throw BackendError("cad.face_failed",
+                           path + ": " + not_cut_in_words(tags.front()) + "; repair it in the CAD system");
+}
+
+/// Divide the edges and cut the faces, finer around those whose border crosses itself. Faces that cannot be
+/// cut leave the wire.
+Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const Progress& progress,
+            std::vector<std::string>& notes)
+{
+    std::vector<double> refinement;
+    divide_all(wire, options.fineness, refinement);
     options.max_cells = std::clamp(kMaxCells / static_cast<double>(wire.faces.size()), kMinCellsOfFace,
                                    kMaxCellsOfFace);
     for (int division = 1;; ++division) {
         Cut cut;
         cut.point_count = wire.points.size();
-        const CadFaceInfo* failed = nullptr;
+        std::vector<int> failed, slivers;
         for (const CadFaceInfo& face : wire.faces) {
             auto facets = cut_into_facets(wire, face, options, static_cast<Index>(cut.point_count));
             if (!facets) {
-                failed = &face;
+                failed.push_back(face.tag);
+                if (is_sliver(wire, face)) slivers.push_back(face.tag);
                 for (const CadFaceInfo::Side& side : face.sides) {
                     for (const std::size_t p : wire.curves[side.curve].pieces) {
                         double& times = refinement[wire.pieces[p].edge];
@@ -160,10 +200,15 @@ Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const 
             cut.faces.push_back(std::move(*facets));
             progress(static_cast<double>(cut.faces.size()) / static_cast<double>(wire.faces.size()));
         }
-        if (failed == nullptr) return cut;
-        if (division == kDivisions) throw_not_cut(path, failed->tag);
-        divide(wire, options.fineness, refinement);
-        if (wire.points.size() > kMostDivided) throw_not_cut(path, failed->tag);
+        if (failed.empty()) return cut;
+        if (slivers.empty()) {
+            if (division < kDivisions) divide(wire, options.fineness, refinement);
+            if (division < kDivisions && wire.points.size() <= kMostDivided) continue;
+        }
+        // Without them, edges need not be finer than at first.
+        leave_out(wire, slivers.empty() ? failed : slivers, path, notes);
+        divide_all(wire, options.fineness, refinement);
+        division = 0;
     }
 }
 
@@ -202,7 +247,16 @@ cad_protocol::LoadReply reply_of(const CadWire& wire, Cut cut, CadSource& source
     reply.diagonal = source.diagonal;
     reply.points = wire.points;
     reply.vertex_tags = wire.point_tag;
-    for (const CadEdge& cad : wire.edges) {
+    std::vector<bool> used(wire.edges.size(), false); // by faces that were not left out
+    for (const CadFaceInfo& face : wire.faces) {
+        for (const CadFaceInfo::Side& side : face.sides) {
+            for (const std::size_t piece : wire.curves[side.curve].pieces)
+                used[wire.pieces[piece].edge] = true;
+        }
+    }
+    for (std::size_t e = 0; e < wire.edges.size(); ++e) {
+        if (!used[e]) continue;
+        const CadEdge& cad = wire.edges[e];
         const CadPiece& piece = wire.pieces[cad.master];
         reply.edges.push_back(
             {cad.tag, wire.curves[piece.curve].tag, piece.from, piece.to, cad.params, cad.points});
@@ -249,8 +303,10 @@ Imported import_cad(const std::vector<OpenedFile>& files, double tolerance, doub
         facets.tolerance = tolerance > 0 ? tolerance / scale : 1e-6 * source.diagonal;
         facets.fineness = {2 * std::numbers::pi / kSidesPerTurn, kLongestSide * source.diagonal};
         CadWire wire = read_wire(facets.tolerance);
-        Cut cut = cut_all(wire, facets, source.path, progress);
+        std::vector<std::string> notes;
+        Cut cut = cut_all(wire, facets, source.path, progress, notes);
         imported.reply = reply_of(wire, std::move(cut), source);
+        imported.reply.notes = std::move(notes);
     });
     return imported;
 }
