@@ -5,6 +5,7 @@
 
 #include <lacuna/quads/detail/plane_stars.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -40,9 +41,10 @@ struct StarEnergy {
 using Lanes = double __attribute__((vector_size(32), aligned(8)));
 
 LACUNA_LANES_INLINE double sum_of(const Lanes& v) { return (v[0] + v[2]) + (v[1] + v[3]); }
-LACUNA_LANES_INLINE bool all_above(const Lanes& v, double limit)
+LACUNA_LANES_INLINE bool all_positive(const Lanes& a, const Lanes& b, const Lanes& c)
 {
-    return v[0] > limit && v[1] > limit && v[2] > limit && v[3] > limit;
+    const auto positive = (a > 0) & (b > 0) & (c > 0);
+    return (positive[0] & positive[1] & positive[2] & positive[3]) != 0;
 }
 
 /// Up to four quads of a star side by side.
@@ -57,26 +59,28 @@ public:
     LACUNA_LANES_INLINE void set(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t first,
                                  std::size_t p, const TargetAreas& areas)
     {
-        has_area_ = !areas.asked.empty();
         const std::size_t last = star.size() - 1;
-        for (std::size_t k = 0; k < kLanes; ++k) {
-            const Spoke& spoke = star[first + k < last ? first + k : last];
-            const auto n = static_cast<std::size_t>(spoke.next), r = static_cast<std::size_t>(spoke.before);
-            const Vec2 &pn = points[n], &po = points[index(spoke.across)], &pr = points[r];
-            nx_[k] = pn.x();
-            ny_[k] = pn.y();
-            ox_[k] = po.x();
-            oy_[k] = po.y();
-            rx_[k] = pr.x();
-            ry_[k] = pr.y();
-            counts_[k] = first + k <= last ? 1 : 0;
-            if (!has_area_) continue;
-            area_n_[k] = areas.asked[n].area;
-            inverse_n_[k] = areas.asked[n].inverse;
-            area_r_[k] = areas.asked[r].area;
-            inverse_r_[k] = areas.asked[r].inverse;
-        }
+        const auto spoke = [&](std::size_t k) -> const Spoke& { return star[std::min(first + k, last)]; };
+        const Spoke &s0 = spoke(0), &s1 = spoke(1), &s2 = spoke(2), &s3 = spoke(3);
+        const auto at = [&](Index i) -> const Vec2& { return points[index(i)]; };
+        nx_ = Lanes{at(s0.next).x(), at(s1.next).x(), at(s2.next).x(), at(s3.next).x()};
+        ny_ = Lanes{at(s0.next).y(), at(s1.next).y(), at(s2.next).y(), at(s3.next).y()};
+        ox_ = Lanes{at(s0.across).x(), at(s1.across).x(), at(s2.across).x(), at(s3.across).x()};
+        oy_ = Lanes{at(s0.across).y(), at(s1.across).y(), at(s2.across).y(), at(s3.across).y()};
+        rx_ = Lanes{at(s0.before).x(), at(s1.before).x(), at(s2.before).x(), at(s3.before).x()};
+        ry_ = Lanes{at(s0.before).y(), at(s1.before).y(), at(s2.before).y(), at(s3.before).y()};
+        const auto counts = [&](std::size_t k) { return first + k <= last ? 1.0 : 0.0; };
+        counts_ = Lanes{counts(0), counts(1), counts(2), counts(3)};
+        has_area_ = !areas.asked.empty();
         if (!has_area_) return;
+        const auto asked = [&](Index i) -> const TargetAreas::Target& { return areas.asked[index(i)]; };
+        const auto &n0 = asked(s0.next), &n1 = asked(s1.next), &n2 = asked(s2.next), &n3 = asked(s3.next);
+        const auto &r0 = asked(s0.before), &r1 = asked(s1.before), &r2 = asked(s2.before),
+                   &r3 = asked(s3.before);
+        area_n_ = Lanes{n0.area, n1.area, n2.area, n3.area};
+        inverse_n_ = Lanes{n0.inverse, n1.inverse, n2.inverse, n3.inverse};
+        area_r_ = Lanes{r0.area, r1.area, r2.area, r3.area};
+        inverse_r_ = Lanes{r0.inverse, r1.inverse, r2.inverse, r3.inverse};
         area_p_ = Lanes{} + areas.asked[p].area;
         inverse_p_ = Lanes{} + areas.asked[p].inverse;
     }
@@ -88,7 +92,7 @@ public:
         const Lanes cx = ox_ - nx_, cy = oy_ - ny_, dx = ox_ - rx_, dy = oy_ - ry_;
         const Lanes aa = ax * ax + ay * ay, bb = bx * bx + by * by;
         const Lanes det_p = ax * by - ay * bx, det_n = ax * cy - ay * cx, det_r = dx * by - dy * bx;
-        if (!(all_above(det_p, 0) && all_above(det_n, 0) && all_above(det_r, 0))) return false;
+        if (!all_positive(det_p, det_n, det_r)) return false;
         Sums sums;
         sums.add(det_p, ay - by, bx - ax, aa + bb, -2 * (ax + bx), -2 * (ay + by), 4);
         if (has_area_) sums.ask(area_p_, inverse_p_, weight, ay - by, bx - ax);
@@ -114,13 +118,12 @@ public:
         const Lanes aa = ax * ax + ay * ay, bb = bx * bx + by * by, cc = cx * cx + cy * cy,
                     dd = dx * dx + dy * dy;
         const Lanes det_p = ax * by - ay * bx, det_n = ax * cy - ay * cx, det_r = dx * by - dy * bx;
-        if (!(all_above(det_p, 0) && all_above(det_n, 0) && all_above(det_r, 0))) return false;
+        if (!all_positive(det_p, det_n, det_r)) return false;
         if (least > 0) {
             const Lanes over_p = det_p * det_p - least * aa * bb, over_n = det_n * det_n - least * aa * cc,
                         over_r = det_r * det_r - least * bb * dd;
-            const Lanes over_pn = over_p < over_n ? over_p : over_n;
-            const Lanes over = over_pn < over_r ? over_pn : over_r;
-            if (over[0] < 0 || over[1] < 0 || over[2] < 0 || over[3] < 0) return false;
+            const auto below = (over_p < 0) | (over_n < 0) | (over_r < 0);
+            if ((below[0] | below[1] | below[2] | below[3]) != 0) return false;
         }
         const Lanes ip = 1 / det_p, in = 1 / det_n, ir = 1 / det_r;
         const Lanes fp = (aa + bb) * ip, fn = (aa + cc) * in, fr = (bb + dd) * ir;
