@@ -340,6 +340,18 @@ std::vector<Case> curved_cases()
         {"domed disc", {{0, disc_part(-1, -1, 1, 1), {1, 1, 1, 1}}}, 4, false, up([](const Vec2& p) {
              return Vec3(p.x(), p.y(), 0.45 * p.squaredNorm());
          })});
+    // The plan's unit circle becomes the parallel 80° from the pole.
+    const auto dome = [](const Vec2& p, double height) {
+        const double radius = 1 + 0.3 * height, polar = p.norm() * 80 * kPi / 180;
+        const double out = p.norm() > 0 ? std::sin(polar) / p.norm() : 0;
+        return Vec3(radius * out * p.x(), radius * out * p.y(), radius * std::cos(polar));
+    };
+    cases.push_back({"deep dome", {{0, disc_part(-1, -1, 1, 1), {1, 1, 1, 1}}}, 4, false, dome});
+    cases.push_back({"deep dome in halves",
+                     {{0, disc_part(-1, 0, 1, 1), {0, 1, 1, 1}}, {1, disc_part(-1, -1, 1, 0), {2, 2, 0, 2}}},
+                     4,
+                     false,
+                     dome});
     const auto wave = [](const Vec2& p) {
         return Vec3(p.x(), p.y(), 0.25 * std::sin(2.5 * p.x()) * std::cos(2 * p.y()));
     };

@@ -91,8 +91,8 @@ struct Seeds {
 /// follow. A free face that one grid fills gets numbers for which it closes (`quads::pattern_counts()`).
 ///
 /// Mapped and submapped faces are solved together, as one program of whole numbers over all their edges:
-///   least Σ (n − wanted)² / n  over the edges' pieces and three lines across each mapped face,
-///   so that opposite sides of every such face have as many, and no piece fewer than it needs.
+///   least Σ (n − wanted)² / n  over the edges' pieces and three lines across each mapped face, and more for
+///   sides of another size, so that opposite sides have as many and no piece fewer than it needs.
 /// Lengths are those in space, so a face that bulges between its sides, or is narrower there, gets what its
 /// inside needs. Where given numbers contradict each other, sides are raised to the larger count, a face at a
 /// time until nothing changes. A face whose grid would be poor all over, by its angles and lengths in space,

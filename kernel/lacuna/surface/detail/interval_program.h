@@ -42,7 +42,8 @@ struct IntervalProgram {
 };
 
 /// The whole numbers that solve all equations and keep all floors, of least Σ weight (n − wanted)² / n over
-/// the wishes, n a wish's own sum: alike for sides too long and too short by the same ratio.
+/// the wishes, n a wish's own sum: alike for sides too long and too short by one ratio. Sides shorter than
+/// 0.6 or longer than 1.6 of what is asked for cost more, by how far they are off that.
 ///
 /// Variables that no equation joins are solved apart. Each such set of equations is brought to reduced row
 /// echelon form in whole numbers, as @cite mitchell_2021_intervals does; its free variables then give vectors
