@@ -89,9 +89,16 @@ struct Seeds {
 /// With 0 the size alone decides, but a side stands for no more than a sixth of a turn. Edges of faces that
 /// keep their own quads have the nodes of those. Where size or curvature change along an edge its nodes
 /// follow. A free face that one grid fills gets numbers for which it closes (`quads::pattern_counts()`).
-/// Opposite sides of mapped faces are raised to the larger count, a face at a time until nothing
-/// changes; then each free face with an odd total gets one more side on a rim edge of its own, or on an edge
-/// towards one; a mapped face between passes it on.
+///
+/// Mapped and submapped faces are solved together, as one program of whole numbers over all their edges:
+///   least Σ (n − wanted)² / n  over the edges' pieces and three lines across each mapped face, and more for
+///   sides of another size, so that opposite sides have as many and no piece fewer than it needs.
+/// Lengths are those in space, so a face that bulges between its sides, or is narrower there, gets what its
+/// inside needs. Where given numbers contradict each other, sides are raised to the larger count, a face at a
+/// time until nothing changes. A face whose grid would be poor all over, by its angles and lengths in space,
+/// is free. Free faces then get the counts of a grid one after the other, with what others have settled;
+/// those with the most loops first, for their loops must agree. Last, each free face with an odd total gets
+/// one more side on a rim edge of its own, or on an edge towards one; a mapped face between passes it on.
 /// @param sizing  sides for a full turn; with a gap no face is submapped that need not be, unless
 ///                `counts_across` is set: then the sides of mapped faces get the gap's quads at least. The
 ///                rest of it is in the size already.

@@ -1,0 +1,419 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/interval_program.h>
+
+#include <lacuna/geometry/union_find.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+
+namespace lacuna::surface {
+
+namespace {
+
+/// What a side too few under a floor costs: more than any wish. A choice, not a measurement.
+constexpr double kBelowFloor = 1e6;
+/// Up to this many free variables vectors are tried by twos as well: a board of 32 × 32 faces has as many. A
+/// choice, not a measurement.
+constexpr std::size_t kByTwos = 64;
+/// Sides this much shorter or longer than asked for are of another size, as `quads::measure_plane()` has it,
+/// and what that costs for each side wanted and each time it is off by that again. A choice.
+constexpr double kShortest = 0.6, kLongest = 1.6, kOutOfSize = 2;
+/// Coefficients beyond this are no interval assignment; it keeps products within range.
+constexpr std::int64_t kMostCoefficient = 1 << 20;
+/// Larger sets are left alone: these take a tenth of a second. A choice.
+constexpr double kMostWork = 1e8;
+/// A gain smaller than this share of the cost is rounding.
+constexpr double kRounding = 1e-12;
+
+double wish_cost(double n, double wanted, double weight)
+{
+    n = std::max(n, 0.5);
+    const double longer = wanted / n; // than asked for
+    const double out = std::max({0.0, kShortest / longer - 1, longer / kLongest - 1});
+    return weight * ((n - wanted) * (n - wanted) / n + kOutOfSize * wanted * out);
+}
+
+/// Equations that share variables, in numbers of their own.
+class IntervalSet {
+public:
+    IntervalSet(const IntervalProgram& program, std::vector<std::size_t> own,
+                const std::vector<std::size_t>& equations, const std::vector<std::size_t>& wishes,
+                const std::vector<std::size_t>& floors)
+        : program_(program), own_(std::move(own))
+    {
+        for (std::size_t i = 0; i < own_.size(); ++i) local_[own_[i]] = i;
+        for (const std::size_t e : equations) add_row(program.equations[e]);
+        terms_of_.resize(own_.size());
+        for (const std::size_t w : wishes) {
+            const IntervalWish& wish = program.wishes[w];
+            add_term(wish.variables, wish.wanted, wish.weight);
+        }
+        for (const std::size_t f : floors) add_term(program.floors[f].variables, program.floors[f].least, 0);
+    }
+
+    std::optional<std::vector<int>> solve()
+    {
+        const auto size = static_cast<double>(rows_.size());
+        if (size * size * static_cast<double>(own_.size()) > kMostWork) return std::nullopt;
+        if (!reduce() || !start()) return std::nullopt;
+        sums_.clear();
+        for (const Term& term : terms_) sums_.push_back(sum_of(term));
+        while (step()) {}
+        for (std::size_t i = 0; i < own_.size(); ++i) {
+            if (count_[i] < variable(i).least) return std::nullopt;
+        }
+        for (std::size_t t = 0; t < terms_.size(); ++t) {
+            if (terms_[t].weight == 0 && static_cast<double>(sums_[t]) < terms_[t].wanted)
+                return std::nullopt;
+        }
+        return std::vector<int>(count_.begin(), count_.end());
+    }
+
+private:
+    using Row = std::vector<std::int64_t>; ///< coefficients of the set's variables, then the right-hand side
+
+    /// A wish, or with no weight a floor.
+    struct Term {
+        std::vector<std::pair<std::size_t, int>> variables;
+        std::int64_t given = 0; ///< sum over fixed variables
+        double wanted = 1, weight = 1;
+    };
+
+    [[nodiscard]] const IntervalVariable& variable(std::size_t i) const
+    {
+        return program_.variables[own_[i]];
+    }
+
+    void add_row(const IntervalEquation& equation)
+    {
+        Row row(own_.size() + 1, 0);
+        const auto add = [&](const std::vector<std::size_t>& side, int sign) {
+            for (const std::size_t v : side) {
+                if (program_.variables[v].fixed)
+                    row.back() -= sign * program_.variables[v].given;
+                else
+                    row[local_.at(v)] += sign;
+            }
+        };
+        add(equation.one, 1);
+        add(equation.other, -1);
+        rows_.push_back(std::move(row));
+    }
+
+    void add_term(const std::vector<std::size_t>& variables, double wanted, double weight)
+    {
+        Term term{{}, 0, wanted, weight};
+        std::map<std::size_t, int> own;
+        for (const std::size_t v : variables) {
+            if (program_.variables[v].fixed)
+                term.given += program_.variables[v].given;
+            else
+                ++own[local_.at(v)];
+        }
+        term.variables.assign(own.begin(), own.end());
+        for (const auto& [v, times] : term.variables) terms_of_[v].push_back({terms_.size(), times});
+        terms_.push_back(std::move(term));
+    }
+
+    /// Gauss and Jordan in whole numbers. @return false where equations contradict each other
+    bool reduce()
+    {
+        const std::size_t n = own_.size();
+        std::size_t done = 0;
+        std::vector<char> is_pivot(n, 0);
+        while (done < rows_.size()) {
+            // A coefficient of one keeps the others whole; of those the first.
+            std::size_t best_row = done, best = n;
+            for (std::size_t r = done; r < rows_.size(); ++r) {
+                for (std::size_t v = 0; v < n; ++v) {
+                    if (rows_[r][v] == 0) continue;
+                    if (best < n && std::abs(rows_[r][v]) >= std::abs(rows_[best_row][best])) continue;
+                    best_row = r;
+                    best = v;
+                }
+            }
+            if (best == n) break; // the rest has no variables left
+            std::swap(rows_[done], rows_[best_row]);
+            if (rows_[done][best] < 0) negate(rows_[done]);
+            for (std::size_t r = 0; r < rows_.size(); ++r) {
+                if (r != done && rows_[r][best] != 0 && !eliminate(rows_[r], rows_[done], best)) return false;
+            }
+            pivot_.push_back(best);
+            is_pivot[best] = 1;
+            ++done;
+        }
+        for (std::size_t r = done; r < rows_.size(); ++r) {
+            if (rows_[r].back() != 0) return false;
+        }
+        rows_.resize(done);
+        for (std::size_t v = 0; v < n; ++v) {
+            if (is_pivot[v] == 0) free_.push_back(v);
+        }
+        return true;
+    }
+
+    static void negate(Row& row)
+    {
+        for (std::int64_t& x : row) x = -x;
+    }
+
+    static bool eliminate(Row& row, const Row& by, std::size_t pivot)
+    {
+        const std::int64_t a = row[pivot], b = by[pivot], g = std::gcd(a, b);
+        std::int64_t common = 0;
+        for (std::size_t k = 0; k < row.size(); ++k) {
+            row[k] = row[k] * (b / g) - by[k] * (a / g);
+            common = std::gcd(common, row[k]);
+        }
+        if (common > 1) {
+            for (std::int64_t& x : row) x /= common;
+        }
+        return std::all_of(row.begin(), row.end(),
+                           [](std::int64_t x) { return std::abs(x) < kMostCoefficient; });
+    }
+
+    /// The rounded wishes for the free variables, and what follows; and the vectors to go along.
+    bool start()
+    {
+        count_.assign(own_.size(), 0);
+        for (const std::size_t v : free_) {
+            double wanted = 0, weight = 0;
+            for (const auto& [t, times] : terms_of_[v]) {
+                if (terms_[t].variables.size() > 1 || terms_[t].weight == 0) continue;
+                wanted += terms_[t].weight * terms_[t].wanted;
+                weight += terms_[t].weight;
+            }
+            count_[v] = std::max<std::int64_t>(variable(v).least,
+                                               weight > 0 ? std::llround(wanted / weight) : 1);
+        }
+        for (std::size_t r = 0; r < rows_.size(); ++r) {
+            if (!make_whole(r)) return false;
+        }
+        for (const std::size_t v : free_) {
+            std::int64_t stride = 1;
+            for (std::size_t r = 0; r < rows_.size(); ++r) {
+                const std::int64_t p = rows_[r][pivot_[r]];
+                stride = std::lcm(stride, p / std::gcd(p, std::abs(rows_[r][v])));
+            }
+            if (stride >= kMostCoefficient) return false;
+            std::vector<std::pair<std::size_t, std::int64_t>> vector{{v, stride}};
+            for (std::size_t r = 0; r < rows_.size(); ++r) {
+                if (rows_[r][v] != 0)
+                    vector.push_back({pivot_[r], -rows_[r][v] * stride / rows_[r][pivot_[r]]});
+            }
+            vectors_.push_back(std::move(vector));
+        }
+        if (vectors_.size() <= kByTwos) add_pairs();
+        return true;
+    }
+
+    /// Set a row's pivot; where that is no whole number, a free variable of the row that no other row has
+    /// takes the rest.
+    bool make_whole(std::size_t r)
+    {
+        const std::int64_t p = rows_[r][pivot_[r]];
+        const auto rest = [&] {
+            std::int64_t sum = rows_[r].back();
+            for (const std::size_t v : free_) sum -= rows_[r][v] * count_[v];
+            return sum;
+        };
+        for (std::size_t k = 0; k <= free_.size(); ++k) {
+            if (rest() % p == 0) {
+                count_[pivot_[r]] = rest() / p;
+                return true;
+            }
+            if (k == free_.size()) break;
+            const std::size_t v = free_[k];
+            if (rows_[r][v] == 0 || in_rows(v) > 1) continue;
+            const std::int64_t before = count_[v];
+            for (std::int64_t by = 1; by < p && rest() % p != 0; ++by) count_[v] = before + by;
+            if (rest() % p != 0) count_[v] = before;
+        }
+        return false;
+    }
+
+    [[nodiscard]] std::size_t in_rows(std::size_t v) const
+    {
+        return static_cast<std::size_t>(
+            std::count_if(rows_.begin(), rows_.end(), [&](const Row& row) { return row[v] != 0; }));
+    }
+
+    /// Vectors that share a variable, added and taken from each other.
+    void add_pairs()
+    {
+        const std::size_t alone = vectors_.size();
+        for (std::size_t a = 0; a < alone; ++a) {
+            for (std::size_t b = a + 1; b < alone; ++b) {
+                for (const int sign : {1, -1}) {
+                    std::map<std::size_t, std::int64_t> sum(vectors_[a].begin(), vectors_[a].end());
+                    for (const auto& [v, by] : vectors_[b]) sum[v] += sign * by;
+                    std::erase_if(sum, [](const auto& part) { return part.second == 0; });
+                    if (sum.size() < vectors_[a].size() + vectors_[b].size())
+                        vectors_.emplace_back(sum.begin(), sum.end());
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] std::int64_t sum_of(const Term& term) const
+    {
+        std::int64_t sum = term.given;
+        for (const auto& [v, times] : term.variables) sum += times * count_[v];
+        return sum;
+    }
+
+    static double term_cost(const Term& term, std::int64_t sum)
+    {
+        const auto n = static_cast<double>(sum);
+        if (term.weight == 0) return kBelowFloor * std::max(0.0, term.wanted - n);
+        return wish_cost(n, term.wanted, term.weight);
+    }
+
+    [[nodiscard]] double below(std::size_t v, std::int64_t count) const
+    {
+        return kBelowFloor * static_cast<double>(std::max<std::int64_t>(0, variable(v).least - count));
+    }
+
+    /// What a step along a vector costs more.
+    double change(const std::vector<std::pair<std::size_t, std::int64_t>>& vector, std::int64_t times)
+    {
+        touched_.clear();
+        double cost = 0;
+        for (const auto& [v, by] : vector) {
+            cost += below(v, count_[v] + times * by) - below(v, count_[v]);
+            for (const auto& [t, often] : terms_of_[v]) touched_.push_back({t, often * times * by});
+        }
+        std::sort(touched_.begin(), touched_.end());
+        for (std::size_t i = 0; i < touched_.size();) {
+            std::int64_t by = 0;
+            const std::size_t t = touched_[i].first;
+            for (; i < touched_.size() && touched_[i].first == t; ++i) by += touched_[i].second;
+            cost += term_cost(terms_[t], sums_[t] + by) - term_cost(terms_[t], sums_[t]);
+        }
+        return cost;
+    }
+
+    /// Take the step that gains most. @return false where none gains
+    bool step()
+    {
+        constexpr int kMostStep = 1 << 16;
+        double best = -kRounding * (1 + std::abs(cost_));
+        const std::vector<std::pair<std::size_t, std::int64_t>>* along = nullptr;
+        std::int64_t times = 0;
+        for (const auto& vector : vectors_) {
+            for (const int sign : {1, -1}) {
+                double last = 0;
+                for (std::int64_t size = 1; size <= kMostStep; size *= 2) {
+                    const double cost = change(vector, sign * size);
+                    if (cost < best) {
+                        best = cost;
+                        along = &vector;
+                        times = sign * size;
+                    }
+                    if (cost >= last) break;
+                    last = cost;
+                }
+            }
+        }
+        if (along == nullptr) return false;
+        for (const auto& [v, by] : *along) {
+            count_[v] += times * by;
+            for (const auto& [t, often] : terms_of_[v]) sums_[t] += often * times * by;
+        }
+        cost_ += best;
+        return true;
+    }
+
+    const IntervalProgram& program_;
+    std::vector<std::size_t> own_; ///< the program's variables
+    std::map<std::size_t, std::size_t> local_;
+    std::vector<Row> rows_;
+    std::vector<Term> terms_;
+    std::vector<std::vector<std::pair<std::size_t, int>>> terms_of_;
+    std::vector<std::size_t> pivot_, free_;
+    std::vector<std::vector<std::pair<std::size_t, std::int64_t>>> vectors_;
+    std::vector<std::int64_t> count_, sums_;
+    std::vector<std::pair<std::size_t, std::int64_t>> touched_;
+    double cost_ = 0;
+};
+
+} // namespace
+
+double cost_of_intervals(const IntervalProgram& program, std::span<const int> counts)
+{
+    double cost = 0;
+    for (const IntervalWish& wish : program.wishes) {
+        int sum = 0;
+        for (const std::size_t v : wish.variables) sum += counts[v];
+        cost += wish_cost(sum, wish.wanted, wish.weight);
+    }
+    return cost;
+}
+
+std::vector<int> solve_intervals(const IntervalProgram& program)
+{
+    const std::size_t n = program.variables.size();
+    geometry::UnionFind sets(n);
+    constexpr auto kNone = std::numeric_limits<std::size_t>::max();
+    // Fixed variables join nothing.
+    const auto first_of = [&](const std::vector<std::size_t>& variables, std::size_t first) {
+        for (const std::size_t v : variables) {
+            if (program.variables[v].fixed) continue;
+            if (first == kNone)
+                first = v;
+            else
+                sets.unite_least(first, v);
+        }
+        return first;
+    };
+    for (const IntervalEquation& equation : program.equations)
+        first_of(equation.other, first_of(equation.one, kNone));
+    for (const IntervalWish& wish : program.wishes) first_of(wish.variables, kNone);
+    for (const IntervalFloor& floor : program.floors) first_of(floor.variables, kNone);
+
+    struct Parts {
+        std::vector<std::size_t> variables, equations, wishes, floors;
+    };
+    std::map<std::size_t, Parts> parts;
+    for (std::size_t v = 0; v < n; ++v) {
+        if (!program.variables[v].fixed) parts[sets.find(v)].variables.push_back(v);
+    }
+    const auto set_of = [&](const std::vector<std::size_t>& one, const std::vector<std::size_t>& other) {
+        for (const auto* side : {&one, &other}) {
+            for (const std::size_t v : *side) {
+                if (!program.variables[v].fixed) return sets.find(v);
+            }
+        }
+        return kNone;
+    };
+    for (std::size_t e = 0; e < program.equations.size(); ++e) {
+        const IntervalEquation& equation = program.equations[e];
+        const std::size_t set = set_of(equation.one, equation.other);
+        if (set != kNone) parts[set].equations.push_back(e);
+    }
+    for (std::size_t w = 0; w < program.wishes.size(); ++w) {
+        const std::size_t set = set_of(program.wishes[w].variables, {});
+        if (set != kNone) parts[set].wishes.push_back(w);
+    }
+    for (std::size_t f = 0; f < program.floors.size(); ++f) {
+        const std::size_t set = set_of(program.floors[f].variables, {});
+        if (set != kNone) parts[set].floors.push_back(f);
+    }
+
+    std::vector<int> counts(n);
+    for (std::size_t v = 0; v < n; ++v) counts[v] = program.variables[v].given;
+    for (const auto& [set, part] : parts) {
+        const auto own =
+            IntervalSet(program, part.variables, part.equations, part.wishes, part.floors).solve();
+        for (std::size_t i = 0; i < part.variables.size(); ++i)
+            counts[part.variables[i]] = own ? (*own)[i] : 0;
+    }
+    return counts;
+}
+
+} // namespace lacuna::surface

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/mapped_face.h>
+
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/transfinite.h>
+#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// Sides of the grid that is looked at, each way: enough to see a full turn bend. A choice.
+constexpr std::size_t kSamples = 24;
+/// Lines between two sides on which sizes are asked for. A choice, not a measurement.
+constexpr std::size_t kLines = 3;
+/// Those of `quads::measure_plane()`.
+constexpr double kShortest = 0.6, kLongest = 1.6;
+
+bool is_flat(const Model& model, FaceId face)
+{
+    if (model[face].kind == "plane") return true;
+    const Vec3 normal = face_area_vector(model, face).stableNormalized(), origin = face_centroid(model, face);
+    return std::all_of(model[face].triangles.begin(), model[face].triangles.end(), [&](const Triangle& t) {
+        return std::all_of(t.begin(), t.end(), [&](Index p) {
+            return std::abs((model.at(p) - origin).dot(normal)) <= model.tolerance;
+        });
+    });
+}
+
+/// Points of a side of the face, evenly spread by running length.
+std::vector<Vec3> side_points(const Model& model, const Loop& loop, std::size_t from, std::size_t to)
+{
+    std::vector<Vec3> line;
+    for (std::size_t i = from; i != to; i = (i + 1) % loop.uses.size()) {
+        for (const Index p : use_points(model, loop.uses[i])) line.push_back(model.at(p));
+    }
+    const std::vector<double> arc = geometry::arc_lengths(line);
+    std::vector<Vec3> points;
+    for (std::size_t k = 0; k <= kSamples; ++k)
+        points.push_back(geometry::point_at(line, arc, arc.back() * static_cast<double>(k) / kSamples));
+    points.front() = line.front();
+    points.back() = line.back();
+    return points;
+}
+
+} // namespace
+
+MappedFace::MappedFace(const Model& model, FaceId face, const std::vector<std::size_t>& corners)
+{
+    const Loop& loop = model[face].loops[0];
+    std::array<std::vector<Vec3>, 4> side;
+    for (std::size_t s = 0; s < 4; ++s) side[s] = side_points(model, loop, corners[s], corners[(s + 1) % 4]);
+    std::reverse(side[2].begin(), side[2].end());
+    std::reverse(side[3].begin(), side[3].end());
+    points_ = geometry::transfinite(side[0], side[1], side[2], side[3]);
+    if (is_flat(model, face)) return;
+    // Facets are near enough for sizes and angles.
+    const geometry::FacetTree tree(model.points, model[face].triangles);
+    for (std::size_t j = 1; j < kSamples; ++j) {
+        for (std::size_t i = 1; i < kSamples; ++i) {
+            Vec3& p = points_[j * (kSamples + 1) + i];
+            p = tree.closest(p).point;
+        }
+    }
+}
+
+const Vec3& MappedFace::at(std::size_t i, std::size_t j) const { return points_[j * (kSamples + 1) + i]; }
+
+double MappedFace::sides_between(const Vec3& a, const Vec3& b, const SizeField& size) const
+{
+    return (b - a).norm() / size((a + b) / 2);
+}
+
+std::array<std::vector<double>, 2> MappedFace::wanted_inside(const SizeField& size) const
+{
+    std::array<std::vector<double>, 2> wanted;
+    for (std::size_t line = 1; line <= kLines; ++line) {
+        const std::size_t k = line * kSamples / (kLines + 1);
+        std::array<double, 2> sum{};
+        for (std::size_t i = 0; i < kSamples; ++i) {
+            sum[0] += sides_between(at(i, k), at(i + 1, k), size);
+            sum[1] += sides_between(at(k, i), at(k, i + 1), size);
+        }
+        for (std::size_t way = 0; way < 2; ++way) wanted[way].push_back(sum[way]);
+    }
+    return wanted;
+}
+
+MappedFace::Shape MappedFace::shape(const SizeField& size) const
+{
+    Shape shape;
+    double jacobians = 0;
+    std::array<std::vector<double>, 2> sides; // by the size asked for, along either way
+    for (std::size_t j = 0; j < kSamples; ++j) {
+        for (std::size_t i = 0; i < kSamples; ++i) {
+            const std::array<Vec3, 4> quad{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+            const Vec3 normal = (quad[2] - quad[0]).cross(quad[3] - quad[1]);
+            double least = 1;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Vec3 a = quad[(k + 1) % 4] - quad[k], b = quad[(k + 3) % 4] - quad[k],
+                           cross = a.cross(b);
+                const double both = a.norm() * b.norm();
+                least = std::min(least, both > 0 ? std::copysign(cross.norm() / both, cross.dot(normal)) : 0);
+            }
+            jacobians += least;
+            sides[0].push_back(sides_between(quad[0], quad[1], size));
+            sides[1].push_back(sides_between(quad[0], quad[3], size));
+        }
+    }
+    shape.mean_scaled_jacobian = jacobians / (kSamples * kSamples);
+    for (const std::vector<double>& own : sides) {
+        double squares = 0;
+        for (const double s : own) squares += s * s;
+        const double mean = std::sqrt(squares / static_cast<double>(own.size()));
+        const auto good = std::count_if(
+            own.begin(), own.end(), [&](double s) { return s >= kShortest * mean && s <= kLongest * mean; });
+        shape.even_share = std::min(shape.even_share,
+                                    static_cast<double>(good) / static_cast<double>(own.size()));
+    }
+    return shape;
+}
+
+} // namespace lacuna::surface

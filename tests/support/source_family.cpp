@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: MIT
+#include "support/source_family.h"
+
+#include <lacuna/healing/split_facets.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numbers>
+
+namespace lacuna::test {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kTurn = 2 * kPi;
+
+using PlanMap = std::function<Vec2(double, double)>;       ///< of the unit square
+using SpaceMap = std::function<Vec3(const Vec2&, double)>; ///< of plan and height, 0 source to 1 target
+
+/// Four-sided piece of the plan, anticlockwise; facets of one source face. Its sides that no other has carry
+/// walls: by names, so that one wall may stand on several; 0: a wall of its own.
+struct PlanPatch {
+    int face = 0;
+    PlanMap at;
+    std::array<int, 4> wall{};
+};
+
+Vec3 raised(const Vec2& p, double height) { return {p.x(), p.y(), height}; }
+
+class PrismMaker {
+public:
+    PrismMaker(const std::vector<PlanPatch>& patches, SpaceMap map, int facets)
+        : patches_(patches), map_(std::move(map)), n_(facets)
+    {
+    }
+
+    topology::OpenVolume make()
+    {
+        const int target = label("target", topology::Role::target);
+        for (const PlanPatch& patch : patches_) add_patch(patch, target);
+        for (std::size_t p = 0; p < patches_.size(); ++p) {
+            for (std::size_t s = 0; s < 4; ++s) {
+                if (uses_.at(key(side_point(patches_[p], s, 0.5))) == 1) add_wall(patches_[p], p, s);
+            }
+        }
+        healing::SplitOptions split;
+        split.whole_labels = true;
+        const topology::Model model = healing::split_facets(soup_, split);
+        topology::Roles roles;
+        for (std::size_t f = 0; f < model.faces.size(); ++f) {
+            const topology::Role role = role_.at(model.faces[f].name);
+            (role == topology::Role::source   ? roles.source
+             : role == topology::Role::target ? roles.target
+                                              : roles.walls)
+                .emplace_back(f);
+        }
+        return topology::open_volume(model, roles);
+    }
+
+private:
+    using Key = std::array<long, 2>;
+    static Key key(const Vec2& p) { return {std::lround(p.x() * 1e6), std::lround(p.y() * 1e6)}; }
+
+    static Vec2 side_point(const PlanPatch& patch, std::size_t side, double t)
+    {
+        switch (side) {
+        case 0:
+            return patch.at(t, 0);
+        case 1:
+            return patch.at(1, t);
+        case 2:
+            return patch.at(1 - t, 1);
+        default:
+            return patch.at(0, 1 - t);
+        }
+    }
+
+    int label(const std::string& name, topology::Role role)
+    {
+        const auto [found, fresh] = label_.try_emplace(name, static_cast<int>(soup_.label_name.size()));
+        if (fresh) {
+            soup_.label_name.push_back(name);
+            role_[name] = role;
+        }
+        return found->second;
+    }
+
+    Index node(const Vec3& p)
+    {
+        soup_.points.push_back(p);
+        return static_cast<Index>(soup_.points.size()) - 1;
+    }
+
+    void add(const Quad& q, int of)
+    {
+        soup_.triangles.push_back({q[0], q[1], q[2]});
+        soup_.triangles.push_back({q[0], q[2], q[3]});
+        soup_.triangle_label.insert(soup_.triangle_label.end(), 2, of);
+    }
+
+    void add_patch(const PlanPatch& patch, int target)
+    {
+        const int source = label("source " + std::to_string(patch.face), topology::Role::source);
+        for (std::size_t s = 0; s < 4; ++s) ++uses_[key(side_point(patch, s, 0.5))];
+        for (const double height : {0.0, 1.0}) {
+            std::vector<Index> nodes;
+            for (int j = 0; j <= n_; ++j) {
+                for (int i = 0; i <= n_; ++i)
+                    nodes.push_back(node(map_(patch.at(double(i) / n_, double(j) / n_), height)));
+            }
+            const auto at = [&](int i, int j) { return nodes[static_cast<std::size_t>(j * (n_ + 1) + i)]; };
+            for (int j = 0; j < n_; ++j) {
+                for (int i = 0; i < n_; ++i) {
+                    if (height > 0)
+                        add({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}, target);
+                    else
+                        add({at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)}, source);
+                }
+            }
+        }
+    }
+
+    void add_wall(const PlanPatch& patch, std::size_t number, std::size_t side)
+    {
+        const std::string name = patch.wall[side] > 0
+                                     ? "wall " + std::to_string(patch.wall[side])
+                                     : "wall " + std::to_string(number) + "." + std::to_string(side);
+        const int wall = label(name, topology::Role::wall);
+        for (int i = 0; i < n_; ++i) {
+            const Vec2 a = side_point(patch, side, double(i) / n_),
+                       b = side_point(patch, side, double(i + 1) / n_);
+            add({node(map_(a, 0)), node(map_(b, 0)), node(map_(b, 1)), node(map_(a, 1))}, wall);
+        }
+    }
+
+    const std::vector<PlanPatch>& patches_;
+    SpaceMap map_;
+    int n_;
+    healing::FacetSoup soup_;
+    std::map<std::string, int> label_;
+    std::map<std::string, topology::Role> role_;
+    std::map<Key, int> uses_; ///< of the patches' sides, by their middles
+};
+
+/// A rectangle of the plan.
+PlanMap rectangle(double x0, double y0, double x1, double y1)
+{
+    return [=](double s, double t) { return Vec2(x0 + s * (x1 - x0), y0 + t * (y1 - y0)); };
+}
+
+Vec2 on_ellipse(double a, double b, double angle) { return {a * std::cos(angle), b * std::sin(angle)}; }
+
+/// Between two ellipses that have a point at each angle: s runs outward, t along.
+PlanMap ring_part(double inner, double outer, double from, double to, double flat = 1)
+{
+    return [=](double s, double t) {
+        const double angle = from + t * (to - from), radius = inner + s * (outer - inner);
+        return on_ellipse(radius, radius * flat, angle);
+    };
+}
+
+/// The part of a disc over a rectangle of the square [-1, 1]², by the elliptical map.
+PlanMap disc_part(double x0, double y0, double x1, double y1, double radius = 1)
+{
+    return [=](double s, double t) {
+        const double x = x0 + s * (x1 - x0), y = y0 + t * (y1 - y0);
+        return Vec2(radius * x * std::sqrt(1 - y * y / 2), radius * y * std::sqrt(1 - x * x / 2));
+    };
+}
+
+/// Between a round hole and a square about it: s runs outward, t along a quarter or half of one.
+PlanMap hole_part(double hole, double half, double from, double to)
+{
+    return [=](double s, double t) {
+        const double angle = from + t * (to - from);
+        const Vec2 out(std::cos(angle), std::sin(angle));
+        const double corner = std::max(std::abs(out.x()), std::abs(out.y()));
+        return Vec2((hole + s * (half / corner - hole)) * out);
+    };
+}
+
+struct Case {
+    std::string name;
+    std::vector<PlanPatch> patches;
+    int least = 0;
+    bool grid = false;
+    SpaceMap map{};
+};
+
+std::vector<Case> plane_cases()
+{
+    std::vector<Case> cases;
+    const auto ring = [](double inner, double outer, int faces, double flat, double shift) {
+        std::vector<PlanPatch> patches;
+        const int each = std::max(1, 4 / faces); // patches a face
+        for (int k = 0; k < faces * each; ++k) {
+            const double step = kTurn / (faces * each);
+            patches.push_back({k / each,
+                               ring_part(inner, outer, shift + k * step, shift + (k + 1) * step, flat),
+                               {0, 1 + k / each, 0, 11 + k / each}});
+        }
+        return patches;
+    };
+    cases.push_back({"ring in halves", ring(0.5, 1, 2, 1, 0), 0, true});
+    cases.push_back({"thin ring in halves", ring(0.8, 1, 2, 1, 0), 0, true});
+    cases.push_back({"ring in three", ring(0.4, 1, 3, 1, 0.3), 0, true});
+    cases.push_back({"ring in quarters", ring(0.6, 1, 4, 1, 0.5), 0, true});
+    cases.push_back({"flat ring in halves", ring(0.8, 1, 2, 0.4, 0), 0, false});
+    cases.push_back({"flat ring in quarters", ring(0.7, 1, 4, 0.5, 0), 0, false});
+    cases.push_back({"disc in halves",
+                     {{0, disc_part(-1, 0, 1, 1), {0, 1, 1, 1}}, {1, disc_part(-1, -1, 1, 0), {2, 2, 0, 2}}},
+                     4});
+    cases.push_back({"disc in quarters",
+                     {{0, disc_part(0, 0, 1, 1), {0, 1, 1, 0}},
+                      {1, disc_part(-1, 0, 0, 1), {0, 0, 2, 2}},
+                      {2, disc_part(-1, -1, 0, 0), {3, 0, 0, 3}},
+                      {3, disc_part(0, -1, 1, 0), {4, 4, 0, 0}}},
+                     4});
+    std::vector<PlanPatch> core;
+    core.push_back({0, disc_part(-1, -1, 1, 1, 0.5)});
+    for (int k = 0; k < 4; ++k) {
+        core.push_back({1,
+                        [k](double s, double t) {
+                            const Vec2 rim = disc_part(-1, -1, 1, 1)(1, t) * (0.5 + s / 2);
+                            const double turn = k * kPi / 2;
+                            return Vec2(rim.x() * std::cos(turn) - rim.y() * std::sin(turn),
+                                        rim.x() * std::sin(turn) + rim.y() * std::cos(turn));
+                        },
+                        {0, 1, 0, 0}});
+    }
+    cases.push_back({"disc of core and ring", core, 4});
+    const auto holed = [](const std::array<int, 8>& face) {
+        std::vector<PlanPatch> patches;
+        for (std::size_t k = 0; k < 8; ++k) {
+            // Sides of the square turn at odd numbers of eighths.
+            const int side = static_cast<int>((k + 1) / 2) % 4;
+            patches.push_back({face[k],
+                               hole_part(0.4, 1, double(k) * kPi / 4, double(k + 1) * kPi / 4),
+                               {0, 10 * (face[k] + 1) + side, 0, 50 + face[k]}});
+        }
+        return patches;
+    };
+    cases.push_back({"holed plate in halves", holed({0, 0, 0, 0, 1, 1, 1, 1}), 4});
+    cases.push_back({"holed plate in quarters", holed({0, 0, 1, 1, 2, 2, 3, 3}), 4});
+    cases.push_back({"L of two",
+                     {{0, rectangle(0, 0, 1, 1), {1, 0, 0, 2}},
+                      {0, rectangle(0, 1, 1, 2.3), {0, 3, 4, 2}},
+                      {1, rectangle(1, 0, 2.7, 1), {0, 5, 6, 0}}},
+                     0,
+                     true});
+    cases.push_back({"T of three",
+                     {{0, rectangle(0, 0, 1.1, 0.9)},
+                      {1, rectangle(1.1, 0, 1.9, 0.9)},
+                      {2, rectangle(1.9, 0, 3.3, 0.9)},
+                      {1, rectangle(1.1, 0.9, 1.9, 2.6)}},
+                     0,
+                     true});
+    cases.push_back({"board of unlike",
+                     {{0, rectangle(0, 0, 1, 0.7)},
+                      {1, rectangle(1, 0, 2.37, 0.7)},
+                      {2, rectangle(0, 0.7, 1, 1.83)},
+                      {3, rectangle(1, 0.7, 2.37, 1.83)}},
+                     0,
+                     true});
+    const auto wedge = [](Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+        return [=](double s, double t) {
+            return Vec2((1 - s) * (1 - t) * a + s * (1 - t) * b + s * t * c + (1 - s) * t * d);
+        };
+    };
+    cases.push_back({"trapezia in a row",
+                     {{0, wedge({0, 0}, {1, 0}, {1, 1.5}, {0, 1})},
+                      {1, wedge({1, 0}, {2, 0}, {2, 0.8}, {1, 1.5})},
+                      {2, wedge({2, 0}, {3.2, 0}, {3.2, 1.2}, {2, 0.8})}},
+                     0,
+                     true});
+    return cases;
+}
+
+/// A surface of the plan, and as it is moved along a way.
+SpaceMap moved_along(std::function<Vec3(const Vec2&)> surface, const Vec3& way)
+{
+    return [=](const Vec2& p, double height) { return Vec3(surface(p) + height * way); };
+}
+
+std::vector<Case> curved_cases()
+{
+    std::vector<Case> cases;
+    // x along the axis or meridian, y round it; the height blows up the radius.
+    const auto about_axis = [](double radius_from, double radius_to) -> SpaceMap {
+        return [=](const Vec2& p, double height) {
+            const double radius = (radius_from + p.x() * (radius_to - radius_from)) * (1 + 0.3 * height);
+            return Vec3(p.x(), radius * std::sin(p.y()), radius * std::cos(p.y()));
+        };
+    };
+    const auto strips = [](double angle, int faces) {
+        std::vector<PlanPatch> patches;
+        for (int k = 0; k < faces; ++k)
+            patches.push_back(
+                {k,
+                 rectangle(0, angle * (double(k) / faces - 0.5), 1, angle * (double(k + 1) / faces - 0.5)),
+                 {0, 1, 0, 2}});
+        return patches;
+    };
+    cases.push_back({"half cylinder", strips(kPi, 1), 0, true, about_axis(0.7, 0.7)});
+    cases.push_back({"half cylinder in halves", strips(kPi, 2), 0, true, about_axis(0.7, 0.7)});
+    cases.push_back({"half cone", strips(kPi, 1), 0, false, about_axis(0.3, 0.8)});
+    cases.push_back({"half cone in three", strips(kPi, 3), 0, false, about_axis(0.35, 0.8)});
+    cases.push_back({"steep half cone", strips(kPi, 1), 0, false, about_axis(0.15, 1.2)});
+    const auto sphere = [](const Vec2& p, double height) {
+        const double radius = 1 + 0.3 * height; // p: longitude and latitude
+        return Vec3(radius * std::cos(p.y()) * std::sin(p.x()), radius * std::sin(p.y()),
+                    radius * std::cos(p.y()) * std::cos(p.x()));
+    };
+    cases.push_back({"sphere patch", {{0, rectangle(-0.9, -0.9, 0.9, 0.9)}}, 0, false, sphere});
+    cases.push_back({"tall sphere patch", {{0, rectangle(-0.7, -0.2, 0.7, 1.2)}}, 0, false, sphere});
+    cases.push_back({"sphere in halves",
+                     {{0, rectangle(-0.9, -0.9, 0, 0.9)}, {1, rectangle(0, -0.9, 0.9, 0.9)}},
+                     0,
+                     false,
+                     sphere});
+    const auto up = [](auto surface) { return moved_along(surface, Vec3(0, 0, 1.5)); };
+    cases.push_back({"saddle", {{0, rectangle(-1, -1, 1, 1)}}, 0, true, up([](const Vec2& p) {
+                         return Vec3(p.x(), p.y(), 0.5 * (p.x() * p.x() - p.y() * p.y()));
+                     })});
+    cases.push_back(
+        {"saddle in quarters",
+         {{0, rectangle(-1, -1, 0, 0)},
+          {1, rectangle(0, -1, 1, 0)},
+          {2, rectangle(-1, 0, 0, 1)},
+          {3, rectangle(0, 0, 1, 1)}},
+         0,
+         true,
+         up([](const Vec2& p) { return Vec3(p.x(), p.y(), 0.5 * (p.x() * p.x() - p.y() * p.y())); })});
+    cases.push_back({"twisted", {{0, rectangle(-1, -0.6, 1, 0.6)}}, 0, true, up([](const Vec2& p) {
+                         return Vec3(p.x(), p.y(), 0.9 * p.x() * p.y());
+                     })});
+    cases.push_back(
+        {"domed disc", {{0, disc_part(-1, -1, 1, 1), {1, 1, 1, 1}}}, 4, false, up([](const Vec2& p) {
+             return Vec3(p.x(), p.y(), 0.45 * p.squaredNorm());
+         })});
+    // The plan's unit circle becomes the parallel 80° from the pole.
+    const auto dome = [](const Vec2& p, double height) {
+        const double radius = 1 + 0.3 * height, polar = p.norm() * 80 * kPi / 180;
+        const double out = p.norm() > 0 ? std::sin(polar) / p.norm() : 0;
+        return Vec3(radius * out * p.x(), radius * out * p.y(), radius * std::cos(polar));
+    };
+    cases.push_back({"deep dome", {{0, disc_part(-1, -1, 1, 1), {1, 1, 1, 1}}}, 4, false, dome});
+    cases.push_back({"deep dome in halves",
+                     {{0, disc_part(-1, 0, 1, 1), {0, 1, 1, 1}}, {1, disc_part(-1, -1, 1, 0), {2, 2, 0, 2}}},
+                     4,
+                     false,
+                     dome});
+    const auto wave = [](const Vec2& p) {
+        return Vec3(p.x(), p.y(), 0.25 * std::sin(2.5 * p.x()) * std::cos(2 * p.y()));
+    };
+    std::vector<PlanPatch> holed;
+    for (int k = 0; k < 8; ++k) {
+        holed.push_back({k / 4,
+                         hole_part(0.4, 1, k * kPi / 4, (k + 1) * kPi / 4),
+                         {0, 10 * (k / 4 + 1) + (k + 1) / 2 % 4, 0, 50 + k / 4}});
+    }
+    cases.push_back({"waved holed plate in halves", holed, 4, false, up(wave)});
+    std::vector<PlanPatch> ring;
+    for (int k = 0; k < 4; ++k)
+        ring.push_back({k / 2, ring_part(0.45, 1, k * kPi / 2, (k + 1) * kPi / 2), {0, 1 + k / 2, 0, 11}});
+    cases.push_back({"dished ring in halves", ring, 0, true,
+                     up([](const Vec2& p) { return Vec3(p.x(), p.y(), 0.6 * p.squaredNorm()); })});
+    // A half cylinder with a hole through its skin.
+    std::vector<PlanPatch> skin = holed;
+    for (PlanPatch& patch : skin) {
+        patch.face = 0;
+        patch.wall[1] %= 10;
+        patch.wall[1] += 20;
+        patch.wall[3] = 50;
+    }
+    cases.push_back({"holed half cylinder", skin, 4, false, [](const Vec2& p, double height) {
+                         const double radius = 2 / kPi * (1 + 0.3 * height), angle = p.y() * kPi / 2;
+                         return Vec3(p.x(), radius * std::sin(angle), radius * std::cos(angle));
+                     }});
+    return cases;
+}
+
+} // namespace
+
+std::vector<FamilySource> source_family(int facets)
+{
+    std::vector<FamilySource> family;
+    for (const bool plane : {true, false}) {
+        for (Case& own : plane ? plane_cases() : curved_cases()) {
+            const SpaceMap map = own.map ? own.map : SpaceMap(raised);
+            family.push_back(
+                {own.name, PrismMaker(own.patches, map, facets).make(), own.least, plane, own.grid});
+        }
+    }
+    return family;
+}
+
+} // namespace lacuna::test

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "support/measure_sources.h"
+#include "support/source_family.h"
+
+#include <lacuna/quads/pave.h>
+#include <lacuna/surface/seeds.h>
+#include <lacuna/surface/source_mesh.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+using namespace lacuna;
+using namespace lacuna::topology;
+
+namespace {
+
+struct Meshed {
+    surface::Seeds seeds;
+    surface::SourceMesh mesh;
+    test::UnionQuality quality;
+    double size = 0;
+};
+
+Meshed mesh_family_source(const test::FamilySource& source, double quads)
+{
+    Meshed result;
+    double area = 0;
+    for (const FaceId face : source.volume.faces(Role::source)) area += face_area(source.volume.model, face);
+    result.size = std::sqrt(area / quads);
+    const surface::SizeField size = [&](const Vec3&) { return result.size; };
+    const auto links = surface::linking_surfaces(source.volume);
+    result.seeds = surface::seed_source(source.volume, links, size, surface::QuadStyle::automatic,
+                                        {.curvature = 0});
+    result.mesh = surface::mesh_source(source.volume, links, result.seeds, {size, {}},
+                                       [](const quads::PlanarRegion& region, const RunContext& context) {
+                                           return quads::pave(region, {}, context).mesh;
+                                       });
+    result.quality = test::measure_union(result.mesh, result.size);
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("quads of several source faces and of curved ones are good as one mesh in space")
+{
+    int meshes = 0;
+    for (const test::FamilySource& source : test::source_family()) {
+        for (const double quads : {40.0, 120.0, 400.0}) {
+            CAPTURE(source.name);
+            CAPTURE(quads);
+            const test::UnionQuality q = mesh_family_source(source, quads).quality;
+            CHECK(q.triangles == 0);
+            CHECK(q.bad_sides == 0);
+            CHECK(q.min_scaled_jacobian > 0.6);
+            CHECK(q.mean_scaled_jacobian > 0.75);
+            if (source.grid) CHECK(q.irregular == 0);
+            CHECK(q.irregular_shared <= 2);
+            ++meshes;
+        }
+    }
+    MESSAGE(meshes << " meshes");
+}
+
+TEST_CASE("several faces that are grids or rings get as many quads as asked for, within a quarter")
+{
+    int meshes = 0;
+    for (const test::FamilySource& source : test::source_family()) {
+        if (!source.grid) continue;
+        for (const double quads : {120.0, 400.0, 1000.0}) {
+            CAPTURE(source.name);
+            CAPTURE(quads);
+            const test::UnionQuality q = mesh_family_source(source, quads).quality;
+            CHECK(static_cast<double>(q.quads) >= 0.75 * quads);
+            CHECK(static_cast<double>(q.quads) <= 1.25 * quads);
+            CHECK(test::UnionQuality::share(q.edges_of_size, q.edges) >= 0.85);
+            ++meshes;
+        }
+    }
+    MESSAGE(meshes << " meshes");
+}
+
+TEST_CASE("a face that bulges between its sides gets as many quads as its area asks for")
+{
+    for (const test::FamilySource& source : test::source_family()) {
+        if (source.name != "sphere patch" && source.name != "sphere in halves") continue;
+        for (const double quads : {120.0, 400.0, 1000.0, 3000.0}) {
+            CAPTURE(source.name);
+            CAPTURE(quads);
+            const auto got = static_cast<double>(mesh_family_source(source, quads).quality.quads);
+            CHECK(got >= 0.85 * quads);
+            CHECK(got <= 1.15 * quads);
+        }
+    }
+}
+
+TEST_CASE("nodes of an edge that two source faces share are corners of quads of both")
+{
+    for (const test::FamilySource& source : test::source_family()) {
+        CAPTURE(source.name);
+        const Meshed made = mesh_family_source(source, 120);
+        const Model& model = source.volume.model;
+        std::map<EdgeId, std::set<FaceId>> users;
+        for (const FaceId face : source.volume.faces(Role::source)) {
+            for (const Loop& loop : model[face].loops) {
+                for (const EdgeUse& use : loop.uses) users[use.edge].insert(face);
+            }
+        }
+        for (const auto& [edge, faces] : users) {
+            for (const FaceId face : faces) {
+                std::set<Index> corners;
+                for (std::size_t q = 0; q < made.mesh.quads.quads.size(); ++q) {
+                    if (made.mesh.quads.face[q] != static_cast<Index>(face.index())) continue;
+                    const Quad& quad = made.mesh.quads.quads[q];
+                    corners.insert(quad.begin(), quad.end());
+                }
+                for (const Index node : made.mesh.on_edge.at(edge)) CHECK(corners.contains(node));
+            }
+        }
+    }
+}
