@@ -49,3 +49,38 @@ TEST_CASE("a box with a round pocket or boss in its top has the pocket or boss i
         }
     }
 }
+
+TEST_CASE("a counterbore is meshed from its wall and its floor, which has the narrower bore in it")
+{
+    const test::TempFolder folder;
+    for (const double depth : {0.1, 0.5, 1.5}) {
+        for (const double narrow : {0.2, 0.7, 0.95}) {
+            CAPTURE(depth);
+            CAPTURE(narrow);
+            const std::string script =
+                "SetFactory(\"OpenCASCADE\");\nBox(1)={-2,-2,0,4,4,2};\nCylinder(2)={0,0,2,0,0,-" +
+                std::to_string(depth) + ",1};\nCylinder(3)={0,0,-1,0,0,4," + std::to_string(narrow) +
+                "};\nBooleanDifference(4)={ Volume{1}; Delete; }{ Volume{2,3}; Delete; };\n";
+            const Model model = cad::load({folder.write("bore.geo", script)});
+            Roles roles;
+            for (std::size_t f = 0; f < model.faces.size(); ++f) {
+                const double z = face_centroid(model, FaceId(f)).z();
+                const bool floor = model.faces[f].kind == "plane" && std::abs(z - 2 + depth) < 1e-6 &&
+                                   model.faces[f].loops.size() == 2;
+                const bool wall = model.faces[f].kind == "cylinder" && std::abs(z - 2 + depth / 2) < 1e-3;
+                if (floor || wall) roles.walls.emplace_back(f);
+            }
+            REQUIRE(roles.walls.size() == 2);
+            OpenVolume volume = open_volume(model, roles);
+            closure::close(volume, {});
+            sweep::SweepOptions options;
+            options.layers.count = 4;
+            options.size = [](const Vec3&) { return 0.25; };
+            const sweep::Swept swept = sweep::sweep(volume, options);
+            test::check_valid(swept.mesh);
+            CHECK(swept.min_scaled_jacobian >= 0.2);
+            CHECK(quality::measure(swept.mesh).volume ==
+                  doctest::Approx(std::numbers::pi * depth).epsilon(0.03));
+        }
+    }
+}

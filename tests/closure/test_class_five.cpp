@@ -94,6 +94,47 @@ TEST_CASE(
     MESSAGE(combinations << " sets of walls");
 }
 
+TEST_CASE(
+    "a floor round a narrower bore is part of the end it lies in, whichever that is, and not of the walls")
+{
+    for (const int sides : {0, 4, 7}) {
+        for (const int hole_sides : {0, 5}) {
+            for (const double bend : {0.0, 80.0}) {
+                for (const double taper : {0.6, 1.0, 1.5}) {
+                    CAPTURE(sides);
+                    CAPTURE(hole_sides);
+                    CAPTURE(bend);
+                    CAPTURE(taper);
+                    PrismOptions options{.sides = sides,
+                                         .height = 3,
+                                         .hole_sides = hole_sides,
+                                         .levels = 8,
+                                         .taper = taper,
+                                         .bend = bend};
+                    const double volume_within = test::prism(options).facet_volume;
+                    options.holes = 1;
+                    options.drop = [](const Part& part) {
+                        return part.role == Role::source || (part.role == Role::wall && part.loop > 0);
+                    };
+                    const test::Prism prism = test::prism(options);
+                    Roles roles;
+                    for (std::size_t f = 0; f < prism.model.faces.size(); ++f) roles.walls.emplace_back(f);
+                    OpenVolume volume = open_volume(prism.model, roles);
+                    const FaceId floor = prism.roles.target.front();
+                    CHECK(classify(volume).value == VolumeClass::V);
+                    const closure::Closure closed = test::seal(volume);
+                    test::check_sealed(volume);
+                    CHECK(closure::enclosed_volume(volume) == doctest::Approx(volume_within).epsilon(1e-9));
+                    CHECK(volume.role[floor.index()] != Role::wall);
+                    CHECK(volume.faces(volume.role[floor.index()]).size() == 2);
+                    CHECK(volume.faces(Role::wall).size() == prism.model.faces.size() - 1);
+                    CHECK(closed.notes.size() == 1);
+                }
+            }
+        }
+    }
+}
+
 TEST_CASE("walls that leave an odd number of loops are refused, and the walls named")
 {
     // Two tubes, one of them with a lid: three free loops.

@@ -75,6 +75,23 @@ TEST_CASE("a tapered wall has the half angle, axis and tip of its cone, and no r
     }
 }
 
+TEST_CASE("a narrow piece of what a file calls a cone or a torus is no cylinder and no sphere")
+{
+    int alike = 0; // those that facets alone would call so
+    for (const double taper : {0.9, 0.99, 0.999}) {
+        for (const int pieces : {4, 12}) {
+            auto prism = test::prism({.sides = 0, .height = 3, .pieces = pieces, .taper = taper});
+            const FaceId wall = prism.face({Role::wall});
+            alike += round_shape(prism.model, wall) ? 1 : 0;
+            for (const char* kind : {"cone", "torus"}) {
+                prism.model[wall].kind = kind;
+                CHECK(!round_shape(prism.model, wall));
+            }
+        }
+    }
+    CHECK(alike > 0);
+}
+
 TEST_CASE("the holes of a plate are its hollows, and its outer sides are none")
 {
     for (const int holes : {0, 1, 3}) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace lacuna::closure {
 
@@ -160,6 +161,41 @@ EndLoops group_loops(OpenVolume& volume)
         ends.target.push_back(as_end(tube.rim[1]));
     }
     return ends;
+}
+
+std::vector<FaceId> floors_round(const OpenVolume& volume, const std::vector<Loop>& end)
+{
+    const Model& model = volume.model;
+    const auto uses = edge_uses(model);
+    std::vector<FaceId> floors;
+    for (const Loop& loop : end) {
+        const auto is_of_loop = [&](const EdgeUse& use) {
+            return std::ranges::any_of(loop.uses, [&](const EdgeUse& own) { return own.edge == use.edge; });
+        };
+        const std::array<std::vector<Vec3>, 1> rim{points_of(model, {loop.uses})};
+        const geometry::Plane plane = geometry::newell_plane(rim);
+        for (const FaceId wall : volume.faces(Role::wall)) {
+            const Face& face = model[wall];
+            std::size_t around = 0;
+            bool goes_on = face.loops.size() > 1;
+            for (const Loop& own : face.loops) {
+                for (const EdgeUse& use : own.uses) {
+                    if (is_of_loop(use))
+                        ++around;
+                    else
+                        goes_on = goes_on && uses[use.edge.index()].size() == 2;
+                }
+            }
+            const auto in_plane = [&](const Triangle& t) {
+                return std::ranges::all_of(t, [&](Index p) {
+                    return std::abs(geometry::height(plane, model.at(p))) <= model.tolerance;
+                });
+            };
+            if (goes_on && around == loop.uses.size() && std::ranges::all_of(face.triangles, in_plane))
+                floors.push_back(wall);
+        }
+    }
+    return floors;
 }
 
 } // namespace lacuna::closure

@@ -201,13 +201,24 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
     closure.void_faces.push_back(add_void_face(volume, std::move(filling), Role::target));
 }
 
-/// Eq. (5) to (8): the free loops, sorted into two subsets, are the source's and the target's.
+/// Eq. (5) to (8): the free loops, sorted into two subsets, are the source's and the target's. Departure: a
+/// floor round a loop is part of that end, with which it would make cells of no thickness as a wall.
 void close_class_five(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     note(closure, "Algorithm 11");
     const EndLoops ends = group_loops(volume);
-    add_face(volume, closure, ends.source, Role::source, tools);
-    add_face(volume, closure, ends.target, Role::target, tools);
+    for (const Role role : {Role::source, Role::target}) {
+        const std::vector<Loop>& end = role == Role::source ? ends.source : ends.target;
+        const std::vector<FaceId> floors = floors_round(volume, end);
+        add_face(volume, closure, end, role, tools);
+        for (const FaceId floor : floors) {
+            volume.role[floor.index()] = role;
+            closure.notes.push_back(name_of(volume.model, floor) + " lies in the plane of " +
+                                    (role == Role::source ? "the source" : "the target") +
+                                    " and is taken as a part of it");
+            log_line(tools.context, closure.notes.back());
+        }
+    }
 }
 
 Closure close_as(OpenVolume& volume, const matching::Match& match, VolumeClass value, const Tools& tools)

@@ -382,6 +382,16 @@ const OpenVolume& shape_of(const OpenVolume& volume, const SweepOptions& options
     return options.beside.shape != nullptr ? *options.beside.shape : volume;
 }
 
+/// Whether nothing but their number says where layers lie: no heights, no wall that keeps its nodes, and no
+/// neighbour in an assembly.
+bool by_count_alone(const OpenVolume& volume, const SweepOptions& options)
+{
+    const bool alone = !options.beside.settle && options.beside.shape == nullptr;
+    return alone && options.layers.count > 0 && options.layers.bias == 1 && options.layers.heights.empty() &&
+           std::ranges::none_of(volume.faces(Role::wall),
+                                [&](FaceId wall) { return volume.model[wall].keeps_nodes; });
+}
+
 /// Seeds, quads, walls, target, layers and proof between the rims of linking surfaces that say what goes with
 /// what.
 ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::LinkingSurface> given_links,
@@ -398,9 +408,9 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     const int least_layers = surface::set_wall_breaks(split, size, links);
     const surface::LayerTables tables = surface::layer_tables(volume, options.boundary_layers);
     const bool by_rows = !given.heights.empty();
-    const auto [heights,
-                by_bends] = plan_heights(split, links, tables, given.heights, sizes.along, options,
-                                         options.size ? least_layers : std::max(least_layers, kDefaultGap));
+    const auto [heights, by_bends] = plan_heights(
+        split, links, tables, given.heights, sizes.along, options,
+        options.size ? least_layers : std::max(least_layers, kDefaultGap), by_count_alone(split, options));
     surface::EdgeDemands demands{surface::rim_rows(split, links, tables),
                                  surface::find_intervals(split, links, options.intervals).sides};
     refuse_kept_source(split, demands.rows, options);

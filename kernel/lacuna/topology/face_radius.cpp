@@ -48,7 +48,8 @@ std::optional<double> face_radius(const Model& model, FaceId id)
 std::optional<RoundShape> round_shape(const Model& model, FaceId id)
 {
     const Face& face = model[id];
-    if (face.kind == "plane") return {};
+    for (const char* other : {"plane", "cone", "torus"}) // as the CAD file says; a piece may look otherwise
+        if (face.kind == other) return {};
     std::vector<Index> used;
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
     double area = 0;

@@ -18,7 +18,7 @@ struct RoundShape {
 /// The cylinder or sphere of a face, by its facets: of a cylinder the axis is what their normals are square
 /// to, and its circle, or the sphere, is fitted to their corners by least squares.
 /// @return nothing where corners are off by more than a hundredth of the radius, as of a plane, a cone or a
-///         free form.
+///         free form, and where the file says that the face is another shape.
 std::optional<RoundShape> round_shape(const Model& model, FaceId face);
 
 /// Its radius alone [model length].

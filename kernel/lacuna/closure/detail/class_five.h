@@ -21,4 +21,8 @@ struct EndLoops {
 ///         side by side; names the walls.
 EndLoops group_loops(topology::OpenVolume& volume);
 
+/// Walls that are part of an end: flat faces that lie round one of its loops in the loop's own plane, and go
+/// on into other walls all round elsewhere, as the floor of a bore does round a narrower bore in it.
+std::vector<FaceId> floors_round(const topology::OpenVolume& volume, const std::vector<topology::Loop>& end);
+
 } // namespace lacuna::closure
