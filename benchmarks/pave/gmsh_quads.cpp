@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -191,6 +193,47 @@ GmshQuads gmsh_quads(const test::PlaneDomain& domain, const test::SeededDomain& 
     return result;
 }
 
+namespace {
+
+/// A fine line as arcs of a quarter turn at most where it is part of a circle; else as it is.
+std::vector<PlaneCurve> as_arcs(const PlaneCurve& curve)
+{
+    // What the points of an exact circle are off by, over its radius, and the radius over the chord of what
+    // is straight.
+    constexpr double kOff = 1e-7, kStraight = 1e4;
+    const std::vector<Vec2>& line = curve.through;
+    const Vec2 a = line[line.size() / 3] - line[0], b = line[2 * line.size() / 3] - line[0];
+    const double twice = 2 * (a.x() * b.y() - a.y() * b.x());
+    if (std::abs(twice) * kStraight < (a - b).norm() * a.norm()) return {curve};
+    const Vec2 centre = line[0] + Vec2(b.y() * a.squaredNorm() - a.y() * b.squaredNorm(),
+                                       a.x() * b.squaredNorm() - b.x() * a.squaredNorm()) /
+                                      twice;
+    const double radius = (line[0] - centre).norm();
+    for (const Vec2& p : line) {
+        if (std::abs((p - centre).norm() - radius) > kOff * radius) return {curve};
+    }
+    // Gmsh's arcs are shorter than half a circle.
+    double turn = 0;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        const Vec2 from = line[i - 1] - centre, to = line[i] - centre;
+        turn += std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
+    }
+    const int pieces = std::max(1,
+                                static_cast<int>(std::ceil(std::abs(turn) / (std::numbers::pi / 2) - 1e-6)));
+    std::vector<PlaneCurve> arcs;
+    Vec2 from = curve.from;
+    for (int k = 1; k <= pieces; ++k) {
+        const Vec2 to = k == pieces
+                            ? curve.to
+                            : Vec2(centre + Eigen::Rotation2Dd(turn * k / pieces) * (curve.from - centre));
+        arcs.push_back({PlaneCurve::Kind::arc, from, to, centre, turn < 0, {}});
+        from = to;
+    }
+    return arcs;
+}
+
+} // namespace
+
 test::PlaneDomain face_domain(const std::string& file, int face)
 {
     const Session session;
@@ -268,6 +311,14 @@ test::PlaneDomain face_domain(const std::string& file, int face)
             std::reverse(curve.through.begin(), curve.through.end());
             std::swap(curve.from, curve.to);
         }
+    }
+    for (std::vector<PlaneCurve>& loop : domain.loops) {
+        std::vector<PlaneCurve> exact;
+        for (const PlaneCurve& curve : loop) {
+            const std::vector<PlaneCurve> arcs = as_arcs(curve);
+            exact.insert(exact.end(), arcs.begin(), arcs.end());
+        }
+        loop = std::move(exact);
     }
     return domain;
 }

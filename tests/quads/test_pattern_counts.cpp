@@ -2,6 +2,7 @@
 #include <lacuna/quads/face_pattern.h>
 #include <lacuna/quads/measure_plane.h>
 #include <lacuna/quads/pattern_counts.h>
+#include <lacuna/quads/pave.h>
 #include <lacuna/quads/symmetry.h>
 
 #include <doctest/doctest.h>
@@ -168,5 +169,140 @@ TEST_CASE("a plate with a hole in its middle stays symmetric, whatever the size 
         CAPTURE((*counts)[1]);
         CAPTURE((*counts)[4]);
         CHECK(quads::symmetrise(meshes[0], made.region) >= 2);
+    }
+}
+
+namespace {
+
+/// A circle of four arcs from an angle; clockwise for a hole.
+std::vector<Piece> round(const Vec2& centre, double radius, bool hole, double from = 0)
+{
+    std::vector<Piece> pieces;
+    for (int k = 0; k < 4; ++k) {
+        const double start = from + (hole ? -k : k) * kPi / 2;
+        pieces.push_back(arc(centre, radius, start, start + (hole ? -kPi / 2 : kPi / 2)));
+    }
+    return pieces;
+}
+
+/// How far the farthest node is from where a mirroring about the origin's axis puts another.
+double mirror_error(const quads::PlanarQuads& mesh, double axis)
+{
+    const Vec2 along(std::cos(axis), std::sin(axis));
+    double farthest = 0;
+    for (const Vec2& p : mesh.points) {
+        const Vec2 image = 2 * along.dot(p) * along - p;
+        double nearest = 1;
+        for (const Vec2& q : mesh.points) nearest = std::min(nearest, (q - image).norm());
+        farthest = std::max(farthest, nearest);
+    }
+    return farthest;
+}
+
+} // namespace
+
+TEST_CASE("plates with rows of holes, slots and flanges are mirrored about both axes, whatever their sizes")
+{
+    std::mt19937 dice(11);
+    const auto roll = [&](double from, double to) {
+        return from + (to - from) * static_cast<double>(dice()) / static_cast<double>(std::mt19937::max());
+    };
+    int as_asked = 0, good = 0, all = 0;
+    for (int n = 0; n < 36; ++n) {
+        CAPTURE(n);
+        const double a = roll(1.5, 2.5), b = roll(0.8, 1.2), r = roll(0.2, 0.25);
+        std::vector<std::vector<Piece>> loops;
+        if (n % 3 == 0) {
+            loops = {{line({-a, -b}, {a, -b}), line({a, -b}, {a, b}), line({a, b}, {-a, b}),
+                      line({-a, b}, {-a, -b})}};
+            for (const double x : {-a / 2, a / 2}) {
+                for (const double y : {-b / 2, b / 2}) loops.push_back(round({x, y}, r, true));
+            }
+            if (n % 2 == 0) loops.push_back(round({0, 0}, r, true));
+        } else if (n % 3 == 1) {
+            loops = {{line({-a, -b}, {a, -b}), arc({a, 0}, b, -kPi / 2, 0), arc({a, 0}, b, 0, kPi / 2),
+                      line({a, b}, {-a, b}), arc({-a, 0}, b, kPi / 2, kPi),
+                      arc({-a, 0}, b, kPi, 3 * kPi / 2)}};
+            if (n % 2 == 0) loops.push_back(round({0, 0}, 2 * r, true));
+        } else {
+            loops = {round({0, 0}, a, false)};
+            for (const double x : {-0.6 * a, 0.6 * a}) loops.push_back(round({x, 0}, r, true));
+            loops.push_back(round({0, 0}, r, true));
+        }
+        double area = 0;
+        const Seeded fine = seed(loops, 0.01, nullptr);
+        for (const auto& loop : fine.region.loops) {
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                const Vec2 &p = fine.region.points[static_cast<std::size_t>(loop[i])],
+                           &q = fine.region.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
+                area += (p.x() * q.y() - p.y() * q.x()) / 2;
+            }
+        }
+        const double asked = roll(300, 1500), size = std::sqrt(area / asked);
+        const Seeded plain = seed(loops, size, nullptr);
+        const auto counts = quads::pattern_counts(plain.region, plain.segment, plain.segments);
+        REQUIRE(counts.has_value());
+        const Seeded made = seed(loops, size, &*counts);
+        const quads::PlanarQuads mesh = quads::pave(made.region).mesh;
+        CHECK(quads::find_fault(mesh, made.region) == "");
+        CAPTURE(mesh.how);
+        CAPTURE(asked);
+        for (const double axis : {0.0, kPi / 2}) CHECK(mirror_error(mesh, axis) < 1e-9);
+        const quads::PlaneQuality quality = quads::measure_plane(mesh, made.region);
+        ++all;
+        as_asked += std::abs(static_cast<double>(quality.quads) - asked) <= asked / 4 ? 1 : 0;
+        good += quality.min_scaled_jacobian > 0.7 && quality.mean_scaled_jacobian > 0.95 ? 1 : 0;
+    }
+    MESSAGE(all << " meshes, " << as_asked << " with as many quads as asked, " << good << " good");
+    CHECK(as_asked >= all - 2);
+    CHECK(good >= all - 5);
+}
+
+TEST_CASE("a given number of sides that no image has is kept, and so are its nodes")
+{
+    for (const int given : {8, 9, 11, 12}) {
+        CAPTURE(given);
+        std::vector<std::vector<Piece>> plate{{line({-1.5, -1}, {1.5, -1}), line({1.5, -1}, {1.5, 1}),
+                                               line({1.5, 1}, {-1.5, 1}), line({-1.5, 1}, {-1.5, -1})},
+                                              round({0, 0}, 0.4, true)};
+        plate[0][1].fixed = true;
+        plate[0][1].given = given;
+        const Seeded plain = seed(plate, 0.2, nullptr);
+        const auto counts = quads::pattern_counts(plain.region, plain.segment, plain.segments);
+        REQUIRE(counts.has_value());
+        CHECK((*counts)[1] == given);
+        const Seeded made = seed(plate, 0.2, &*counts);
+        const quads::PlanarQuads mesh = quads::pave(made.region).mesh;
+        CHECK(quads::find_fault(mesh, made.region) == ""); // boundary nodes bit for bit among others
+        CHECK(quads::measure_plane(mesh, made.region).min_scaled_jacobian > 0.5);
+    }
+}
+
+TEST_CASE(
+    "an axis that would halve a corner is not cut along, and one round a hole cuts a ring in alike parts")
+{
+    // A square's diagonals leave two quads of 45 degrees each; its other axes do not.
+    const std::vector<std::vector<Piece>> square{
+        {line({-1, -1}, {1, -1}), line({1, -1}, {1, 1}), line({1, 1}, {-1, 1}), line({-1, 1}, {-1, -1})},
+        round({0, 0}, 0.45, true)};
+    // Eight holes about a bore.
+    std::vector<std::vector<Piece>> flange{round({0, 0}, 2, false), round({0, 0}, 0.8, true)};
+    for (int k = 0; k < 8; ++k) {
+        const double angle = kPi * k / 4;
+        flange.push_back(round(1.4 * Vec2(std::cos(angle), std::sin(angle)), 0.2, true, angle));
+    }
+    for (const double size : {0.1, 0.13, 0.17}) {
+        for (const auto& loops : {square, flange}) {
+            CAPTURE(size);
+            CAPTURE(loops.size());
+            const Seeded plain = seed(loops, size, nullptr);
+            const auto counts = quads::pattern_counts(plain.region, plain.segment, plain.segments);
+            REQUIRE(counts.has_value());
+            const Seeded made = seed(loops, size, &*counts);
+            const quads::PlanarQuads mesh = quads::pave(made.region).mesh;
+            CHECK(quads::find_fault(mesh, made.region) == "");
+            CHECK(quads::measure_plane(mesh, made.region).min_scaled_jacobian > 0.7);
+            for (const double axis : {0.0, kPi / 2}) CHECK(mirror_error(mesh, axis) < 1e-9);
+        }
     }
 }

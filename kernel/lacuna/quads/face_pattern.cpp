@@ -201,9 +201,9 @@ private:
 
     bool head(std::size_t l, const LoopFrame& frame, double weight, int turns)
     {
-        auto headed = head_loop(region_.points, region_.loops[l], frame, weight, pattern_.rows,
-                                pattern_.half);
+        auto headed = head_loop(region_.points, region_.loops[l], frame, weight, 1, pattern_.half);
         if (!headed) return false;
+        set_soft_rows(*headed, pattern_.rows);
         loops_[l] = std::move(*headed);
         soft_ += std::count(loops_[l].movable.begin(), loops_[l].movable.end(), 1);
         return loops_[l].turns == turns;
@@ -381,20 +381,6 @@ bool is_fine(const PlanarQuads& mesh, const PlanarRegion& region, double least, 
            quality.size_share() > kSizes && quality.row_share() >= rows;
 }
 
-/// Whether a mesh has as many quads as asked for, a quarter more or less: what is promised.
-bool has_quads_asked(const PlanarQuads& mesh, const Size& size)
-{
-    constexpr double kOff = 0.25;
-    double asked = 0;
-    for (const Quad& quad : mesh.quads) {
-        const Vec2 &a = point(mesh.points, quad[0]), &b = point(mesh.points, quad[1]),
-                   &c = point(mesh.points, quad[2]), &d = point(mesh.points, quad[3]);
-        const double length = size((a + b + c + d) / 4);
-        asked += paving::cross(c - a, d - b) / 2 / (length * length);
-    }
-    return std::abs(static_cast<double>(mesh.quads.size()) - asked) <= kOff * asked;
-}
-
 /// The corners of a region's only loop, where all of them suit one quad and nothing bends otherwise.
 std::vector<std::size_t> lone_corners(const PlanarRegion& region)
 {
@@ -431,7 +417,7 @@ public:
         if (!is_square_ && region_.loops.size() == 1) try_corners();
     }
 
-    /// The meshes, where ends of 135° were a choice those with as many quads as asked for, if there are any.
+    /// The meshes: those with as many quads as asked for, if there are any.
     std::vector<PlanarQuads> take()
     {
         std::vector<PlanarQuads> fit;
@@ -456,11 +442,25 @@ private:
     /// With straight lines.
     void try_straight(HalfEnds half)
     {
-        constexpr int kMostRows = 3; // deeper turns gain nothing; a choice
-        for (int rows = 1; rows <= kMostRows && !is_fine_; ++rows) {
+        constexpr std::size_t kMost = 3; // meshes made; a choice
+        const std::size_t before = made_.size();
+        for (const int rows : rows_to_try(fitting_rows(half))) {
+            if (is_fine_ || made_.size() >= before + kMost) return;
             const PatternFiller filler = fill({0, rows, 0, 0, half});
             if (filler.turns() == 0) return; // more rows change nothing
         }
+    }
+
+    /// Rows that suit the soft turns of all loops in a straight grid.
+    [[nodiscard]] int fitting_rows(HalfEnds half) const
+    {
+        const LoopFrame frame{false, Vec2::Zero(), main_angle(region_)};
+        int most = 1;
+        for (const Loop& loop : region_.loops) {
+            const auto headed = head_loop(region_.points, loop, frame, kStraightWeight, 1, half);
+            if (headed) most = std::max(most, quads::fitting_rows(*headed));
+        }
+        return most;
     }
 
     /// With a grid at each of a few corners.
@@ -503,7 +503,7 @@ private:
         // discs get no better than that, and the share of rows is what is promised.
         constexpr double kSquare = 0.75, kFine = 0.85, kRows = 0.95;
         made_.push_back(std::move(mesh));
-        fits_.push_back(!has_half_ends_ || has_quads_asked(made_.back(), size_) ? 1 : 0);
+        fits_.push_back(paving::has_quads_asked(made_.back(), size_) ? 1 : 0);
         if (!fits_.back()) return;
         is_square_ = is_square_ || quads::is_fine(made_.back(), region_, kSquare, 0);
         is_fine_ = is_fine_ || quads::is_fine(made_.back(), region_, kFine, kRows);
@@ -521,7 +521,7 @@ private:
     const RunContext& context_;
     const Size size_, ring_size_;
     std::vector<PlanarQuads> made_;
-    std::vector<char> fits_; ///< whether each has as many quads as asked for, where that decides
+    std::vector<char> fits_; ///< whether each has as many quads as asked for
     const bool has_half_ends_;
     bool is_square_ = false; ///< some mesh has nearly square quads
     bool is_fine_ = false;   ///< and good rows as well

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/pattern_counts.h>
 
+#include <lacuna/quads/detail/mirror_counts.h>
+#include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/pattern_loop.h>
 #include <lacuna/quads/detail/pattern_ring.h>
+#include <lacuna/quads/detail/pave_size.h>
 
 #include <algorithm>
 #include <array>
@@ -60,6 +63,7 @@ struct CountedLoop {
     std::array<int, 2> excess{};
     std::array<int, 2> added{}; ///< sides along headings 0 and 1 that its rows of quads add
     double wanted = 0;          ///< sides in all
+    int soft = 0;               ///< turns that its rows of quads make
 };
 
 class CountSolver {
@@ -73,16 +77,20 @@ public:
         }
     }
 
-    std::optional<std::vector<int>> run()
+    /// @param cut  whether the region may be cut along mirror axes.
+    std::optional<std::vector<int>> run(bool cut)
     {
         std::size_t about = 0;
         for (std::size_t l = 1; l < region_.loops.size(); ++l) {
             if (about == 0 || region_.loops[l].size() > region_.loops[about].size()) about = l;
         }
-        if (about > 0) {
-            if (auto counts = ring_counts(about)) return counts;
+        std::optional<std::vector<int>> ring;
+        if (about > 0) ring = ring_counts(about);
+        if (ring && (!cut || are_alike(*ring, mirrored_segments()))) return ring;
+        if (cut) {
+            if (auto counts = part_counts()) return counts;
         }
-        return straight_counts();
+        return ring ? ring : straight_counts();
     }
 
 private:
@@ -92,38 +100,279 @@ private:
     [[nodiscard]] std::optional<std::vector<int>> straight_counts() const
     {
         // What those are worth; chosen on 40 of the held family (benchmarks/pave/).
-        constexpr double kQuads = 0.25, kSoft = 2;
-        const double angle = main_angle(region_), size = mean_size();
-        double asked = 0;
-        for (const auto& loop : region_.loops) asked += area_of(loop) / (size * size);
+        constexpr double kSoft = 2;
         std::optional<std::vector<CountedLoop>> best;
         double least = std::numeric_limits<double>::infinity();
         const bool either = has_half_ends(region_);
         for (const HalfEnds half : {HalfEnds::soft, HalfEnds::hard}) {
             if (half == HalfEnds::hard && !either) break;
-            std::vector<CountedLoop> loops;
-            std::vector<LoopGrid> grids;
-            double cost = 0, quads = 0;
-            for (std::size_t l = 0; l < region_.loops.size(); ++l) {
-                auto loop = counted(l, {false, Vec2::Zero(), angle}, kStraightWeight, l == 0 ? 4 : -4, half);
-                if (!loop || !close(*loop, kSegment)) break;
-                cost += sum_of_costs(*loop);
-                if (auto grid = loop_grid(l, *loop, angle, half)) {
-                    quads += grid->quads();
-                    grids.push_back(std::move(*grid));
-                }
-                loops.push_back(std::move(*loop));
-            }
-            if (loops.size() < region_.loops.size()) continue;
-            if (grids.size() < loops.size()) quads = asked; // not known
-            cost += kQuads * (quads - asked) * (quads - asked) / asked;
-            if (cost >= least) continue;
-            least = half == HalfEnds::soft ? cost / kSoft : cost;
-            if (loops.size() > 1 && !grids.empty()) centre_holes(loops, grids.front());
-            best = std::move(loops);
+            StraightCounts counts = straight_counts(half);
+            if (!(counts.cost < least)) continue;
+            least = half == HalfEnds::soft ? counts.cost / kSoft : counts.cost;
+            best = std::move(counts.loops);
         }
         if (!best) return std::nullopt;
         return counts_of(*best);
+    }
+
+    struct StraightCounts {
+        std::vector<CountedLoop> loops;
+        double cost = std::numeric_limits<double>::infinity(); ///< infinite where nothing fits
+    };
+
+    /// The same for one kind of ends: the best over the rows before soft turns, and over numbers of sides
+    /// that are rounded from a few shares of those wanted, for rows add quads and columns take sides.
+    [[nodiscard]] StraightCounts straight_counts(HalfEnds half) const
+    {
+        // What quads are worth, as above; and rows, whose number is to be that of `fitting_rows()`.
+        constexpr double kQuads = 0.25, kRows = 1;
+        constexpr double kUnlike = 10; // of segments that mirror each other: hardly ever; a choice
+        // As many quads as asked, a quarter more or less, is what is promised. Choices.
+        constexpr double kMostOff = 0.25, kOff = 2;
+        constexpr std::array<double, 4> kShares{1, 0.9, 0.8, 1.1}; // a choice, not a measurement
+        const double angle = main_angle(region_), asked = quads_asked();
+        std::vector<PatternLoop> headed;
+        int fitting = 1;
+        for (std::size_t l = 0; l < region_.loops.size(); ++l) {
+            auto loop = head_loop(region_.points, region_.loops[l], {false, Vec2::Zero(), angle},
+                                  kStraightWeight, 1, half);
+            if (!loop || loop->turns != (l == 0 ? 4 : -4)) return {};
+            fitting = std::max(fitting, fitting_rows(*loop));
+            headed.push_back(std::move(*loop));
+        }
+        const std::vector<std::array<std::size_t, 2>> pairs = mirrored_segments();
+        StraightCounts best;
+        for (const int rows : rows_to_try(fitting)) {
+            for (const double share : kShares) {
+                StraightCounts made{{}, 0};
+                std::vector<LoopGrid> grids;
+                double quads = 0;
+                int soft = 0;
+                for (std::size_t l = 0; l < region_.loops.size(); ++l) {
+                    PatternLoop loop = headed[l];
+                    set_soft_rows(loop, rows);
+                    auto counts = counted(std::move(loop), share);
+                    if (!counts || !close(*counts, kSegment)) break;
+                    for (Run& run : counts->runs) run.wanted /= share;
+                    made.cost += sum_of_costs(*counts);
+                    soft += counts->soft;
+                    if (auto grid = loop_grid(l, *counts, angle, half, rows)) {
+                        quads += grid->quads();
+                        grids.push_back(std::move(*grid));
+                    }
+                    made.loops.push_back(std::move(*counts));
+                }
+                if (made.loops.size() < region_.loops.size()) continue;
+                if (grids.size() < made.loops.size()) quads = asked; // not known
+                const double off = std::log(static_cast<double>(rows) / fitting);
+                made.cost += kQuads * (quads - asked) * (quads - asked) / asked +
+                             kRows * soft * std::max(1.0, fitting / 2.0) * off * off;
+                made.cost += kUnlike * unlike(made.loops, pairs);
+                if (std::abs(quads - asked) > kMostOff * asked) made.cost += kOff;
+                if (made.cost < best.cost) {
+                    if (made.loops.size() > 1 && !grids.empty()) centre_holes(made.loops, grids.front());
+                    best = std::move(made);
+                }
+                if (soft == 0 && share == kShares.back()) return best;
+            }
+        }
+        return best;
+    }
+
+    /// The symmetries that map segments onto segments. One that is a whole loop ends where the loop
+    /// starts.
+    static std::vector<Symmetry> segment_symmetries(const PlanarRegion& region, std::span<const int> segment)
+    {
+        std::vector<char> is_end(region.points.size(), 0);
+        for (const auto& loop : region.loops) {
+            bool ends = false;
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                const auto here = static_cast<std::size_t>(loop[i]),
+                           before = static_cast<std::size_t>(loop[(i + loop.size() - 1) % loop.size()]);
+                if (segment[here] == segment[before]) continue;
+                is_end[here] = 1;
+                ends = true;
+            }
+            if (!ends) is_end[static_cast<std::size_t>(loop[0])] = 1;
+        }
+        std::vector<Symmetry> symmetries = outline_symmetries(region);
+        std::erase_if(symmetries, [&](const Symmetry& symmetry) {
+            for (std::size_t p = 0; p < is_end.size(); ++p) {
+                if (is_end[p] != is_end[static_cast<std::size_t>(symmetry.to[p])]) return true;
+            }
+            return false;
+        });
+        return symmetries;
+    }
+
+    /// The segments that mirror each other or, twice the same, themselves.
+    [[nodiscard]] std::vector<std::array<std::size_t, 2>> mirrored_segments() const
+    {
+        std::vector<std::array<std::size_t, 2>> pairs;
+        for (const Symmetry& symmetry : segment_symmetries(region_, segment_)) {
+            if (!symmetry.map.mirrors) continue;
+            for (const auto& loop : region_.loops) {
+                for (std::size_t i = 0; i < loop.size(); ++i) {
+                    const Index to = symmetry.to[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
+                    const std::array<std::size_t, 2> pair{segment_of(loop[i]), segment_of(to)};
+                    if (pair[0] <= pair[1] && (pairs.empty() || pairs.back() != pair)) pairs.push_back(pair);
+                }
+            }
+        }
+        return pairs;
+    }
+
+    static bool are_alike(const std::vector<int>& counts,
+                          const std::vector<std::array<std::size_t, 2>>& pairs)
+    {
+        return std::all_of(pairs.begin(), pairs.end(),
+                           [&](const auto& pair) { return counts[pair[0]] == counts[pair[1]]; });
+    }
+
+    /// How many pairs have unlike numbers of sides, or an odd one.
+    [[nodiscard]] int unlike(const std::vector<CountedLoop>& loops,
+                             const std::vector<std::array<std::size_t, 2>>& pairs) const
+    {
+        if (pairs.empty()) return 0;
+        const std::vector<int> counts = *counts_of(loops);
+        return static_cast<int>(std::count_if(pairs.begin(), pairs.end(), [&](const auto& pair) {
+            return counts[pair[0]] != counts[pair[1]] || (pair[0] == pair[1] && counts[pair[0]] % 2 != 0);
+        }));
+    }
+
+    /// Counts for the part of a symmetric region between mirror axes, for all of its images.
+    /// Those with which a grid fills it or, where there are none, the numbers wanted, rounded.
+    [[nodiscard]] std::optional<std::vector<int>> part_counts() const
+    {
+        const Halved halved = halve_crossed();
+        const auto part = mirror_part(halved.region, segment_symmetries(halved.region, halved.segment),
+                                      paving::size_with_boundary(region_));
+        if (!part) return std::nullopt;
+        std::vector<int> own;
+        std::vector<BoundarySegment> parts;
+        std::vector<Index> starts; // the side that each begins with, by the whole region's node; -1: an axis
+        own.resize(part->region.points.size());
+        for (const auto& loop : part->region.loops) {
+            int last = -1;
+            for (const Index p : loop) {
+                const auto at = static_cast<std::size_t>(p);
+                const int axis = part->axis[at];
+                const int key = axis >= 0 ? -2 - axis : halved.segment_at(part->whole[at]);
+                if (p == loop.front() || key != last) {
+                    parts.push_back({0, 1, false});
+                    starts.push_back(axis >= 0 ? -1 : part->whole[at]);
+                }
+                last = key;
+                own[at] = static_cast<int>(parts.size()) - 1;
+                if (axis >= 0) {
+                    parts.back().wanted = part->wanted[static_cast<std::size_t>(axis)];
+                    continue;
+                }
+                const auto s = static_cast<std::size_t>(key);
+                const double share = halved.weight[static_cast<std::size_t>(part->whole[at])] / own_[s];
+                parts.back().wanted += share * segments_[s].wanted;
+                for (const Symmetry& image : part->images)
+                    parts.back().fixed = parts.back().fixed ||
+                                         segments_[image_of(halved, *part, image, p)].fixed;
+            }
+        }
+        for (std::size_t t = 0; t < parts.size(); ++t) {
+            if (starts[t] < 0) continue;
+            const BoundarySegment& whole = segments_[static_cast<std::size_t>(halved.segment_at(starts[t]))];
+            parts[t].least = std::max(
+                1, static_cast<int>(std::ceil(whole.least * parts[t].wanted / whole.wanted - kTiny)));
+        }
+        auto counts = CountSolver(part->region, own, parts).run(false);
+        if (!counts) counts = rounded(parts);
+        std::vector<int> sum(segments_.size(), 0);
+        std::vector<char> done(parts.size(), 0);
+        for (const auto& loop : part->region.loops) {
+            for (const Index p : loop) {
+                const auto t = static_cast<std::size_t>(own[static_cast<std::size_t>(p)]);
+                if (done[t] || starts[t] < 0) continue;
+                done[t] = 1;
+                for (const Symmetry& image : part->images)
+                    sum[image_of(halved, *part, image, p)] += (*counts)[t];
+            }
+        }
+        return sum;
+    }
+
+    /// The sides wanted of each segment, rounded.
+    static std::vector<int> rounded(const std::vector<BoundarySegment>& parts)
+    {
+        std::vector<int> counts;
+        for (const BoundarySegment& part : parts)
+            counts.push_back(std::max(part.least, static_cast<int>(std::lround(part.wanted))));
+        return counts;
+    }
+
+    static constexpr double kTiny = 1e-6; ///< far above rounding, far below a side
+
+    /// The region with nodes where mirror axes cross sides that are not given.
+    struct Halved {
+        PlanarRegion region;
+        std::vector<int> segment;   ///< of the side from each node to the next
+        std::vector<Index> next;    ///< node of each node's loop
+        std::vector<double> weight; ///< that side in sides of the region: 1 or ½
+        [[nodiscard]] int segment_at(Index p) const { return segment[static_cast<std::size_t>(p)]; }
+    };
+
+    [[nodiscard]] Halved halve_crossed() const
+    {
+        std::vector<char> crossed(region_.points.size(), 0);
+        for (const Symmetry& symmetry : segment_symmetries(region_, segment_)) {
+            for (const auto& loop : region_.loops) {
+                for (std::size_t i = 0; i < loop.size() && symmetry.map.mirrors; ++i) {
+                    const auto a = static_cast<std::size_t>(loop[i]);
+                    const Index b = loop[(i + 1) % loop.size()];
+                    if (symmetry.to[a] == b && symmetry.to[static_cast<std::size_t>(b)] == loop[i] &&
+                        !segments_[segment_of(loop[i])].fixed)
+                        crossed[a] = 1;
+                }
+            }
+        }
+        Halved halved;
+        halved.region.size = region_.size;
+        const auto push = [&](const Vec2& p, int segment, double weight) {
+            halved.region.loops.back().push_back(static_cast<Index>(halved.region.points.size()));
+            halved.region.points.push_back(p);
+            halved.segment.push_back(segment);
+            halved.weight.push_back(weight);
+            halved.next.push_back(static_cast<Index>(halved.region.points.size()));
+        };
+        for (const auto& loop : region_.loops) {
+            halved.region.loops.emplace_back();
+            const auto first = static_cast<Index>(halved.region.points.size());
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                const auto a = static_cast<std::size_t>(loop[i]),
+                           b = static_cast<std::size_t>(loop[(i + 1) % loop.size()]);
+                const int own = segment_[a];
+                push(region_.points[a], own, crossed[a] ? 0.5 : 1);
+                if (crossed[a]) push((region_.points[a] + region_.points[b]) / 2, own, 0.5);
+            }
+            halved.next.back() = first;
+        }
+        return halved;
+    }
+
+    /// The segment that the side from a node of a part to the next is mapped to.
+    static std::size_t image_of(const Halved& halved, const MirrorPart& part, const Symmetry& image, Index p)
+    {
+        Index a = part.whole[static_cast<std::size_t>(p)];
+        if (image.map.mirrors) a = halved.next[static_cast<std::size_t>(a)];
+        return static_cast<std::size_t>(halved.segment_at(image.to[static_cast<std::size_t>(a)]));
+    }
+
+    /// Quads that the size asks for: that of the region where it has one, else of the sides wanted.
+    [[nodiscard]] double quads_asked() const
+    {
+        double area = 0, density = 0;
+        for (const auto& loop : region_.loops) area += area_of(loop);
+        if (!region_.size) return area / (mean_size() * mean_size());
+        for (const Vec2& p : region_.points)
+            density += 1 / (region_.size(p) * region_.size(p)) / static_cast<double>(region_.points.size());
+        return area * density;
     }
 
     [[nodiscard]] double area_of(const std::vector<Index>& loop) const
@@ -142,14 +391,11 @@ private:
         return static_cast<std::size_t>(segment_[static_cast<std::size_t>(p)]);
     }
 
-    /// A loop's runs, and its excess once its rows are placed. @return nothing where it fits no grid.
-    [[nodiscard]] std::optional<CountedLoop> counted(std::size_t l, const LoopFrame& frame, double weight,
-                                                     int turns, HalfEnds half = HalfEnds::soft) const
+    /// A loop's runs, and its excess once its rows are placed.
+    /// @param share  of the sides wanted.
+    /// @return nothing where it fits no grid.
+    [[nodiscard]] std::optional<CountedLoop> counted(PatternLoop loop, double share = 1) const
     {
-        auto headed = head_loop(region_.points, region_.loops[l], frame, weight, 1, half);
-        if (!headed) return std::nullopt;
-        PatternLoop& loop = *headed;
-        if (loop.turns != turns || (frame.polar && !is_ring_loop(region_.points, loop))) return std::nullopt;
         CountedLoop counted;
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const std::size_t s = segment_of(loop.nodes[i]);
@@ -157,9 +403,10 @@ private:
             auto run = std::find_if(counted.runs.begin(), counted.runs.end(),
                                     [&](const Run& r) { return r.segment == s && r.quarter == quarter; });
             if (run == counted.runs.end()) run = counted.runs.insert(run, {s, quarter, 0, 0});
-            run->wanted += segments_[s].wanted / own_[s];
+            run->wanted += share * segments_[s].wanted / own_[s];
             ++run->count;
         }
+        counted.soft = static_cast<int>(std::count(loop.movable.begin(), loop.movable.end(), 1));
         std::vector<Vec2> points = region_.points;
         std::vector<Quad> quads;
         if (!lay_pattern_rows(loop, points, quads, [](const Vec2&) { return 1.0; })) return std::nullopt;
@@ -255,7 +502,7 @@ private:
         }
     };
     [[nodiscard]] std::optional<LoopGrid> loop_grid(std::size_t l, const CountedLoop& counted, double angle,
-                                                    HalfEnds half) const
+                                                    HalfEnds half, int rows) const
     {
         const std::vector<Index>& loop = region_.loops[l];
         const auto at = [&](std::size_t i) -> const Vec2& {
@@ -278,6 +525,7 @@ private:
         std::vector<Index> nodes(made.points.size());
         std::iota(nodes.begin(), nodes.end(), 0);
         auto headed = head_loop(made.points, nodes, {false, Vec2::Zero(), angle}, kStraightWeight, 1, half);
+        if (headed) set_soft_rows(*headed, rows);
         const double mean = length / static_cast<double>(nodes.size());
         std::vector<Quad> quads;
         if (!headed || !lay_pattern_rows(*headed, made.points, quads, [&](const Vec2&) { return mean; }) ||
@@ -386,10 +634,13 @@ private:
             const bool is_end = l == 0 || l == about;
             LoopFrame frame{is_end, own, 0};
             if (!is_end) frame.angle = std::atan2(own.y() - centre.y(), own.x() - centre.x());
-            auto loop = counted(l, frame,
-                                is_end ? kRoundWeight / static_cast<double>(region_.loops[l].size())
-                                       : kStraightWeight,
-                                is_end ? 0 : -4);
+            auto headed = head_loop(
+                region_.points, region_.loops[l], frame,
+                is_end ? kRoundWeight / static_cast<double>(region_.loops[l].size()) : kStraightWeight, 1);
+            if (!headed || headed->turns != (is_end ? 0 : -4) ||
+                (is_end && !is_ring_loop(region_.points, *headed)))
+                return std::nullopt;
+            auto loop = counted(std::move(*headed));
             if (!loop) return std::nullopt;
             if (!is_end) {
                 if (!close(*loop, kSegment)) return std::nullopt;
@@ -533,7 +784,44 @@ private:
 std::optional<std::vector<int>> pattern_counts(const PlanarRegion& region, std::span<const int> segment,
                                                std::span<const BoundarySegment> segments)
 {
-    return CountSolver(region, segment, segments).run();
+    return CountSolver(region, segment, segments).run(true);
+}
+
+void count_axes(MirrorPart& part, const std::function<double(const Vec2&)>& size)
+{
+    // Given sides between corners are segments of their own, for no corner may move.
+    std::vector<int> segment(part.region.points.size());
+    std::vector<BoundarySegment> segments;
+    std::vector<std::size_t> of_axis(part.wanted.size());
+    for (const auto& loop : part.region.loops) {
+        for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
+            const auto at = [&](std::size_t k) -> const Vec2& {
+                return part.region.points[static_cast<std::size_t>(loop[k % n])];
+            };
+            const int axis = part.axis[static_cast<std::size_t>(loop[i])];
+            const int last = part.axis[static_cast<std::size_t>(loop[(i + n - 1) % n])];
+            const bool corner = paving::quads_in(
+                                    paving::turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i))) != 2;
+            if (i == 0 || axis != last || (axis < 0 && corner)) segments.push_back({0, 1, axis < 0});
+            segment[static_cast<std::size_t>(loop[i])] = static_cast<int>(segments.size()) - 1;
+            segments.back().wanted += 1;
+            if (axis >= 0) of_axis[static_cast<std::size_t>(axis)] = segments.size() - 1;
+        }
+    }
+    std::vector<int> sides;
+    int given = 0;
+    for (const BoundarySegment& s : segments) given += s.fixed ? static_cast<int>(s.wanted) : 0;
+    for (std::size_t a = 0; a < of_axis.size(); ++a) {
+        sides.push_back(static_cast<int>(segments[of_axis[a]].wanted));
+        segments[of_axis[a]].wanted = part.wanted[a];
+    }
+    if (const auto counts = CountSolver(part.region, segment, segments).run(false)) {
+        for (std::size_t a = 0; a < of_axis.size(); ++a) sides[a] = (*counts)[of_axis[a]];
+    }
+    // Quads alone take an even number of sides.
+    if (std::accumulate(sides.begin(), sides.end(), given) % 2 != 0)
+        ++*std::max_element(sides.begin(), sides.end());
+    divide_axes(part, sides, size);
 }
 
 } // namespace lacuna::quads

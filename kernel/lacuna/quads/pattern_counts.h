@@ -26,6 +26,13 @@ struct BoundarySegment {
 /// places to change take up. Where none of that goes the lines are straight, and no segment that wants four
 /// sides or more gets a quarter more or less.
 ///
+/// A symmetric region, whose mirrorings map segments onto segments, gets numbers that they do not change and
+/// that leave a node on every axis they are about: those of its part between two axes, or on one side of the
+/// only one, where the axes are segments whose numbers are free. With straight lines the sum has more terms:
+/// a quarter of (quads − asked)² / asked, for rows before round turns add quads; for each such turn
+/// ln²(rows / those that fit its radius); and what unlike numbers cost where the part is symmetric itself. It
+/// is taken at what closes from a few shares of the numbers wanted, and over numbers of rows.
+///
 /// The equations of a loop have coefficients of 1 and -1, and no number is in two but of segments that turn.
 /// So the numbers wanted are rounded, and then changed by one, the cheapest first, until all equations hold.
 /// Holes then get one column more or less where that puts their middle where it lies in the outer loop's

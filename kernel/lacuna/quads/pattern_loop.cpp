@@ -349,6 +349,46 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
     return headed;
 }
 
+int fitting_rows(const PatternLoop& loop)
+{
+    // Rows over the sides of a quarter turn: the square within a disc is then about half as wide as it.
+    constexpr double kOfQuarter = 0.22;
+    const std::size_t n = loop.size();
+    int most = 1;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!loop.movable[i] || loop.turn(i) != 1) continue;
+        // Sides that run within half a right angle of the direction between the two headings.
+        const double middle = i > 0 ? loop.heading[i] - 0.5 : loop.heading[0] - 0.5;
+        int sides = 0;
+        for (std::size_t k = 0; k < n; ++k) {
+            if (std::abs(loop.direction[k] - middle) < 0.5) ++sides;
+        }
+        most = std::max(most, static_cast<int>(std::lround(kOfQuarter * sides)));
+    }
+    return most;
+}
+
+std::vector<int> rows_to_try(int fitting)
+{
+    constexpr int kAlways = 3; // a choice, not a measurement
+    std::vector<int> rows;
+    for (int r = 1; r <= kAlways; ++r) rows.push_back(r);
+    for (const int r : {fitting / 2, 2 * fitting / 3, fitting}) {
+        if (r > rows.back()) rows.push_back(r);
+    }
+    const auto off = [&](int r) { return std::abs(std::log(static_cast<double>(r) / fitting)); };
+    std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) { return off(a) < off(b); });
+    return rows;
+}
+
+void set_soft_rows(PatternLoop& loop, int rows)
+{
+    constexpr int kMostInward = 3; // a choice, not a measurement
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        if (loop.movable[i]) loop.soft[i] = loop.turn(i) < 0 ? std::min(rows, kMostInward) : rows;
+    }
+}
+
 bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop)
 {
     // Corners of 112° and less: two quads would be left with a sine of 0.83. A choice, not a measurement.

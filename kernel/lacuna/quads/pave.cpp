@@ -149,11 +149,7 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
     }
     if (options.exact_rows > 0) return pave_inside_rows(region, options, context);
     AttemptChooser chooser(region, options, context);
-    chooser.try_default_weights();
-    if (!chooser.is_done()) {
-        chooser.try_all_weights();
-        chooser.try_triangles();
-    }
+    chooser.run();
     Attempt best = chooser.take_best();
     if (best.worst <= 0) {
         throw NotSweepable("surface.pave", "no valid quads were found for a region of " +

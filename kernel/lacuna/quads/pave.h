@@ -48,7 +48,10 @@ struct Paved {
 ///    remeshed (`paving::refill_cavities()`). Irregular nodes are paired off, nodes smoothed, row heights
 ///    corrected.
 ///
-/// Symmetric quads of a symmetric region are made so to rounding (`symmetrise()`), up to 20,000.
+/// A symmetric region is cut along two mirror axes square to each other, or about a hole in its middle along
+/// all, if its boundary nodes allow it. The part is filled and its images are joined, unless that is poor.
+/// Discs and rings are tried as a whole first. Symmetric quads of a symmetric region are made so to rounding
+/// (`symmetrise()`), up to 20,000.
 ///
 /// Up to 4000 quads are made several times, with and without rows and by several weightings of the cuts, and
 /// the best by measure is kept. Below about 1500 they are made three times without rows, by weightings of

@@ -2,11 +2,13 @@
 #include <lacuna/quads/detail/pave_choice.h>
 
 #include <lacuna/quads/detail/marks.h>
+#include <lacuna/quads/detail/mirror_counts.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/row_heights.h>
 #include <lacuna/quads/face_pattern.h>
 #include <lacuna/quads/measure_plane.h>
 #include <lacuna/quads/submap.h>
+#include <lacuna/quads/symmetry.h>
 
 #include <algorithm>
 #include <array>
@@ -168,7 +170,26 @@ bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_
     if (attempt.worst < kGood) return false;
     const PlaneQuality quality = measure_plane(attempt.mesh, region);
     return quality.min_scaled_jacobian > kGood && quality.mean_scaled_jacobian > kMean &&
-           quality.size_share() > of_size;
+           quality.size_share() > of_size && has_quads_asked(attempt.mesh, region.size);
+}
+
+/// Whether images of a part are so good that nothing else need be tried: what is symmetric may have a few
+/// more irregular nodes than what is not.
+bool is_good_part(const Attempt& attempt, const PlanarRegion& region)
+{
+    constexpr double kGood = 0.7, kMean = 0.9, kSizes = 0.93; // choices, not measurements
+    if (attempt.worst < kGood || !find_fault(attempt.mesh, region).empty()) return false;
+    // Where images meet, on an axis or at the centre, each may have a quad too many.
+    constexpr Index kMostQuads = 6;
+    std::vector<Index> valence(attempt.mesh.points.size(), 0);
+    for (const Quad& quad : attempt.mesh.quads) {
+        for (const Index p : quad) {
+            if (++valence[index(p)] > kMostQuads) return false;
+        }
+    }
+    const PlaneQuality quality = measure_plane(attempt.mesh, region);
+    return quality.mean_scaled_jacobian > kMean && quality.size_share() > kSizes &&
+           has_quads_asked(attempt.mesh, region.size);
 }
 
 } // namespace
@@ -191,11 +212,12 @@ double flat_below(const PlanarRegion& region)
 }
 
 AttemptChooser::AttemptChooser(const PlanarRegion& region, const PaveOptions& options,
-                               const RunContext& context)
+                               const RunContext& context, bool cut)
     : region_(region),
       judged_(region),
       options_(options),
       context_(context),
+      cut_(cut),
       least_irregular_(least_irregular(region)),
       is_few_(quads_within(region) < kFewQuads),
       setting_{region_, options_, size_with_boundary(region), flat_below(region)}
@@ -255,7 +277,19 @@ void AttemptChooser::try_grids()
     constexpr double kNearlyAll = 0.93, kMost = 0.85;
     std::vector<Attempt> grids{grid_attempt(submap(region_, context_), setting_)};
     is_good_grid_ = is_good_grid(grids[0], judged_, kNearlyAll);
-    if (!is_good_grid_ && quads_within(region_) < kSmall) {
+    if (is_good_grid_) {
+        consider(std::move(grids[0]));
+        return;
+    }
+    // More quads take long, and nobody looks at them one by one. A choice, not a measurement.
+    constexpr double kMostSymmetric = 20'000;
+    const std::optional<MirrorPart> part = cut_ && quads_within(region_) < kMostSymmetric ? part_of_region()
+                                                                                          : std::nullopt;
+    // Grids of discs, or about the only hole, in the middle, have more symmetries by themselves.
+    const bool whole_first = part && (part->has_centre ? region_.loops.size() == 1 && part->is_some
+                                                       : region_.loops.size() == 2);
+    if (part && !whole_first && try_part(*part, grids)) return;
+    if (quads_within(region_) < kSmall) {
         for (PlanarQuads& mesh : fill_patterns(region_, context_))
             grids.push_back(grid_attempt(std::move(mesh), setting_));
     }
@@ -265,9 +299,57 @@ void AttemptChooser::try_grids()
             is_good_grid_ = true;
             consider(grid);
         }
-        if (is_good_grid_) return;
+        if (is_good_grid_) break;
     }
+    if (whole_first) {
+        if (is_good_grid_) {
+            PlanarQuads made = best_.mesh;
+            if (symmetrise(made, region_) >= part->images.size()) return;
+        }
+        if (try_part(*part, grids)) return;
+    }
+    if (is_good_grid_) return;
     for (Attempt& grid : grids) consider(std::move(grid));
+}
+
+bool AttemptChooser::try_part(const MirrorPart& part, std::vector<Attempt>& grids)
+{
+    Attempt attempt = fill_part(part);
+    const bool is_good = is_good_part(attempt, judged_);
+    if (is_good) {
+        is_good_grid_ = true;
+        best_ = std::move(attempt);
+    } else {
+        grids.push_back(std::move(attempt));
+    }
+    return is_good;
+}
+
+std::optional<MirrorPart> AttemptChooser::part_of_region() const
+{
+    auto part = mirror_part(region_, outline_symmetries(region_), setting_.size);
+    if (part) count_axes(*part, setting_.size);
+    return part;
+}
+
+Attempt AttemptChooser::fill_part(const MirrorPart& part) const
+{
+    AttemptChooser chooser(part.region, options_, context_, false);
+    chooser.run();
+    Attempt attempt = chooser.take_best();
+    if (attempt.worst <= 0) return {};
+    attempt.mesh = unfold(part, attempt.mesh, region_);
+    attempt.report.used += ", " + std::to_string(part.images.size()) + " alike";
+    judge(attempt);
+    return attempt;
+}
+
+void AttemptChooser::run()
+{
+    try_default_weights();
+    if (is_good_grid_) return;
+    try_all_weights();
+    try_triangles();
 }
 
 void AttemptChooser::try_few_weights()

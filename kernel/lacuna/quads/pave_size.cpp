@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_size.h>
 
+#include <lacuna/quads/detail/corner_sine.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -136,6 +138,20 @@ std::function<double(const Vec2&)> size_with_boundary(const PlanarRegion& region
     return [asked, bounds = std::make_shared<const SizeBounds>(sides, grading)](const Vec2& p) {
         return bounds->limit(p, asked(p));
     };
+}
+
+bool has_quads_asked(const PlanarQuads& mesh, const std::function<double(const Vec2&)>& size)
+{
+    constexpr double kOff = 0.25;
+    double asked = 0;
+    for (const Quad& quad : mesh.quads) {
+        const auto at = [&](std::size_t k) -> const Vec2& {
+            return mesh.points[static_cast<std::size_t>(quad[k])];
+        };
+        const double length = size((at(0) + at(1) + at(2) + at(3)) / 4);
+        asked += cross(at(2) - at(0), at(3) - at(1)) / 2 / (length * length);
+    }
+    return std::abs(static_cast<double>(mesh.quads.size()) - asked) <= kOff * asked;
 }
 
 } // namespace lacuna::quads::paving

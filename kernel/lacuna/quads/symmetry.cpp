@@ -2,6 +2,7 @@
 #include <lacuna/quads/symmetry.h>
 
 #include <lacuna/core/edge_key.h>
+#include <lacuna/quads/detail/outline_symmetry.h>
 #include <lacuna/quads/measure_plane.h>
 
 #include <algorithm>
@@ -12,112 +13,28 @@
 namespace lacuna::quads {
 namespace {
 
-/// Nodes are alike that are nearer than this share of the region's extent: what the nodes of a CAD edge are
-/// off by. A choice, not a measurement.
-constexpr double kAlike = 1e-6;
-
-/// A turn about the centre, after mirroring in the first axis where it mirrors.
-struct Isometry {
-    Vec2 centre;
-    double cosine = 1, sine = 0;
-    bool mirrors = false;
-
-    [[nodiscard]] Vec2 operator()(const Vec2& p) const
-    {
-        const Vec2 d = p - centre;
-        const double y = mirrors ? -d.y() : d.y();
-        return centre + Vec2(cosine * d.x() - sine * y, sine * d.x() + cosine * y);
-    }
-    [[nodiscard]] Vec2 back(const Vec2& p) const
-    {
-        const Vec2 d = p - centre;
-        const Vec2 turned(cosine * d.x() + sine * d.y(), -sine * d.x() + cosine * d.y());
-        return centre + Vec2(turned.x(), mirrors ? -turned.y() : turned.y());
-    }
-};
-
-/// A symmetry and the node that each node goes to.
-struct Symmetry {
-    Isometry map;
-    std::vector<Index> to;
-};
-
 class SymmetryFinder {
 public:
-    SymmetryFinder(const PlanarQuads& mesh, const PlanarRegion& region) : mesh_(mesh), region_(region)
-    {
-        centre_ = Vec2::Zero();
-        for (const Vec2& p : region.points) centre_ += p / static_cast<double>(region.points.size());
-        double extent = 0;
-        for (const Vec2& p : region.points) extent = std::max(extent, (p - centre_).norm());
-        alike_ = kAlike * extent;
-        for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-            for (std::size_t k = 0; k < 4; ++k)
-                side_[directed_key(mesh.quads[q][k], mesh.quads[q][(k + 1) % 4])] = 4 * q + k;
-        }
-    }
+    SymmetryFinder(const PlanarQuads& mesh, const PlanarRegion& region) : mesh_(mesh), region_(region) {}
 
     /// All symmetries of the mesh but the identity.
     std::vector<Symmetry> run()
     {
-        std::vector<Symmetry> found;
-        const std::vector<Index>& loop = region_.loops[0];
-        const Vec2 first = at(loop[0]) - centre_;
-        for (const bool mirrors : {false, true}) {
-            for (std::size_t k = mirrors ? 0 : 1; k < loop.size(); ++k) {
-                const Vec2 image = at(loop[k]) - centre_;
-                if (std::abs(image.norm() - first.norm()) > alike_) continue;
-                const double y = mirrors ? -first.y() : first.y();
-                const double square = first.squaredNorm();
-                Symmetry symmetry{{centre_, (first.x() * image.x() + y * image.y()) / square,
-                                   (first.x() * image.y() - y * image.x()) / square, mirrors},
-                                  std::vector<Index>(mesh_.points.size(), -1)};
-                if (maps_outline(symmetry, k) && maps_holes(symmetry) && maps_quads(symmetry))
-                    found.push_back(std::move(symmetry));
-            }
+        std::vector<Symmetry> found, outline = outline_symmetries(region_);
+        if (outline.empty()) return found;
+        for (std::size_t q = 0; q < mesh_.quads.size(); ++q) {
+            for (std::size_t k = 0; k < 4; ++k)
+                side_[directed_key(mesh_.quads[q][k], mesh_.quads[q][(k + 1) % 4])] = 4 * q + k;
+        }
+        for (Symmetry& symmetry : outline) {
+            symmetry.to.resize(mesh_.points.size(), -1);
+            if (maps_quads(symmetry)) found.push_back(std::move(symmetry));
         }
         return found;
     }
 
 private:
-    [[nodiscard]] const Vec2& at(Index p) const { return mesh_.points[index(p)]; }
     static std::size_t index(Index p) { return static_cast<std::size_t>(p); }
-    [[nodiscard]] bool is_at(const Isometry& map, Index p, Index q) const
-    {
-        return (map(at(p)) - at(q)).squaredNorm() <= alike_ * alike_;
-    }
-
-    [[nodiscard]] bool maps_loop(Symmetry& symmetry, const std::vector<Index>& loop,
-                                 const std::vector<Index>& onto, std::size_t k) const
-    {
-        const std::size_t n = loop.size();
-        for (std::size_t i = 0; i < n; ++i) {
-            const Index to = onto[symmetry.map.mirrors ? (k + n - i) % n : (k + i) % n];
-            if (!is_at(symmetry.map, loop[i], to)) return false;
-            symmetry.to[index(loop[i])] = to;
-        }
-        return true;
-    }
-
-    [[nodiscard]] bool maps_outline(Symmetry& symmetry, std::size_t k) const
-    {
-        return maps_loop(symmetry, region_.loops[0], region_.loops[0], k);
-    }
-
-    [[nodiscard]] bool maps_holes(Symmetry& symmetry) const
-    {
-        for (std::size_t l = 1; l < region_.loops.size(); ++l) {
-            const std::vector<Index>& loop = region_.loops[l];
-            bool found = false;
-            for (std::size_t m = 1; m < region_.loops.size() && !found; ++m) {
-                const std::vector<Index>& onto = region_.loops[m];
-                for (std::size_t k = 0; onto.size() == loop.size() && k < onto.size() && !found; ++k)
-                    found = is_at(symmetry.map, loop[0], onto[k]) && maps_loop(symmetry, loop, onto, k);
-            }
-            if (!found) return false;
-        }
-        return true;
-    }
 
     /// Follow the quads from the boundary inward. @return false where one has no image
     [[nodiscard]] bool maps_quads(Symmetry& symmetry) const
@@ -158,8 +75,6 @@ private:
 
     const PlanarQuads& mesh_;
     const PlanarRegion& region_;
-    Vec2 centre_;
-    double alike_ = 0;
     std::unordered_map<std::uint64_t, std::size_t> side_; ///< 4 × quad + place, by a side's ends
 };
 

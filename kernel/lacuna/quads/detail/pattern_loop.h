@@ -67,6 +67,18 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
                                      const LoopFrame& frame, double side_weight, int rows,
                                      HalfEnds half = HalfEnds::soft);
 
+/// How many rows suit the soft turns where a loop bulges: a third of the radius or so of the widest. 1 where
+/// there are none. Rows are to be laid behind all of them.
+int fitting_rows(const PatternLoop& loop);
+
+/// The numbers of rows worth a trial, the fitting one first.
+std::vector<int> rows_to_try(int fitting);
+
+/// Lay other numbers of rows before soft turns; no more than three where the loop is bent inward, for holes
+/// have others about them.
+/// @pre  `loop` is as `head_loop()` made it.
+void set_soft_rows(PatternLoop& loop, int rows);
+
 /// Weights of a side's deviation. Where the grid goes round a hole the angles decide, for a slot's sides run
 /// across any circle: `kRoundWeight` is for all sides in sum. Choices, not measurements.
 inline constexpr double kStraightWeight = 1, kRoundWeight = 2;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/quads/detail/outline_symmetry.h>
 #include <lacuna/quads/detail/pave_attempt.h>
 
 #include <cstdint>
@@ -14,8 +15,12 @@ namespace lacuna::quads::paving {
 class AttemptChooser {
 public:
     /// @param region, context  kept by reference.
-    AttemptChooser(const PlanarRegion& region, const PaveOptions& options, const RunContext& context);
+    /// @param cut  whether a symmetric region may be filled by images of a part of it.
+    AttemptChooser(const PlanarRegion& region, const PaveOptions& options, const RunContext& context,
+                   bool cut = true);
 
+    /// All of the below, for as long as there is something to gain.
+    void run();
     /// The grid of a region of right angles. Then, unless that is good, few quads by weights of their own
     /// without rows, and with rows. Then, unless that is good, rows in every style that is worth a trial,
     /// with the default weights.
@@ -39,8 +44,15 @@ public:
 
 private:
     void consider(Attempt made);
-    /// The grid of a region of right angles; unless that is good, those of `fill_patterns()`.
+    /// The grid of a region of right angles; unless that is good, images of a part between mirror axes and
+    /// the grids of `fill_patterns()`, whichever are likelier to be good first.
     void try_grids();
+    /// The part between mirror axes, where there are any, with nodes on them.
+    [[nodiscard]] std::optional<MirrorPart> part_of_region() const;
+    /// Keep images of a part where they are good, else add them to the grids. @return whether they were kept
+    bool try_part(const MirrorPart& part, std::vector<Attempt>& grids);
+    /// Images of that part's quads.
+    [[nodiscard]] Attempt fill_part(const MirrorPart& part) const;
     void try_few_weights();
     /// Finish an attempt that was begun, unless an equal one was before, and consider it.
     void finish(Attempt begun);
@@ -57,6 +69,7 @@ private:
     PlanarRegion judged_; ///< the region with the size that its given sides allow
     PaveOptions options_;
     const RunContext& context_;
+    bool cut_;
     int least_irregular_; ///< that topology allows
     bool is_few_;         ///< quads, about
     AttemptSetting setting_;

@@ -1,0 +1,584 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/outline_symmetry.h>
+
+#include <lacuna/geometry/predicates.h>
+#include <lacuna/quads/detail/corner_sine.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+namespace lacuna::quads {
+namespace {
+
+/// Nodes are alike that are nearer than this share of the region's extent: what the nodes of a CAD edge are
+/// off by. A choice, not a measurement.
+constexpr double kAlike = 1e-6;
+
+std::size_t index(Index p) { return static_cast<std::size_t>(p); }
+
+Vec2 middle_of(const PlanarRegion& region)
+{
+    Vec2 centre = Vec2::Zero();
+    for (const Vec2& p : region.points) centre += p / static_cast<double>(region.points.size());
+    return centre;
+}
+
+double extent_of(const PlanarRegion& region, const Vec2& centre)
+{
+    double extent = 0;
+    for (const Vec2& p : region.points) extent = std::max(extent, (p - centre).norm());
+    return extent;
+}
+
+class OutlineFinder {
+public:
+    explicit OutlineFinder(const PlanarRegion& region)
+        : region_(region), centre_(middle_of(region)), alike_(kAlike * extent_of(region, centre_))
+    {
+    }
+
+    std::vector<Symmetry> run() const
+    {
+        std::vector<Symmetry> found = all();
+        // More make no better mesh. A choice, not a measurement.
+        constexpr std::size_t kMostTurns = 64;
+        const auto turns = 1 +
+                           static_cast<std::size_t>(std::count_if(
+                               found.begin(), found.end(), [](const Symmetry& s) { return !s.map.mirrors; }));
+        if (turns <= kMostTurns) return found;
+        // Quarter turns, where there are any, are among them.
+        const std::size_t quarters = std::gcd(turns, std::size_t{4});
+        std::size_t every = (turns + kMostTurns - 1) / kMostTurns;
+        while (turns % every != 0 || turns / every % quarters != 0) ++every;
+        const Index first = region_.loops[0][0];
+        const auto through = std::find_if(found.begin(), found.end(), [&](const Symmetry& s) {
+            return s.map.mirrors && s.to[index(first)] == first;
+        });
+        const bool has_axis = through != found.end();
+        const double axis = has_axis ? through->map.angle() : 0;
+        const double step = 2 * std::numbers::pi * static_cast<double>(every) / static_cast<double>(turns);
+        std::erase_if(found, [&](const Symmetry& s) {
+            if (s.map.mirrors && !has_axis) return true;
+            const double off = std::remainder(s.map.angle() - (s.map.mirrors ? axis : 0), step);
+            return std::abs(off) > 0.01 * step / static_cast<double>(every); // far below one turn
+        });
+        return found;
+    }
+
+private:
+    [[nodiscard]] std::vector<Symmetry> all() const
+    {
+        std::vector<Symmetry> found;
+        const std::vector<Index>& loop = region_.loops[0];
+        std::size_t far = 0;
+        for (std::size_t i = 1; i < loop.size(); ++i) {
+            if ((at(loop[i]) - centre_).norm() > (at(loop[far]) - centre_).norm() + alike_) far = i;
+        }
+        const Vec2 first = at(loop[far]) - centre_;
+        const std::size_t n = loop.size();
+        for (const bool mirrors : {false, true}) {
+            for (std::size_t k = mirrors ? 0 : 1; k < n; ++k) {
+                const Vec2 image = at(loop[(far + k) % n]) - centre_;
+                if (std::abs(image.norm() - first.norm()) > alike_) continue;
+                const double y = mirrors ? -first.y() : first.y();
+                Vec2 turn(first.x() * image.x() + y * image.y(), first.x() * image.y() - y * image.x());
+                turn.normalize();
+                Symmetry symmetry{{centre_, turn.x(), turn.y(), mirrors},
+                                  std::vector<Index>(region_.points.size(), -1)};
+                const std::size_t shift = mirrors ? 2 * far + k : k;
+                if (maps_loop(symmetry, loop, loop, shift % n) && maps_holes(symmetry))
+                    found.push_back(std::move(symmetry));
+            }
+        }
+        return found;
+    }
+
+    [[nodiscard]] const Vec2& at(Index p) const { return region_.points[index(p)]; }
+    [[nodiscard]] bool is_at(const Isometry& map, Index p, Index q) const
+    {
+        return (map(at(p)) - at(q)).squaredNorm() <= alike_ * alike_;
+    }
+
+    [[nodiscard]] bool maps_loop(Symmetry& symmetry, const std::vector<Index>& loop,
+                                 const std::vector<Index>& onto, std::size_t k) const
+    {
+        const std::size_t n = loop.size();
+        for (std::size_t i = 0; i < n; ++i) {
+            const Index to = onto[symmetry.map.mirrors ? (k + n - i) % n : (k + i) % n];
+            if (!is_at(symmetry.map, loop[i], to)) return false;
+            symmetry.to[index(loop[i])] = to;
+        }
+        return true;
+    }
+
+    [[nodiscard]] bool maps_holes(Symmetry& symmetry) const
+    {
+        for (std::size_t l = 1; l < region_.loops.size(); ++l) {
+            const std::vector<Index>& loop = region_.loops[l];
+            bool found = false;
+            for (std::size_t m = 1; m < region_.loops.size() && !found; ++m) {
+                const std::vector<Index>& onto = region_.loops[m];
+                for (std::size_t k = 0; onto.size() == loop.size() && k < onto.size() && !found; ++k)
+                    found = is_at(symmetry.map, loop[0], onto[k]) && maps_loop(symmetry, loop, onto, k);
+            }
+            if (!found) return false;
+        }
+        return true;
+    }
+
+    const PlanarRegion& region_;
+    Vec2 centre_;
+    double alike_;
+};
+
+/// A mirror axis: the angle of its direction, 0…π.
+struct Axis {
+    double angle = 0;
+    int worth = 0; ///< twice the loops that go over onto themselves, one more through the first node
+    std::size_t symmetry = 0;
+};
+
+/// Points along a line, both ends included, with as many of the sizes asked between them each.
+std::vector<Vec2> divided(const Vec2& from, const Vec2& to, int sides,
+                          const std::function<double(const Vec2&)>& size)
+{
+    constexpr int kSteps = 64; // where the size is asked: a choice, not a measurement
+    std::vector<double> run{0};
+    for (int i = 0; i < kSteps; ++i)
+        run.push_back(run.back() + 1 / size(from + (i + 0.5) / kSteps * (to - from)));
+    std::vector<Vec2> points;
+    std::size_t step = 0;
+    for (int k = 0; k <= sides; ++k) {
+        const double at = run.back() * k / sides;
+        while (step + 2 < run.size() && run[step + 1] < at) ++step;
+        const double part = (static_cast<double>(step) + (at - run[step]) / (run[step + 1] - run[step])) /
+                            kSteps;
+        points.push_back(k == sides ? to : Vec2(from + part * (to - from)));
+    }
+    return points;
+}
+
+double sizes_along(const Vec2& from, const Vec2& to, const std::function<double(const Vec2&)>& size)
+{
+    constexpr int kSteps = 64; // as above
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i) sum += 1 / size(from + (i + 0.5) / kSteps * (to - from));
+    return sum * (to - from).norm() / kSteps;
+}
+
+/// Cuts a region between two rays from its centre; a half turn apart they are one line.
+class PartCutter {
+public:
+    PartCutter(const PlanarRegion& region, const Vec2& centre, double from, double to, bool has_centre)
+        : region_(region),
+          centre_(centre),
+          alike_(kAlike * extent_of(region, centre)),
+          ray_{Vec2(std::cos(from), std::sin(from)), Vec2(std::cos(to), std::sin(to))},
+          is_half_(to - from > std::numbers::pi - 1e-9),
+          has_centre_(has_centre)
+    {
+    }
+
+    std::optional<MirrorPart> run(const std::function<double(const Vec2&)>& size)
+    {
+        if (!collect()) return std::nullopt;
+        part_.has_centre = has_centre_;
+        part_.region.size = region_.size;
+        part_.region.row_height = region_.row_height;
+        for (const std::vector<Index>& loop : whole_loops_) {
+            part_.region.loops.emplace_back();
+            for (const Index p : loop) push(p);
+        }
+        while (!chains_.empty()) {
+            if (!join_chains(size)) return std::nullopt;
+        }
+        return sort_loops() ? std::optional(std::move(part_)) : std::nullopt;
+    }
+
+private:
+    struct Chain {
+        std::vector<Index> nodes;
+    };
+
+    [[nodiscard]] Vec2 arm(Index p) const { return region_.points[index(p)] - centre_; }
+    /// How far a point is within the ray's side.
+    [[nodiscard]] double within(const Vec2& d, int ray) const
+    {
+        return ray == 0 ? cross(ray_[0], d) : cross(d, ray_[1]);
+    }
+    [[nodiscard]] bool is_inside(const Vec2& d) const
+    {
+        return within(d, 0) > alike_ && within(d, 1) > alike_;
+    }
+    /// 1 or 2 for a point on a ray, else 0.
+    [[nodiscard]] char ray_of(const Vec2& d) const
+    {
+        for (int r = 0; r < 2; ++r) {
+            if (std::abs(within(d, r)) <= alike_ && d.dot(ray_[static_cast<std::size_t>(r)]) > 0)
+                return static_cast<char>(r + 1);
+        }
+        return 0;
+    }
+
+    /// The loops within the part, and the pieces of others.
+    bool collect()
+    {
+        for (const std::vector<Index>& loop : region_.loops) {
+            const std::size_t n = loop.size();
+            std::vector<char> in(n);
+            for (std::size_t i = 0; i < n; ++i) {
+                if (arm(loop[i]).norm() <= alike_) return false;
+                const Vec2 a = arm(loop[i]), b = arm(loop[(i + 1) % n]);
+                in[i] = is_inside((a + b) / 2) ? 1 : 0;
+                // A side across a ray has its middle on one side and an end on the other.
+                for (const Vec2& d : {a, b}) {
+                    if (in[i] && !is_inside(d) && ray_of(d) == 0) return false;
+                }
+            }
+            const auto out = static_cast<std::size_t>(std::find(in.begin(), in.end(), 0) - in.begin());
+            if (out == n) {
+                whole_loops_.push_back(loop);
+                // A loop that touches a ray is none of a part.
+                for (const Index p : loop)
+                    if (ray_of(arm(p)) != 0) return false;
+                continue;
+            }
+            for (std::size_t k = 1; k <= n; ++k) {
+                const std::size_t i = (out + k) % n, before = (i + n - 1) % n;
+                if (!in[i]) continue;
+                const char ray = ray_of(arm(loop[i]));
+                if (!in[before] || ray != 0) {
+                    if (ray == 0) return false;
+                    chains_.push_back({{loop[i]}});
+                }
+                chains_.back().nodes.push_back(loop[(i + 1) % n]);
+            }
+        }
+        for (const Chain& chain : chains_) {
+            if (ray_of(arm(chain.nodes.back())) == 0) return false;
+        }
+        return !chains_.empty();
+    }
+
+    Index push(Index whole, int axis = -1)
+    {
+        const auto own = static_cast<Index>(part_.region.points.size());
+        part_.region.points.push_back(region_.points[index(whole)]);
+        part_.whole.push_back(whole);
+        part_.axis.push_back(axis);
+        part_.ray.push_back(ray_of(arm(whole)));
+        part_.region.loops.back().push_back(own);
+        return own;
+    }
+
+    /// Follow chains and axes round one loop.
+    bool join_chains(const std::function<double(const Vec2&)>& size)
+    {
+        part_.region.loops.emplace_back();
+        const Index start = chains_.front().nodes.front();
+        std::size_t c = 0;
+        while (true) {
+            const Chain chain = chains_[c];
+            chains_.erase(chains_.begin() + static_cast<std::ptrdiff_t>(c));
+            for (const Index p : chain.nodes) push(p);
+            const Index last = chain.nodes.back();
+            // The chain that starts where the ray comes to the region's boundary again.
+            const char ray = ray_of(arm(last));
+            auto next = next_start(ray, ray == 1 ? arm(last).norm() : -arm(last).norm(), start);
+            if (!next && ray == 2) {
+                if (!has_centre_) return false;
+                next = next_start(1, 0, start);
+                if (!next) return false;
+                if (!is_half_) {
+                    walk_axis(region_.points[index(last)], centre_, 2, size);
+                    part_.region.points.push_back(centre_);
+                    part_.region.loops.back().push_back(static_cast<Index>(part_.region.points.size()) - 1);
+                    part_.whole.push_back(-1);
+                    part_.ray.push_back(3);
+                    part_.axis.push_back(-1);
+                    walk_axis(centre_, region_.points[index(*next)], 1, size);
+                } else {
+                    walk_axis(region_.points[index(last)], region_.points[index(*next)], 1, size);
+                }
+            } else if (!next) {
+                return false;
+            } else {
+                walk_axis(region_.points[index(last)], region_.points[index(*next)], ray, size);
+            }
+            if (*next == start) return true;
+            c = static_cast<std::size_t>(
+                std::find_if(chains_.begin(), chains_.end(),
+                             [&](const Chain& other) { return other.nodes.front() == *next; }) -
+                chains_.begin());
+            if (c == chains_.size()) return false;
+        }
+    }
+
+    /// The first start of a chain on a ray beyond a place: outward on the first, inward on the second.
+    [[nodiscard]] std::optional<Index> next_start(char ray, double beyond, Index start) const
+    {
+        std::optional<Index> best;
+        double nearest = std::numeric_limits<double>::infinity();
+        const auto look = [&](Index p) {
+            if (ray_of(arm(p)) != ray) return;
+            const double at = ray == 1 ? arm(p).norm() : -arm(p).norm();
+            if (at <= beyond + alike_ || at >= nearest) return;
+            nearest = at;
+            best = p;
+        };
+        look(start);
+        for (const Chain& chain : chains_) look(chain.nodes.front());
+        return best;
+    }
+
+    /// Nodes along an axis from the last node pushed, both ends left out.
+    void walk_axis(const Vec2& from, const Vec2& to, char ray, const std::function<double(const Vec2&)>& size)
+    {
+        const auto axis = static_cast<int>(part_.wanted.size());
+        part_.wanted.push_back(sizes_along(from, to, size));
+        const int sides = std::max(1, static_cast<int>(std::lround(part_.wanted.back())));
+        part_.axis.back() = axis;
+        const std::vector<Vec2> points = divided(from, to, sides, size);
+        for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+            part_.region.loops.back().push_back(static_cast<Index>(part_.region.points.size()));
+            part_.region.points.push_back(points[k]);
+            part_.whole.push_back(-1);
+            part_.ray.push_back(ray);
+            part_.axis.push_back(axis);
+        }
+    }
+
+    /// The outer loop first. @return false where there is not one
+    bool sort_loops()
+    {
+        std::size_t outer = 0, count = 0;
+        for (std::size_t l = 0; l < part_.region.loops.size(); ++l) {
+            const std::vector<Index>& loop = part_.region.loops[l];
+            double twice = 0;
+            for (std::size_t i = 0; i < loop.size(); ++i)
+                twice += cross(part_.region.points[index(loop[i])] - centre_,
+                               part_.region.points[index(loop[(i + 1) % loop.size()])] - centre_);
+            if (twice <= 0) continue;
+            outer = l;
+            ++count;
+        }
+        std::swap(part_.region.loops[0], part_.region.loops[outer]);
+        return count == 1;
+    }
+
+    const PlanarRegion& region_;
+    const Vec2 centre_;
+    const double alike_;
+    const std::array<Vec2, 2> ray_;
+    const bool is_half_, has_centre_;
+    std::vector<std::vector<Index>> whole_loops_;
+    std::vector<Chain> chains_;
+    MirrorPart part_;
+};
+
+/// Whether a side goes over onto itself, so that the axis crosses it.
+bool crosses_side(const PlanarRegion& region, const Symmetry& mirror)
+{
+    for (const std::vector<Index>& loop : region.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Index a = loop[i], b = loop[(i + 1) % loop.size()];
+            if (mirror.to[index(a)] == b && mirror.to[index(b)] == a) return true;
+        }
+    }
+    return false;
+}
+
+/// Whether an axis goes through a corner of which it would leave a sharp or an obtuse half.
+bool halves_corner(const PlanarRegion& region, const Symmetry& mirror)
+{
+    constexpr double kMostOff = 25.0 / 90; // [right angles]; a hole of eight sides has 22.5°. A choice.
+    for (const std::vector<Index>& loop : region.loops) {
+        const std::size_t n = loop.size();
+        for (std::size_t i = 0; i < n; ++i) {
+            if (mirror.to[index(loop[i])] != loop[i]) continue;
+            const auto at = [&](std::size_t k) { return region.points[index(loop[k % n])]; };
+            const double half = turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i)) / std::numbers::pi;
+            if (std::abs(half - std::round(half)) > kMostOff) return true;
+        }
+    }
+    return false;
+}
+
+std::vector<Axis> axes_of(const PlanarRegion& region, const std::vector<Symmetry>& symmetries)
+{
+    std::vector<Axis> axes;
+    for (std::size_t s = 0; s < symmetries.size(); ++s) {
+        const Symmetry& symmetry = symmetries[s];
+        if (!symmetry.map.mirrors || crosses_side(region, symmetry) || halves_corner(region, symmetry))
+            continue;
+        Axis axis{symmetry.map.angle() / 2, 0, s};
+        const Index first = region.loops[0][0];
+        if (symmetry.to[index(first)] == first) axis.worth = 1;
+        if (axis.angle < 0) axis.angle += std::numbers::pi;
+        for (const std::vector<Index>& loop : region.loops) {
+            const Index to = symmetry.to[index(loop[0])];
+            if (std::find(loop.begin(), loop.end(), to) != loop.end()) axis.worth += 2;
+        }
+        axes.push_back(axis);
+    }
+    std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) { return a.angle < b.angle; });
+    return axes;
+}
+
+bool lies_in(const PlanarRegion& region, const Vec2& p)
+{
+    std::size_t around = 0;
+    for (const std::vector<Index>& loop : region.loops) {
+        std::vector<Vec2> polygon;
+        for (const Index q : loop) polygon.push_back(region.points[index(q)]);
+        if (geometry::lies_inside(polygon, p)) ++around;
+    }
+    return around == 1;
+}
+
+/// The angle at which the part ends, from one at which it begins.
+std::array<double, 2> part_between(const std::vector<Axis>& axes, bool has_centre)
+{
+    constexpr double kPi = std::numbers::pi;
+    // More images make no better quads. A choice, not a measurement.
+    constexpr std::size_t kMostAxes = 8;
+    if (!has_centre && axes.size() > 1) {
+        std::size_t every = (axes.size() + kMostAxes - 1) / kMostAxes;
+        while (axes.size() % every != 0) ++every;
+        return {axes[0].angle, every == axes.size() ? axes[0].angle + kPi : axes[every].angle};
+    }
+    const auto more = [](const Axis& a, const Axis& b) { return a.worth < b.worth; };
+    int most = -1;
+    std::array<double, 2> best{};
+    for (const Axis& axis : axes) {
+        for (const Axis& other : axes) {
+            if (std::abs(other.angle - axis.angle - kPi / 2) > 1e-6 || axis.worth + other.worth <= most)
+                continue;
+            most = axis.worth + other.worth;
+            best = {axis.angle, axis.angle + kPi / 2};
+        }
+    }
+    if (most >= 0) return best;
+    const double angle = std::max_element(axes.begin(), axes.end(), more)->angle;
+    return {angle, angle + kPi};
+}
+
+} // namespace
+
+std::vector<Symmetry> outline_symmetries(const PlanarRegion& region) { return OutlineFinder(region).run(); }
+
+std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vector<Symmetry>& symmetries,
+                                      const std::function<double(const Vec2&)>& size)
+{
+    const std::vector<Axis> axes = axes_of(region, symmetries);
+    if (axes.empty()) return std::nullopt;
+    const Vec2 centre = symmetries.front().map.centre;
+    const bool has_centre = lies_in(region, centre);
+    const auto [from, to] = part_between(axes, has_centre);
+    auto part = PartCutter(region, centre, from, to, has_centre).run(size);
+    if (!part) return std::nullopt;
+    // The images: turned by twice the angle of the part, or mirrored and turned.
+    const double angle = to - from;
+    const auto count = static_cast<int>(std::lround(2 * std::numbers::pi / angle));
+    part->images.push_back({{centre, 1, 0, false}, {}});
+    part->images.back().to.resize(region.points.size());
+    std::iota(part->images.back().to.begin(), part->images.back().to.end(), 0);
+    for (int j = 1; j < count; ++j) {
+        const bool mirrors = j % 2 != 0;
+        const double turn = mirrors ? 2 * from + (j + 1) * angle : j * angle;
+        const auto found = std::find_if(symmetries.begin(), symmetries.end(), [&](const Symmetry& s) {
+            constexpr double kSame = 1e-5; // far above what nodes are alike by, far below two symmetries
+            return s.map.mirrors == mirrors && std::abs(s.map.cosine - std::cos(turn)) < kSame &&
+                   std::abs(s.map.sine - std::sin(turn)) < kSame;
+        });
+        if (found == symmetries.end()) return std::nullopt;
+        part->images.push_back({{centre, std::cos(turn), std::sin(turn), mirrors}, found->to});
+    }
+    part->is_some = symmetries.size() + 1 > part->images.size();
+    return part;
+}
+
+void divide_axes(MirrorPart& part, const std::vector<int>& sides,
+                 const std::function<double(const Vec2&)>& size)
+{
+    MirrorPart made;
+    made.wanted = part.wanted;
+    made.has_centre = part.has_centre;
+    made.is_some = part.is_some;
+    made.region.size = part.region.size;
+    made.region.row_height = part.region.row_height;
+    for (const std::vector<Index>& loop : part.region.loops) {
+        made.region.loops.emplace_back();
+        const std::size_t n = loop.size();
+        // Begin at the start of a piece, or where none is.
+        std::size_t first = 0;
+        while (first < n && part.axis[index(loop[first])] >= 0 &&
+               part.axis[index(loop[first])] == part.axis[index(loop[(first + n - 1) % n])])
+            ++first;
+        for (std::size_t k = 0; k < n;) {
+            const Index here = loop[(first + k) % n];
+            const int axis = part.axis[index(here)];
+            const auto push = [&](const Vec2& p, Index whole, char ray) {
+                made.region.loops.back().push_back(static_cast<Index>(made.region.points.size()));
+                made.region.points.push_back(p);
+                made.whole.push_back(whole);
+                made.axis.push_back(axis);
+                made.ray.push_back(ray);
+            };
+            push(part.region.points[index(here)], part.whole[index(here)], part.ray[index(here)]);
+            std::size_t end = k + 1;
+            if (axis >= 0) {
+                while (end < n && part.axis[index(loop[(first + end) % n])] == axis) ++end;
+                const Index last = loop[(first + end) % n];
+                // Nodes within lie on the ray of whichever end is not the centre.
+                const char ray = part.ray[index(here)] == 3 ? part.ray[index(last)] : part.ray[index(here)];
+                const std::vector<Vec2> points = divided(part.region.points[index(here)],
+                                                         part.region.points[index(last)],
+                                                         sides[static_cast<std::size_t>(axis)], size);
+                for (std::size_t i = 1; i + 1 < points.size(); ++i) push(points[i], -1, ray);
+            }
+            k = end;
+        }
+    }
+    made.images = std::move(part.images);
+    part = std::move(made);
+}
+
+PlanarQuads unfold(const MirrorPart& part, const PlanarQuads& mesh, const PlanarRegion& region)
+{
+    PlanarQuads whole{region.points, {}, mesh.how};
+    const std::size_t own = mesh.points.size(), images = part.images.size();
+    std::vector<std::vector<Index>> node(images, std::vector<Index>(own, -1));
+    for (std::size_t j = 0; j < images; ++j) {
+        const Symmetry& image = part.images[j];
+        for (std::size_t p = 0; p < own; ++p) {
+            Index& here = node[j][p];
+            const bool rim = p < part.whole.size();
+            if (rim && part.whole[p] >= 0) {
+                here = image.to[index(part.whole[p])];
+                continue;
+            }
+            // An axis is shared with the image before or after; the last meets the first on the first ray.
+            const int ray = rim ? part.ray[p] : 0;
+            if (ray == 3 && j > 0) here = node[0][p];
+            if (ray == 2 && j % 2 != 0) here = node[j - 1][p];
+            if (ray == 1 && j > 0 && j % 2 == 0) here = node[j - 1][p];
+            if (ray == 1 && j + 1 == images) here = node[0][p];
+            if (here >= 0) continue;
+            here = static_cast<Index>(whole.points.size());
+            whole.points.push_back(image.map(mesh.points[p]));
+        }
+        for (Quad quad : mesh.quads) {
+            for (Index& p : quad) p = node[j][index(p)];
+            if (image.map.mirrors) std::reverse(quad.begin(), quad.end());
+            whole.quads.push_back(quad);
+        }
+    }
+    return whole;
+}
+
+} // namespace lacuna::quads
