@@ -32,6 +32,10 @@ void write_msh(const mesh::LayeredMesh& layered, const OutputPath& path, const M
 void write_vtu(const mesh::LayeredMesh& layered, const OutputPath& path,
                const std::vector<LayeredField>& fields = {}, const RunContext& context = {},
                const Team* team = nullptr);
+/// @param team  who each write some of the pieces.
+void write_pvtu(const mesh::LayeredMesh& layered, const OutputPath& path, const PartitionOptions& partition,
+                const std::vector<LayeredField>& fields = {}, const RunContext& context = {},
+                const Team* team = nullptr);
 void write_vtk(const mesh::LayeredMesh& layered, const OutputPath& path, const VtkOptions& options = {},
                const std::vector<LayeredField>& fields = {}, const RunContext& context = {},
                const Team* team = nullptr);

@@ -28,8 +28,7 @@ enum class Sizes { exact, varying };
 /// whatever the file's size; the bytes are the same for any thread count. Progress is told in shares.
 ///
 /// A team fills and writes a share of each section; it is rank 0's path that is written to. Files whose
-/// records vary are filled in rounds, a share of each by each, since a share's place is known once those before
-/// it are filled.
+/// records vary are filled in rounds, a share of each by each: a place is known once those before are filled.
 /// @throw  as `WholeFile`; TeamFailed
 void write_file(const OutputPath& path, const std::vector<Section>& sections, Sizes sizes,
                 const RunContext& context, const Team* team = nullptr);
