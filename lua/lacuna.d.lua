@@ -357,7 +357,7 @@ function Volume:sweep(options) end
 --- Sweep and write a layer at a time, in memory that the number of layers hardly matters to: the bytes of
 --- sweep(options):write(path). The report has nodes, hexes, wedges, layers, min_scaled_jacobian, streamed,
 --- processes (with mpirun) and seconds by stage.
----@param path string .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat or .unv
+---@param path string .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo or .e
 ---@param options lacuna.SweepToOptions
 ---@return table report
 function Volume:sweep_to(path, options) end

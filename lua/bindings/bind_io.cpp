@@ -434,15 +434,7 @@ int write_assembly(lua_State* L)
     RunContext& context = push_context(L);
     const Host& lent = host(L);
     guard(L, [&] {
-        if (arguments.quality_given)
-            throw InvalidInput("lua.idle_option",
-                               "write: meshes of assemblies are written without 'quality'; "
-                               "leave it out");
-        static_cast<void>(format_of(path.text(), arguments)); // refuses what the format has not
-        count_parts(arguments, path, lent.crew);
-        for (const sweep::LeftOut& out : state.left_out)
-            log_line(context, "note: " + path.text() + " has a hole: left out is " + out.message);
-        write_parts(state, path, arguments, context);
+        write_pieces(state, path, arguments, lent.crew, context);
         write_options_beside(lent, path, arguments);
     });
     return 0;
@@ -610,11 +602,10 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
     guard(L, [&] {
         const std::string ending = io::ending_of(path.text());
         if (!team::is_layered(ending))
-            throw InvalidInput(
-                "lua.not_layered",
-                "sweep_to: " + path.text() +
-                    ": files written a layer at a time end in .msh, .vtu, .pvtu, .vtk, "
-                    ".inp, .bdf, .nas, .dat or .unv; for others use volume:sweep(options):write(path)");
+            throw InvalidInput("lua.not_layered",
+                               "sweep_to: " + path.text() +
+                                   ": files written a layer at a time end in .msh, .vtu, .pvtu, .vtk, "
+                                   ".inp, .bdf, .nas, .dat, .unv, .exo or .e");
         format_of(path.text(), arguments); // refuses options that it has not
         for (const quality::Metric metric : metrics_of(arguments))
             if (!team::is_layered(metric))
@@ -646,6 +637,19 @@ void write_layered(const sweep::Swept& swept, const std::string& material, const
         {mesh, *swept.layers}, *swept.plan, path,
         {arguments.msh.binary, arguments.msh.version, metrics_of(arguments), material, arguments.partition},
         crew, context);
+}
+
+void write_pieces(const AssemblyMeshState& state, const io::OutputPath& path, WriteArguments& arguments,
+                  const Crew* crew, const RunContext& context)
+{
+    if (arguments.quality_given)
+        throw InvalidInput("lua.idle_option", "write: meshes of assemblies are written without 'quality'; "
+                                              "leave it out");
+    static_cast<void>(format_of(path.text(), arguments)); // refuses what the format has not
+    count_parts(arguments, path, crew);
+    for (const sweep::LeftOut& out : state.left_out)
+        log_line(context, "note: " + path.text() + " has a hole: left out is " + out.message);
+    write_parts(state, path, arguments, context);
 }
 
 void bind_io(lua_State* L)
