@@ -112,7 +112,7 @@
 ---@field threads? integer default: all cores
 
 ---@class lacuna.SweepToOptions: lacuna.SweepOptions
----@field write? { version?: 4.1|2.2, binary?: boolean, quality?: boolean|lacuna.MetricName|lacuna.MetricName[] } how the file is written; default as mesh:write
+---@field write? { version?: 4.1|2.2, binary?: boolean, quality?: boolean|lacuna.MetricName|lacuna.MetricName[], partitions?: integer|"processes", ghosts?: integer } how the file is written; default as mesh:write
 
 ---@class lacuna.WriteOptions
 ---@field version? 4.1|2.2
@@ -126,6 +126,8 @@
 ---@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"
 ---@field gmsh_options? boolean of .msh: a file beside it, .opt behind its name, with which Gmsh shows cells and groups; default false
 ---@field interfaces? boolean of an assembly: quads between its volumes are elements too; default false
+---@field partitions? integer|"processes" of .pvtu and .msh: parts; of .pvtu default as many as processes
+---@field ghosts? integer rows of other parts' cells that are marked as each part's ghosts; default 0
 
 ---@class lacuna.ConvertOptions
 ---@field version? 4.1|2.2 of .msh; default 4.1
@@ -355,7 +357,7 @@ function Volume:sweep(options) end
 --- Sweep and write a layer at a time, in memory that the number of layers hardly matters to: the bytes of
 --- sweep(options):write(path). The report has nodes, hexes, wedges, layers, min_scaled_jacobian, streamed,
 --- processes (with mpirun) and seconds by stage.
----@param path string .msh, .vtu, .vtk, .inp, .bdf, .nas, .dat or .unv
+---@param path string .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo or .e
 ---@param options lacuna.SweepToOptions
 ---@return table report
 function Volume:sweep_to(path, options) end

@@ -34,6 +34,8 @@ struct WriteArguments {
     bool renumber = false, renumber_given = false;
     bool gmsh_options = false; ///< a file beside a .msh that says how Gmsh shows it
     bool interfaces = false;   ///< of an assembly: quads between its volumes too
+    io::PartitionOptions partition;
+    bool partitions_given = false, by_process = false; ///< a part for each process
 };
 
 namespace {
@@ -149,6 +151,32 @@ void read_renumber(lua_State* L, int index, const Where& where, WriteArguments& 
     arguments.renumber_given = true;
 }
 
+/// A count, or "processes".
+void read_partitions(lua_State* L, int index, const Where& where, WriteArguments& arguments)
+{
+    arguments.partitions_given = true;
+    arguments.by_process = lua_type(L, index) == LUA_TSTRING;
+    if (!arguments.by_process) {
+        arguments.partition.parts = static_cast<int>(read_whole(L, index, where, 1));
+        return;
+    }
+    const char* const words[] = {"processes"};
+    read_word(L, index, where, words, 1);
+}
+
+void read_ghosts(lua_State* L, int index, const Where& where, WriteArguments& arguments)
+{
+    arguments.partition.ghosts = static_cast<int>(read_whole(L, index, where, 0));
+}
+
+/// As many parts as processes, where that is asked for or a .pvtu leaves it open.
+void count_parts(WriteArguments& arguments, const io::OutputPath& path, const Crew* crew)
+{
+    const bool open = !arguments.partitions_given && io::ending_of(path.text()) == ".pvtu";
+    if (arguments.by_process || open) arguments.partition.parts = crew != nullptr ? crew->size : 1;
+    arguments.msh.partition = arguments.partition;
+}
+
 const Option<WriteArguments> kWriteOptions[] = {
     {"version", read_version},
     {"binary", read_binary},
@@ -161,13 +189,14 @@ const Option<WriteArguments> kWriteOptions[] = {
     {"element", read_element},
     {"interfaces", boolean<&WriteArguments::interfaces>},
     {"gmsh_options", boolean<&WriteArguments::gmsh_options>},
+    {"partitions", read_partitions},
+    {"ghosts", read_ghosts},
 };
 
 /// Of files that are written a layer at a time.
 const Option<WriteArguments> kLayeredOptions[] = {
-    {"version", read_version},
-    {"binary", read_binary},
-    {"quality", read_quality},
+    {"version", read_version},       {"binary", read_binary}, {"quality", read_quality},
+    {"partitions", read_partitions}, {"ghosts", read_ghosts},
 };
 
 /// The decks that models were read from as one; `merged` holds it where there are several.
@@ -252,6 +281,10 @@ const Format kFormats[] = {
          if (!arguments.with.empty()) return write_deck(mesh, path, arguments, context);
          io::write_vtu(mesh, path, {arguments.msh.fields}, context);
      }},
+    {".pvtu", false, false, false, false,
+     [](const auto& mesh, const auto& path, const auto& arguments, const auto& context) {
+         io::write_pvtu(mesh, path, arguments.partition, {arguments.msh.fields}, context);
+     }},
     {".vtk", false, true, false, false,
      [](const auto& mesh, const auto& path, const auto& arguments, const auto& context) {
          if (!arguments.with.empty()) return write_deck(mesh, path, arguments, context);
@@ -277,6 +310,12 @@ const char* idle_option(const Format& format, const WriteArguments& arguments)
     if (!arguments.without.empty() && arguments.with.empty()) return "without";
     if (arguments.element_given && !format.has_element) return "element";
     if (arguments.gmsh_options && std::string_view(format.ending) != ".msh") return "gmsh_options";
+    const bool pieces = std::string_view(format.ending) == ".pvtu";
+    const bool parted = (pieces || std::string_view(format.ending) == ".msh") && arguments.with.empty();
+    if (!arguments.with.empty() && pieces) return "with";
+    if (arguments.partitions_given && !parted) return "partitions";
+    if (arguments.partition.ghosts > 0 && !(parted && (pieces || arguments.partitions_given)))
+        return "ghosts";
     if (arguments.deck.first_node != 0 && !numbered) return "first_node";
     if (arguments.deck.first_cell != 0 && !numbered) return "first_cell";
     return nullptr;
@@ -289,8 +328,14 @@ const Format& format_of(const std::string& path, const WriteArguments& arguments
         known += std::string(" ") + format.ending;
         if (io::ending_of(path) != format.ending) continue;
         if (const char* idle = idle_option(format, arguments))
-            throw InvalidInput("lua.idle_option", std::string("write: ") + format.ending +
-                                                      " files have no option '" + idle + "'; leave it out");
+            throw InvalidInput(
+                "lua.idle_option",
+                std::string("write: ") + format.ending + " files " +
+                    (arguments.with.empty() ? "" : "with = model ") + "have no option '" + idle + "'" +
+                    (idle == std::string_view("ghosts") && std::string_view(format.ending) == ".msh"
+                         ? " without 'partitions'"
+                         : "") +
+                    "; leave it out");
         return format;
     }
     throw InvalidInput("lua.unknown_ending",
@@ -316,6 +361,7 @@ int write(lua_State* L)
     guard(L, [&] {
         const mesh::HexMesh& mesh = state.swept.mesh;
         const Format& format = format_of(path.text(), arguments);
+        count_parts(arguments, path, lent.crew);
         if (arguments.interfaces)
             throw InvalidInput("lua.idle_option", "write: meshes of one volume have no option 'interfaces'; "
                                                   "leave it out");
@@ -333,21 +379,48 @@ int write(lua_State* L)
     return 0;
 }
 
+std::vector<mesh::MeshPart> parts_of(const AssemblyMeshState& state)
+{
+    std::vector<mesh::MeshPart> parts;
+    for (std::size_t p = 0; p < state.regions.size(); ++p)
+        parts.push_back({&state.swept.parts[p].mesh, state.swept.number[p]});
+    return parts;
+}
+
 /// The parts of an assembly's mesh in one deck, or with the decks they fill voids of.
 io::Deck deck_of_parts(const AssemblyMeshState& state, WriteArguments& arguments, const RunContext& context)
 {
     io::MeshDeckOptions& options = arguments.deck;
-    if (arguments.with.empty()) {
-        std::vector<mesh::MeshPart> parts;
-        for (std::size_t p = 0; p < state.regions.size(); ++p)
-            parts.push_back({&state.swept.parts[p].mesh, state.swept.number[p]});
-        return io::deck_of(parts, options, arguments.interfaces);
-    }
+    if (arguments.with.empty()) return io::deck_of(parts_of(state), options, arguments.interfaces);
     for (const Box<ModelState>& model : arguments.with) refresh(*model);
     std::vector<JoinedMesh> meshes;
     for (std::size_t p = 0; p < state.regions.size(); ++p)
         meshes.push_back({&state.swept.parts[p].mesh, state.materials[p]});
     return joined_deck(meshes, arguments, context);
+}
+
+/// Write the mesh of an assembly, in parts where these are asked for.
+void write_parts(const AssemblyMeshState& state, const io::OutputPath& path, WriteArguments& arguments,
+                 const RunContext& context)
+{
+    const std::string ending = io::ending_of(path.text());
+    const bool pieces = ending == ".pvtu";
+    if (pieces)
+        arguments.deck.format = io::DeckFormat::vtu;
+    else
+        io::find_deck_format(ending, arguments.deck.format);
+    const io::Deck deck = deck_of_parts(state, arguments, context);
+    io::DeckFileOptions options{arguments.msh.binary, arguments.msh.version};
+    io::DeckPartition partition;
+    if (arguments.partition.parts > 0) {
+        if (arguments.msh.version != 4.1)
+            throw InvalidInput("io.partition_version",
+                               "parts are written in MSH version 4.1 alone; leave out the version");
+        partition = io::partition_of(deck, parts_of(state), arguments.partition);
+        options.partition = &partition;
+    }
+    if (pieces) return io::write_pvtu(deck, partition, arguments.partition.ghosts, path, context);
+    io::write_deck(deck, arguments.deck.format, path, context, options);
 }
 
 /// assembly_mesh:write(path [, options])
@@ -361,16 +434,7 @@ int write_assembly(lua_State* L)
     RunContext& context = push_context(L);
     const Host& lent = host(L);
     guard(L, [&] {
-        if (arguments.quality_given)
-            throw InvalidInput("lua.idle_option",
-                               "write: meshes of assemblies are written without 'quality'; "
-                               "leave it out");
-        static_cast<void>(format_of(path.text(), arguments)); // refuses what the format has not
-        io::find_deck_format(io::ending_of(path.text()), arguments.deck.format);
-        for (const sweep::LeftOut& out : state.left_out)
-            log_line(context, "note: " + path.text() + " has a hole: left out is " + out.message);
-        io::write_deck(deck_of_parts(state, arguments, context), arguments.deck.format, path, context,
-                       {arguments.msh.binary, arguments.msh.version});
+        write_pieces(state, path, arguments, lent.crew, context);
         write_options_beside(lent, path, arguments);
     });
     return 0;
@@ -538,11 +602,10 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
     guard(L, [&] {
         const std::string ending = io::ending_of(path.text());
         if (!team::is_layered(ending))
-            throw InvalidInput(
-                "lua.not_layered",
-                "sweep_to: " + path.text() +
-                    ": files written a layer at a time end in .msh, .vtu, .vtk, "
-                    ".inp, .bdf, .nas, .dat or .unv; for others use volume:sweep(options):write(path)");
+            throw InvalidInput("lua.not_layered",
+                               "sweep_to: " + path.text() +
+                                   ": files written a layer at a time end in .msh, .vtu, .pvtu, .vtk, "
+                                   ".inp, .bdf, .nas, .dat, .unv, .exo or .e");
         format_of(path.text(), arguments); // refuses options that it has not
         for (const quality::Metric metric : metrics_of(arguments))
             if (!team::is_layered(metric))
@@ -558,6 +621,7 @@ void write_layered(const sweep::Swept& swept, const std::string& material, const
                    WriteArguments& arguments, const Crew* crew, const RunContext& context)
 {
     arguments.deck.material = material;
+    count_parts(arguments, path, crew);
     const mesh::HexMesh& mesh = swept.mesh;
     report_progress(context, "writing " + path.text());
     if (!swept.layers) {
@@ -569,9 +633,23 @@ void write_layered(const sweep::Swept& swept, const std::string& material, const
                 {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
         return format_of(path.text(), arguments).write(mesh, path, arguments, context);
     }
-    team::write_layered({mesh, *swept.layers}, *swept.plan, path,
-                        {arguments.msh.binary, arguments.msh.version, metrics_of(arguments), material}, crew,
-                        context);
+    team::write_layered(
+        {mesh, *swept.layers}, *swept.plan, path,
+        {arguments.msh.binary, arguments.msh.version, metrics_of(arguments), material, arguments.partition},
+        crew, context);
+}
+
+void write_pieces(const AssemblyMeshState& state, const io::OutputPath& path, WriteArguments& arguments,
+                  const Crew* crew, const RunContext& context)
+{
+    if (arguments.quality_given)
+        throw InvalidInput("lua.idle_option", "write: meshes of assemblies are written without 'quality'; "
+                                              "leave it out");
+    static_cast<void>(format_of(path.text(), arguments)); // refuses what the format has not
+    count_parts(arguments, path, crew);
+    for (const sweep::LeftOut& out : state.left_out)
+        log_line(context, "note: " + path.text() + " has a hole: left out is " + out.message);
+    write_parts(state, path, arguments, context);
 }
 
 void bind_io(lua_State* L)

@@ -862,33 +862,52 @@ void push_write_options(lua_State* L, int index)
         fail_value(L, {"sweep_to", "write"}, "a table of options { version =, binary =, quality = }", -1);
 }
 
-/// report = volume:sweep_to(path, options)
-int sweep_to(lua_State* L)
+/// What sweep_to returns of a volume that was swept in pieces, whose mesh is on top: its report.
+void push_report_of_pieces(lua_State* L)
 {
-    lua_settop(L, 3);
-    VolumeState& state = *hold_box<VolumeState>(L, 1);
-    const io::OutputPath& path = push_output_path(L, 2, "sweep_to");
-    push_write_options(L, 3);
-    WriteArguments& file = push_layered_write(L, lua_gettop(L), path);
-    SweepArguments& arguments = push_arguments(L, 3, "sweep_to", state);
-    RunContext& context = push_context(L);
-    if (arguments.threads != 0) context.threads = arguments.threads;
-    const Crew* const crew = host(L).crew;
-    lua_gc(L, LUA_GCCOLLECT);
+    const int mesh = lua_gettop(L);
+    const auto& state = hold<AssemblyMeshState>(L, mesh);
+    lua_getfield(L, mesh, "report");
+    std::size_t hexes = 0, wedges = 0;
+    int layers = 0;
+    double least = 1;
+    for (const sweep::Swept& part : state.swept.parts) {
+        hexes += part.mesh.hex_count();
+        wedges += part.mesh.wedge_count();
+        layers = std::max(layers, part.mesh.layers);
+        least = std::min(least, part.min_scaled_jacobian);
+    }
+    set_count(L, "nodes", state.swept.nodes);
+    set_count(L, "hexes", hexes);
+    set_count(L, "wedges", wedges);
+    set_count(L, "layers", static_cast<std::size_t>(layers));
+    set_number(L, "min_scaled_jacobian", least);
+    set_boolean(L, "streamed", false);
+    set_count(L, "processes", 1);
+}
+
+/// Sweep a volume as it is and write it, a layer at a time where that goes.
+/// @return  whether it is swept
+bool sweep_whole_to(lua_State* L, VolumeState& state, SweepArguments& arguments, OtherWays& ways,
+                    const io::OutputPath& path, WriteArguments& file, const Crew* crew, RunContext& context)
+{
     auto& swept = temporary<sweep::Swept>(L);
     auto& seconds = temporary<StageSeconds>(L);
+    bool done = false;
     guard(L, [&] {
         const Busy busy(state, "sweep_to");
-        if (closure::has_pieces(state.volume, context))
-            throw InvalidInput("lua.not_layered",
-                               "sweep_to: a volume with branches or steps is swept in pieces, which are one "
-                               "mesh only when all are made; use volume:sweep(options):write(path)");
         StageClock clock(context);
-        close_volume(state, {}, context);
-        if (!state.decks.empty()) take_given_middles(state, arguments.options.second_order);
-        arguments.options.layered = true;
-        arguments.options.crew = crew;
-        swept = sweep::sweep(state.volume, arguments.options, context);
+        done = sweep_or_turn(state, ways, context, [&]() -> std::vector<std::string>& {
+            close_volume(state, {}, context);
+            closure::check_ends(state.volume, state.name.empty() ? "the volume" : state.name);
+            if (!state.decks.empty()) take_given_middles(state, arguments.options.second_order);
+            arguments.options.layered = true;
+            arguments.options.crew = crew;
+            swept = sweep::sweep(state.volume, arguments.options, context);
+            tell_match(state, swept.report, context);
+            return swept.report;
+        });
+        if (!done) return;
         if (!state.name.empty()) swept.mesh.volume_groups = {state.name};
         if (!swept.layers)
             swept.report.push_back(
@@ -897,6 +916,7 @@ int sweep_to(lua_State* L)
         write_layered(swept, state.material, path, file, crew, context);
         seconds = clock.seconds();
     });
+    if (!done) return false;
     lua_createtable(L, static_cast<int>(swept.report.size()), 8);
     for (std::size_t i = 0; i < swept.report.size(); ++i) {
         lua_pushlstring(L, swept.report[i].data(), swept.report[i].size());
@@ -911,7 +931,37 @@ int sweep_to(lua_State* L)
     set_boolean(L, "streamed", swept.layers.has_value());
     set_count(L, "processes", swept.layers && crew != nullptr ? static_cast<std::size_t>(crew->size) : 1);
     set_report_meta(L, seconds);
-    return 1;
+    return true;
+}
+
+/// report = volume:sweep_to(path, options)
+int sweep_to(lua_State* L)
+{
+    lua_settop(L, 3);
+    const Box<VolumeState>& volume = hold_box<VolumeState>(L, 1);
+    VolumeState& state = *volume;
+    const io::OutputPath& path = push_output_path(L, 2, "sweep_to");
+    push_write_options(L, 3);
+    WriteArguments& file = push_layered_write(L, lua_gettop(L), path);
+    SweepArguments& arguments = push_arguments(L, 3, "sweep_to", state);
+    RunContext& context = push_context(L);
+    if (arguments.threads != 0) context.threads = arguments.threads;
+    const Crew* const crew = host(L).crew;
+    lua_gc(L, LUA_GCCOLLECT);
+    auto& ways = temporary<OtherWays>(L);
+    for (;;) {
+        const int top = lua_gettop(L);
+        bool steps = false;
+        guard(L, [&] { steps = closure::has_pieces(state.volume, context); });
+        if (steps && sweep_steps(L, volume, arguments, ways, context)) {
+            const auto& pieces = check<AssemblyMeshState>(L, -1); // which stays on the stack
+            guard(L, [&] { write_pieces(pieces, path, file, crew, context); });
+            push_report_of_pieces(L);
+            return 1;
+        }
+        if (!steps && sweep_whole_to(L, state, arguments, ways, path, file, crew, context)) return 1;
+        lua_settop(L, top);
+    }
 }
 
 // --- several volumes as one ---------------------------------------------------------------------------

@@ -22,4 +22,8 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
 void write_layered(const sweep::Swept& swept, const std::string& material, const io::OutputPath& path,
                    WriteArguments& arguments, const Crew* crew, const RunContext& context);
 
+/// Write the mesh of an assembly, as assembly_mesh:write does.
+void write_pieces(const AssemblyMeshState& state, const io::OutputPath& path, WriteArguments& arguments,
+                  const Crew* crew, const RunContext& context);
+
 } // namespace lacuna::lua

@@ -17,7 +17,8 @@ local formats = {
   { "msh", { version = 2.2, binary = false, quality = true } }, { "msh", { quality = false } },
   { "msh", { quality = { "shape", "volume" } } },
   { "vtu" }, { "vtk" }, { "vtk", { binary = false, quality = "skew" } },
-  { "inp" }, { "bdf" }, { "unv" },
+  { "inp" }, { "bdf" }, { "unv" }, { "exo" }, { "msh", { partitions = 3, ghosts = 1 } },
+  { "msh", { partitions = 2, binary = false } },
 }
 
 -- Sweep one volume both ways and compare the bytes; the volume is made anew for each.
@@ -58,7 +59,7 @@ end
 
 -- --- decks: the volume's name and material, wedges
 
-local decks = { { "inp" }, { "nas" }, { "dat" }, { "unv" } }
+local decks = { { "inp" }, { "nas" }, { "dat" }, { "unv" }, { "exo" } }
 local function named()
   return lacuna.synthetic.prism(drop()):open_volume { name = "bar 1", material = "steel" }
 end
@@ -66,7 +67,7 @@ same("a name and a material", named, { layers = 5, size = 0.2 }, decks)
 
 -- --- placements: affine, fitted, straight; holes; what comes with heights of its own
 
-local few = { { "msh" }, { "vtu" }, { "inp" } }
+local few = { { "msh" }, { "vtu" }, { "inp" }, { "exo" } }
 same("holes", open("prism", { holes = 2, sides = 8 }), { layers = 5, size = 0.1 }, few)
 same("a taper", open("prism", { taper = 0.6, twist = 30 }), { layers = { 0.1, 0.3, 1 }, size = 0.2 }, few)
 same("an elbow", open("elbow", { angle = 90 }), { layers = 20, size = 0.2 }, few)
@@ -90,6 +91,46 @@ local whole = open("prism", drop())():sweep { layers = 4, size = 0.3, order = 2 
 whole:write(path("whole.msh"))
 check.that(bytes("whole.msh") == bytes("second.msh"), "order 2")
 
+-- --- volumes in pieces
+
+do
+  -- A stair of two steps.
+  local function stair()
+    local model = lacuna.model()
+    local function face(name, ...)
+      local points, cell = { ... }, {}
+      for i = 1, #points do cell[i] = i end
+      local cells = { cell }
+      if #points == 6 then cells = { { 1, 2, 5, 6 }, { 2, 3, 4, 5 } } end
+      model:add_face { name = name, points = points, cells = cells }
+    end
+    face("bottom", { 0, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 }, { 2, 1, 0 }, { 2, 0, 0 }, { 1, 0, 0 })
+    face("low", { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 })
+    face("high", { 1, 0, 2 }, { 2, 0, 2 }, { 2, 1, 2 }, { 1, 1, 2 })
+    face("riser", { 1, 0, 1 }, { 1, 0, 2 }, { 1, 1, 2 }, { 1, 1, 1 })
+    face("left", { 0, 0, 0 }, { 0, 0, 1 }, { 0, 1, 1 }, { 0, 1, 0 })
+    face("right", { 2, 0, 0 }, { 2, 1, 0 }, { 2, 1, 2 }, { 2, 0, 2 })
+    for y = 0, 1 do
+      local function at(x, z) return { x, y, z } end
+      model:add_face { name = "side" .. y, points = { at(0, 0), at(1, 0), at(2, 0), at(2, 2), at(1, 2),
+        at(1, 1), at(0, 1) }, cells = { { 1, 2, 6, 7 }, { 2, 3, 4 }, { 2, 4, 6 }, { 4, 5, 6 } } }
+    end
+    return model:open_volume { source = "bottom", target = { "low", "high" },
+      walls = { "left", "right", "riser", "side0", "side1" } }
+  end
+  for _, ending in ipairs { "msh", "exo", "vtu" } do
+    local whole = stair():sweep { size = 0.25 }
+    whole:write(path("whole." .. ending))
+    local own = stair():sweep_to(path("pieces." .. ending), { size = 0.25 })
+    check.that(bytes("whole." .. ending) == bytes("pieces." .. ending), "pieces as " .. ending)
+    check.equal(own.hexes, whole.hexes)
+    check.equal(own.nodes, whole.nodes)
+    check.equal(own.streamed, false)
+  end
+  local own = stair():sweep_to(path("pieces.pvtu"), { size = 0.25, write = { partitions = 2 } })
+  check.that(own.hexes > 0 and #bytes("pieces_1.vtu") > 0)
+end
+
 -- --- what is refused is refused before anything is made, and leaves no file
 
 local void = open("prism", drop())()
@@ -97,8 +138,12 @@ local function refused(name, options, ...)
   check.fails(function() void:sweep_to(path(name), options) end, ...)
   check.that(not io.open(path(name), "rb"), name .. " is there")
 end
-refused("no.exo", { layers = 4 }, ".inp", "volume:sweep(options):write(path)")
-refused("no.txt", { layers = 4 }, ".dat or .unv")
+refused("no.txt", { layers = 4 }, ".exo or .e")
+refused("no.msh", { layers = 4, write = { partitions = 5 } }, "4 layers")
+refused("no.pvtu", { layers = 4, write = { partitions = 0 } }, "partitions")
+refused("no.msh", { layers = 4, write = { partitions = 2, version = 2.2 } }, "4.1")
+refused("no.msh", { layers = 4, write = { ghosts = 1 } }, "ghosts", "partitions")
+refused("no.vtu", { layers = 4, write = { partitions = 2 } }, "partitions")
 refused("no.inp", { layers = 4, write = { quality = "shape" } }, "quality")
 refused("no.msh", { layers = 4, write = { with = 1 } }, "write", "with")
 refused("no.msh", { layers = 4, write = 3 }, "write", "a table of options")

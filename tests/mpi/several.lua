@@ -19,7 +19,7 @@ do
   file:write([[
 local lacuna = require "lacuna"
 local p = lacuna.params { output = "", layers = 12, size = 0.15, fail = "", whole = false,
-  binary = true }
+  binary = true, parts = "" }
 print "started"
 local part = lacuna.synthetic.prism { sides = 6, twist = 20, drop = { "wall_1" } }
 local void = part:open_volume {}
@@ -27,7 +27,10 @@ if p.fail == "before" then error "a recipe that ends" end
 if p.whole then
   void:sweep { layers = p.layers, size = p.size }:write(p.output)
 else
-  local write = not p.output:find "vtu" and { binary = p.binary } or nil
+  local write = not p.output:find "vtu" and { binary = p.binary } or {}
+  if p.parts ~= "" then
+    write.partitions, write.ghosts = math.tointeger(tonumber(p.parts)) or p.parts, 1
+  end
   local report = void:sweep_to(p.output, { layers = p.layers, size = p.size, write = write,
     min_scaled_jacobian = p.fail == "proof" and 0.999 or nil, improve = p.fail ~= "proof" })
   assert(report.streamed)
@@ -73,6 +76,101 @@ for _, count in ipairs { 1, 2, 4 } do
   if count > 1 then check.that(err:find("of " .. count .. " processes sent %d+ messages"), err) end
 end
 os.remove(path("large.msh"))
+
+-- In parts: the same whoever makes them; as many as processes where that is asked for.
+do
+  local parts = { "parts.msh", "parts.pvtu", "parts_0.vtu", "parts_1.vtu", "parts_2.vtu", "parts_3.vtu" }
+  local first = {}
+  for _, count in ipairs { 1, 2, 4 } do
+    for _, name in ipairs { "parts.msh", "parts.pvtu" } do
+      local code, _, err = run(count, recipe, "output=" .. path(name), "parts=4")
+      check.equal(code, 0, err)
+    end
+    for _, name in ipairs(parts) do
+      first[name] = first[name] or bytes(name)
+      check.that(first[name] and bytes(name) == first[name], name .. " of " .. count)
+    end
+    local code, _, err = run(count, recipe, "output=" .. path("own.pvtu"))
+    check.equal(code, 0, err)
+    check.equal(times(bytes("own.pvtu"), "<Piece "), count)
+    code, _, err = run(count, recipe, "output=" .. path("own.msh"), "parts=processes")
+    check.equal(code, 0, err)
+    for p = 0, 3 do os.remove(path("own_" .. p .. ".vtu")) end
+    for _, name in ipairs { "own.pvtu", "own.msh" } do os.remove(path(name)) end
+  end
+  for _, name in ipairs(parts) do os.remove(path(name)) end
+end
+
+-- What is sent, by layers and processes: the plan of the layers and the skin's, nothing for a cell.
+do
+  local sent = {}
+  print "layers  processes  hexahedra  messages  bytes"
+  for _, layers in ipairs { 40, 80 } do
+    for _, size in ipairs { 0.08, 0.04 } do
+      for _, count in ipairs { 2, 4 } do
+        local code, out, err = run(count, "--verbose", recipe, "output=" .. path("large.vtk"),
+          "layers=" .. layers, "size=" .. size)
+        check.equal(code, 0, err)
+        local hexes = tonumber(out:match("started%s+%d+%s+(%d+)"))
+        local messages, all = err:match("processes sent (%d+) messages, (%d+) bytes")
+        print(("%6d  %9d  %9d  %8s  %s"):format(layers, count, hexes, messages, all))
+        sent[#sent + 1] = { layers = layers, size = size, count = count, hexes = hexes,
+          bytes = tonumber(all) / (count - 1), messages = tonumber(messages) / (count - 1) }
+      end
+    end
+  end
+  -- Half the size has four times the cells and twice the rim: bytes a layer grow as the rim.
+  local function a_layer(size, count)
+    local low, high
+    for _, row in ipairs(sent) do
+      if row.size == size and row.count == count then low, high = high and low or row, row end
+    end
+    check.equal(low.messages, high.messages)
+    return (high.bytes - low.bytes) / (high.layers - low.layers), high.hexes / high.layers
+  end
+  for _, count in ipairs { 2, 4 } do
+    local coarse, few = a_layer(0.08, count)
+    local fine, many = a_layer(0.04, count)
+    check.that(many > 3.5 * few and fine < 2.3 * coarse, ("%g and %g bytes a layer"):format(coarse, fine))
+  end
+  os.remove(path("large.vtk"))
+end
+
+-- A process that is killed while files are written ends all, and nothing is left of any file.
+do
+  local killed = 0
+  for _, name in ipairs { "killed.msh", "killed.vtk", "killed.pvtu" } do
+    local command = ("%s --oversubscribe --allow-run-as-root -q -n 3 %s %s output=%s layers=400 size=0.01"
+      .. " binary=false > %s 2>&1 & echo $!"):format(params.mpirun, params.lacuna, recipe, path(name),
+      path("out.txt"))
+    local started = io.popen(command)
+    local mpirun = started:read "l"
+    started:close()
+    -- The last of its children is killed as soon as a file is open in the folder.
+    local watch = ([[
+folder=$(cd '%s' && pwd -P)
+for i in $(seq 600); do
+  for child in $(cat /proc/%s/task/%s/children 2>/dev/null); do
+    if ls -l /proc/$child/fd 2>/dev/null | grep -q "$folder/.*deleted\|$folder/\.killed"; then
+      for other in $(cat /proc/%s/task/%s/children); do last=$other; done
+      sleep 0.3; kill -9 $last && echo killed; break 2
+    fi
+  done
+  kill -0 %s 2>/dev/null || break
+  sleep 0.02
+done
+while kill -0 %s 2>/dev/null; do sleep 0.05; done]]):format(params.scratch, mpirun, mpirun, mpirun, mpirun,
+      mpirun, mpirun)
+    local script <close> = assert(io.open(path("watch.txt"), "w"))
+    script:write(watch)
+    script:flush()
+    local ran = io.popen("sh " .. path("watch.txt"))
+    killed = killed + times(ran:read "a", "killed")
+    ran:close()
+    check.that(not bytes(name), name .. " is there")
+  end
+  check.equal(killed, 3, "nobody was killed while files were written")
+end
 
 -- Nothing to share: the first does it, and says so.
 local code, out, err = run(3, recipe, "output=" .. path("mesh.msh"), "whole=true")

@@ -42,6 +42,8 @@ const std::vector<std::pair<std::string, team::LayeredFile>> kFiles{
     {".vtu", {true, 4.1, {quality::Metric::scaled_jacobian}}},
     {".vtk", {true, 4.1, {quality::Metric::shape}}},
     {".vtk", {false, 4.1, {quality::Metric::shape}}},
+    {".msh", {.partition = {3, 1}}},
+    {".msh", {.binary = false, .quality = {quality::Metric::shape}, .partition = {2, 0}}},
     {".inp", {.material = "steel"}},
     {".bdf", {}},
     {".unv", {}}};
@@ -94,6 +96,42 @@ TEST_CASE("a mesh made and written by any number is that of one, to the byte")
             CHECK(crew.failed == 0);
         }
     }
+}
+
+TEST_CASE("pieces made by any number are those of one, to the byte, and one that fails leaves none")
+{
+    const sweep::Swept one = swept_by(nullptr, {.sides = 6, .twist = 20}, 7, 0.3);
+    REQUIRE(one.layers);
+    const auto write = [&](const Crew* crew, const test::Folder& folder, int parts) {
+        const team::LayeredFile file{.quality = {quality::Metric::shape}, .partition = {parts, 1}};
+        team::write_layered({one.mesh, *one.layers}, *one.plan, folder.file("mesh.pvtu"), file, crew, {});
+    };
+    for (const int parts : {1, 3, 7}) {
+        const test::Folder alone;
+        write(nullptr, alone, parts);
+        CHECK(alone.entries() == std::size_t(parts) + 1);
+        for (const int size : {2, 4}) {
+            ThreadCrew crew(size);
+            const test::Folder together;
+            write(&crew.crew, together, parts);
+            crew.join();
+            CHECK(together.entries() == std::size_t(parts) + 1);
+            for (int p = -1; p < parts; ++p) {
+                const std::string name = p < 0 ? "mesh.pvtu" : "mesh_" + std::to_string(p) + ".vtu";
+                CHECK(test::bytes_of(together.file(name)) == test::bytes_of(alone.file(name)));
+            }
+        }
+    }
+    for (const int rank : {0, 2}) {
+        ThreadCrew crew(3);
+        crew.broken = rank;
+        const test::Folder folder;
+        CHECK(test::error_code([&] { write(&crew.crew, folder, 3); }) == "test.broken");
+        CHECK(folder.entries() == 0);
+    }
+    const test::Folder folder;
+    CHECK(test::error_code([&] { write(nullptr, folder, 8); }) == "io.too_many_parts");
+    CHECK(folder.entries() == 0);
 }
 
 TEST_CASE("a mesh that is refused is refused alike by any number")

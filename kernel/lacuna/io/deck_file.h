@@ -3,6 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/io/deck.h>
+#include <lacuna/io/partition.h>
 #include <lacuna/io/whole_file.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/mesh/mesh_part.h>
@@ -102,8 +103,9 @@ Deck merge_decks(std::span<const DeckInScale> decks, const MergeOptions& options
                  const RunContext& context = {});
 
 struct DeckFileOptions {
-    bool binary = true;       ///< of .msh and .vtk
-    double msh_version = 4.1; ///< or 2.2
+    bool binary = true;                       ///< of .msh and .vtk
+    double msh_version = 4.1;                 ///< or 2.2
+    const DeckPartition* partition = nullptr; ///< of .msh 4.1: which part elements are of; null: they are one
 };
 
 /// Write a deck as Nastran bulk data, Abaqus input, a universal file, an Exodus file, or for Gmsh or VTK:
@@ -124,5 +126,10 @@ struct DeckFileOptions {
 /// @throw BackendError  as `WholeFile`.
 void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context = {},
                 const DeckFileOptions& options = {});
+
+/// Write the parts of a deck as pieces, as `write_pvtu()` of a mesh does, with the arrays of its VTU file.
+/// @throw  as `write_deck()`
+void write_pvtu(const Deck& deck, const DeckPartition& partition, int ghosts, const OutputPath& path,
+                const RunContext& context = {});
 
 } // namespace lacuna::io

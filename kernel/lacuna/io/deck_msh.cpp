@@ -7,6 +7,7 @@
 #include <lacuna/io/detail/deck_entities.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/msh_content.h>
+#include <lacuna/io/detail/msh_parts.h>
 #include <lacuna/io/detail/msh_shapes.h>
 
 #include <algorithm>
@@ -17,10 +18,12 @@
 namespace lacuna::io {
 namespace {
 
-/// Elements of one block that are of one entity.
+/// Elements of one block that are of one entity and part.
 struct Part {
     std::size_t entity, block;
     std::vector<std::uint32_t> elements;
+    Index part = 0; ///< of a partition
+    int tag = 0;    ///< of the entity they are written under
 };
 
 struct Content {
@@ -33,6 +36,15 @@ struct Content {
     std::size_t elements = 0;
     DeckTag first_element = 0, last_element = 0, first_node = 0, last_node = 0;
     Eigen::AlignedBox3d box;
+    std::vector<MshPartEntity> of_parts; ///< of a partition; else none
+    std::vector<int> ghost_tags;
+    std::vector<MshGhosts> ghosts;
+    /// Points in the file's order and how many are under one entity of which dimension and tag.
+    struct NodeBlock {
+        int dimension, tag;
+        std::vector<std::uint32_t> points;
+    };
+    std::vector<NodeBlock> nodes; ///< of a partition; else all are in one
 };
 
 /// Groups of an MSH file keep their tags.
@@ -70,8 +82,60 @@ std::vector<int> entity_tags(const Deck& deck, const DeckEntities& entities)
     return tags;
 }
 
-std::shared_ptr<const Content> content_of(const Deck& deck, DeckFile& file)
+/// Nodes are under the first solid of the lowest part that has them.
+void part_nodes(const Deck& deck, const DeckPartition& partition, Content& content)
 {
+    std::vector<Index> part(deck.points.size(), partition.parts);
+    for (std::size_t b = 0; b < deck.blocks.size(); ++b)
+        for (std::size_t e = 0; e < deck.blocks[b].count(); ++e)
+            for (const Index node : deck.blocks[b].element(e))
+                part[index(node)] = std::min(part[index(node)], partition.part[b][e]);
+    for (int p = 0; p < partition.parts; ++p) {
+        const auto solid = std::ranges::find_if(content.of_parts, [&](const MshPartEntity& entity) {
+            return entity.dimension == 3 && entity.part == p;
+        });
+        if (solid != content.of_parts.end()) content.nodes.push_back({3, solid->tag, {}});
+    }
+    for (std::size_t n = 0; n < part.size(); ++n) {
+        const auto at = std::min(index(part[n]), content.nodes.size() - 1);
+        content.nodes[at].points.push_back(static_cast<std::uint32_t>(n));
+    }
+}
+
+/// Give each part of an entity one of its own, and list what are ghosts.
+void part_entities(const Deck& deck, const DeckPartition& partition, bool ghosts, Content& content)
+{
+    int next = 0;
+    for (const int tag : content.tag) next = std::max(next, tag);
+    std::map<std::pair<std::size_t, Index>, int> tags;
+    for (Part& part : content.parts) {
+        const auto [at, fresh] = tags.try_emplace({part.entity, part.part}, next + 1);
+        part.tag = at->second;
+        if (!fresh) continue;
+        ++next;
+        content.of_parts.push_back({content.entities.all[part.entity].dimension, part.tag,
+                                    content.tag[part.entity], part.part, content.physical[part.entity],
+                                    content.box});
+    }
+    part_nodes(deck, partition, content);
+    for (int p = 0; ghosts && p < partition.parts; ++p) content.ghost_tags.push_back(++next);
+    std::map<std::pair<Index, Index>, std::shared_ptr<std::vector<DeckTag>>> found;
+    for (std::size_t b = 0; b < deck.blocks.size(); ++b)
+        for (std::size_t e = 0; e < deck.blocks[b].count(); ++e) {
+            if (partition.ghost_of[b][e] == 0) continue;
+            auto& cells = found[{partition.part[b][e], partition.ghost_of[b][e]}];
+            if (!cells) cells = std::make_shared<std::vector<DeckTag>>();
+            cells->push_back(deck.blocks[b].tags[e]);
+        }
+    for (const auto& [key, cells] : found)
+        content.ghosts.push_back(
+            {cells->size(), key.first, partition.lists[index(key.second)],
+             [cells = cells](std::size_t i) { return static_cast<std::uint64_t>((*cells)[i]); }});
+}
+
+std::shared_ptr<const Content> content_of(const Deck& deck, const DeckFileOptions& options, DeckFile& file)
+{
+    const DeckPartition* const partition = options.partition;
     auto content = std::make_shared<Content>();
     content->entities = entities_of(deck);
     content->tag = entity_tags(deck, content->entities);
@@ -96,14 +160,13 @@ std::shared_ptr<const Content> content_of(const Deck& deck, DeckFile& file)
         const DeckBlock& block = deck.blocks[b];
         if (std::ranges::find(block.nodes, -1) != block.nodes.end())
             refuse_element(block, "MSH", "some have not all their middle nodes");
-        std::vector<Index> part(content->entities.all.size(), -1);
+        std::map<std::pair<Index, Index>, std::size_t> part; // of entity and part
         for (std::size_t e = 0; e < block.count(); ++e) {
             const Index entity = content->entities.of[b][e];
-            if (part[index(entity)] < 0) {
-                part[index(entity)] = static_cast<Index>(content->parts.size());
-                content->parts.push_back({index(entity), b, {}});
-            }
-            content->parts[index(part[index(entity)])].elements.push_back(static_cast<std::uint32_t>(e));
+            const Index own = partition != nullptr ? partition->part[b][e] : 0;
+            const auto [at, fresh] = part.try_emplace({entity, own}, content->parts.size());
+            if (fresh) content->parts.push_back({index(entity), b, {}, own, content->tag[index(entity)]});
+            content->parts[at->second].elements.push_back(static_cast<std::uint32_t>(e));
         }
         content->elements += block.count();
         if (block.count() == 0) continue;
@@ -111,7 +174,8 @@ std::shared_ptr<const Content> content_of(const Deck& deck, DeckFile& file)
         content->first_element = content->last_element == 0 ? low : std::min(content->first_element, low);
         content->last_element = std::max(content->last_element, high);
     }
-    std::ranges::stable_sort(content->parts, {}, &Part::entity);
+    std::ranges::stable_sort(content->parts, {},
+                             [](const Part& part) { return std::pair(part.entity, part.part); });
     if (!deck.point_tags.empty()) {
         const auto [low, high] = std::ranges::minmax(deck.point_tags);
         content->first_node = low;
@@ -121,6 +185,7 @@ std::shared_ptr<const Content> content_of(const Deck& deck, DeckFile& file)
         throw InvalidInput("io.number_taken", deck.path + " has a node or an element of number 0, which an "
                                                           "MSH file cannot hold; write another format");
     for (const Vec3& point : deck.points) content->box.extend(point);
+    if (partition != nullptr) part_entities(deck, *partition, partition->lists.size() > 1, *content);
     const auto count = [&](DeckSet::Kind kind) {
         return static_cast<std::size_t>(std::ranges::count(deck.sets, kind, &DeckSet::kind));
     };
@@ -131,44 +196,7 @@ std::shared_ptr<const Content> content_of(const Deck& deck, DeckFile& file)
     return content;
 }
 
-/// Puts numbers as text or as they lie in memory.
-struct Numbers {
-    bool binary;
-
-    template <class Value>
-    [[nodiscard]] char* add(char* out, Value value) const
-    {
-        if (binary) return put(out, value);
-        if constexpr (std::is_integral_v<Value>)
-            out = put_text(out, static_cast<long long>(value));
-        else
-            out = put_text(out, value);
-        *out++ = ' ';
-        return out;
-    }
-    [[nodiscard]] char* end(char* out) const
-    {
-        if (!binary) *out++ = '\n';
-        return out;
-    }
-    template <class... Value>
-    [[nodiscard]] std::string line(Value... values) const
-    {
-        std::string text(sizeof...(values) * kNumberBytes + 1, '\0');
-        char* out = text.data();
-        ((out = add(out, values)), ...);
-        text.resize(static_cast<std::size_t>(end(out) - text.data()));
-        return text;
-    }
-    [[nodiscard]] std::size_t room(std::size_t numbers, std::size_t bytes) const
-    {
-        return binary ? bytes : numbers * kNumberBytes + 1;
-    }
-};
-
-std::uint64_t size_of(std::size_t count) { return count; }
-
-std::string entities_text(const Content& content, const Numbers& numbers)
+std::string entities_text(const Content& content, const MshNumbers& numbers)
 {
     std::size_t count[4] = {0, 0, 0, 0};
     for (const DeckEntity& entity : content.entities.all) ++count[index(entity.dimension)];
@@ -191,7 +219,7 @@ std::string entities_text(const Content& content, const Numbers& numbers)
 }
 
 template <class Tag>
-char* put_nodes(const Deck& deck, const DeckBlock& block, std::size_t e, const Numbers& numbers, char* out)
+char* put_nodes(const Deck& deck, const DeckBlock& block, std::size_t e, const MshNumbers& numbers, char* out)
 {
     const std::span<const Index> nodes = block.element(e);
     const std::span<const std::uint8_t> places = gmsh_places(block.shape);
@@ -202,33 +230,47 @@ char* put_nodes(const Deck& deck, const DeckBlock& block, std::size_t e, const N
     return numbers.end(out);
 }
 
-void add_41(const Deck& deck, const std::shared_ptr<const Content>& content, const Numbers& numbers,
+void add_41(const Deck& deck, const std::shared_ptr<const Content>& content, const MshNumbers& numbers,
             DeckFile& file)
 {
     const std::string gap = numbers.binary ? "\n" : "";
-    const std::uint64_t nodes = deck.points.size();
+    std::string text = msh_opening(content->names, "4.1", numbers.binary) + entities_text(*content, numbers);
+    if (!content->of_parts.empty())
+        text += msh_partitioned(static_cast<int>(content->nodes.size()), content->ghost_tags,
+                                content->of_parts, numbers);
+    text += "$Nodes\n" + numbers.line(size_of(std::max<std::size_t>(content->nodes.size(), 1)),
+                                      size_of(deck.points.size()),
+                                      static_cast<std::uint64_t>(content->first_node),
+                                      static_cast<std::uint64_t>(content->last_node));
+    const auto add_nodes = [&](int dimension, int tag, std::size_t count, const auto& point) {
+        text += numbers.line(dimension, tag, 0, size_of(count));
+        file.sections.push_back({text, count, numbers.room(1, 8),
+                                 [&deck, point, numbers](std::size_t begin, std::size_t end, char* out) {
+                                     for (std::size_t i = begin; i < end; ++i)
+                                         out = numbers.end(numbers.add(
+                                             out, static_cast<std::uint64_t>(deck.point_tags[point(i)])));
+                                     return out;
+                                 }});
+        text.clear();
+        file.sections.push_back({{},
+                                 count,
+                                 numbers.room(3, sizeof(Vec3)),
+                                 [&deck, point, numbers](std::size_t begin, std::size_t end, char* out) {
+                                     for (std::size_t i = begin; i < end; ++i) {
+                                         for (const double x : deck.points[point(i)])
+                                             out = numbers.add(out, x);
+                                         out = numbers.end(out);
+                                     }
+                                     return out;
+                                 }});
+    };
     const DeckEntity* const first = content->entities.all.empty() ? nullptr : &content->entities.all.front();
-    file.sections.push_back(
-        {msh_opening(content->names, "4.1", numbers.binary) + entities_text(*content, numbers) + "$Nodes\n" +
-             numbers.line(size_of(1), nodes, static_cast<std::uint64_t>(content->first_node),
-                          static_cast<std::uint64_t>(content->last_node)) +
-             numbers.line(first == nullptr ? 3 : first->dimension,
-                          first == nullptr ? 1 : content->tag.front(), 0, nodes),
-         nodes, numbers.room(1, 8), [&deck, numbers](std::size_t begin, std::size_t end, char* out) {
-             for (std::size_t p = begin; p < end; ++p)
-                 out = numbers.end(numbers.add(out, static_cast<std::uint64_t>(deck.point_tags[p])));
-             return out;
-         }});
-    file.sections.push_back({{},
-                             nodes,
-                             numbers.room(3, sizeof(Vec3)),
-                             [&deck, numbers](std::size_t begin, std::size_t end, char* out) {
-                                 for (std::size_t p = begin; p < end; ++p) {
-                                     for (const double x : deck.points[p]) out = numbers.add(out, x);
-                                     out = numbers.end(out);
-                                 }
-                                 return out;
-                             }});
+    if (content->nodes.empty())
+        add_nodes(first == nullptr ? 3 : first->dimension, first == nullptr ? 1 : content->tag.front(),
+                  deck.points.size(), [](std::size_t i) { return i; });
+    for (std::size_t n = 0; n < content->nodes.size(); ++n)
+        add_nodes(content->nodes[n].dimension, content->nodes[n].tag, content->nodes[n].points.size(),
+                  [content, n](std::size_t i) { return std::size_t(content->nodes[n].points[i]); });
     std::string head = gap + "$EndNodes\n$Elements\n" +
                        numbers.line(size_of(content->parts.size()), size_of(content->elements),
                                     static_cast<std::uint64_t>(content->first_element),
@@ -237,8 +279,8 @@ void add_41(const Deck& deck, const std::shared_ptr<const Content>& content, con
         const Part& part = content->parts[p];
         const DeckBlock& block = deck.blocks[part.block];
         const std::size_t each = static_cast<std::size_t>(shape_info(block.shape).nodes) + 1;
-        head += numbers.line(shape_info(block.shape).dimension, content->tag[part.entity],
-                             gmsh_type(block.shape), size_of(part.elements.size()));
+        head += numbers.line(shape_info(block.shape).dimension, part.tag, gmsh_type(block.shape),
+                             size_of(part.elements.size()));
         file.sections.push_back(
             {head, part.elements.size(), numbers.room(each, 8 * each),
              [content, p, &deck, &block, numbers](std::size_t begin, std::size_t end, char* out) {
@@ -252,10 +294,11 @@ void add_41(const Deck& deck, const std::shared_ptr<const Content>& content, con
         head.clear();
     }
     file.sections.push_back({head + gap + "$EndElements\n", 0, 0, {}});
+    add_ghosts(file.sections, content->ghosts, numbers);
 }
 
 /// An element carries one physical group and its entity.
-void add_22(const Deck& deck, const std::shared_ptr<const Content>& content, const Numbers& numbers,
+void add_22(const Deck& deck, const std::shared_ptr<const Content>& content, const MshNumbers& numbers,
             DeckFile& file)
 {
     const std::string gap = numbers.binary ? "\n" : "";
@@ -306,8 +349,8 @@ DeckFile msh_of_deck(const Deck& deck, const DeckFileOptions& options)
 {
     DeckFile file;
     file.sizes = options.binary ? Sizes::exact : Sizes::varying;
-    const auto content = content_of(deck, file);
-    const Numbers numbers{options.binary};
+    const auto content = content_of(deck, options, file);
+    const MshNumbers numbers{options.binary};
     if (options.msh_version == 2.2)
         add_22(deck, content, numbers, file);
     else

@@ -19,11 +19,14 @@ struct Cells {
     std::vector<std::size_t> blocks;     ///< those that are written
     std::size_t count = 0, lists = 0;    ///< of cells, and of their nodes
     std::vector<std::size_t> first_node; ///< of each block that is written, in the list of nodes
+    std::shared_ptr<const Deck> own;     ///< of a piece, the deck
 };
 
-std::shared_ptr<const Cells> cells_of(const Deck& deck)
+/// @param own  the deck where it is to live as long as its cells; null: it does so by itself.
+std::shared_ptr<const Cells> cells_of(const Deck& deck, DeckEntities entities,
+                                      std::shared_ptr<const Deck> own = nullptr)
 {
-    auto cells = std::make_shared<Cells>(Cells{deck, entities_of(deck), {}, 0, 0, {}});
+    auto cells = std::make_shared<Cells>(Cells{deck, std::move(entities), {}, 0, 0, {}, std::move(own)});
     for (std::size_t b = 0; b < deck.blocks.size(); ++b) {
         const DeckBlock& block = deck.blocks[b];
         if (std::ranges::find(block.nodes, -1) != block.nodes.end())
@@ -100,26 +103,27 @@ std::int32_t type_at(const Cells& cells, std::size_t at) { return vtk_type_of(bl
 
 } // namespace
 
-DeckFile vtu_of_deck(const Deck& deck)
+namespace {
+
+std::vector<VtuArray> vtu_arrays(const std::shared_ptr<const Cells>& cells)
 {
-    DeckFile file;
-    file.sizes = Sizes::exact;
-    const auto cells = cells_of(deck);
+    const Deck& deck = cells->deck;
     const auto fixed = [](std::size_t bytes) { return [bytes](const DeckBlock&) { return bytes; }; };
     using Place = VtuArray::Place;
     std::vector<VtuArray> arrays;
     arrays.push_back({Place::points,
                       "type=\"Float64\" NumberOfComponents=\"3\"",
                       deck.points.size() * sizeof(Vec3),
-                      {{{}, deck.points.size(), sizeof(Vec3), each([&deck](std::size_t i, char* out) {
-                            std::memcpy(out, deck.points[i].data(), sizeof(Vec3));
+                      {{{}, deck.points.size(), sizeof(Vec3), each([cells](std::size_t i, char* out) {
+                            const Deck& of = cells->deck;
+                            std::memcpy(out, of.points[i].data(), sizeof(Vec3));
                             return out + sizeof(Vec3);
                         })}}});
     arrays.push_back({Place::point_data,
                       "type=\"Int64\" Name=\"node_number\"",
                       deck.points.size() * 8,
-                      {{{}, deck.points.size(), 8, each([&deck](std::size_t i, char* out) {
-                            return put(out, static_cast<std::int64_t>(deck.point_tags[i]));
+                      {{{}, deck.points.size(), 8, each([cells](std::size_t i, char* out) {
+                            return put(out, static_cast<std::int64_t>(cells->deck.point_tags[i]));
                         })}}});
     const auto add = [&](Place place, const char* attributes, std::size_t bytes, auto put_one) {
         arrays.push_back({place, attributes, cells->count * bytes, by_blocks(cells, fixed(bytes), put_one)});
@@ -157,16 +161,130 @@ DeckFile vtu_of_deck(const Deck& deck)
         [](const Cells& of, std::size_t at, std::size_t e, char* out) {
             return put(out, static_cast<std::int64_t>(block_at(of, at).tags[e]));
         });
+    return arrays;
+}
+
+/// A part of a deck as a deck, with its ghosts behind what is its own in each block.
+struct Piece {
+    std::shared_ptr<Deck> deck = std::make_shared<Deck>();
+    std::shared_ptr<const Cells> cells;
+    std::vector<std::vector<char>> ghost; ///< of each element of each block
+    std::vector<char> ghost_point;
+};
+
+/// @param lowest  of each point the lowest part that has it
+Piece piece_of(const Deck& deck, const DeckEntities& entities, const DeckPartition& partition,
+               const std::vector<Index>& lowest, Index part)
+{
+    Piece piece;
+    Deck& own = *piece.deck;
+    own.regions = deck.regions;
+    DeckEntities own_entities;
+    own_entities.all = entities.all;
+    std::vector<Index> point(deck.points.size(), -1);
+    std::vector<char> used(deck.points.size(), 0);
+    const auto of_piece = [&](std::size_t b, std::size_t e) {
+        return partition.part[b][e] == part ||
+               std::ranges::binary_search(partition.lists[index(partition.ghost_of[b][e])], part);
+    };
+    for (std::size_t b = 0; b < deck.blocks.size(); ++b) {
+        const DeckBlock& block = deck.blocks[b];
+        DeckBlock& mine = own.blocks.emplace_back();
+        mine.shape = block.shape;
+        mine.type = block.type;
+        std::vector<Index>& entity = own_entities.of.emplace_back();
+        std::vector<char>& ghost = piece.ghost.emplace_back();
+        for (std::size_t e = 0; e < block.count(); ++e) {
+            if (!of_piece(b, e)) continue;
+            mine.nodes.insert(mine.nodes.end(), block.element(e).begin(), block.element(e).end());
+            mine.tags.push_back(block.tags[e]);
+            mine.regions.push_back(block.regions[e]);
+            entity.push_back(entities.of[b][e]);
+            ghost.push_back(partition.part[b][e] == part ? 0 : 1);
+            for (const Index node : block.element(e))
+                if (node >= 0) used[index(node)] = 1;
+        }
+    }
+    for (std::size_t p = 0; p < used.size(); ++p) {
+        if (used[p] == 0) continue;
+        point[p] = static_cast<Index>(own.points.size());
+        own.points.push_back(deck.points[p]);
+        own.point_tags.push_back(deck.point_tags[p]);
+        piece.ghost_point.push_back(lowest[p] == part ? 0 : 1);
+    }
+    for (DeckBlock& block : own.blocks)
+        for (Index& node : block.nodes)
+            if (node >= 0) node = point[index(node)];
+    piece.cells = cells_of(own, std::move(own_entities), piece.deck);
+    return piece;
+}
+
+std::vector<VtuArray> piece_arrays(const std::shared_ptr<const Piece>& piece, bool ghosts)
+{
+    std::vector<VtuArray> arrays = vtu_arrays(piece->cells);
+    if (!ghosts) return arrays;
+    const std::string attributes = "type=\"UInt8\" Name=\"vtkGhostType\"";
+    const std::size_t points = piece->ghost_point.size();
+    arrays.push_back({VtuArray::Place::point_data,
+                      attributes,
+                      points,
+                      {{{}, points, 1, each([piece](std::size_t i, char* out) {
+                            return put(out, static_cast<std::uint8_t>(piece->ghost_point[i]));
+                        })}}});
+    arrays.push_back({VtuArray::Place::cell_data, attributes, piece->cells->count,
+                      by_blocks(
+                          piece->cells, [](const DeckBlock&) { return std::size_t(1); },
+                          [piece](const Cells& of, std::size_t at, std::size_t e, char* out) {
+                              return put(out, static_cast<std::uint8_t>(piece->ghost[of.blocks[at]][e]));
+                          })});
+    return arrays;
+}
+
+} // namespace
+
+DeckFile vtu_of_deck(const Deck& deck)
+{
+    DeckFile file;
+    file.sizes = Sizes::exact;
+    const auto cells = cells_of(deck, entities_of(deck));
     const VtkTable table = table_of(deck, cells->entities, file);
-    file.sections = vtu_file(deck.points.size(), cells->count, std::move(arrays), table);
+    file.sections = vtu_file(deck.points.size(), cells->count, vtu_arrays(cells), table);
     return file;
+}
+
+void write_pvtu(const Deck& deck, const DeckPartition& partition, int ghosts, const OutputPath& path,
+                const RunContext& context)
+{
+    const DeckEntities entities = entities_of(deck);
+    DeckFile file;
+    const VtkTable table = table_of(deck, entities, file);
+    std::vector<Index> lowest(deck.points.size(), partition.parts);
+    for (std::size_t b = 0; b < deck.blocks.size(); ++b)
+        for (std::size_t e = 0; e < deck.blocks[b].count(); ++e)
+            for (const Index node : deck.blocks[b].element(e))
+                if (node >= 0) lowest[index(node)] = std::min(lowest[index(node)], partition.part[b][e]);
+    const auto piece = [&](Index part) {
+        return std::make_shared<const Piece>(piece_of(deck, entities, partition, lowest, part));
+    };
+    std::vector<FileOfSet> files;
+    std::vector<std::string> names;
+    for (Index part = 0; part < partition.parts; ++part) {
+        names.push_back(piece_name(path.text(), index(part)));
+        files.push_back({path.beside(names.back()), [&, part] {
+                             const auto own = piece(part);
+                             return vtu_file(own->deck->points.size(), own->cells->count,
+                                             piece_arrays(own, ghosts > 0), table);
+                         }});
+    }
+    write_files(files, path, pvtu_head(piece_arrays(piece(0), ghosts > 0), ghosts) + pvtu_end(names),
+                context);
 }
 
 DeckFile vtk_of_deck(const Deck& deck, bool binary)
 {
     DeckFile file;
     file.sizes = binary ? Sizes::exact : Sizes::varying;
-    const auto cells = cells_of(deck);
+    const auto cells = cells_of(deck, entities_of(deck));
     const auto room = [binary](std::size_t numbers, std::size_t bytes) {
         return binary ? numbers * bytes : numbers * kNumberBytes + 1;
     };

@@ -318,7 +318,8 @@ DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& opt
 
 bool is_layered(DeckFormat format)
 {
-    return format == DeckFormat::nastran || format == DeckFormat::abaqus || format == DeckFormat::unv;
+    return format == DeckFormat::nastran || format == DeckFormat::abaqus || format == DeckFormat::unv ||
+           format == DeckFormat::exodus;
 }
 
 void write_deck(const mesh::LayeredMesh& layered, const MeshDeckOptions& options, const OutputPath& path,
@@ -329,6 +330,7 @@ void write_deck(const mesh::LayeredMesh& layered, const MeshDeckOptions& options
     const LayeredBulk bulk{layered.mesh, nodes};
     const DeckFile file = options.format == DeckFormat::nastran  ? nastran_file(deck, &bulk)
                           : options.format == DeckFormat::abaqus ? abaqus_file(deck, &bulk)
+                          : options.format == DeckFormat::exodus ? exodus_file(deck, &bulk)
                                                                  : unv_file(deck, &bulk);
     if (team == nullptr || team->rank == 0)
         for (const std::string& note : file.notes) log_line(context, path.text() + ": " + note);

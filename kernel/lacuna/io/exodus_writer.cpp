@@ -235,16 +235,30 @@ char* put_nodes(DeckShape shape, std::span<const Index> nodes, char* out)
 /// Elements of one region and shape.
 struct Block {
     Index region = -1;
-    std::size_t of = 0; ///< block of the deck
-    std::vector<std::uint32_t> elements{};
+    std::size_t of = 0;                    ///< block of the deck
+    std::vector<std::uint32_t> elements{}; ///< none where they are made
+    std::size_t count = 0;
     std::size_t first = 0; ///< number of the first, from 0
     std::string name{};
     int id = 0;
 };
 
+/// Where the file has a cell that is made.
+Index place_of_cell(const LayeredBulk& layered, std::size_t cell)
+{
+    const std::size_t columns = layered.mesh.quads.size(), hexes = layered.kinds.hexes();
+    const std::size_t quads = hexes / index(layered.mesh.layers);
+    const std::size_t layer = cell / columns, column = cell % columns;
+    return static_cast<Index>(column < quads ? layer * quads + column
+                                             : hexes + layer * (columns - quads) + (column - quads));
+}
+
 class ExodusWriter {
 public:
-    explicit ExodusWriter(const Deck& deck) : deck_(deck) {}
+    ExodusWriter(const Deck& deck, const LayeredBulk* layered)
+        : deck_(deck), layered_(layered), bulk_(deck, layered)
+    {
+    }
 
     DeckFile write()
     {
@@ -283,6 +297,7 @@ private:
     struct Set {
         std::string name;
         std::shared_ptr<std::vector<std::int32_t>> members, sides; ///< from 1
+        bool all = false;                                          ///< all cells, which are made
     };
 
     void find_blocks()
@@ -293,6 +308,10 @@ private:
                 refuse_element(block, "Exodus", "there is no such element");
             if (std::ranges::find(block.nodes, -1) != block.nodes.end())
                 refuse_element(block, "Exodus", "some have not all their middle nodes");
+            if (bulk_.is_made(block)) {
+                blocks_.push_back({.region = 0, .of = b, .count = bulk_.count(block)});
+                continue;
+            }
             std::map<Index, std::size_t> of_region;
             for (std::size_t e = 0; e < block.count(); ++e) {
                 const auto [at, fresh] = of_region.try_emplace(block.regions[e], blocks_.size());
@@ -301,8 +320,9 @@ private:
             }
         }
         for (Block& block : blocks_) {
+            if (!block.elements.empty()) block.count = block.elements.size();
             block.first = elements_;
-            elements_ += block.elements.size();
+            elements_ += block.count;
         }
     }
 
@@ -334,20 +354,36 @@ private:
                 tags.push_back(deck_.blocks[block.of].tags[e]);
                 shapes.push_back(deck_.blocks[block.of].shape);
             }
-        const TagPlaces cells(tags, [](Index, Index) {});
-        const TagPlaces points(deck_.point_tags, [](Index, Index) {});
+        const TagPlaces held_cells(tags, [](Index, Index) {});
+        const TagPlaces held_points(deck_.point_tags, [](Index, Index) {});
+        const auto find_cell = [&](DeckTag tag) {
+            return layered_ != nullptr ? place_of_cell(*layered_, static_cast<std::size_t>(tag - 1))
+                                       : held_cells.find(tag);
+        };
+        const auto find_point = [&](DeckTag tag) {
+            return layered_ != nullptr ? static_cast<Index>(tag - 1) : held_points.find(tag);
+        };
+        const auto shape = [&](Index at) {
+            if (layered_ == nullptr) return shapes[index(at)];
+            return index(at) < layered_->kinds.hexes() ? DeckShape::hex8 : DeckShape::wedge6;
+        };
         for (const DeckSet& set : deck_.sets) {
             Set found{set.name, std::make_shared<std::vector<std::int32_t>>(), nullptr};
+            if (bulk_.is_all(set)) {
+                found.all = true;
+                cells_.push_back(found);
+                continue;
+            }
             const bool of_nodes = set.kind == DeckSet::Kind::nodes;
             for (const DeckTag tag : set.members)
-                if (const Index at = (of_nodes ? points : cells).find(tag); at >= 0)
+                if (const Index at = of_nodes ? find_point(tag) : find_cell(tag); at >= 0)
                     found.members->push_back(at + 1);
             if (set.kind == DeckSet::Kind::sides) {
                 found.sides = std::make_shared<std::vector<std::int32_t>>();
                 for (const DeckSide& side : set.sides)
-                    if (const Index at = cells.find(side.element); at >= 0) {
+                    if (const Index at = find_cell(side.element); at >= 0) {
                         found.members->push_back(at + 1);
-                        found.sides->push_back(exodus_side(shapes[index(at)], side.side));
+                        found.sides->push_back(exodus_side(shape(at), side.side));
                     }
             }
             if (found.members->empty()) continue;
@@ -358,15 +394,19 @@ private:
     void add_points()
     {
         const int dimension = nc_.dimension("num_dim", 3);
-        const int nodes = nc_.dimension("num_nodes", deck_.points.size());
+        const int nodes = nc_.dimension("num_nodes", bulk_.points());
         nc_.names("coor_names", {dimension, name_}, {"x", "y", "z"});
         for (const int axis : {0, 1, 2})
             nc_.array(
                 std::string("coord") + "xyz" [axis], NcType::real, { nodes }, 1,
-                each([deck = &deck_, axis](std::size_t i, char* out) {
-                    return io::put_big(out, deck->points[i][axis]);
-                }));
-        nc_.wholes("node_num_map", {nodes}, [deck = &deck_](std::size_t i) { return deck->point_tags[i]; });
+                [bulk = bulk_, axis](std::size_t begin, std::size_t end, char* out) {
+                    bulk.each_point(begin, end, [&](std::size_t, DeckTag, const Vec3& point) {
+                        out = io::put_big(out, point[axis]);
+                    });
+                    return out;
+                });
+        nc_.wholes("node_num_map", {nodes},
+                   [bulk = bulk_](std::size_t i) { return bulk.point_tag(static_cast<Index>(i)); });
     }
 
     void add_blocks()
@@ -385,17 +425,23 @@ private:
         nc_.wholes("eb_prop1", {count}, [ids](std::size_t i) { return ids[i]; },
                    {text_attribute("name", "ID")});
         nc_.names("eb_names", {count, name_}, names);
-        nc_.wholes("elem_num_map", {elements}, [tags](std::size_t i) { return (*tags)[i]; });
+        nc_.wholes("elem_num_map", {elements}, [tags, layered = layered_](std::size_t i) {
+            return layered != nullptr ? static_cast<DeckTag>(layered->kinds.cell(i)) + 1 : (*tags)[i];
+        });
         for (std::size_t b = 0; b < blocks_.size(); ++b) {
             const std::string number = std::to_string(b + 1);
             auto block = std::make_shared<Block>(blocks_[b]);
             const DeckBlock& of = deck_.blocks[block->of];
             const auto nodes = static_cast<std::size_t>(shape_info(of.shape).nodes);
-            const int rows = nc_.dimension("num_el_in_blk" + number, block->elements.size());
+            const int rows = nc_.dimension("num_el_in_blk" + number, block->count);
             const int columns = nc_.dimension("num_nod_per_el" + number, nodes);
             nc_.array("connect" + number, NcType::whole, {rows, columns}, nodes,
-                      each([block, &of](std::size_t i, char* out) {
-                          return put_nodes(of.shape, of.element(block->elements[i]), out);
+                      each([block, &of, bulk = bulk_](std::size_t i, char* out) {
+                          const std::size_t e = block->elements.empty() ? i : block->elements[i];
+                          bulk.element(of, e, [&](DeckTag, Index, std::span<const Index> own) {
+                              out = put_nodes(of.shape, own, out);
+                          });
+                          return out;
                       }),
                       {text_attribute("elem_type", exodus_type(of.shape))});
         }
@@ -414,6 +460,14 @@ private:
         nc_.names(prefix + "_names", {count, name_}, names);
         for (std::size_t s = 0; s < sets.size(); ++s) {
             const std::string number = std::to_string(s + 1);
+            if (sets[s].all) {
+                const int cells = nc_.dimension(length + number, elements_);
+                const auto place = [layered = layered_](std::size_t i) {
+                    return place_of_cell(*layered, i) + 1;
+                };
+                nc_.wholes(list + number, {cells}, place);
+                continue;
+            }
             const int members = nc_.dimension(length + number, sets[s].members->size());
             nc_.wholes(list + number, {members},
                        [all = sets[s].members](std::size_t i) { return (*all)[i]; });
@@ -424,6 +478,8 @@ private:
     }
 
     const Deck& deck_;
+    const LayeredBulk* layered_;
+    BulkReader bulk_;
     DeckFile file_;
     NcFile nc_;
     std::vector<Block> blocks_;
@@ -434,7 +490,7 @@ private:
 
 } // namespace
 
-DeckFile exodus_file(const Deck& deck)
+DeckFile exodus_file(const Deck& deck, const LayeredBulk* layered)
 {
     constexpr DeckTag kMost = std::numeric_limits<std::int32_t>::max();
     const auto too_high = [](const std::vector<DeckTag>& tags) {
@@ -446,7 +502,7 @@ DeckFile exodus_file(const Deck& deck)
         throw InvalidInput("io.number_taken",
                            deck.path + " has numbers above " + std::to_string(kMost) +
                                ", more than an Exodus file holds; give first_node and first_cell");
-    return ExodusWriter(deck).write();
+    return ExodusWriter(deck, layered).write();
 }
 
 } // namespace lacuna::io

@@ -32,11 +32,16 @@ void write_msh(const mesh::LayeredMesh& layered, const OutputPath& path, const M
 void write_vtu(const mesh::LayeredMesh& layered, const OutputPath& path,
                const std::vector<LayeredField>& fields = {}, const RunContext& context = {},
                const Team* team = nullptr);
+/// @param team  who each write some of the pieces.
+void write_pvtu(const mesh::LayeredMesh& layered, const OutputPath& path, const PartitionOptions& partition,
+                const std::vector<LayeredField>& fields = {}, const RunContext& context = {},
+                const Team* team = nullptr);
 void write_vtk(const mesh::LayeredMesh& layered, const OutputPath& path, const VtkOptions& options = {},
                const std::vector<LayeredField>& fields = {}, const RunContext& context = {},
                const Team* team = nullptr);
 
-/// Whether decks of a format are written so: Nastran's, Abaqus's and universal files.
+/// Whether decks of a format are written so: Nastran's, Abaqus's, Exodus and universal files. Exodus has the
+/// coordinates one after the other, so nodes are made three times.
 bool is_layered(DeckFormat format);
 /// `write_deck()` of `deck_of()` the mesh, numbered from 1, in such a format: the same bytes, and memory as
 /// above.

@@ -2,11 +2,7 @@
 #include <lacuna/io/msh.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/io/detail/cell_shapes.h>
-#include <lacuna/io/detail/msh_content.h>
-#include <lacuna/io/detail/msh_shapes.h>
-#include <lacuna/io/detail/node_reader.h>
-#include <lacuna/io/detail/sections.h>
+#include <lacuna/io/detail/msh_elements.h>
 
 #include <algorithm>
 #include <array>
@@ -18,54 +14,6 @@
 
 namespace lacuna::io {
 namespace {
-
-/// Elements of one shape in a row.
-struct Block {
-    const MshSurface* surface; ///< null: the volume
-    DeckShape shape;
-    std::size_t first, count; ///< elements of the file before it, and in it
-
-    [[nodiscard]] int type() const { return gmsh_type(shape); }
-    [[nodiscard]] std::size_t nodes() const { return static_cast<std::size_t>(shape_info(shape).nodes); }
-};
-
-/// What a file says of elements: the skin's, patch after patch, then the cells.
-struct Elements {
-    const mesh::HexMesh& mesh;
-    const MshContent& content;
-    mesh::CellKinds kinds{mesh};
-
-    [[nodiscard]] std::size_t count() const { return content.skin.size() + mesh.cell_count(); }
-
-    [[nodiscard]] std::vector<Block> blocks() const
-    {
-        std::vector<Block> all;
-        const auto add = [&](const Block& block) {
-            if (block.count > 0) all.push_back(block);
-        };
-        for (const MshSurface& surface : content.surfaces) {
-            const std::size_t quads = surface.end - surface.begin - surface.triangles;
-            add({&surface, skin_shape(mesh), surface.begin, quads});
-            add({&surface, DeckShape::tri3, surface.begin + quads, surface.triangles});
-        }
-        const std::size_t skin = content.skin.size();
-        add({nullptr, cell_shape(mesh), skin, kinds.hexes()});
-        add({nullptr, DeckShape::wedge6, skin + kinds.hexes(), mesh.cell_count() - kinds.hexes()});
-        return all;
-    }
-
-    /// Of the element that comes `i`-th, in Gmsh's order.
-    [[nodiscard]] mesh::CellNodes nodes(std::size_t i) const
-    {
-        if (i < content.skin.size()) return skin_nodes(mesh, content.skin[i]);
-        mesh::CellNodes nodes = mesh::cell_nodes(mesh, kinds.cell(i - content.skin.size()));
-        if (mesh.order() == 1) return nodes;
-        const mesh::CellNodes ours = nodes;
-        const std::span<const std::uint8_t> places = gmsh_places(cell_shape(mesh));
-        for (std::size_t n = 0; n < nodes.count; ++n) nodes.node[places[n]] = ours.node[n];
-        return nodes;
-    }
-};
 
 std::uint64_t node_tag(Index node) { return static_cast<std::uint64_t>(node) + 1; }
 
@@ -159,11 +107,11 @@ std::string counts_of(std::size_t blocks, std::size_t count)
     return text;
 }
 
-void add_binary_elements(std::vector<Section>& sections, const Elements& elements)
+void add_binary_elements(std::vector<Section>& sections, const MshElements& elements)
 {
-    const std::vector<Block> blocks = elements.blocks();
+    const std::vector<MshBlock> blocks = elements.blocks();
     std::string head = "$Elements\n" + counts_of(blocks.size(), elements.count());
-    for (const Block& block : blocks) {
+    for (const MshBlock& block : blocks) {
         const bool volume = block.surface == nullptr;
         head += block_head(volume ? 3 : 2, volume ? kVolumeTag : block.surface->tag, block.type(),
                            block.count);
@@ -261,11 +209,11 @@ std::string words(std::initializer_list<std::size_t> numbers) { return spaced(nu
 
 /// Elements as lines: number, `middle(block)`, nodes.
 template <class Head, class Middle>
-void add_text_elements(std::vector<Section>& sections, const Elements& elements, const std::string& start,
+void add_text_elements(std::vector<Section>& sections, const MshElements& elements, const std::string& start,
                        const Head& head, const Middle& middle)
 {
     std::string text = start;
-    for (const Block& block : elements.blocks()) {
+    for (const MshBlock& block : elements.blocks()) {
         const std::string between = middle(block);
         sections.push_back({text + head(block), block.count,
                             (block.nodes() + 1) * kNumberBytes + between.size() + 2,
@@ -300,8 +248,8 @@ std::vector<Section> text_41(const mesh::HexMesh& mesh, const NodeReader& reader
              reader.each(begin, end, [&](std::size_t, const Vec3& node) { out = put_point(out, node); });
              return out;
          }});
-    const Elements elements{mesh, content};
-    const auto head = [](const Block& block) {
+    const MshElements elements{mesh, content};
+    const auto head = [](const MshBlock& block) {
         const bool volume = block.surface == nullptr;
         const int tag = volume ? kVolumeTag : block.surface->tag;
         return words({volume ? 3U : 2U, static_cast<std::size_t>(tag), static_cast<std::size_t>(block.type()),
@@ -310,7 +258,7 @@ std::vector<Section> text_41(const mesh::HexMesh& mesh, const NodeReader& reader
     add_text_elements(sections, elements,
                       "$EndNodes\n$Elements\n" +
                           words({elements.blocks().size(), elements.count(), 1, elements.count()}),
-                      head, [](const Block&) { return std::string(); });
+                      head, [](const MshBlock&) { return std::string(); });
     return sections;
 }
 
@@ -329,17 +277,17 @@ std::vector<Section> text_22(const mesh::HexMesh& mesh, const NodeReader& reader
                             });
                             return out;
                         }});
-    const auto middle = [&](const Block& block) {
+    const auto middle = [&](const MshBlock& block) {
         const MshSurface* surface = block.surface;
         const int physical = surface != nullptr ? surface->physical.front() : content.volume_physical.front();
         const int entity = surface != nullptr ? surface->tag : kVolumeTag;
         const auto unsign = [](int value) { return static_cast<std::size_t>(value); };
         return spaced({unsign(block.type()), 2, unsign(physical), unsign(entity)});
     };
-    const Elements elements{mesh, content};
+    const MshElements elements{mesh, content};
     add_text_elements(
         sections, elements, "$EndNodes\n$Elements\n" + words({elements.count()}),
-        [](const Block&) { return std::string(); }, middle);
+        [](const MshBlock&) { return std::string(); }, middle);
     return sections;
 }
 
@@ -372,9 +320,9 @@ std::vector<Section> binary_22(const mesh::HexMesh& mesh, const NodeReader& read
                             });
                             return out;
                         }});
-    const Elements elements{mesh, content};
+    const MshElements elements{mesh, content};
     std::string head = "\n$EndNodes\n$Elements\n" + words({elements.count()});
-    for (const Block& block : elements.blocks()) {
+    for (const MshBlock& block : elements.blocks()) {
         const bool volume = block.surface == nullptr;
         const int physical = volume ? content.volume_physical.front() : block.surface->physical.front();
         const int entity = volume ? kVolumeTag : block.surface->tag;
@@ -447,8 +395,9 @@ void write(const mesh::HexMesh& mesh, const NodeReader& nodes, const std::vector
     const MshContent content = msh_content(mesh, nodes);
     if (old) tell_lost_groups(content, context);
     std::vector<Section> sections =
-        options.binary ? (old ? binary_22(mesh, nodes, content) : binary_41(mesh, nodes, content))
-                       : (old ? text_22(mesh, nodes, content) : text_41(mesh, nodes, content));
+        options.partition.parts > 0 ? partitioned_msh(mesh, nodes, content, options.partition, options.binary)
+        : options.binary ? (old ? binary_22(mesh, nodes, content) : binary_41(mesh, nodes, content))
+                         : (old ? text_22(mesh, nodes, content) : text_41(mesh, nodes, content));
     std::vector<std::uint32_t> skin_cells;
     if (!fields.empty()) skin_cells = cells_of_skin(mesh);
     for (const FieldReader& field : fields)
@@ -462,9 +411,17 @@ void check_version(const MshOptions& options)
     if (options.version != 2.2 && options.version != 4.1)
         throw InvalidInput("io.unknown_version", "MSH version " + text_of(options.version) +
                                                      " cannot be written; known are 4.1 and 2.2");
+    if (options.partition.parts > 0 && options.version != 4.1)
+        throw InvalidInput("io.partition_version",
+                           "parts are written in MSH version 4.1 alone; leave out the version");
 }
 
 } // namespace
+
+std::string msh_entities(const MshContent& content, bool binary)
+{
+    return binary ? binary_entities(content) : text_entities(content);
+}
 
 void write_msh(const mesh::HexMesh& mesh, const OutputPath& path, const MshOptions& options,
                const RunContext& context)

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/io/cell_field.h>
+#include <lacuna/io/partition.h>
 #include <lacuna/io/whole_file.h>
 #include <lacuna/mesh/hex_mesh.h>
 
@@ -16,11 +17,15 @@ struct MshOptions {
     double version = 4.1; ///< 4.1, or 2.2 for readers that know no other
     std::vector<CellField>
         fields{}; ///< each becomes $ElementData, by which Gmsh colours the cells on opening
+    /// Ranges of layers as $PartitionedEntities, and $GhostElements, in the same file; of version 4.1 alone.
+    /// Nodes and elements have the numbers that they have without.
+    PartitionOptions partition{};
 };
 
 /// Write hexahedra and skin with a named physical group for every entity, whole or not at all: the file is
 /// written beside its place and renamed.
-/// @throw InvalidInput  the folder does not exist, the version is unknown, as `check_fields()`.
+/// @throw InvalidInput  the folder does not exist, the version is unknown, as `check_fields()` and
+///                      `layer_parts()`; "io.partition_version"  parts of another version than 4.1.
 /// @throw BackendError  the disk is full or the file cannot be written; nothing is left behind.
 void write_msh(const mesh::HexMesh& mesh, const OutputPath& path, const MshOptions& options = {},
                const RunContext& context = {});

@@ -110,6 +110,8 @@ private:
             read_names();
         else if (name == "Entities" && version_ == 4)
             read_entities();
+        else if (name == "PartitionedEntities" && version_ == 4 && !first_of_4_)
+            read_parts();
         else if (name == "Nodes")
             version_ == 4 ? read_nodes_4() : read_nodes_2();
         else if (name == "Elements")
@@ -169,14 +171,39 @@ private:
         return *value;
     }
 
-    void read_entities()
+    void read_entities() { read_entities(false); }
+
+    /// Parts of entities are what these are: a mesh in parts is read as a whole one.
+    void read_parts()
+    {
+        cursor_.size(); // of parts
+        const std::uint64_t ghosts = cursor_.plausible(cursor_.size(), 8, 2);
+        for (std::uint64_t i = 0; i < 2 * ghosts; ++i) cursor_.integer();
+        read_entities(true);
+    }
+
+    /// The entity that one is a part of; itself where it is no part, or one of another dimension.
+    [[nodiscard]] int whole_of(int dimension, int entity) const
+    {
+        const auto found = whole_of_.find({dimension, entity});
+        return found == whole_of_.end() ? entity : found->second;
+    }
+
+    void read_entities(bool parts)
     {
         std::uint64_t counts[4];
         for (std::uint64_t& count : counts) count = cursor_.size();
         for (int dimension = 0; dimension < 4; ++dimension) {
             const int reals = dimension == 0 && !first_of_4_ ? 3 : 6;
             for (std::uint64_t i = 0; i < counts[dimension]; ++i) {
-                const int tag = cursor_.integer();
+                int tag = cursor_.integer();
+                if (parts) {
+                    const int of_dimension = cursor_.integer(), whole = cursor_.integer();
+                    if (of_dimension == dimension) whole_of_[{dimension, tag}] = whole;
+                    tag = whole_of(dimension, tag);
+                    const std::uint64_t own = cursor_.plausible(cursor_.size(), 4, 1);
+                    for (std::uint64_t k = 0; k < own; ++k) cursor_.integer();
+                }
                 for (int k = 0; k < reals; ++k) cursor_.real();
                 const std::uint64_t physical = cursor_.plausible(cursor_.size(), 4, 1);
                 for (std::uint64_t k = 0; k < physical; ++k) members_[{dimension, group_tag()}].insert(tag);
@@ -423,8 +450,8 @@ private:
         for (std::uint64_t b = 0; b < blocks; ++b) {
             const int first = cursor_.integer();
             const int second = cursor_.integer();
-            const int entity = first_of_4_ ? first : second;
             const ElementType type = type_of(cursor_, cursor_.integer());
+            const int entity = whole_of(type.dimension, first_of_4_ ? first : second);
             const auto values = static_cast<std::uint64_t>(type.nodes) + 1;
             const std::uint64_t count = cursor_.plausible(cursor_.size(), (first_of_4_ ? 4 : 8) * values,
                                                           values);
@@ -643,6 +670,7 @@ private:
     std::map<Index, std::set<int>> more_groups_; ///< of regions: further physical groups, in version 2
     std::map<Key, std::string> names_;
     std::map<Key, std::set<int>> members_;
+    std::map<Key, int> whole_of_; ///< of entities that are parts
     std::map<Key, std::size_t> others_;
     int version_ = 0;
     bool first_of_4_ = false; ///< version 4.0, which counts tags in 4 bytes and has them in another order

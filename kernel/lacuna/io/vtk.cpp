@@ -9,9 +9,18 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <memory>
+#include <utility>
 
 namespace lacuna::io {
 namespace {
+
+/// How the mesh that a file holds lies in the whole mesh.
+struct Window {
+    int first = 0;                ///< its first layer is this one of the whole
+    int skin_first = 0, skin = 0; ///< of its layers, those whose skin the file has, and their number
+    bool source = true, target = true;
+};
 
 /// Cells of the file by kind: hexahedra, wedges, quads of the skin, triangles of the skin.
 struct Cells {
@@ -22,15 +31,23 @@ struct Cells {
     };
     const mesh::HexMesh& mesh;
     mesh::CellKinds kinds;
+    Window window;
+    std::size_t triangles = 0, quads = 0; ///< of the source
     std::array<Kind, 4> kind;
 
-    explicit Cells(const mesh::HexMesh& cells) : mesh(cells), kinds(cells)
+    explicit Cells(const mesh::HexMesh& cells) : Cells(cells, {0, 0, cells.layers}) {}
+    Cells(const mesh::HexMesh& cells, const Window& own)
+        : mesh(cells),
+          kinds(cells),
+          window(own),
+          triangles(cells.triangle_count()),
+          quads(cells.quads.size() - triangles)
     {
         const bool second = mesh.order() == 2, full = second && mesh.middles.full;
         kind[0] = {0, kinds.hexes(), cell_size(mesh), full ? 29 : second ? 25 : 12};
         kind[1] = {0, mesh.cell_count() - kinds.hexes(), 6, 13};
-        kind[2] = {0, kinds.skin_quads(), skin_size(mesh), full ? 28 : second ? 23 : 9};
-        kind[3] = {0, mesh.skin_count() - kinds.skin_quads(), 3, 5};
+        kind[2] = {0, ends() * quads + rims(window.skin), skin_size(mesh), full ? 28 : second ? 23 : 9};
+        kind[3] = {0, ends() * triangles, 3, 5};
         for (std::size_t k = 1; k < kind.size(); ++k) kind[k].first = kind[k - 1].first + kind[k - 1].count;
     }
 
@@ -51,10 +68,22 @@ struct Cells {
         for (const Kind& own : kind) sum += std::min(end - std::min(end, own.first), own.count) * own.nodes;
         return sum;
     }
+    /// The quad or triangle of the skin that cell `i` is. @pre i >= solids()
+    [[nodiscard]] std::size_t skin(std::size_t i) const
+    {
+        const bool triangle = i >= kind[3].first;
+        std::size_t at = i - kind[triangle ? 3 : 2].first;
+        const std::size_t each_end = triangle ? triangles : quads;
+        if (at >= ends() * each_end) // a quad of the walls
+            at += (2 - ends()) * each_end + rims(window.skin_first);
+        else if (!window.source)
+            at += each_end;
+        return kinds.skin(triangle ? kinds.skin_quads() + at : at);
+    }
     /// Of cell `i`, in VTK's order, in which a wedge's triangle 0-1-2 looks away from 3-4-5.
     [[nodiscard]] mesh::CellNodes nodes_of(std::size_t i) const
     {
-        if (i >= solids()) return skin_nodes(mesh, kinds.skin(i - solids()));
+        if (i >= solids()) return skin_nodes(mesh, skin(i));
         mesh::CellNodes nodes = cell_nodes(mesh, kinds.cell(i));
         if (i >= kind[1].first) {
             std::swap(nodes.node[1], nodes.node[2]);
@@ -66,33 +95,45 @@ struct Cells {
     [[nodiscard]] int entity(std::size_t i) const
     {
         if (i < solids()) return 0;
-        const Index patch = skin_quad(mesh, kinds.skin(i - solids())).patch;
+        const Index patch = skin_quad(mesh, skin(i)).patch;
         return mesh.patches[static_cast<std::size_t>(patch)].tag;
     }
+    /// A cell or a quad of the skin in the whole mesh.
+    [[nodiscard]] std::size_t whole_cell(std::size_t cell) const
+    {
+        return cell + index(window.first) * mesh.quads.size();
+    }
+    [[nodiscard]] std::size_t whole_skin(std::size_t quad) const
+    {
+        return quad < 2 * mesh.quads.size() ? quad : quad + rims(window.first);
+    }
+
+    [[nodiscard]] std::size_t ends() const { return std::size_t(window.source) + std::size_t(window.target); }
+    [[nodiscard]] std::size_t rims(int layers) const { return index(layers) * mesh.rim.size(); }
 };
 
-/// Fields of cells and skin, what of the skin is looked up by the cell a quad belongs to.
+/// Fields of cells and skin of a whole mesh, what of the skin is looked up by the cell a quad belongs to.
 struct Fields {
     const std::vector<FieldReader>& fields;
     std::vector<std::uint32_t> skin_cells;
-    mesh::CellKinds kinds;
-    std::size_t cells;
 
-    Fields(const mesh::HexMesh& mesh, const std::vector<FieldReader>& given)
-        : fields(given), kinds(mesh), cells(mesh.cell_count())
+    Fields(const mesh::HexMesh& mesh, const std::vector<FieldReader>& given) : fields(given)
     {
         if (!given.empty()) skin_cells = cells_of_skin(mesh);
     }
-    /// Call `put_value(out, value)` for the cells [begin, end) of the file.
+    /// Call `put_value(out, value)` for the cells [begin, end) of a file.
     template <class PutValue>
-    char* put_values(const FieldReader& field, std::size_t begin, std::size_t end, char* out,
-                     const PutValue& put_value) const
+    char* put_values(const Cells& cells, const FieldReader& field, std::size_t begin, std::size_t end,
+                     char* out, const PutValue& put_value) const
     {
         FieldReader::Cursor at(field);
         for (std::size_t i = begin; i < end; ++i) {
-            const std::size_t quad = i < cells ? 0 : kinds.skin(i - cells);
-            out = put_value(out,
-                            i < cells ? at.cell(kinds.cell(i)) : field.behind_skin(quad, skin_cells[quad]));
+            if (i < cells.solids()) {
+                out = put_value(out, at.cell(cells.whole_cell(cells.kinds.cell(i))));
+                continue;
+            }
+            const std::size_t quad = cells.whole_skin(cells.skin(i));
+            out = put_value(out, field.behind_skin(quad, skin_cells[quad]));
         }
         return out;
     }
@@ -115,7 +156,19 @@ VtkTable groups_of(const mesh::HexMesh& mesh)
 
 // ---- XML
 
-std::vector<VtuArray> vtu_arrays(const Cells& cells, const NodeReader& nodes, const Fields& fields)
+/// Nodes [first, second) of the whole mesh.
+using Nodes = std::pair<std::size_t, std::size_t>;
+
+std::size_t count_of(const std::vector<Nodes>& ranges)
+{
+    std::size_t count = 0;
+    for (const Nodes& range : ranges) count += range.second - range.first;
+    return count;
+}
+
+/// @param points  the nodes that are the file's points.
+std::vector<VtuArray> vtu_arrays(const Cells& cells, const NodeReader& nodes,
+                                 const std::vector<Nodes>& points, const Fields& fields)
 {
     const std::size_t count = cells.count();
     const auto section = [](std::size_t records, std::size_t bytes, Fill fill) {
@@ -139,15 +192,17 @@ std::vector<VtuArray> vtu_arrays(const Cells& cells, const NodeReader& nodes, co
     const auto put_entity = [&cells](std::size_t i, char* out) {
         return put(out, static_cast<std::int32_t>(cells.entity(i)));
     };
-    const auto put_points = [&nodes](std::size_t begin, std::size_t end, char* out) {
-        return nodes.copy(begin, end, out);
-    };
+    std::vector<Section> coordinates;
+    for (const Nodes& range : points) {
+        const auto put_points = [&nodes, from = range.first](std::size_t begin, std::size_t end, char* out) {
+            return nodes.copy(from + begin, from + end, out);
+        };
+        coordinates.push_back(section(range.second - range.first, sizeof(Vec3), put_points));
+    }
     using Place = VtuArray::Place;
     std::vector<VtuArray> arrays{
-        {Place::points,
-         "type=\"Float64\" NumberOfComponents=\"3\"",
-         nodes.count() * sizeof(Vec3),
-         {section(nodes.count(), sizeof(Vec3), put_points)}},
+        {Place::points, "type=\"Float64\" NumberOfComponents=\"3\"", count_of(points) * sizeof(Vec3),
+         std::move(coordinates)},
         {Place::cells, "type=\"Int32\" Name=\"connectivity\"", cells.nodes() * sizeof(Index),
          std::move(connectivity)},
         {Place::cells, "type=\"Int64\" Name=\"offsets\"", count * 8, {section(count, 8, each(put_offset))}},
@@ -157,8 +212,8 @@ std::vector<VtuArray> vtu_arrays(const Cells& cells, const NodeReader& nodes, co
          count * 4,
          {section(count, 4, each(put_entity))}}};
     for (const FieldReader& field : fields.fields) {
-        const auto put_values = [&fields, &field](std::size_t begin, std::size_t end, char* out) {
-            return fields.put_values(field, begin, end, out,
+        const auto put_values = [&cells, &fields, &field](std::size_t begin, std::size_t end, char* out) {
+            return fields.put_values(cells, field, begin, end, out,
                                      [](char* at, double value) { return put(at, value); });
         };
         arrays.push_back({Place::cell_data,
@@ -167,6 +222,151 @@ std::vector<VtuArray> vtu_arrays(const Cells& cells, const NodeReader& nodes, co
                           {section(count, sizeof(double), put_values)}});
     }
     return arrays;
+}
+
+// ---- Pieces
+
+/// A range of layers as a mesh, with the part's ghosts. Its nodes are not held.
+mesh::HexMesh layers_of(const mesh::HexMesh& mesh, const LayerPart& part)
+{
+    mesh::HexMesh own;
+    own.nodes_per_layer = mesh.nodes_per_layer;
+    own.layers = part.with_last - part.with_first;
+    own.quads = mesh.quads;
+    own.rim = mesh.rim;
+    own.patches = mesh.patches;
+    own.source_patch = mesh.source_patch;
+    own.target_patch = mesh.target_patch;
+    const auto at = [&](int layer) {
+        return mesh.wall_patch.begin() + static_cast<std::ptrdiff_t>(index(layer) * mesh.rim.size());
+    };
+    own.wall_patch.assign(at(part.with_first), at(part.with_last));
+    own.volume_groups = mesh.volume_groups;
+    own.middles.full = mesh.middles.full;
+    own.middles.sides = mesh.middles.sides;
+    own.middles.side_of = mesh.middles.side_of;
+    own.middles.rim_side = mesh.middles.rim_side;
+    return own;
+}
+
+/// A file of a part. What its sections refer to lives as long as they do.
+struct Piece {
+    const mesh::HexMesh& whole;
+    LayerPart part;
+    mesh::HexMesh mesh;
+    Cells cells;
+    std::vector<Nodes> points;
+
+    Piece(const mesh::HexMesh& all, const LayerPart& own)
+        : whole(all),
+          part(own),
+          mesh(layers_of(all, own)),
+          cells(mesh, {own.with_first, own.first - own.with_first, own.last - own.first, own.first == 0,
+                       own.last == all.layers})
+    {
+        const std::size_t row = index(whole.nodes_per_layer), first = index(part.with_first);
+        points.emplace_back(first * row, (index(part.with_last) + 1) * row);
+        if (whole.order() == 1) return;
+        const mesh::MiddlePlaces places(whole);
+        const std::size_t begin = mesh::corner_count(whole) + places.side(first, 0);
+        points.emplace_back(begin, begin + mesh::MiddlePlaces(mesh).count());
+    }
+
+    /// Number of a cell in the file of the whole, from 1.
+    [[nodiscard]] std::int64_t cell_number(std::size_t i, const Cells& all) const
+    {
+        std::size_t k = 0;
+        while (i >= cells.kind[k].first + cells.kind[k].count) ++k;
+        std::size_t at = i - cells.kind[k].first;
+        const std::size_t each_end = k == 2 ? cells.quads : cells.triangles;
+        if (k < 2)
+            at += index(part.with_first) * (k == 0 ? cells.quads : cells.triangles);
+        else if (const std::size_t ends = cells.ends() * each_end; at >= ends)
+            at += 2 * each_end - ends + cells.rims(part.first);
+        else if (!cells.window.source)
+            at += each_end;
+        return static_cast<std::int64_t>(all.kind[k].first + at) + 1;
+    }
+    /// Whether a cell is another part's.
+    [[nodiscard]] bool is_ghost(std::size_t i) const
+    {
+        if (i >= cells.solids()) return false;
+        const auto layer = static_cast<int>(cells.kinds.cell(i) / mesh.quads.size()) + part.with_first;
+        return layer < part.first || layer >= part.last;
+    }
+    /// Of a point that stands in several pieces the one above its level owns it, of the highest the last.
+    [[nodiscard]] bool is_ghost_point(std::size_t node) const
+    {
+        const std::size_t corners = mesh::corner_count(whole);
+        std::size_t level = node / index(whole.nodes_per_layer);
+        if (node >= corners) level = (node - corners) / mesh::MiddlePlaces(whole).side(1, 0);
+        const int at = static_cast<int>(level);
+        return at < part.first || (at >= part.last && (part.last < whole.layers || at > part.last));
+    }
+};
+
+/// The arrays of a piece: those of the whole file, numbers in it and, where asked for, what are ghosts.
+std::vector<VtuArray> piece_arrays(const std::shared_ptr<const Piece>& piece, const Cells& whole,
+                                   const NodeReader& nodes, const Fields& fields, bool ghosts)
+{
+    using Place = VtuArray::Place;
+    std::vector<VtuArray> arrays = vtu_arrays(piece->cells, nodes, piece->points, fields);
+    const auto of_cells = [&](const char* attributes, std::size_t bytes, Fill fill) {
+        const std::size_t count = piece->cells.count();
+        arrays.push_back(
+            {Place::cell_data, attributes, count * bytes, {Section{{}, count, bytes, std::move(fill)}}});
+    };
+    const auto of_points = [&](const char* attributes, std::size_t bytes, const auto& put_node) {
+        std::vector<Section> sections;
+        for (const Nodes& range : piece->points)
+            sections.push_back({{},
+                                range.second - range.first,
+                                bytes,
+                                each([put_node, from = range.first](std::size_t i, char* out) {
+                                    return put_node(from + i, out);
+                                })});
+        arrays.push_back(
+            {Place::point_data, attributes, count_of(piece->points) * bytes, std::move(sections)});
+    };
+    of_points("type=\"Int64\" Name=\"node_number\"", 8,
+              [](std::size_t node, char* out) { return put(out, static_cast<std::int64_t>(node) + 1); });
+    of_cells("type=\"Int64\" Name=\"cell_number\"", 8, each([piece, &whole](std::size_t i, char* out) {
+                 return put(out, piece->cell_number(i, whole));
+             }));
+    if (!ghosts) return arrays;
+    of_points("type=\"UInt8\" Name=\"vtkGhostType\"", 1, [piece](std::size_t node, char* out) {
+        return put(out, static_cast<std::uint8_t>(piece->is_ghost_point(node)));
+    });
+    of_cells("type=\"UInt8\" Name=\"vtkGhostType\"", 1, each([piece](std::size_t i, char* out) {
+                 return put(out, static_cast<std::uint8_t>(piece->is_ghost(i)));
+             }));
+    return arrays;
+}
+
+void write_pieces(const mesh::HexMesh& mesh, const NodeReader& nodes, const std::vector<FieldReader>& readers,
+                  const OutputPath& path, const PartitionOptions& options, const RunContext& context,
+                  const Team* team = nullptr)
+{
+    const Fields fields(mesh, readers);
+    const Cells whole(mesh);
+    const bool ghosts = options.ghosts > 0;
+    std::vector<FileOfSet> files;
+    std::vector<std::string> names;
+    std::string head;
+    for (const LayerPart& part : layer_parts(mesh.layers, options)) {
+        names.push_back(piece_name(path.text(), names.size()));
+        files.push_back({path.beside(names.back()), [&, part] {
+                             const auto piece = std::make_shared<const Piece>(mesh, part);
+                             return vtu_file(count_of(piece->points), piece->cells.count(),
+                                             piece_arrays(piece, whole, nodes, fields, ghosts),
+                                             groups_of(mesh));
+                         }});
+        if (head.empty())
+            head = pvtu_head(
+                piece_arrays(std::make_shared<const Piece>(mesh, part), whole, nodes, fields, ghosts),
+                options.ghosts);
+    }
+    write_files(files, path, head + pvtu_end(names), context, team);
 }
 
 // ---- Legacy
@@ -211,8 +411,9 @@ std::vector<Section> vtk_sections(const Cells& cells, const NodeReader& nodes, c
     sections.push_back({"\nCELL_DATA " + number + "\nSCALARS entity int 1\nLOOKUP_TABLE default\n", count,
                         bytes(1, 4), each(put_entity)});
     for (const FieldReader& field : fields.fields) {
-        const auto put_values = [&fields, &field, binary](std::size_t begin, std::size_t end, char* out) {
-            return fields.put_values(field, begin, end, out, [binary](char* at, double value) {
+        const auto put_values = [&cells, &fields, &field, binary](std::size_t begin, std::size_t end,
+                                                                  char* out) {
+            return fields.put_values(cells, field, begin, end, out, [binary](char* at, double value) {
                 return end_line(put_number(at, value, binary), binary);
             });
         };
@@ -229,7 +430,8 @@ void write_xml(const mesh::HexMesh& mesh, const NodeReader& nodes, const std::ve
     const Fields fields(mesh, readers);
     const Cells cells(mesh);
     const std::vector<Section> sections = vtu_file(nodes.count(), cells.count(),
-                                                   vtu_arrays(cells, nodes, fields), groups_of(mesh));
+                                                   vtu_arrays(cells, nodes, {{0, nodes.count()}}, fields),
+                                                   groups_of(mesh));
     write_file(path, sections, Sizes::exact, context, team);
 }
 
@@ -273,6 +475,22 @@ void write_vtk(const mesh::LayeredMesh& layered, const OutputPath& path, const V
     const NodeReader nodes(layered, context);
     write_legacy(layered.mesh, nodes, readers_of(layered, fields, context, team), path, options.binary,
                  context, team);
+}
+
+void write_pvtu(const mesh::HexMesh& mesh, const OutputPath& path, const PartitionOptions& partition,
+                const VtuOptions& options, const RunContext& context)
+{
+    check_skin(mesh);
+    write_pieces(mesh, NodeReader(mesh), readers_of(mesh, options.fields), path, partition, context);
+}
+
+void write_pvtu(const mesh::LayeredMesh& layered, const OutputPath& path, const PartitionOptions& partition,
+                const std::vector<LayeredField>& fields, const RunContext& context, const Team* team)
+{
+    check_skin(layered.mesh);
+    const NodeReader nodes(layered, context);
+    write_pieces(layered.mesh, nodes, readers_of(layered, fields, context, team), path, partition, context,
+                 team);
 }
 
 } // namespace lacuna::io

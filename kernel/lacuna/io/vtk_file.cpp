@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <numeric>
 #include <set>
 
@@ -52,16 +53,55 @@ std::vector<std::size_t> order_behind(const std::vector<VtuArray>& arrays)
     return first;
 }
 
+std::string opening(const std::string& type)
+{
+    const char* order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type + "\" version=\"1.0\" byte_order=\"" + order +
+           "\" header_type=\"UInt64\">\n<" + type;
+}
+
+constexpr std::array<std::pair<VtuArray::Place, std::string_view>, 4> kPlaces{
+    {{VtuArray::Place::points, "Points"},
+     {VtuArray::Place::cells, "Cells"},
+     {VtuArray::Place::point_data, "PointData"},
+     {VtuArray::Place::cell_data, "CellData"}}};
+
+std::string_view end_of_place(VtuArray::Place place)
+{
+    return place == VtuArray::Place::cell_data ? " Scalars=\"entity\">\n" : ">\n";
+}
+
 } // namespace
+
+std::string pvtu_head(const std::vector<VtuArray>& arrays, int ghosts)
+{
+    std::string text = opening("PUnstructuredGrid") + " GhostLevel=\"" + std::to_string(ghosts) + "\">\n";
+    for (const auto& [place, word] : kPlaces) {
+        if (place == VtuArray::Place::cells) continue;
+        text.append("<P").append(word).append(end_of_place(place));
+        for (const VtuArray& array : arrays)
+            if (array.place == place) text.append("<PDataArray ").append(array.attributes).append("/>\n");
+        text.append("</P").append(word).append(">\n");
+    }
+    return text;
+}
+
+std::string pvtu_end(const std::vector<std::string>& pieces)
+{
+    std::string text;
+    for (const std::string& name : pieces) text += "<Piece Source=\"" + escaped(name) + "\"/>\n";
+    return text + "</PUnstructuredGrid>\n</VTKFile>\n";
+}
+
+std::string piece_name(const std::string& path, std::size_t number)
+{
+    return std::filesystem::path(path).stem().string() + "_" + std::to_string(number) + ".vtu";
+}
 
 std::vector<Section> vtu_file(std::size_t points, std::size_t cells, std::vector<VtuArray> arrays,
                               const VtkTable& table)
 {
-    using Place = VtuArray::Place;
-    const char* order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
-    std::string text =
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
-    text.append(order).append("\" header_type=\"UInt64\">\n<UnstructuredGrid>\n");
+    std::string text = opening("UnstructuredGrid") + ">\n";
     if (!table.empty()) text += "<FieldData>\n";
     // As text: short, and see `order_behind()`.
     for (const auto& [name, values] : table) {
@@ -73,11 +113,6 @@ std::vector<Section> vtu_file(std::size_t points, std::size_t cells, std::vector
     if (!table.empty()) text += "</FieldData>\n";
     text.append("<Piece NumberOfPoints=\"").append(std::to_string(points));
     text.append("\" NumberOfCells=\"").append(std::to_string(cells)).append("\">\n");
-    constexpr std::array<std::pair<VtuArray::Place, std::string_view>, 4> kPlaces{
-        {{Place::points, "Points"},
-         {Place::cells, "Cells"},
-         {Place::point_data, "PointData"},
-         {Place::cell_data, "CellData"}}};
     const std::vector<std::size_t> order_of = order_behind(arrays);
     std::vector<std::size_t> offsets(arrays.size());
     std::vector<Section> sections(1);
@@ -89,7 +124,7 @@ std::vector<Section> vtu_file(std::size_t points, std::size_t cells, std::vector
         for (Section& section : arrays[a].sections) sections.push_back(std::move(section));
     }
     for (const auto& [place, word] : kPlaces) {
-        text.append("<").append(word).append(place == Place::cell_data ? " Scalars=\"entity\">\n" : ">\n");
+        text.append("<").append(word).append(end_of_place(place));
         for (std::size_t a = 0; a < arrays.size(); ++a) {
             if (arrays[a].place != place) continue;
             text.append("<DataArray ").append(arrays[a].attributes);

@@ -2,6 +2,7 @@
 #include <lacuna/mesh/second_order.h>
 
 #include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/mesh/quad_mesh.h>
 
 #include <algorithm>
@@ -57,7 +58,7 @@ CellNodes cell_nodes(const HexMesh& mesh, std::size_t cell)
     const MiddlePlaces places(mesh);
     const std::size_t q = cell % mesh.quads.size(), layer = cell / mesh.quads.size();
     const auto add = [&](std::size_t place) {
-        nodes.node[nodes.count++] = static_cast<Index>(mesh.nodes.size() + place);
+        nodes.node[nodes.count++] = static_cast<Index>(corner_count(mesh) + place);
     };
     const Quad& sides = mesh.middles.side_of[q];
     for (const std::size_t level : {layer, layer + 1})
@@ -80,7 +81,7 @@ CellNodes skin_nodes(const HexMesh& mesh, std::size_t i)
     const MiddlePlaces places(mesh);
     const auto layers = static_cast<std::size_t>(mesh.layers);
     const auto add = [&](std::size_t place) {
-        nodes.node[nodes.count++] = static_cast<Index>(mesh.nodes.size() + place);
+        nodes.node[nodes.count++] = static_cast<Index>(corner_count(mesh) + place);
     };
     const std::size_t quads = mesh.quads.size();
     if (i < quads) {

@@ -46,9 +46,10 @@ struct MiddleNodes {
     std::vector<Segment> sides;  ///< of the source quads, each once, the lower node first
     std::vector<Quad> side_of;   ///< side k of each quad, from its corner k to the next
     std::vector<Index> rim_side; ///< of each side of `HexMesh::rim`
-    std::vector<Vec3> nodes;     ///< [model length]; empty: the mesh is of order 1
+    std::vector<Vec3> nodes;     ///< [model length]
 
-    [[nodiscard]] bool empty() const { return nodes.empty(); }
+    /// Whether none are numbered: the mesh is of order 1.
+    [[nodiscard]] bool empty() const { return side_of.empty(); }
 };
 
 /// Places in `MiddleNodes::nodes`. Levels count from 0 to the number of layers.

@@ -27,7 +27,7 @@ void put_file(Writer& writer, const LayeredFile& file)
     std::vector<int> metrics;
     for (const quality::Metric metric : file.quality) metrics.push_back(static_cast<int>(metric));
     writer(static_cast<std::int8_t>(file.binary)), writer(file.version), writer(metrics);
-    writer(file.material);
+    writer(file.material), writer(file.partition.parts), writer(file.partition.ghosts);
 }
 
 LayeredFile read_file(Reader& reader)
@@ -36,7 +36,7 @@ LayeredFile read_file(Reader& reader)
     std::int8_t binary = 0;
     std::vector<int> metrics;
     reader(binary), reader(file.version), reader(metrics);
-    reader(file.material);
+    reader(file.material), reader(file.partition.parts), reader(file.partition.ghosts);
     file.binary = binary != 0;
     for (const int metric : metrics) file.quality.push_back(static_cast<quality::Metric>(metric));
     return file;
@@ -64,9 +64,11 @@ void write_share(const mesh::LayeredMesh& layered, const io::OutputPath& path, c
     for (const quality::Metric metric : file.quality) fields.push_back(field_of(layered, metric, context));
     const std::string ending = io::ending_of(path.text());
     if (ending == ".msh")
-        io::write_msh(layered, path, {file.binary, file.version}, fields, context, team);
+        io::write_msh(layered, path, {file.binary, file.version, {}, file.partition}, fields, context, team);
     else if (ending == ".vtu")
         io::write_vtu(layered, path, fields, context, team);
+    else if (ending == ".pvtu")
+        io::write_pvtu(layered, path, file.partition, fields, context, team);
     else if (ending == ".vtk")
         io::write_vtk(layered, path, {file.binary}, fields, context, team);
     else if (io::DeckFormat format{}; io::find_deck_format(ending, format) && io::is_layered(format))
@@ -80,7 +82,7 @@ void write_share(const mesh::LayeredMesh& layered, const io::OutputPath& path, c
 bool is_layered(const std::string& ending)
 {
     io::DeckFormat format{};
-    return ending == ".msh" || ending == ".vtu" || ending == ".vtk" ||
+    return ending == ".msh" || ending == ".vtu" || ending == ".pvtu" || ending == ".vtk" ||
            (io::find_deck_format(ending, format) && io::is_layered(format));
 }
 

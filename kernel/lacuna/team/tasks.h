@@ -3,6 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/core/team.h>
+#include <lacuna/io/partition.h>
 #include <lacuna/io/whole_file.h>
 #include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/quality/metrics.h>
@@ -21,6 +22,7 @@ struct LayeredFile {
     double version = 4.1;                   ///< of .msh
     std::vector<quality::Metric> quality{}; ///< fields of cells; decks have none
     std::string material{};                 ///< of decks
+    io::PartitionOptions partition{};       ///< of .msh and .pvtu
 };
 
 /// Whether files of an ending (".msh") are written a layer at a time.

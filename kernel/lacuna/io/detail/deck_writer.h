@@ -96,7 +96,7 @@ DeckFile nastran_file(const Deck& deck, const LayeredBulk* layered = nullptr);
 DeckFile abaqus_file(const Deck& deck, const LayeredBulk* layered = nullptr);
 DeckFile unv_file(const Deck& deck, const LayeredBulk* layered = nullptr);
 DeckFile msh_of_deck(const Deck& deck, const DeckFileOptions& options);
-DeckFile exodus_file(const Deck& deck);
+DeckFile exodus_file(const Deck& deck, const LayeredBulk* layered = nullptr);
 DeckFile vtu_of_deck(const Deck& deck);
 DeckFile vtk_of_deck(const Deck& deck, bool binary);
 

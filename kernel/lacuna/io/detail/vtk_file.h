@@ -43,6 +43,12 @@ struct VtuArray {
 std::vector<Section> vtu_file(std::size_t points, std::size_t cells, std::vector<VtuArray> arrays,
                               const VtkTable& table);
 
+/// What a file of pieces says of their arrays, and then of their names.
+std::string pvtu_head(const std::vector<VtuArray>& arrays, int ghosts);
+std::string pvtu_end(const std::vector<std::string>& pieces);
+/// "mesh_2.vtu" of "folder/mesh.pvtu" and 2.
+std::string piece_name(const std::string& path, std::size_t number);
+
 // ---- Legacy
 
 /// Version, title and, if there are names, the table.
