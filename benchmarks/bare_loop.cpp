@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// The bound of a swept mesh: nodes and hexahedra of a grid filled by a plain loop, written as binary MSH.
 /// usage: bare_loop QUADS_X QUADS_Y LAYERS OUT.msh [stream]
-/// Prints the seconds it took, and the processor's.
+/// Prints the seconds it took, and those of the processor.
 /// With stream a layer is filled and written at a time, so that memory does not grow with the layers.
 #include <chrono>
 #include <cstdint>

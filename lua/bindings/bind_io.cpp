@@ -367,12 +367,12 @@ int write(lua_State* L)
                                                   "leave it out");
         for (const Box<ModelState>& model : arguments.with) refresh(*model);
         arguments.deck.material = state.material;
+        report_progress(context, "writing " + path.text());
         for (const quality::Metric metric : format.is_deck || !arguments.with.empty()
                                                 ? std::vector<quality::Metric>{}
                                                 : metrics_of(arguments))
             arguments.msh.fields.push_back(
                 {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
-        report_progress(context, "writing " + path.text());
         format.write(mesh, path, arguments, context);
         write_options_beside(lent, path, arguments);
     });

@@ -266,6 +266,46 @@ sleep 0.3; kill -INT $pid; wait $pid; echo "exit code $?"]]):format(params.lacun
       recipe .. ": " .. told)
 end
 
+-- An interrupt that comes while a file is written: the recipe ends at once, and no unfinished file stays.
+for _, ending in ipairs { "msh", "inp" } do
+  local place = check.empty_folder(folder .. "/interrupted_" .. ending)
+  local recipe = folder .. "/writes_" .. ending .. ".lua"
+  check.write(recipe, ([[
+local lacuna = require "lacuna"
+local void = lacuna.synthetic.prism { sides = 4, height = 1.4, drop = "walls" }:open_volume {}
+local mesh = void:sweep { layers = 60, size = 0.02, quads = "mapped" }
+for n = 1, math.huge do
+  mesh:write(%q .. n .. ".%s")
+  if n == 1 then assert(io.open(%q, "w")):close() end
+  os.remove(%q .. (n - 1) .. ".%s")
+end
+]]):format(place .. "/", ending, place .. "/started", place .. "/", ending))
+  -- Both streams in one; then the processor's ticks at the signal, and what all took in the end.
+  local pipe = assert(io.popen(([[
+'%s' --quiet '%s' 2>&1 & pid=$!
+until [ -e '%s/started' ]; do sleep 0.02; done
+sleep 0.1; read -r _ _ _ _ _ _ _ _ _ _ _ _ _ user system _ < /proc/$pid/stat; kill -INT $pid; wait $pid
+echo "exit code $?"; echo "at $((user + system)) of $(getconf CLK_TCK)"; times]]):format(params.lacuna,
+    recipe, place)))
+  local told = pipe:read("a")
+  pipe:close()
+  check.that(told:find("lacuna: interrupted", 1, true) and told:find("exit code 130", 1, true), told)
+  local ticks, a_second = told:match("at (%d+) of (%d+)")
+  local seconds = 0 -- of the last line: the children's, as minutes and seconds
+  for minutes, part in told:match("([^\n]+)\n*$"):gmatch("(%d+)m([%d.]+)s") do
+    seconds = seconds + 60 * minutes + part
+  end
+  -- 0.2 s is what it is to be; the rest is for builds that check themselves, and the clock's ticks.
+  check.that(seconds - ticks / a_second < 0.5, told)
+  local left <close> = assert(io.popen(("ls -A '%s'"):format(place)))
+  local names = {}
+  for name in left:lines() do
+    if name ~= "started" then names[#names + 1] = name end
+  end
+  check.that(#names <= 2, table.concat(names, " "))
+  for _, name in ipairs(names) do check.that(name:find("^%d+%." .. ending .. "$"), name) end
+end
+
 -- --timing: seconds by stage, which add up, of what fails too.
 check.write(folder .. "/timed.lua", [[
 local lacuna = require "lacuna"

@@ -559,3 +559,45 @@ TEST_CASE("a sweep stops when it is told to")
     context.cancel = &cancel;
     CHECK_THROWS_AS(sweep::sweep(volume, layers_of(3, 0.2), context), Cancelled);
 }
+
+TEST_CASE("the quality a sweep tells is that of its cells, however they were placed, moved and proved")
+{
+    const auto check = [](const OpenVolume& volume, const SweepOptions& options) {
+        const Swept swept = sweep::sweep(volume, options);
+        const quality::Quality& told = swept.quality;
+        const quality::Quality found = quality::measure(swept.mesh);
+        CHECK(told.hexes == found.hexes);
+        CHECK(told.wedges == found.wedges);
+        CHECK(told.min_scaled_jacobian == found.min_scaled_jacobian);
+        CHECK(told.min_scaled_jacobian == swept.min_scaled_jacobian);
+        CHECK(told.mean_scaled_jacobian == found.mean_scaled_jacobian);
+        CHECK(told.histogram == found.histogram);
+        CHECK(told.volume == found.volume);
+        REQUIRE(told.worst.size() == found.worst.size());
+        for (std::size_t i = 0; i < found.worst.size(); ++i) {
+            CHECK(told.worst[i].cell == found.worst[i].cell);
+            CHECK(told.worst[i].layer == found.worst[i].layer);
+            CHECK(told.worst[i].centre == found.worst[i].centre);
+        }
+        test::check_valid(swept.mesh);
+    };
+    for (const double twist : {0.0, 40.0, 80.0}) {
+        CAPTURE(twist);
+        const OpenVolume volume = test::sealed(
+            {.sides = 5, .height = 2, .levels = 6, .twist = twist, .drop = without(false, false, true)});
+        SweepOptions options = test::layers_of(6, 0.2);
+        check(volume, options); // with the residual spread where that is good enough, or without
+        options.improving.good_enough = 0.9;
+        check(volume, options); // moved
+        options.order = 2;
+        check(volume, options);
+    }
+    const OpenVolume straight = test::sealed({.sides = 6, .height = 2, .taper = 0.8});
+    SweepOptions rows = test::layers_of(6, 0.2);
+    surface::BoundaryLayer& layer = rows.boundary_layers.emplace_back();
+    layer.walls.tags.push_back(straight.model[straight.faces(Role::wall).front()].tag);
+    layer.first = 0.02;
+    layer.growth = 1.3;
+    layer.count = 3;
+    check(straight, rows);
+}

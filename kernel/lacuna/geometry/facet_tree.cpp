@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 namespace lacuna::geometry {
 
@@ -75,6 +76,26 @@ FacetTree::RayHit ray_triangle(const Corners& c, const Vec3& origin, const Vec3&
     hit.t = t;
     hit.barycentric = {1 - u - v, u, v};
     return hit;
+}
+
+/// Bring the triangles to the front whose centres are in the lower half along the longest side of their box.
+void halve(std::span<Index> ids, std::span<const Vec3> centres)
+{
+    Box box;
+    for (const Index id : ids) box.extend(centres[index(id)]);
+    int axis = 0;
+    box.sizes().maxCoeff(&axis);
+    struct Keyed {
+        double at;
+        Index id;
+    };
+    std::vector<Keyed> keyed;
+    keyed.reserve(ids.size());
+    for (const Index id : ids) keyed.push_back({centres[index(id)][axis], id});
+    // Equal centres are told apart by index: the tree depends on nothing but the triangles.
+    std::nth_element(keyed.begin(), keyed.begin() + static_cast<std::ptrdiff_t>(ids.size() / 2), keyed.end(),
+                     [](const Keyed& a, const Keyed& b) { return a.at != b.at ? a.at < b.at : a.id < b.id; });
+    std::transform(keyed.begin(), keyed.end(), ids.begin(), [](const Keyed& k) { return k.id; });
 }
 
 FacetTree::Hit closest_on_sides(const Vec3& p, const Corners& c)
@@ -157,27 +178,18 @@ std::uint32_t FacetTree::build(std::uint32_t begin, std::uint32_t end, std::span
     Node node;
     node.begin = begin;
     node.end = end;
-    Box centres;
-    for (std::uint32_t i = begin; i < end; ++i) {
-        const auto triangle = static_cast<std::size_t>(id_[i]);
-        node.box.extend(box[triangle]);
-        centres.extend(centre[triangle]);
+    const std::span ids(id_.begin() + begin, end - begin);
+    if (end - begin <= kLeaf) {
+        for (const Index id : ids) node.box.extend(box[index(id)]);
+        node_.push_back(node);
+        return self;
     }
     node_.push_back(node);
-    if (end - begin <= kLeaf) return self;
-
-    int axis = 0;
-    centres.sizes().maxCoeff(&axis);
+    halve(ids, centre);
     const std::uint32_t middle = begin + (end - begin) / 2;
-    // Equal centres are told apart by index: the tree depends on nothing but the triangles.
-    const auto before = [&](Index a, Index b) {
-        const double ca = centre[static_cast<std::size_t>(a)][axis];
-        const double cb = centre[static_cast<std::size_t>(b)][axis];
-        return ca != cb ? ca < cb : a < b;
-    };
-    std::nth_element(id_.begin() + begin, id_.begin() + middle, id_.begin() + end, before);
-    build(begin, middle, centre, box, context);
+    const std::uint32_t left = build(begin, middle, centre, box, context);
     const std::uint32_t right = build(middle, end, centre, box, context);
+    node_[self].box = node_[left].box.merged(node_[right].box);
     node_[self].right = right;
     return self;
 }

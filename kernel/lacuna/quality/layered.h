@@ -31,4 +31,9 @@ std::optional<Finding> find_misplaced(const mesh::LayeredMesh& layered, const Ru
 Proof prove(const mesh::LayeredMesh& layered, Quality measured, std::optional<Finding> misplaced,
             double min_scaled_jacobian = 0);
 
+/// `prove()` of a mesh whose cells were measured since its nodes last moved: they are not measured again.
+/// @param measured  what `measure()` found; nothing: they are measured.
+Proof prove(const mesh::HexMesh& mesh, std::optional<Quality> measured, double min_scaled_jacobian,
+            const RunContext& context = {});
+
 } // namespace lacuna::quality

@@ -2,6 +2,7 @@
 #include <lacuna/quality/detail/coincident.h>
 #include <lacuna/quality/detail/findings.h>
 #include <lacuna/quality/detail/text.h>
+#include <lacuna/quality/layered.h>
 #include <lacuna/quality/quality.h>
 
 #include <lacuna/core/error.h>
@@ -265,6 +266,12 @@ Found check_arrays(const mesh::HexMesh& mesh, std::size_t nodes)
 
 Proof prove(const mesh::HexMesh& mesh, double min_scaled_jacobian, const RunContext& context)
 {
+    return prove(mesh, std::nullopt, min_scaled_jacobian, context);
+}
+
+Proof prove(const mesh::HexMesh& mesh, std::optional<Quality> measured, double min_scaled_jacobian,
+            const RunContext& context)
+{
     Proof proof;
     const auto found = [&](Found finding) {
         proof.finding = std::move(finding);
@@ -273,7 +280,7 @@ Proof prove(const mesh::HexMesh& mesh, double min_scaled_jacobian, const RunCont
     const std::size_t levels = static_cast<std::size_t>(std::max(mesh.layers, 0)) + 1;
     if (found(check_arrays(mesh, levels * index(std::max<Index>(mesh.nodes_per_layer, 0))))) return proof;
     check_cancelled(context);
-    proof.quality = measure(mesh, context);
+    proof.quality = measured ? std::move(*measured) : measure(mesh, context);
     if (!found(check_quality(proof.quality, min_scaled_jacobian, mesh.layers)))
         found(check_nodes(mesh.nodes, mesh.nodes_per_layer, context));
     return proof;

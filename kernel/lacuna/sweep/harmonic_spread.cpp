@@ -3,9 +3,8 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/parallel.h>
+#include <lacuna/geometry/sparse_factor.h>
 #include <lacuna/mesh/quad_mesh.h>
-
-#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <vector>
@@ -91,7 +90,7 @@ std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> q
 }
 
 HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> weights,
-                               std::span<const Index> fixed)
+                               std::span<const Index> fixed, const RunContext& context)
     : fixed_count_(fixed.size())
 {
     const std::size_t nodes = graph.size();
@@ -124,15 +123,15 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
     }
     laplacian.makeCompressed();
 
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(laplacian);
-    if (factor.info() != Eigen::Success) {
+    const geometry::SparseFactor factor(laplacian, context);
+    if (!factor.good()) {
         throw NotSweepable("sweep.laplacian",
                            "the source mesh's Laplacian could not be factored: check the source "
                            "quads for nodes used twice in one quad");
     }
-    lower_ = factor.matrixL().nestedExpression();
-    diagonal_ = factor.vectorD();
-    const auto& order = factor.permutationP().indices();
+    lower_ = factor.lower();
+    diagonal_ = factor.diagonal();
+    const auto& order = factor.order().indices();
     for (Index& place : place_) {
         if (place >= 0) place = order[place];
     }

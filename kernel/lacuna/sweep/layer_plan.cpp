@@ -17,10 +17,10 @@ struct Placed {
     std::vector<Index> on_rim; ///< of each source node, its place on the rim; -1: inside
     LayerPlacer placer;
 
-    explicit Placed(std::shared_ptr<const LayerPlan> own)
+    Placed(std::shared_ptr<const LayerPlan> own, const RunContext& context)
         : plan(std::move(own)),
           on_rim(plan->source.nodes.size(), -1),
-          placer(plan->source, plan->target, plan->columns, plan->options)
+          placer(plan->source, plan->target, plan->columns, plan->options, context)
     {
         const std::vector<Index>& rim = plan->columns.rim;
         for (std::size_t k = 0; k < rim.size(); ++k) on_rim[index(rim[k])] = static_cast<Index>(k);
@@ -63,15 +63,15 @@ LayersFound find_in_share(const PlacedLayers& layers, double least, const Team* 
 
 } // namespace
 
-PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan)
+PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan, const RunContext& context)
 {
-    const auto placed = std::make_shared<const Placed>(plan);
+    const auto placed = std::make_shared<const Placed>(plan, context);
     PlacedLayers result;
     result.plan = std::move(plan);
     result.placement = placed->placer.placement();
     result.report = placed->placer.report();
-    result.nodes.place = [placed](int first, int last, std::span<Vec3> out, const RunContext& context) {
-        placed->placer.place(first, last, out, context);
+    result.nodes.place = [placed](int first, int last, std::span<Vec3> out, const RunContext& own) {
+        placed->placer.place(first, last, out, own);
     };
     result.nodes.on_skin = [placed](Index node) { return placed->on_skin(node); };
     return result;
@@ -111,7 +111,7 @@ void help_find_in_layers(const std::string& bytes, const Team& team, const RunCo
     Reader reader(bytes);
     put(reader, *plan), reader(least);
     reader.finish();
-    static_cast<void>(find_in_share(placed_layers(std::move(plan)), least, &team, context));
+    static_cast<void>(find_in_share(placed_layers(std::move(plan), context), least, &team, context));
 }
 
 } // namespace lacuna::sweep

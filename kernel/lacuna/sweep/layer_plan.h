@@ -34,7 +34,7 @@ struct PlacedLayers {
 };
 
 /// @throw  as `place_layers()`
-PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan);
+PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan, const RunContext& context = {});
 
 /// A plan for other processes, whole and within a message.
 void put(Writer& writer, const LayerPlan& plan);

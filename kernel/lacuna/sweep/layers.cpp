@@ -55,7 +55,8 @@ std::vector<double> heights_of(const RimColumns& columns, const PlacementOptions
 } // namespace
 
 LayerPlacer::LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> target,
-                         const RimColumns& columns, const PlacementOptions& options)
+                         const RimColumns& columns, const PlacementOptions& options,
+                         const RunContext& context)
     : source_(source), target_(target), columns_(columns)
 {
     if (target.size() != source.nodes.size()) {
@@ -69,7 +70,7 @@ LayerPlacer::LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> tar
         placement_ = Placement::straight;
         fit_straight(heights);
     } else {
-        fit_rims(heights, options);
+        fit_rims(heights, options, context);
     }
 }
 
@@ -82,7 +83,8 @@ void LayerPlacer::fit_straight(std::span<const double> heights)
     }
 }
 
-void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptions& options)
+void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptions& options,
+                           const RunContext& context)
 {
     const std::vector<Segment> sides = rim_sides(source_, columns_);
     const std::span<const Vec3> low = columns_.row(0);
@@ -124,7 +126,7 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
     std::vector<double> weights = side_weights(graph, source_.quads, source_.nodes);
     const std::vector<double> target_weights = side_weights(graph, source_.quads, target_);
     for (std::size_t k = 0; k < weights.size(); ++k) weights[k] += target_weights[k];
-    spread_.emplace(graph, weights, columns_.rim);
+    spread_.emplace(graph, weights, columns_.rim, context);
 }
 
 void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunContext& context) const
@@ -181,7 +183,7 @@ std::string LayerPlacer::report() const
 LayerNodes place_layers(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns,
                         const PlacementOptions& options, const RunContext& context)
 {
-    const LayerPlacer placer(source, target, columns, options);
+    const LayerPlacer placer(source, target, columns, options, context);
     LayerNodes result;
     result.placement = placer.placement();
     result.report = placer.report();

@@ -27,7 +27,10 @@ constexpr double kOnSurface = 1e-9;
 /// The mesh's graph and its factor, made when first asked for: affine images on planes need neither.
 class Spreader {
 public:
-    Spreader(const mesh::QuadMesh& mesh, std::span<const Index> fixed) : mesh_(mesh), fixed_(fixed) {}
+    Spreader(const mesh::QuadMesh& mesh, std::span<const Index> fixed, const RunContext& context)
+        : mesh_(mesh), fixed_(fixed), context_(context)
+    {
+    }
 
     const NodeGraph& graph()
     {
@@ -36,7 +39,7 @@ public:
     }
     const HarmonicSpread& spread()
     {
-        if (!spread_) spread_.emplace(graph(), weights(), fixed_);
+        if (!spread_) spread_.emplace(graph(), weights(), fixed_, context_);
         return *spread_;
     }
     const std::vector<double>& weights()
@@ -48,6 +51,7 @@ public:
 private:
     const mesh::QuadMesh& mesh_;
     std::span<const Index> fixed_;
+    const RunContext& context_;
     std::optional<NodeGraph> graph_;
     std::vector<double> weights_;
     std::optional<HarmonicSpread> spread_;
@@ -185,7 +189,7 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
 {
     check_columns(source, columns);
     const std::vector<Index> free_nodes = nodes_off_rim(source, columns);
-    Spreader spreader(source, columns.rim);
+    Spreader spreader(source, columns.rim, context);
     const Guess guess = guess_from_rims(source, columns, spreader, context);
 
     Morphed result;

@@ -39,7 +39,7 @@ LayerNodes place_along_normals(const mesh::QuadMesh& source, std::span<const Vec
     check_columns(source, columns, target);
     const std::size_t count = source.nodes.size();
     const NodeGraph graph = node_graph(source.quads, count);
-    const HarmonicSpread spread(graph, side_weights(graph, source.quads, source.nodes), columns.rim);
+    const HarmonicSpread spread(graph, side_weights(graph, source.quads, source.nodes), columns.rim, context);
     std::vector<char> on_rim(count, 0);
     for (const Index n : columns.rim) on_rim[static_cast<std::size_t>(n)] = 1;
 

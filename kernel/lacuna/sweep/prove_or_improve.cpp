@@ -2,6 +2,7 @@
 #include <lacuna/core/number_text.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
 
+#include <lacuna/quality/layered.h>
 #include <lacuna/surface/projector.h>
 #include <lacuna/sweep/improve.h>
 
@@ -70,11 +71,13 @@ std::string in_words(const Improved& improved)
 
 quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
                                 const std::set<FaceId>& kept, std::vector<char> held,
-                                const SweepOptions& options, const RunContext& context)
+                                std::optional<quality::Quality> measured, const SweepOptions& options,
+                                const RunContext& context)
 {
     ImproveOptions improving = options.improving;
     improving.good_enough = std::max(improving.good_enough, options.min_scaled_jacobian);
-    quality::Proof proof = quality::prove(swept.mesh, options.min_scaled_jacobian, context);
+    quality::Proof proof = quality::prove(swept.mesh, std::move(measured), options.min_scaled_jacobian,
+                                          context);
     const bool poor = proof.finding ? quality::can_be_improved(proof.finding->fault)
                                     : proof.quality.min_scaled_jacobian < improving.good_enough;
     if (!options.improve || !poor) return proof;

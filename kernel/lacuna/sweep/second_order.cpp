@@ -151,7 +151,7 @@ void place_columns(mesh::HexMesh& mesh, const RunContext& context)
     if (left < kSpread) return;
     const std::span<const Vec3> source(mesh.nodes.data(), index(mesh.nodes_per_layer));
     const NodeGraph graph = node_graph(mesh.quads, source.size());
-    const HarmonicSpread spread(graph, side_weights(graph, mesh.quads, source), rim);
+    const HarmonicSpread spread(graph, side_weights(graph, mesh.quads, source), rim, context);
     const std::size_t stride = places.upright(1, 0) - places.upright(0, 0);
     spread.add(beyond, layers, &mesh.middles.nodes[places.upright(0, 0)], stride, context);
 }

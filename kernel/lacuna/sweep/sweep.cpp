@@ -285,31 +285,41 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
     return patches.faces();
 }
 
+/// Layers and, where it had to be found out, how good their cells are.
+struct BestLayers {
+    LayerNodes layers;
+    std::optional<quality::Quality> quality;
+};
+
 /// The layers, by the way whose worst cell is best: with the rim's residual spread over each layer, and,
 /// where that leaves poor cells, without.
-LayerNodes best_layers(const surface::SourceMesh& source, const Morphed& morphed, const RimColumns& columns,
+BestLayers best_layers(const surface::SourceMesh& source, const Morphed& morphed, const RimColumns& columns,
                        PlacementOptions placement, const SweepOptions& options, const RunContext& context)
 {
     if (options.interior == Interior::normals)
-        return place_along_normals(source.quads, morphed.nodes, columns, context);
+        return {place_along_normals(source.quads, morphed.nodes, columns, context), {}};
     placement.spread_residual = options.interior != Interior::affine;
     LayerNodes spread = place_layers(source.quads, morphed.nodes, columns, placement, context);
-    if (options.interior != Interior::automatic || spread.placement != Placement::fitted) return spread;
-    const auto least = [&](LayerNodes& layers) {
+    if (options.interior != Interior::automatic || spread.placement != Placement::fitted)
+        return {std::move(spread), {}};
+    const auto measured = [&](LayerNodes& layers) {
         mesh::HexMesh mesh;
         mesh.nodes_per_layer = static_cast<Index>(source.quads.nodes.size());
         mesh.layers = columns.layers;
         mesh.quads = source.quads.quads;
         mesh.nodes = std::move(layers.nodes);
-        const double found = quality::measure(mesh, context).min_scaled_jacobian;
+        quality::Quality found = quality::measure(mesh, context);
         layers.nodes = std::move(mesh.nodes);
         return found;
     };
-    const double with = least(spread);
-    if (with >= options.improving.good_enough) return spread;
+    quality::Quality with = measured(spread);
+    if (with.min_scaled_jacobian >= options.improving.good_enough)
+        return {std::move(spread), std::move(with)};
     placement.spread_residual = false;
     LayerNodes plain = place_layers(source.quads, morphed.nodes, columns, placement, context);
-    return least(plain) > with ? plain : spread;
+    quality::Quality without = measured(plain);
+    if (without.min_scaled_jacobian > with.min_scaled_jacobian) return {std::move(plain), std::move(without)};
+    return {std::move(spread), std::move(with)};
 }
 
 /// The same, left to be made, and how good the cells are; nothing where they are not good enough to stay as
@@ -324,7 +334,8 @@ std::optional<GoodLayers> good_layers(const surface::SourceMesh& source, const M
 {
     placement.spread_residual = options.interior != Interior::affine;
     GoodLayers good{placed_layers(std::make_shared<const LayerPlan>(
-                        LayerPlan{source.quads, morphed.nodes, columns, placement})),
+                                      LayerPlan{source.quads, morphed.nodes, columns, placement}),
+                                  context),
                     {}};
     const double least = std::max(options.improving.good_enough, options.min_scaled_jacobian);
     good.found = find_in_layers(good.layers, least, options.crew, context);
@@ -467,12 +478,15 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     std::optional<GoodLayers> good;
     if (may_be_layered(options)) good = good_layers(source, morphed, columns, placement, options, context);
     LayerNodes layers;
+    std::optional<quality::Quality> measured;
     if (good) {
         layers = {source.quads.nodes, good->layers.placement, good->layers.report};
         result.layers = std::move(good->layers.nodes);
         result.plan = std::move(good->layers.plan);
     } else {
-        layers = best_layers(source, morphed, columns, placement, options, context);
+        BestLayers best = best_layers(source, morphed, columns, placement, options, context);
+        layers = std::move(best.layers);
+        measured = std::move(best.quality);
     }
     result.report.push_back(layers.report);
     SweptParts parts{
@@ -482,6 +496,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     }
     KeptThickness kept;
     if (!good) kept = keep_thickness(parts, tables, layers.nodes, context);
+    if (!tables.heights.empty()) measured.reset(); // nodes were moved
     for (std::string& note : kept.report) result.report.push_back(std::move(note));
 
     mesh::HexMesh& mesh = result.mesh;
@@ -505,11 +520,16 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     report_progress(context, "proof of every cell");
     check_cancelled(context);
     std::set<FaceId> still = given_faces(volume, seeds.kept, options.wedges);
-    if (options.beside.settle) still.merge(options.beside.settle(mesh, faces));
-    quality::Proof proof =
-        good ? quality::prove(mesh::LayeredMesh{mesh, *result.layers}, std::move(good->found.quality),
-                              std::move(good->found.misplaced), options.min_scaled_jacobian)
-             : prove_or_improve(result, volume.model, faces, still, std::move(kept.held), options, context);
+    if (options.beside.settle) {
+        still.merge(options.beside.settle(mesh, faces));
+        measured.reset();
+    }
+    quality::Proof proof = good
+                               ? quality::prove(mesh::LayeredMesh{mesh, *result.layers},
+                                                std::move(good->found.quality),
+                                                std::move(good->found.misplaced), options.min_scaled_jacobian)
+                               : prove_or_improve(result, volume.model, faces, still, std::move(kept.held),
+                                                  std::move(measured), options, context);
     const quality::Quality& quality = proof.quality;
     result.min_scaled_jacobian = quality.min_scaled_jacobian;
     const std::string wedges = quality.wedges > 0

@@ -120,7 +120,7 @@ void help(std::string_view task, const std::string& bytes, const Team& team, con
         reader.finish();
         mesh.nodes = plan->source.nodes;
         mesh.quads = plan->source.quads;
-        const sweep::PlacedLayers layers = sweep::placed_layers(std::move(plan));
+        const sweep::PlacedLayers layers = sweep::placed_layers(std::move(plan), context);
         write_share({mesh, layers.nodes}, path, file, &team, context);
     });
 }

@@ -35,7 +35,9 @@ public:
 
     /// @param weights  of the graph's sides, equal both ways, above 0.
     /// @param fixed    nodes whose values are given, each named once.
-    HarmonicSpread(const NodeGraph& graph, std::span<const double> weights, std::span<const Index> fixed);
+    /// @throw Cancelled
+    HarmonicSpread(const NodeGraph& graph, std::span<const double> weights, std::span<const Index> fixed,
+                   const RunContext& context = {});
 
     /// Add the spread of each of `fields` fields to the nodes that are not fixed: out[f · stride + node] +=
     /// value.

@@ -18,7 +18,7 @@ namespace lacuna::sweep {
 class LayerPlacer {
 public:
     LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns,
-                const PlacementOptions& options = {});
+                const PlacementOptions& options = {}, const RunContext& context = {});
 
     /// Nodes of layers [first, last), 0 the source and `columns.layers` the target: those of
     /// `place_layers()`, bit for bit.
@@ -35,7 +35,8 @@ private:
         Vec3 shift;
     };
     void fit_straight(std::span<const double> heights);
-    void fit_rims(std::span<const double> heights, const PlacementOptions& options);
+    void fit_rims(std::span<const double> heights, const PlacementOptions& options,
+                  const RunContext& context);
 
     const mesh::QuadMesh& source_;
     std::span<const Vec3> target_;
