@@ -231,6 +231,39 @@ std::vector<Case> plane_cases()
                         {0, 1, 0, 0}});
     }
     cases.push_back({"disc of core and ring", core, 4});
+    // Core and ring cut alike: a patch of the ring on each side of the core's patches.
+    const auto cut_core = [](int faces) {
+        std::vector<PlanPatch> patches;
+        for (int k = 0; k < 4; ++k) {
+            const double turn = k * kPi / 2;
+            const auto turned = [turn](const Vec2& p) {
+                return Vec2(p.x() * std::cos(turn) - p.y() * std::sin(turn),
+                            p.x() * std::sin(turn) + p.y() * std::cos(turn));
+            };
+            const int face = k * faces / 4;
+            const PlanMap quarter = disc_part(0, 0, 1, 1, 0.5);
+            patches.push_back({face, [=](double s, double t) { return turned(quarter(s, t)); }});
+            for (const bool upper : {false, true}) {
+                patches.push_back({faces + face,
+                                   [=](double s, double t) {
+                                       const Vec2 rim = upper ? quarter(1 - t, 1) : quarter(1, t);
+                                       return turned(rim * (1 + s));
+                                   },
+                                   {0, 1 + face, 0, 0}});
+            }
+        }
+        return patches;
+    };
+    cases.push_back({"core and ring in halves", cut_core(2), 4});
+    cases.push_back({"core and ring in quarters", cut_core(4), 4});
+    const auto moved = [](const PlanMap& map, const Vec2& by) {
+        return [=](double s, double t) { return Vec2(map(s, t) + by); };
+    };
+    cases.push_back({"slot of three",
+                     {{0, rectangle(-1, -0.5, 1, 0.5)},
+                      {1, moved(disc_part(0, -1, 1, 1, 0.5), {1, 0}), {1, 1, 1, 0}},
+                      {2, moved(disc_part(-1, -1, 0, 1, 0.5), {-1, 0}), {2, 0, 2, 2}}},
+                     4});
     const auto holed = [](const std::array<int, 8>& face) {
         std::vector<PlanPatch> patches;
         for (std::size_t k = 0; k < 8; ++k) {

@@ -62,7 +62,7 @@ double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_
     return angle < 0 ? angle + 360 : angle;
 }
 
-std::optional<std::vector<std::size_t>> four_corners(const Model& model, FaceId face)
+std::optional<std::vector<std::size_t>> corners_of(const Model& model, FaceId face)
 {
     const std::vector<Loop>& loops = model[face].loops;
     if (loops.size() != 1) return std::nullopt;
@@ -72,7 +72,13 @@ std::optional<std::vector<std::size_t>> four_corners(const Model& model, FaceId 
         if (angle > kReversal) return std::nullopt;
         if (angle < kCorner) corners.push_back(i);
     }
-    return corners.size() == 4 ? std::optional(corners) : std::nullopt;
+    return corners;
+}
+
+std::optional<std::vector<std::size_t>> four_corners(const Model& model, FaceId face)
+{
+    auto corners = corners_of(model, face);
+    return corners && corners->size() == 4 ? corners : std::nullopt;
 }
 
 std::vector<SidePair> side_pairs(const Model& model, FaceId face, const std::vector<std::size_t>& corners)

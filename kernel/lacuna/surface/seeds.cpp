@@ -574,54 +574,142 @@ private:
         });
     }
 
-    /// Numbers of sides with which all mapped and submapped faces close, solved as one program.
+    /// Numbers of sides with which all mapped and submapped faces close, and the free faces beside them,
+    /// solved as one program.
     void solve_together()
     {
-        IntervalProgram program;
-        std::map<EdgeId, std::size_t> first; ///< variable of the first piece of each edge
-        std::vector<SeedPiece*> pieces;
-        const auto variables_of = [&](const std::vector<EdgeId>& edges) {
-            std::vector<std::size_t> variables;
-            for (const EdgeId edge : edges) {
-                std::vector<SeedPiece>& own = seeds_.pieces.at(edge);
-                const auto [found, fresh] = first.try_emplace(edge, pieces.size());
-                for (std::size_t i = 0; i < own.size(); ++i) {
-                    variables.push_back(found->second + i);
-                    if (fresh) add_piece(own[i], program, pieces);
-                }
+        Program all;
+        add_mapped(all);
+        const Program mapped = all;
+        add_beside_mapped(all);
+        const std::vector<int> counts = solve_intervals(all.intervals);
+        std::vector<int> fewer; // where free faces have no solution
+        for (std::size_t p = 0; p < all.pieces.size(); ++p) {
+            int count = counts[all.piece_variable[p]];
+            if (count == 0 && p < mapped.pieces.size()) {
+                if (fewer.empty()) fewer = solve_intervals(mapped.intervals);
+                count = fewer[mapped.piece_variable[p]];
             }
-            return variables;
-        };
+            if (count > 0) all.pieces[p]->count = count;
+        }
+    }
+
+    /// Numbers of sides to be solved for, and the pieces they are of.
+    struct Program {
+        IntervalProgram intervals;
+        std::vector<SeedPiece*> pieces;
+        std::vector<std::size_t> piece_variable;
+        std::map<EdgeId, std::size_t> first; ///< variable of the first piece of each edge
+    };
+
+    /// The variables of edges.
+    std::vector<std::size_t> variables_of(const std::vector<EdgeId>& edges, Program& program)
+    {
+        std::vector<std::size_t> variables;
+        for (const EdgeId edge : edges) {
+            std::vector<SeedPiece>& own = seeds_.pieces.at(edge);
+            const auto [found, fresh] = program.first.try_emplace(edge, program.intervals.variables.size());
+            for (std::size_t i = 0; i < own.size(); ++i) {
+                variables.push_back(found->second + i);
+                if (fresh) add_piece(own[i], program);
+            }
+        }
+        return variables;
+    }
+
+    static void add_piece(SeedPiece& piece, Program& program)
+    {
+        const auto rows = static_cast<int>(piece.low.size() + piece.high.size());
+        const double wanted = rows > 0 ? piece.count : piece.sides;
+        const std::size_t variable = program.intervals.variables.size();
+        program.intervals.wishes.push_back({{variable}, std::max(wanted, kLeastWish), 1});
+        program.intervals.variables.push_back({std::max(piece.least, rows + 1), piece.count, piece.fixed});
+        program.pieces.push_back(&piece);
+        program.piece_variable.push_back(variable);
+    }
+
+    void add_mapped(Program& program)
+    {
         for (const auto& [face, pairs] : opposite_) {
             const auto mapped = mapped_.find(face);
             std::array<std::vector<double>, 2> inside;
             if (mapped != mapped_.end()) inside = mapped->second.wanted_inside(size_);
             for (std::size_t k = 0; k < pairs.size(); ++k) {
-                IntervalEquation equation{variables_of(pairs[k][0]), variables_of(pairs[k][1])};
+                IntervalEquation equation{variables_of(pairs[k][0], program),
+                                          variables_of(pairs[k][1], program)};
+                IntervalProgram& intervals = program.intervals;
                 if (mapped != mapped_.end()) {
                     for (const double sides : inside[k])
-                        program.wishes.push_back({equation.one, std::max(sides, kLeastWish), kLineWeight});
+                        intervals.wishes.push_back({equation.one, std::max(sides, kLeastWish), kLineWeight});
                     if (counts_across_) {
-                        program.floors.push_back({equation.one, gap_});
-                        program.floors.push_back({equation.other, gap_});
+                        intervals.floors.push_back({equation.one, gap_});
+                        intervals.floors.push_back({equation.other, gap_});
                     }
                 }
-                program.equations.push_back(std::move(equation));
+                intervals.equations.push_back(std::move(equation));
             }
-        }
-        const std::vector<int> counts = solve_intervals(program);
-        for (std::size_t p = 0; p < pieces.size(); ++p) {
-            if (counts[p] > 0) pieces[p]->count = counts[p];
         }
     }
 
-    static void add_piece(SeedPiece& piece, IntervalProgram& program, std::vector<SeedPiece*>& pieces)
+    /// Free faces that share edges with mapped ones, so that these leave them numbers that close.
+    void add_beside_mapped(Program& program)
     {
-        const auto rows = static_cast<int>(piece.low.size() + piece.high.size());
-        const double wanted = rows > 0 ? piece.count : piece.sides;
-        program.wishes.push_back({{pieces.size()}, std::max(wanted, kLeastWish), 1});
-        program.variables.push_back({std::max(piece.least, rows + 1), piece.count, piece.fixed});
-        pieces.push_back(&piece);
+        if (style_ != QuadStyle::automatic) return;
+        for (const FaceId face : volume_.faces(Role::source)) {
+            const std::vector<EdgeId> edges = edges_of(face);
+            const bool beside = std::any_of(edges.begin(), edges.end(), [&](EdgeId edge) {
+                const std::set<FaceId>& users = users_.at(edge);
+                return std::any_of(users.begin(), users.end(),
+                                   [&](FaceId user) { return opposite_.contains(user); });
+            });
+            if (is_free(face) && beside) add_free(face, edges, program);
+        }
+    }
+
+    /// What a free face needs. Of three sides: each as many as two of three grids have that meet in one node
+    /// inside, so an even number in all and none more than the others together. Of two, as a half disc: one
+    /// has an even number more than the other, as round four corners of a grid, two of them inside. Others:
+    /// an even number in all.
+    void add_free(FaceId face, const std::vector<EdgeId>& edges, Program& program)
+    {
+        IntervalProgram& intervals = program.intervals;
+        const auto fresh = [&] {
+            intervals.variables.push_back({});
+            return intervals.variables.size() - 1;
+        };
+        const auto corners = corners_of(model_, face);
+        const std::size_t sides = corners ? corners->size() : 0;
+        std::vector<std::vector<EdgeId>> side(sides);
+        for (std::size_t s = 0; s < sides; ++s) {
+            const Loop& loop = model_[face].loops[0];
+            for (std::size_t i = (*corners)[s], n = loop.uses.size(); i != (*corners)[(s + 1) % sides];
+                 i = (i + 1) % n)
+                side[s].push_back(loop.uses[i].edge);
+        }
+        if (sides == 3) {
+            std::array<std::vector<std::size_t>, 3> own;
+            for (std::size_t s = 0; s < 3; ++s) own[s] = variables_of(side[s], program);
+            const std::array<std::size_t, 3> grid{fresh(), fresh(), fresh()};
+            for (std::size_t s = 0; s < 3; ++s)
+                intervals.equations.push_back({own[s], {grid[s], grid[(s + 1) % 3]}});
+        } else if (sides == 2) {
+            const double a = length_of_edges(side[0]), b = length_of_edges(side[1]);
+            std::vector<std::size_t> longer = variables_of(side[a > b ? 0 : 1], program),
+                                     shorter = variables_of(side[a > b ? 1 : 0], program);
+            const std::size_t more = fresh();
+            shorter.insert(shorter.end(), {more, more});
+            intervals.equations.push_back({std::move(longer), std::move(shorter)});
+        } else {
+            std::vector<std::size_t> all = variables_of(edges, program);
+            const std::size_t half = fresh();
+            intervals.equations.push_back({std::move(all), {half, half}});
+        }
+    }
+
+    [[nodiscard]] double length_of_edges(const std::vector<EdgeId>& edges) const
+    {
+        return std::accumulate(edges.begin(), edges.end(), 0.0,
+                               [&](double sum, EdgeId e) { return sum + edge_length(model_, e); });
     }
 
     /// Whether a grid over a face is nearly as good as what the planar mesher makes, or cannot be had

@@ -90,9 +90,12 @@ struct Seeds {
 /// keep their own quads have the nodes of those. Where size or curvature change along an edge its nodes
 /// follow. A free face that one grid fills gets numbers for which it closes (`quads::pattern_counts()`).
 ///
-/// Mapped and submapped faces are solved together, as one program of whole numbers over all their edges:
+/// Mapped and submapped faces, and free ones that share an edge with them, are solved together, as one
+/// program of whole numbers over all their edges:
 ///   least Σ (n − wanted)² / n  over the edges' pieces and three lines across each mapped face, and more for
-///   sides of another size, so that opposite sides have as many and no piece fewer than it needs.
+///   sides of another size, so that opposite sides have as many and no piece fewer than it needs; so that a
+///   free face of three sides is three grids round a node, one of two a grid with two corners inside it, and
+///   any other has an even number in all.
 /// Lengths are those in space, so a face that bulges between its sides, or is narrower there, gets what its
 /// inside needs. Where given numbers contradict each other, sides are raised to the larger count, a face at a
 /// time until nothing changes. A face whose grid would be poor all over, by its angles and lengths in space,

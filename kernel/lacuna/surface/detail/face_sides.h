@@ -16,6 +16,10 @@ using SidePair = std::array<std::vector<EdgeId>, 2>;
 /// Inner angle of a face where use i of its loop starts [degrees].
 double inner_angle(const topology::Model& model, FaceId face, const topology::Loop& loop, std::size_t i);
 
+/// The uses that start a side, after a corner; nothing where the face has several loops or is bent inward at
+/// a vertex.
+std::optional<std::vector<std::size_t>> corners_of(const topology::Model& model, FaceId face);
+
 /// The uses that start the four sides of a face; nothing when it has not four.
 std::optional<std::vector<std::size_t>> four_corners(const topology::Model& model, FaceId face);
 
