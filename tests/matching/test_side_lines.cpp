@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/cancelling.h"
 #include "support/volumes.h"
 
 #include <lacuna/matching/guides.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <set>
 
 using namespace lacuna;
@@ -193,4 +195,27 @@ TEST_CASE("a wall that is open at one level and closed at another has no section
                                           {{FaceId(Index{0})}, {FaceId(Index{1})}, {FaceId(Index{2})}});
     const auto sections = matching::cut_sections(volume, matching::side_lines(volume), 10);
     for (const auto& level : sections.levels) CHECK(level.empty());
+}
+
+TEST_CASE("the heights of walls can be cancelled wherever they are, factorised or by multigrid")
+{
+    // 0.2 s is what it is to be; the rest is for builds that check themselves.
+    constexpr double kAllowed = 0.5;
+    constexpr int kMoments = 6;
+    std::mt19937 random(17);
+    for (const int levels : {115, 130, 300}) { // a little below 20,000 points, a little above, and many more
+        CAPTURE(levels);
+        const auto volume =
+            test::prism({.sides = 4, .height = 5, .cuts = 40, .levels = levels, .bend = 60}).open();
+        const auto work = [&](const RunContext& context) { matching::wall_heights(volume, {}, context); };
+        const double before = test::processor_time();
+        work({});
+        const double whole = test::processor_time() - before;
+        std::uniform_real_distribution<double> moment(0, 0.95 * whole);
+        for (int i = 0; i < kMoments; ++i) {
+            CAPTURE(whole);
+            const auto after = test::stops_after(moment(random), test::processor_time, {}, work);
+            if (after) CHECK(*after < kAllowed);
+        }
+    }
 }
