@@ -399,3 +399,51 @@ TEST_CASE("a hollow that has no edge between bottom and walls is parted where it
         }
     }
 }
+
+TEST_CASE("a tube with a floor round a narrower bore is read from the floor, the bore closed in its plane")
+{
+    for (const int sides : {0, 4, 6}) {
+        for (const double radius : {0.3, 1.0, 3.0}) {
+            for (const int hole_sides : {0, 4}) {
+                for (const bool upside_down : {false, true}) {
+                    CAPTURE(sides);
+                    CAPTURE(radius);
+                    CAPTURE(hole_sides);
+                    CAPTURE(upside_down);
+                    test::PrismOptions options{.sides = sides, .radius = radius, .height = 1};
+                    const double within = test::prism(options).facet_volume;
+                    options.holes = 1;
+                    options.hole_sides = hole_sides;
+                    const Role open = upside_down ? Role::target : Role::source;
+                    options.drop = [&](const test::Part& part) {
+                        return part.role == open || (part.role == Role::wall && part.loop > 0);
+                    };
+                    const auto prism = test::prism(options);
+                    const auto readings = closure::find_readings(prism.model, all_faces(prism.model));
+                    REQUIRE(readings.size() == 1);
+                    const FaceId floor = prism.face({upside_down ? Role::source : Role::target});
+                    CHECK(readings.front().roles.roles.source == std::vector{floor});
+                    CHECK(readings.front().volume.faces(Role::source).size() == 2);
+                    CHECK(readings.front().volume.faces(Role::target).size() == 1);
+                    CHECK(closed_volume(readings.front()) == doctest::Approx(within).epsilon(1e-9));
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("a ring without its inner wall stays a ring, though both its ends are floors round its bore")
+{
+    for (const int sides : {0, 4}) {
+        for (const double height : {0.4, 2.0}) {
+            const auto whole = test::prism({.sides = sides, .height = height, .holes = 1});
+            const auto prism = test::prism(
+                {.sides = sides, .height = height, .holes = 1, .drop = [](const auto& p) {
+                     return p.role == Role::wall && p.loop > 0;
+                 }});
+            const auto readings = closure::find_readings(prism.model, all_faces(prism.model));
+            REQUIRE(!readings.empty());
+            CHECK(closed_volume(readings.front()) == doctest::Approx(whole.facet_volume).epsilon(0.02));
+        }
+    }
+}

@@ -2,6 +2,7 @@
 #include <lacuna/closure/readings.h>
 
 #include <lacuna/closure/detail/bowl.h>
+#include <lacuna/closure/detail/class_five.h>
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/steps.h>
 #include <lacuna/core/error.h>
@@ -456,6 +457,44 @@ std::optional<Reading> read_bowl(const Model& model, const std::vector<FaceId>& 
     return reading;
 }
 
+/// A tube with one end open all over and in the other a floor round a narrower bore: a counterbore without
+/// the bore. The floor is the source, with the flat face that closes the bore.
+std::optional<Reading> read_floor(const Model& model, const std::vector<FaceId>& faces,
+                                  const RunContext& context)
+{
+    const Roles walls{{}, {}, faces};
+    std::vector<FaceId> low, high;
+    try {
+        OpenVolume open = open_volume(model, walls, context); // numbers the faces as they are listed
+        if (free_loops(open).size() != 2 || connected_parts(open.model, open.faces(Role::wall)).size() != 1)
+            return std::nullopt;
+        const EndLoops ends = group_loops(open);
+        low = floors_round(open, ends.source);
+        high = floors_round(open, ends.target);
+    } catch (const InvalidInput&) {
+        return std::nullopt; // other readings say why, or get on without
+    }
+    if (low.empty() == high.empty()) return std::nullopt; // two floors are the ends of a ring
+    const std::optional<Sealed> sealed = seal(model, walls, context);
+    if (!sealed) return std::nullopt;
+    Reading reading;
+    reading.volume = sealed->volume;
+    reading.closure = sealed->closure;
+    reading.enclosed = sealed->enclosed;
+    if (low.empty()) {
+        for (Role& role : reading.volume.role)
+            role = role == Role::source ? Role::target : role == Role::target ? Role::source : role;
+    }
+    Roles& roles = reading.roles.roles;
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        (reading.volume.role[f] == Role::source ? roles.source : roles.walls).push_back(faces[f]);
+    reading.classification = class_as_given(model, roles);
+    reading.roles.value = reading.classification.value;
+    reading.roles.reasons.push_back(name_of(model, roles.source.front()) +
+                                    " is a floor round a narrower bore, and the bore is closed there");
+    return reading;
+}
+
 /// Add a void unless it is one of those known; only those about as likely as the likeliest stay.
 void add_void(std::vector<Void>& found, Void more)
 {
@@ -477,6 +516,7 @@ OpenVolume other_sweep(const OtherSweeps& others, std::size_t k)
 std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
 {
+    if (auto floor = read_floor(model, faces, context)) return {std::move(*floor)};
     const RoleOptions near;
     std::vector<Void> found = voids(model, role_candidates(model, faces, near, context), context);
     if (found.empty()) { // the likeliest do not seal; what comes after them may

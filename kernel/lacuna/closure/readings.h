@@ -59,6 +59,9 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// A hollow that has no such reading, because its bottom goes over into its walls smoothly, is split across
 /// where it bends: a hemisphere, a bore with a round end. Its bottom is the source then.
 ///
+/// A tube with a flat floor round a narrower bore at one of its two ends, as a counterbore's wall and ledge
+/// are, is read from that floor and the bore's mouth in it.
+///
 /// Free loops that flat faces close, though not one each (one has a hole, or a loop lies in two planes), are
 /// one more void.
 /// @return  empty where no reading passes.
