@@ -417,7 +417,8 @@ public:
         if (!is_square_ && region_.loops.size() == 1) try_corners();
     }
 
-    /// The meshes: those with as many quads as asked for, if there are any.
+    /// The meshes: without holes, or where ends of 135° were a choice, those with as many quads as asked for,
+    /// if there are any.
     std::vector<PlanarQuads> take()
     {
         std::vector<PlanarQuads> fit;
@@ -442,10 +443,10 @@ private:
     /// With straight lines.
     void try_straight(HalfEnds half)
     {
-        constexpr std::size_t kMost = 3; // meshes made; a choice
+        constexpr std::size_t kMost = 3; // meshes made where one is good; a choice
         const std::size_t before = made_.size();
         for (const int rows : rows_to_try(fitting_rows(half))) {
-            if (is_fine_ || made_.size() >= before + kMost) return;
+            if (is_fine_ || (is_square_ && made_.size() >= before + kMost)) return;
             const PatternFiller filler = fill({0, rows, 0, 0, half});
             if (filler.turns() == 0) return; // more rows change nothing
         }
@@ -503,7 +504,8 @@ private:
         // discs get no better than that, and the share of rows is what is promised.
         constexpr double kSquare = 0.75, kFine = 0.85, kRows = 0.95;
         made_.push_back(std::move(mesh));
-        fits_.push_back(paving::has_quads_asked(made_.back(), size_) ? 1 : 0);
+        const bool decides = has_half_ends_ || region_.loops.size() == 1;
+        fits_.push_back(!decides || paving::has_quads_asked(made_.back(), size_) ? 1 : 0);
         if (!fits_.back()) return;
         is_square_ = is_square_ || quads::is_fine(made_.back(), region_, kSquare, 0);
         is_fine_ = is_fine_ || quads::is_fine(made_.back(), region_, kFine, kRows);
@@ -521,7 +523,7 @@ private:
     const RunContext& context_;
     const Size size_, ring_size_;
     std::vector<PlanarQuads> made_;
-    std::vector<char> fits_; ///< whether each has as many quads as asked for
+    std::vector<char> fits_; ///< whether each has as many quads as asked for, where that decides
     const bool has_half_ends_;
     bool is_square_ = false; ///< some mesh has nearly square quads
     bool is_fine_ = false;   ///< and good rows as well

@@ -87,6 +87,7 @@ public:
         std::optional<std::vector<int>> ring;
         if (about > 0) ring = ring_counts(about);
         if (ring && (!cut || are_alike(*ring, mirrored_segments()))) return ring;
+        is_part_ = !cut;
         if (cut) {
             if (auto counts = part_counts()) return counts;
         }
@@ -142,8 +143,11 @@ private:
         }
         const std::vector<std::array<std::size_t, 2>> pairs = mirrored_segments();
         StraightCounts best;
-        for (const int rows : rows_to_try(fitting)) {
-            for (const double share : kShares) {
+        // What is no part has no axes that take up the difference: one row, and the numbers wanted.
+        const std::vector<int> all_rows = is_part_ ? rows_to_try(fitting) : std::vector<int>{1};
+        const std::span<const double> shares = std::span(kShares).first(is_part_ ? kShares.size() : 1);
+        for (const int rows : all_rows) {
+            for (const double share : shares) {
                 StraightCounts made{{}, 0};
                 std::vector<LoopGrid> grids;
                 double quads = 0;
@@ -164,16 +168,18 @@ private:
                 }
                 if (made.loops.size() < region_.loops.size()) continue;
                 if (grids.size() < made.loops.size()) quads = asked; // not known
-                const double off = std::log(static_cast<double>(rows) / fitting);
-                made.cost += kQuads * (quads - asked) * (quads - asked) / asked +
-                             kRows * soft * std::max(1.0, fitting / 2.0) * off * off;
-                made.cost += kUnlike * unlike(made.loops, pairs);
-                if (std::abs(quads - asked) > kMostOff * asked) made.cost += kOff;
+                made.cost += kQuads * (quads - asked) * (quads - asked) / asked;
+                if (is_part_) {
+                    const double off = std::log(static_cast<double>(rows) / fitting);
+                    made.cost += kRows * soft * std::max(1.0, fitting / 2.0) * off * off +
+                                 kUnlike * unlike(made.loops, pairs);
+                    if (std::abs(quads - asked) > kMostOff * asked) made.cost += kOff;
+                }
                 if (made.cost < best.cost) {
                     if (made.loops.size() > 1 && !grids.empty()) centre_holes(made.loops, grids.front());
                     best = std::move(made);
                 }
-                if (soft == 0 && share == kShares.back()) return best;
+                if (soft == 0 && share == shares.back()) return best;
             }
         }
         return best;
@@ -777,6 +783,7 @@ private:
     std::span<const int> segment_;
     std::span<const BoundarySegment> segments_;
     std::vector<int> own_; ///< sides that each segment has in the region
+    bool is_part_ = false; ///< whether the region is a part of another, with axes
 };
 
 } // namespace

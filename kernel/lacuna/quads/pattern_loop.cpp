@@ -376,6 +376,7 @@ std::vector<int> rows_to_try(int fitting)
     for (const int r : {fitting / 2, 2 * fitting / 3, fitting}) {
         if (r > rows.back()) rows.push_back(r);
     }
+    if (fitting <= kAlways) return rows;
     const auto off = [&](int r) { return std::abs(std::log(static_cast<double>(r) / fitting)); };
     std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) { return off(a) < off(b); });
     return rows;

@@ -170,7 +170,7 @@ bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_
     if (attempt.worst < kGood) return false;
     const PlaneQuality quality = measure_plane(attempt.mesh, region);
     return quality.min_scaled_jacobian > kGood && quality.mean_scaled_jacobian > kMean &&
-           quality.size_share() > of_size && has_quads_asked(attempt.mesh, region.size);
+           quality.size_share() > of_size;
 }
 
 /// Whether images of a part are so good that nothing else need be tried: what is symmetric may have a few
@@ -276,7 +276,11 @@ void AttemptChooser::try_grids()
     // loops are far from alike have fewer. Choices, not measurements.
     constexpr double kNearlyAll = 0.93, kMost = 0.85;
     std::vector<Attempt> grids{grid_attempt(submap(region_, context_), setting_)};
-    is_good_grid_ = is_good_grid(grids[0], judged_, kNearlyAll);
+    // A part whose images are too many or too few quads is filled otherwise.
+    const auto is_good = [&](const Attempt& grid, double of_size) {
+        return is_good_grid(grid, judged_, of_size) && (cut_ || has_quads_asked(grid.mesh, judged_.size));
+    };
+    is_good_grid_ = is_good(grids[0], kNearlyAll);
     if (is_good_grid_) {
         consider(std::move(grids[0]));
         return;
@@ -295,7 +299,7 @@ void AttemptChooser::try_grids()
     }
     for (const double of_size : {kNearlyAll, kMost}) {
         for (Attempt& grid : grids) {
-            if (!is_good_grid(grid, judged_, of_size)) continue;
+            if (!is_good(grid, of_size)) continue;
             is_good_grid_ = true;
             consider(grid);
         }

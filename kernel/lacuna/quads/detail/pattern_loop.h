@@ -71,7 +71,7 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
 /// there are none. Rows are to be laid behind all of them.
 int fitting_rows(const PatternLoop& loop);
 
-/// The numbers of rows worth a trial, the fitting one first.
+/// The numbers of rows worth a trial: one to three, or of deeper turns the fitting one first.
 std::vector<int> rows_to_try(int fitting);
 
 /// Lay other numbers of rows before soft turns; no more than three where the loop is bent inward, for holes
