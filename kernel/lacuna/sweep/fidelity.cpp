@@ -62,21 +62,22 @@ std::string rounded_down(double value)
     return in_short(std::floor(value / step) * step);
 }
 
-std::string more_of_it(const FaceFidelity& face, int layers, bool length_given)
+std::string more_of_it(const FaceFidelity& face, int layers, const FidelityOptions& options)
 {
     // The sag of a straight side grows with the square of its length, its share of the side with the length.
     // What is named is a tenth below that: sides differ a little.
     constexpr double kBelow = 0.9;
     const double share = kBelow * face.allowed / face.found;
-    const double by = length_given ? std::sqrt(share) : share;
+    const double by = options.max_deviation > 0 ? std::sqrt(share) : share;
     if (face.along_layers) {
         return "The face bends there from layer to layer: by the sag of straight sides " +
                std::to_string(static_cast<int>(std::ceil(layers / by))) + " layers would do instead of " +
                std::to_string(layers);
     }
+    const double asked = options.size ? options.size(face.found_at) : face.source_side;
     return "The face bends there and a side of " + in_short(face.side) +
-           " cannot follow: by the sag of straight sides a size of " + rounded_down(face.source_side * by) +
-           " would do";
+           " cannot follow: by the sag of straight sides a size of " +
+           rounded_down(std::min(face.source_side, asked) * by) + " would do";
 }
 
 } // namespace
@@ -155,7 +156,7 @@ void require(const Fidelity& fidelity, int layers, const FidelityOptions& option
         break;
     case Misfit::straight:
         message = name + ": the skin of the mesh is " + in_short(worst->found) + " off it at " + place +
-                  ", more than " + limit + ". " + more_of_it(*worst, layers, given);
+                  ", more than " + limit + ". " + more_of_it(*worst, layers, options);
         break;
     case Misfit::cut:
     case Misfit::none:

@@ -4,6 +4,7 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/mesh/layered_nodes.h>
+#include <lacuna/surface/size_field.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <cstddef>
@@ -59,6 +60,9 @@ struct FidelityOptions {
     /// Void faces between two volumes of an assembly: both have the same quads there, and the place of these
     /// changes nothing of the whole. They may be off by a whole side.
     std::set<FaceId> between{};
+    /// The size asked for, null: none was. What an error names is smaller: sides may be up to a quarter
+    /// longer than asked, and a size that is named again would not help.
+    surface::SizeField size{};
 };
 
 /// Compare the skin of a mesh with the sealed skin, face by face.

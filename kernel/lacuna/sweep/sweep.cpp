@@ -746,7 +746,7 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunC
             break;
         }
     }
-    require(best.fidelity, best.mesh.layers, {options.max_deviation, options.beside.between});
+    require(best.fidelity, best.mesh.layers, {options.max_deviation, options.beside.between, options.size});
     // Of order 2, given middle nodes may bulge from straight facets.
     if (options.max_deviation <= 0 && options.order == 1) require_volume(best.fidelity, best.mesh.layers);
     return best;
