@@ -35,11 +35,6 @@ bool allowed(const Hard& hard, const LoopShape& source, const LoopShape& target,
     return true;
 }
 
-double turn_of(const Eigen::Matrix3d& rotation)
-{
-    return std::abs(Eigen::AngleAxisd(rotation).angle()) / std::numbers::pi;
-}
-
 /// How much two aligned loops look opposite ways along the line between them, 0…1: a plain
 /// sweep goes into both alike.
 double overturned(const LoopShape& source, const LoopShape& target, bool backward)
@@ -58,8 +53,7 @@ void rate(Alignment& alignment, const Problem& problem, const LoopShape& source,
     alignment.fit = geometry::fit_rigid(from, to, with_scale);
     alignment.score = alignment.fit.rms / std::max(source.length, target.length);
     if (!problem.led.from.empty()) return;
-    alignment.score += kTurnWeight *
-                       (turn_of(alignment.fit.rotation) + overturned(source, target, alignment.backward));
+    alignment.score += kTurnWeight * (turn_of(alignment) + overturned(source, target, alignment.backward));
 }
 
 std::vector<Alignment> sorted(std::vector<Alignment> list)
@@ -214,6 +208,11 @@ PointPairs with_led(const Problem& problem, PointPairs known)
 }
 
 } // namespace
+
+double turn_of(const Alignment& alignment)
+{
+    return std::abs(Eigen::AngleAxisd(alignment.fit.rotation).angle()) / std::numbers::pi;
+}
 
 std::vector<Alignment> alignments_of(const Problem& problem, std::size_t s, std::size_t t, bool with_scale,
                                      const PointPairs& known)

@@ -22,9 +22,12 @@ namespace {
 /// Confidence below which the second best is named beside the best: it fits within a quarter as well.
 /// A choice, not a measurement.
 constexpr double kUnsure = 0.25;
-/// Confidence below which given sides that agree outweigh a better fit: 2.5 times as good. Ends that are
-/// sectors of rings, the one eight times as far out as the other, need it.
+/// Confidence below which given sides that agree outweigh a better fit, 2.5 times as good, that turns as much
+/// or more. Ends that are sectors of rings, the one eight times as far out as the other, need it.
 constexpr double kUnsureBesideSides = 0.6;
+/// Confidence below which they outweigh one that turns less, and the share of a half turn that is no more: a
+/// plain prism is not twisted for its target's mesh. Choices, not measurements.
+constexpr double kTie = 0.1, kAsMuch = 0.05;
 
 /// How sure an alignment is, against another.
 double sureness(const Alignment& best, const Alignment& second)
@@ -123,12 +126,18 @@ private:
         if (least == 0) return;
         const Alignment likeliest = found.front();
         for (const Alignment& other : alignments_of(problem_, s, t, true)) {
-            if (sureness(likeliest, other) >= kUnsureBesideSides ||
+            const bool turns_more = turn_of(other) > turn_of(likeliest) + kAsMuch;
+            if (sureness(likeliest, other) >= (turns_more ? kTie : kUnsureBesideSides) ||
                 unlike_sides(problem_, s, t, other) >= least)
                 continue;
             least = unlike_sides(problem_, s, t, other);
             found = {other, likeliest};
         }
+        if (!differ(problem_, s, t, found.front(), likeliest)) return;
+        match_.notes.push_back(
+            "source loop " + std::to_string(s + 1) +
+            " was laid on the target so that given sides agree; its shape alone fits better "
+            "otherwise");
     }
 
     /// How sure an alignment is, against the next one. One hard pair settles all of a loop.

@@ -25,6 +25,9 @@ struct Alignment {
     geometry::RigidFit fit;
 };
 
+/// How far the fit of an alignment turns the source, as a share of half a turn.
+double turn_of(const Alignment& alignment);
+
 /// Every alignment of source loop s on target loop t that hard pairs and direction allow, best first. Pairs
 /// matched already take part in the fit.
 std::vector<Alignment> alignments_of(const Problem& problem, std::size_t s, std::size_t t, bool with_scale,
