@@ -4,6 +4,7 @@
 #include "bindings/faces.h"
 #include "bindings/names.h"
 
+#include <lacuna/cad/left_out.h>
 #include <lacuna/closure/branches.h>
 #include <lacuna/closure/readings.h>
 #include <lacuna/core/progress.h>
@@ -133,16 +134,28 @@ std::vector<std::string> find_walls(const topology::Model& model, topology::Role
     return reasons;
 }
 
+std::vector<FaceId> all_of(const topology::Roles& roles)
+{
+    std::vector<FaceId> all = roles.source;
+    all.insert(all.end(), roles.target.begin(), roles.target.end());
+    all.insert(all.end(), roles.walls.begin(), roles.walls.end());
+    return all;
+}
+
 VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, const RunContext& context)
 {
     VolumeState state;
     if (!arguments.roles_named && !arguments.faces_named)
         for (std::size_t f = 0; f < model.faces.size(); ++f) arguments.faces.emplace_back(f);
     if (arguments.full_turn) {
-        if (!arguments.roles_named) arguments.roles.walls = arguments.faces;
+        if (!arguments.roles_named) {
+            if (!arguments.faces_named) cad::require_none_left_out(model, arguments.faces, "walls");
+            arguments.roles.walls = arguments.faces;
+        }
         state.volume = topology::open_volume(model, arguments.roles, context);
         state.volume.full_turn = true;
     } else if (!arguments.roles_named) {
+        cad::require_none_left_out(model, arguments.faces, "roles");
         closure::Reading found = closure::find_reading(model, arguments.faces, arguments.reading, context);
         state.volume = std::move(found.volume);
         state.role_reasons = std::move(found.roles.reasons);
@@ -151,7 +164,10 @@ VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, 
         state.as_read = std::move(found.sealed);
         if (!arguments.override_class) state.others = std::move(found.others);
     } else {
-        if (arguments.auto_walls) state.role_reasons = find_walls(model, arguments.roles, context);
+        if (arguments.auto_walls) {
+            state.role_reasons = find_walls(model, arguments.roles, context);
+            cad::require_none_left_out(model, all_of(arguments.roles), "walls");
+        }
         state.volume = topology::open_volume(model, arguments.roles, context);
     }
     if (state.closure && arguments.override_class && *arguments.override_class != state.classification.value)

@@ -8,6 +8,7 @@
 #include "bindings/options.h"
 #include "bindings/write_mesh.h"
 
+#include <lacuna/cad/left_out.h>
 #include <lacuna/cad/load.h>
 #include <lacuna/closure/branches.h>
 #include <lacuna/closure/piece_ends.h>
@@ -637,6 +638,13 @@ void share_layers(const VolumeState& state, sweep::LayerSpec& layers)
     layers.count = std::max(1, until(state.turn_to) - until(state.turn_from));
 }
 
+/// Say in the report which faces of the file are missing in a volume, and what stands there.
+void tell_left_out(const VolumeState& state, std::vector<std::string>& report)
+{
+    for (const std::string& missing : cad::left_out_in_words(state.volume))
+        report.push_back("closed: " + missing);
+}
+
 /// Layers asked for are those of the pieces that go from end to end.
 std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<ToMesh>& all,
                                                  std::vector<sweep::LeftOut> left_out,
@@ -682,6 +690,8 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<ToMesh>& all,
         mesh->materials.push_back(materials[m]);
     }
     join_turns(*mesh, turns);
+    for (const ToMesh& one : all)
+        if (one.volume && !one.left_out) tell_left_out(*one.volume, mesh->swept.report);
     for (const sweep::LeftOut& out : left_out)
         mesh->swept.report.push_back("left out: " + out.message + " [" + out.code + "]");
     mesh->left_out = std::move(left_out);
@@ -783,10 +793,13 @@ bool sweep_steps(lua_State* L, const Box<VolumeState>& volume, SweepArguments& a
 /// what a match was unsure of that void edges were drawn by.
 void tell_match(const VolumeState& state, std::vector<std::string>& report, const RunContext& context)
 {
-    if (!state.match || !state.closure || state.closure->void_edges.empty()) return;
-    for (const std::string& note : state.match->notes) {
-        report.push_back("match: " + note);
-        if (context.log) context.log(report.back());
+    tell_left_out(state, report);
+    if (!state.closure) return;
+    if (state.match && !state.closure->void_edges.empty()) {
+        for (const std::string& note : state.match->notes) {
+            report.push_back("match: " + note);
+            if (context.log) context.log(report.back());
+        }
     }
     for (const std::string& note : state.closure->notes) report.push_back("closed: " + note);
 }

@@ -3,6 +3,7 @@
 
 #include "bindings/lacuna_lua.h"
 
+#include <lacuna/cad/left_out.h>
 #include <lacuna/closure/steps.h>
 #include <lacuna/core/progress.h>
 
@@ -233,6 +234,7 @@ std::string describe(const VolumeState& state)
         out << "open:   " << topology::free_edges(state.volume).size() << " free edges in "
             << state.classification.free_loops.size() << " loops; close() seals them\n";
     }
+    for (const std::string& missing : cad::left_out_in_words(state.volume)) out << missing << '\n';
     return out.str();
 }
 

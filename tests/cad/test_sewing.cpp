@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "made_files.h"
 
+#include <lacuna/cad/left_out.h>
+
 #include <doctest/doctest.h>
 #include <gmsh.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
 
 using namespace lacuna;
 namespace occ = gmsh::model::occ;
@@ -173,5 +178,78 @@ TEST_CASE("a face whose boundary runs over itself is left out by name, and the o
 
         const std::string only = folder.gmsh("only.brep", [&] { outline(corners); });
         CHECK_THROWS_AS((void)cad::load({only}), BackendError);
+    }
+}
+
+TEST_CASE("a face left out is known by the edges it had, in every model taken out of the one that was loaded")
+{
+    const test::TempFolder folder;
+    // A box whose back, y = 2, has a hole that crosses its border.
+    const auto box = [](bool crossing) {
+        const std::array<Vec3, 8> corners{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 2, 0), Vec3(0, 2, 0),
+                                          Vec3(0, 0, 3), Vec3(1, 0, 3), Vec3(1, 2, 3), Vec3(0, 2, 3)};
+        std::vector<int> points;
+        for (const Vec3& p : corners) points.push_back(occ::addPoint(p.x(), p.y(), p.z()));
+        std::map<std::pair<int, int>, int> lines;
+        const auto loop = [&](const std::vector<int>& at) {
+            std::vector<int> around;
+            for (std::size_t i = 0; i < at.size(); ++i) {
+                const int a = at[i], b = at[(i + 1) % at.size()];
+                int& line = lines[std::minmax(a, b)];
+                if (line == 0) line = occ::addLine(a, b);
+                around.push_back(line);
+            }
+            return occ::addCurveLoop(around);
+        };
+        const std::vector<std::array<int, 4>> sides{{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                                    {1, 2, 6, 5}, {3, 0, 4, 7}, {2, 3, 7, 6}};
+        for (const std::array<int, 4>& side : sides) {
+            std::vector<int> at, loops;
+            for (const int corner : side) at.push_back(points[static_cast<std::size_t>(corner)]);
+            loops.push_back(loop(at));
+            if (crossing && side[0] == 2) {
+                std::vector<int> hole;
+                for (const Vec2& p : {Vec2(0.4, 1), Vec2(0.6, 1), Vec2(0.6, 3.5), Vec2(0.4, 3.5)})
+                    hole.push_back(occ::addPoint(p.x(), 2, p.y()));
+                loops.push_back(loop(hole));
+            }
+            occ::addPlaneSurface(loops);
+        }
+    };
+    const auto all_but = [](const topology::Model& model, int tag) {
+        std::vector<FaceId> faces;
+        for (std::size_t f = 0; f < model.faces.size(); ++f)
+            if (model.faces[f].tag != tag) faces.emplace_back(f);
+        return faces;
+    };
+    const topology::Model sound = cad::load({folder.gmsh("sound.brep", [&] { box(false); })});
+    CHECK(cad::left_out_beside(sound, all_but(sound, 6)).empty());
+
+    for (const bool loose : {false, true}) {
+        CAPTURE(loose);
+        const auto build = [&] { box(true); };
+        const std::string path = loose ? folder.loose("loose.brep", build) : folder.gmsh("whole.brep", build);
+        std::vector<std::string> told;
+        RunContext context;
+        context.log = [&](std::string_view line) { told.emplace_back(line); };
+        const topology::Model model = cad::load({path}, {}, context);
+        test::check_model(model);
+        REQUIRE(model.faces.size() == 5);
+        const auto is_note = [](const std::string& line) { return line.starts_with("note: face 6 could"); };
+        CHECK(std::ranges::count_if(told, is_note) == 1);
+
+        const auto missing = cad::left_out_beside(model, all_but(model, 0));
+        REQUIRE(missing.size() == 1);
+        CHECK(missing[0].face.tag == 6);
+        CHECK(missing[0].edges.size() == 4);
+        CHECK_THROWS_AS(cad::require_none_left_out(model, all_but(model, 0), "walls"), InvalidInput);
+        // The front touches no edge of the back.
+        CHECK(cad::left_out_beside(model, {FaceId(2)}).empty());
+
+        const topology::OpenVolume volume = topology::open_volume(
+            model, {{FaceId(0)}, {FaceId(1)}, {FaceId(2), FaceId(3), FaceId(4)}});
+        const std::vector<std::string> words = cad::left_out_in_words(volume);
+        REQUIRE(words.size() == 1);
+        CHECK(words[0].starts_with("face 6 of " + path + " was left out"));
     }
 }

@@ -236,6 +236,43 @@ if lacuna.gmsh_version ~= "none" then
   check.write(folder .. "/square.geo", 'SetFactory("OpenCASCADE"); Rectangle(7) = {0, 0, 0, 3, 2};\n')
   expect({ "info", "square.geo" }, 0, { "face 7: plane, area 6", "free edges: 4" }, {})
   expect({ "info", "nowhere.step" }, 1, {}, { "nowhere.step" })
+
+  -- A box whose wall 6 has a hole that crosses its border: what is found does not go over the place.
+  check.write(folder .. "/holed.geo", [[SetFactory("OpenCASCADE");
+Point(1) = {0, 0, 0}; Point(2) = {4, 0, 0}; Point(3) = {4, 4, 0}; Point(4) = {0, 4, 0};
+Point(5) = {0, 0, 6}; Point(6) = {4, 0, 6}; Point(7) = {4, 4, 6}; Point(8) = {0, 4, 6};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5};
+Line(9) = {1, 5}; Line(10) = {2, 6}; Line(11) = {3, 7}; Line(12) = {4, 8};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Curve Loop(2) = {5, 6, 7, 8}; Plane Surface(2) = {2};
+Curve Loop(3) = {1, 10, -5, -9}; Plane Surface(3) = {3};
+Curve Loop(4) = {2, 11, -6, -10}; Plane Surface(4) = {4};
+Curve Loop(5) = {4, 9, -8, -12}; Plane Surface(5) = {5};
+Curve Loop(6) = {3, 12, -7, -11};
+Point(20) = {1, 4, 4}; Point(21) = {3, 4, 4}; Point(22) = {3, 4, 8}; Point(23) = {1, 4, 8};
+Line(20) = {20, 21}; Line(21) = {21, 22}; Line(22) = {22, 23}; Line(23) = {23, 20};
+Curve Loop(7) = {20, 21, 22, 23};
+Plane Surface(6) = {6, 7};
+]])
+  local function sweep_holed(roles)
+    check.write(folder .. "/holed.lua", ([[local lacuna = require "lacuna"
+local void = lacuna.load "holed.geo":open_volume { %s }
+local mesh = void:sweep { size = 2, layers = 3 }
+print(mesh.report)
+print(void:describe())
+]]):format(roles))
+    return { "holed.lua" }
+  end
+  local told = "lacuna: note: face 6 could not be cut into facets"
+  for _, roles in ipairs { "", "faces = { 1, 2, 3, 4, 5 }", "source = 1, target = 2, walls = 'auto'",
+                           "source = 1, walls = 'auto'" } do
+    expect(sweep_holed(roles), 1, {}, { told, "cad.face_left_out", "face 6 of holed.geo", "repair it" })
+  end
+  expect(sweep_holed "faces = { 2, 6 }", 1, {}, { told, "names face 6, which was not read" })
+  expect(sweep_holed "source = 1, target = 2, walls = { 3, 4, 5 }", 0,
+    { "closed: face 6 of holed.geo was left out", "\nface 6 of holed.geo was left out",
+      "where it was stands void face 1" }, { told })
 end
 
 -- Ctrl-C: loops, coroutines and pcall cannot hold it up; nor can the kernel.

@@ -23,7 +23,12 @@ void add_edges(topology::Model& model, LoadReply& reply, const std::shared_ptr<c
         edge.to = VertexId(cad.to);
         edge.points = std::move(cad.points);
         edge.params = std::move(cad.params);
-        edge.curve = std::make_shared<CadCurve>(source, cad.curve);
+        std::vector<LeftOutFace> left_out;
+        for (const Index f : cad.left_out) {
+            const LoadReply::LeftOut& face = reply.left_out[index(f)];
+            left_out.push_back({face.tag, source->path(), face.why});
+        }
+        edge.curve = std::make_shared<CadCurve>(source, cad.curve, std::move(left_out));
         model.edges.push_back(std::move(edge));
     }
 }
@@ -95,8 +100,8 @@ topology::Model build_model(LoadReply reply, double scale, const std::shared_ptr
 
 } // namespace
 
-topology::Model import_cad(const std::vector<std::string>& paths, const LoadOptions& options,
-                           const RunContext& context, const Limits& limits)
+ImportedCad import_cad(const std::vector<std::string>& paths, const LoadOptions& options,
+                       const RunContext& context, const Limits& limits)
 {
     const CadOrder order{paths, options.tolerance, options.scale, limits};
     const CadFiles files = open_cad_files(order, context);
@@ -106,10 +111,12 @@ topology::Model import_cad(const std::vector<std::string>& paths, const LoadOpti
 
     std::vector<std::vector<std::size_t>> solids;
     for (const std::vector<Index>& faces : reply.solids) solids.emplace_back(faces.begin(), faces.end());
+    const std::vector<std::string> left_out(
+        reply.notes.begin(), reply.notes.begin() + static_cast<std::ptrdiff_t>(reply.left_out.size()));
     topology::Model model = build_model(std::move(reply), options.scale, source);
     model.tolerance = options.tolerance > 0 ? options.tolerance : 1e-6 * model.diagonal;
     healing::orient_groups(model, solids);
-    return model;
+    return {std::move(model), left_out};
 }
 
 } // namespace lacuna::cad

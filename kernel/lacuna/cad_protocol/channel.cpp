@@ -15,7 +15,7 @@ namespace lacuna::cad_protocol {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x4443414c; // "LCAD"
-constexpr std::uint16_t kVersion = 2;        // raised with every change of a message
+constexpr std::uint16_t kVersion = 3;        // raised with every change of a message
 /// Descriptors of one frame: the kernel passes 253 at most. A choice, not a measurement.
 constexpr std::size_t kMostDescriptors = 250;
 /// Bytes of one frame: more than any model that can be meshed. A choice, not a measurement.

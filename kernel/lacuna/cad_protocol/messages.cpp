@@ -26,12 +26,15 @@ void put(A& with, M& m)
     } else if constexpr (std::is_same_v<T, LoadRequest>) {
         with(m.files), with(m.tolerance), with(m.scale);
     } else if constexpr (std::is_same_v<T, LoadReply::Edge>) {
-        with(m.tag), with(m.curve), with(m.from), with(m.to), with(m.params), with(m.points);
+        with(m.tag), with(m.curve), with(m.from), with(m.to), with(m.params), with(m.points),
+            with(m.left_out);
+    } else if constexpr (std::is_same_v<T, LoadReply::LeftOut>) {
+        with(m.tag), with(m.why);
     } else if constexpr (std::is_same_v<T, LoadReply::Face>) {
         with(m.tag), with(m.name), with(m.kind), with(m.triangles), with(m.uv);
     } else if constexpr (std::is_same_v<T, LoadReply>) {
         with(m.model), with(m.diagonal), with(m.points), with(m.vertex_tags), with(m.edges), with(m.faces);
-        with(m.solids), with(m.notes);
+        with(m.solids), with(m.left_out), with(m.notes);
     } else if constexpr (std::is_same_v<T, EvaluateRequest>) {
         with(m.model), with(m.curve), with(m.params);
     } else if constexpr (std::is_same_v<T, EvaluateReply>) {
@@ -140,6 +143,7 @@ void check(const LoadReply& m)
                     edge.points.back() == edge.to && edge.params.size() == edge.points.size(),
                 "an edge that does not run between its ends");
         for (const double t : edge.params) require(std::isfinite(t), "a parameter that is no number");
+        require_below(edge.left_out, m.left_out.size(), "an edge of no face left out");
     }
     for (const LoadReply::Face& face : m.faces) {
         for (const Triangle& t : face.triangles) {
@@ -149,6 +153,7 @@ void check(const LoadReply& m)
         require(face.uv.size() == face.triangles.size(), "facets without parameters");
         for (const auto& uv : face.uv) require_finite(uv, "a parameter that is no number");
     }
+    require(m.left_out.size() <= m.notes.size(), "faces left out without a word");
     for (const auto& solid : m.solids) require_below(solid, m.faces.size(), "a solid of no faces");
 }
 

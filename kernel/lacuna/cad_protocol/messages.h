@@ -72,6 +72,12 @@ struct LoadReply {
         std::int32_t tag = 0, curve = 0, from = 0, to = 0; ///< ends: positions in `vertex_tags`
         std::vector<double> params;
         std::vector<Index> points;
+        std::vector<Index> left_out; ///< positions in LoadReply::left_out: faces that had it
+    };
+    /// A face that could not be cut, and is no sliver.
+    struct LeftOut {
+        std::int32_t tag = 0;
+        std::string why; ///< goes on from "face 6 "
     };
     struct Face {
         std::int32_t tag = 0;
@@ -86,7 +92,8 @@ struct LoadReply {
     std::vector<Edge> edges;
     std::vector<Face> faces;
     std::vector<std::vector<Index>> solids; ///< the faces of each solid, then those of none
-    std::vector<std::string> notes;         ///< what was left out, a sentence each
+    std::vector<LeftOut> left_out;
+    std::vector<std::string> notes; ///< what was left out, a sentence each; first those of `left_out`
 };
 
 struct EvaluateRequest {

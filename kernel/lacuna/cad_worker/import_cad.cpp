@@ -123,11 +123,17 @@ struct Cut {
     std::size_t point_count = 0;
 };
 
-std::string not_cut_in_words(int face)
-{
-    return "face " + std::to_string(face) +
-           " could not be cut into facets, however fine: its boundary crosses itself or does not close";
-}
+/// Faces that left the wire.
+struct LeftOut {
+    std::vector<CadFaceInfo> faces; ///< those that are no slivers
+    std::vector<int> slivers;       ///< tags
+};
+
+/// Goes on from "face 6 ".
+constexpr const char* kNotCut =
+    "could not be cut into facets, however fine: its boundary crosses itself or does not close";
+
+std::string not_cut_in_words(int face) { return "face " + std::to_string(face) + " " + kNotCut; }
 
 /// Whether the curves around a face lie on each other in pairs, within the tolerance: it has no inside then.
 /// A sphere's one seam, and a lune between two meridians, are no such pairs.
@@ -151,18 +157,15 @@ void divide_all(CadWire& wire, const Fineness& fineness, std::vector<double>& re
         divide(wire, fineness, refinement);
 }
 
-/// Take faces out of the wire, and say so. @throw BackendError  none is left.
-void leave_out(CadWire& wire, const std::vector<int>& tags, const std::string& path,
-               std::vector<std::string>& notes)
+/// Take faces out of the wire. @throw BackendError  none is left.
+void leave_out(CadWire& wire, const std::vector<int>& tags, const std::string& path, LeftOut& gone)
 {
     for (const int tag : tags) {
         const auto face = std::ranges::find(wire.faces, tag, &CadFaceInfo::tag);
-        notes.push_back(is_sliver(wire, *face)
-                            ? "face " + std::to_string(tag) +
-                                  " is no wider than the tolerance and is left out; give a smaller tolerance "
-                                  "if it is to stay"
-                            : not_cut_in_words(tag) + "; it is left out: repair it in the CAD system if it "
-                                                      "is needed");
+        if (is_sliver(wire, *face))
+            gone.slivers.push_back(tag);
+        else
+            gone.faces.push_back(std::move(*face));
         wire.faces.erase(face);
     }
     if (wire.faces.empty())
@@ -173,7 +176,7 @@ void leave_out(CadWire& wire, const std::vector<int>& tags, const std::string& p
 /// Divide the edges and cut the faces, finer around those whose border crosses itself. Faces that cannot be
 /// cut leave the wire.
 Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const Progress& progress,
-            std::vector<std::string>& notes)
+            LeftOut& gone)
 {
     std::vector<double> refinement;
     divide_all(wire, options.fineness, refinement);
@@ -206,7 +209,7 @@ Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const 
             if (division < kDivisions && wire.points.size() <= kMostDivided) continue;
         }
         // Without them, edges need not be finer than at first.
-        leave_out(wire, slivers.empty() ? failed : slivers, path, notes);
+        leave_out(wire, slivers.empty() ? failed : slivers, path, gone);
         divide_all(wire, options.fineness, refinement);
         division = 0;
     }
@@ -241,9 +244,35 @@ std::vector<std::vector<Index>> solids(const CadWire& wire)
     return groups;
 }
 
-cad_protocol::LoadReply reply_of(const CadWire& wire, Cut cut, CadSource& source)
+/// Say which faces were left out, and of each edge, by its place in the wire, which of them had it.
+std::vector<std::vector<Index>> tell_left_out(const CadWire& wire, const LeftOut& gone,
+                                              cad_protocol::LoadReply& reply)
+{
+    std::vector<std::vector<Index>> of_edge(wire.edges.size());
+    for (const CadFaceInfo& face : gone.faces) {
+        const auto place = static_cast<Index>(reply.left_out.size());
+        reply.left_out.push_back({face.tag, kNotCut});
+        reply.notes.push_back(not_cut_in_words(face.tag) +
+                              "; it is left out: repair it in the CAD system if it is needed");
+        for (const CadFaceInfo::Side& side : face.sides) {
+            for (const std::size_t piece : wire.curves[side.curve].pieces) {
+                std::vector<Index>& faces = of_edge[wire.pieces[piece].edge];
+                if (faces.empty() || faces.back() != place) faces.push_back(place);
+            }
+        }
+    }
+    for (const int tag : gone.slivers) {
+        reply.notes.push_back("face " + std::to_string(tag) +
+                              " is no wider than the tolerance and is left out; give a smaller tolerance "
+                              "if it is to stay");
+    }
+    return of_edge;
+}
+
+cad_protocol::LoadReply reply_of(const CadWire& wire, Cut cut, const LeftOut& gone, CadSource& source)
 {
     cad_protocol::LoadReply reply;
+    std::vector<std::vector<Index>> left_out = tell_left_out(wire, gone, reply);
     reply.diagonal = source.diagonal;
     reply.points = wire.points;
     reply.vertex_tags = wire.point_tag;
@@ -258,8 +287,8 @@ cad_protocol::LoadReply reply_of(const CadWire& wire, Cut cut, CadSource& source
         if (!used[e]) continue;
         const CadEdge& cad = wire.edges[e];
         const CadPiece& piece = wire.pieces[cad.master];
-        reply.edges.push_back(
-            {cad.tag, wire.curves[piece.curve].tag, piece.from, piece.to, cad.params, cad.points});
+        reply.edges.push_back({cad.tag, wire.curves[piece.curve].tag, piece.from, piece.to, cad.params,
+                               cad.points, std::move(left_out[e])});
     }
     for (std::size_t f = 0; f < wire.faces.size(); ++f) {
         CadFacets& facets = cut.faces[f];
@@ -303,10 +332,9 @@ Imported import_cad(const std::vector<OpenedFile>& files, double tolerance, doub
         facets.tolerance = tolerance > 0 ? tolerance / scale : 1e-6 * source.diagonal;
         facets.fineness = {2 * std::numbers::pi / kSidesPerTurn, kLongestSide * source.diagonal};
         CadWire wire = read_wire(facets.tolerance);
-        std::vector<std::string> notes;
-        Cut cut = cut_all(wire, facets, source.path, progress, notes);
-        imported.reply = reply_of(wire, std::move(cut), source);
-        imported.reply.notes = std::move(notes);
+        LeftOut gone;
+        Cut cut = cut_all(wire, facets, source.path, progress, gone);
+        imported.reply = reply_of(wire, std::move(cut), gone, source);
     });
     return imported;
 }

@@ -3,6 +3,7 @@
 
 #include <lacuna/cad/detail/cad_files.h>
 #include <lacuna/cad/detail/worker.h>
+#include <lacuna/cad/left_out.h>
 #include <lacuna/geometry/exact.h>
 
 #include <cstdint>
@@ -90,16 +91,22 @@ private:
 /// A curve of a loaded model.
 class CadCurve final : public geometry::ExactCurve {
 public:
-    CadCurve(std::shared_ptr<const CadSource> source, int tag) : source_(std::move(source)), tag_(tag) {}
+    CadCurve(std::shared_ptr<const CadSource> source, int tag, std::vector<LeftOutFace> left_out)
+        : source_(std::move(source)), tag_(tag), left_out_(std::move(left_out))
+    {
+    }
     void evaluate(std::span<const double> params, std::span<Vec3> points,
                   const RunContext& context) const override;
 
     [[nodiscard]] const std::shared_ptr<const CadSource>& source() const { return source_; }
     [[nodiscard]] int tag() const { return tag_; } ///< in the source
+    /// Faces of the source left out that had the edge this curve is of.
+    [[nodiscard]] const std::vector<LeftOutFace>& left_out() const { return left_out_; }
 
 private:
     std::shared_ptr<const CadSource> source_;
     int tag_;
+    std::vector<LeftOutFace> left_out_;
 };
 
 } // namespace lacuna::cad
