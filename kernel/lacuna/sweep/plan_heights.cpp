@@ -6,7 +6,6 @@
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -30,22 +29,6 @@ constexpr double kSameRow = 0.02;
 
 /// Chords that say how far a column turns: what bends on less is no bend of the sweep. A choice.
 constexpr std::size_t kTurnChords = 8;
-
-/// Steps of a column that show where it bends: 90° on one part in 30 of the way are 22° a step.
-constexpr int kBendSteps = 128;
-/// What turns further than this in one step is a corner, which no layer rounds [radian]. A choice.
-constexpr double kCorner = 40 * std::numbers::pi / 180;
-/// Side lines that say where the middle between them is: the fewest that can go round it.
-constexpr std::size_t kMiddle = 3;
-/// Columns go apart, round the edge of an end, where their middle moves by less than this part of what they
-/// do in the mean. A choice, not a measurement.
-constexpr double kSlow = 0.7;
-/// What all turns may count as beside the whole length, where layers are drawn to bends. A choice: from where
-/// they are almost even to where three quarters of them go to the bends.
-constexpr std::array<double, 6> kPulls{0.25, 0.5, 1, 1.5, 2, 3};
-/// Layers leave their even heights where they then lose and turn less than this share of what they did, in
-/// the mean of both. A choice, not a measurement.
-constexpr double kWorthMoving = 0.85;
 
 /// What is known of the columns between both rims, in the mean.
 struct Columns {
@@ -97,141 +80,6 @@ Columns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingS
     }
     if (!(most > least * (1 + kSameSize))) mean.wanted.clear();
     return mean;
-}
-
-/// How the middle of the columns turns on its way. Columns that round the edge of an end turn each its own
-/// way, and their middle does not.
-struct Bends {
-    double turning = 0;                                  ///< in all, corners left out [radian]
-    std::array<double, kBendSteps + 1> turned{};         ///< shares of it up to each even step
-    std::vector<std::vector<std::vector<Vec3>>> columns; ///< of each linking surface, in walking order
-};
-
-Bends bends_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links)
-{
-    std::vector<Vec3> middle(kBendSteps + 1, Vec3::Zero());
-    double columns = 0, length = 0;
-    Bends bends;
-    for (const surface::LinkingSurface& own : links) {
-        surface::LinkingSurface link = own;
-        if (link.lines.size() < kMiddle) link.lines.clear(); // one seam says nothing of the middle
-        bends.columns.push_back(surface::wall_columns(volume, link, kBendSteps));
-        for (const std::vector<Vec3>& points : bends.columns.back()) {
-            ++columns;
-            for (std::size_t i = 0; i < middle.size(); ++i) middle[i] += points[i];
-            for (std::size_t i = 1; i < middle.size(); ++i) length += (points[i] - points[i - 1]).norm();
-        }
-    }
-    for (Vec3& point : middle) point /= columns;
-    const double slow = kSlow * length / columns / kBendSteps;
-    for (std::size_t i = 1; i < kBendSteps; ++i) {
-        const Vec3 in = middle[i] - middle[i - 1], out = middle[i + 1] - middle[i];
-        const double turn = std::atan2(in.cross(out).norm(), in.dot(out));
-        if (turn > kCorner || in.norm() < slow || out.norm() < slow) continue;
-        bends.turned[i] += turn / 2; // it is spread over the steps beside it
-        bends.turned[i + 1] += turn / 2;
-        bends.turning += turn;
-    }
-    for (std::size_t i = 1; i < bends.turned.size(); ++i) bends.turned[i] += bends.turned[i - 1];
-    if (bends.turning > 0)
-        for (double& turned : bends.turned) turned /= bends.turning;
-    return bends;
-}
-
-double turned_at(const Bends& bends, double share)
-{
-    const double at = share * kBendSteps;
-    const auto i = std::min(static_cast<std::size_t>(at), static_cast<std::size_t>(kBendSteps - 1));
-    return bends.turned[i] + (at - static_cast<double>(i)) * (bends.turned[i + 1] - bends.turned[i]);
-}
-
-/// Heights that share out the length and `pull` times the turns.
-std::vector<double> drawn_heights(const Bends& bends, std::size_t layers, double pull)
-{
-    const auto passed = [&](std::size_t step) {
-        return static_cast<double>(step) / kBendSteps + pull * bends.turned[step];
-    };
-    std::vector<double> heights{0};
-    std::size_t step = 1;
-    for (std::size_t k = 1; k < layers; ++k) {
-        const double goal = (1 + pull) * static_cast<double>(k) / static_cast<double>(layers);
-        while (passed(step) < goal) ++step;
-        const double part = (goal - passed(step - 1)) / (passed(step) - passed(step - 1));
-        heights.push_back((static_cast<double>(step - 1) + part) / kBendSteps);
-    }
-    heights.push_back(1);
-    return heights;
-}
-
-/// The most that a layer turns [radian].
-double most_turn(const Bends& bends, const std::vector<double>& heights)
-{
-    double most = 0;
-    for (std::size_t k = 1; k < heights.size(); ++k)
-        most = std::max(most, turned_at(bends, heights[k]) - turned_at(bends, heights[k - 1]));
-    return most * bends.turning;
-}
-
-/// Volume between the columns where layers have straight sides, but for what the ends add, which is the same
-/// for all heights.
-double volume_between(const Bends& bends, const std::vector<double>& heights)
-{
-    const auto place = [](const std::vector<Vec3>& column, double share) -> Vec3 {
-        const double at = share * kBendSteps;
-        const auto i = std::min(static_cast<std::size_t>(at), static_cast<std::size_t>(kBendSteps - 1));
-        return column[i] + (at - static_cast<double>(i)) * (column[i + 1] - column[i]);
-    };
-    double volume = 0;
-    for (const std::vector<std::vector<Vec3>>& columns : bends.columns) {
-        const Vec3 origin = columns.front().front();
-        for (std::size_t c = 0; c < columns.size(); ++c) {
-            const std::vector<Vec3>&left = columns[c], &right = columns[(c + 1) % columns.size()];
-            for (std::size_t k = 1; k < heights.size(); ++k) {
-                const Vec3 a = place(left, heights[k - 1]) - origin,
-                           b = place(right, heights[k - 1]) - origin;
-                const Vec3 e = place(right, heights[k]) - origin, d = place(left, heights[k]) - origin;
-                // A ruled side: the mean of both ways to halve it.
-                volume += (a.dot(b.cross(e)) + a.dot(e.cross(d)) + b.dot(e.cross(d)) + a.dot(b.cross(d))) /
-                          12;
-            }
-        }
-    }
-    return volume;
-}
-
-std::vector<double> even_shares(int count)
-{
-    std::vector<double> shares;
-    for (int i = 0; i <= count; ++i) shares.push_back(static_cast<double>(i) / count);
-    return shares;
-}
-
-/// Even layers of which some would turn by more than `curvature` sides of a full turn do, moved to the bends
-/// where less volume is lost so and none turns by more; else as they are.
-std::vector<double> moved_to_bends(const OpenVolume& volume,
-                                   const std::vector<surface::LinkingSurface>& links,
-                                   const std::vector<double>& even, int curvature)
-{
-    if (curvature == 0 || even.size() < 3) return even;
-    const Bends bends = bends_of(volume, links);
-    const double turn = most_turn(bends, even);
-    if (!(turn > 2 * std::numbers::pi / curvature)) return even;
-    const double whole = volume_between(bends, even_shares(kBendSteps));
-    const auto loss_of = [&](const std::vector<double>& heights) {
-        return std::abs(whole - volume_between(bends, heights));
-    };
-    const double loss = loss_of(even);
-    double least = 2 * kWorthMoving;
-    std::vector<double> best = even;
-    for (const double pull : kPulls) {
-        std::vector<double> heights = drawn_heights(bends, even.size() - 1, pull);
-        const double own_loss = loss_of(heights), own_turn = most_turn(bends, heights);
-        const double share = own_loss / loss + own_turn / turn;
-        if (own_loss > loss || own_turn > turn || !(share < least)) continue;
-        least = share;
-        best = std::move(heights);
-    }
-    return best;
 }
 
 /// Layers that the bends of the columns ask for, at `curvature` a full turn.
@@ -340,14 +188,11 @@ std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions&
 
 PlannedHeights plan_heights(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
                             const surface::LayerTables& tables, const std::vector<double>& asked,
-                            const surface::SizeField& size, const SweepOptions& options, int least, bool even)
+                            const surface::SizeField& size, const SweepOptions& options, int least)
 {
     const std::vector<double>* const low = end_table(volume, tables, Role::source);
     const std::vector<double>* const high = end_table(volume, tables, Role::target);
-    if (low == nullptr && high == nullptr && !asked.empty()) {
-        if (!even) return {asked, false};
-        return {moved_to_bends(volume, links, asked, options.curvature), false};
-    }
+    if (low == nullptr && high == nullptr && !asked.empty()) return {asked, false};
     const Columns columns = columns_of(volume, links, size, options.size);
     const int bends = asked.empty() ? bend_layers(columns, options) : 0;
     const bool by_bends = bends > std::max(least, static_cast<int>(std::lround(columns.sides)));

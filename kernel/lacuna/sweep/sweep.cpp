@@ -15,6 +15,7 @@
 #include <lacuna/surface/source_mesh.h>
 #include <lacuna/surface/wall_breaks.h>
 #include <lacuna/sweep/detail/both_ways.h>
+#include <lacuna/sweep/detail/drawn_layers.h>
 #include <lacuna/sweep/detail/given_meshes.h>
 #include <lacuna/sweep/detail/keep_thickness.h>
 #include <lacuna/sweep/detail/mean_outline.h>
@@ -393,16 +394,6 @@ const OpenVolume& shape_of(const OpenVolume& volume, const SweepOptions& options
     return options.beside.shape != nullptr ? *options.beside.shape : volume;
 }
 
-/// Whether nothing but their number says where layers lie: no heights, no wall that keeps its nodes, and no
-/// neighbour in an assembly.
-bool by_count_alone(const OpenVolume& volume, const SweepOptions& options)
-{
-    const bool alone = !options.beside.settle && options.beside.shape == nullptr;
-    return alone && options.layers.count > 0 && options.layers.bias == 1 && options.layers.heights.empty() &&
-           std::ranges::none_of(volume.faces(Role::wall),
-                                [&](FaceId wall) { return volume.model[wall].keeps_nodes; });
-}
-
 /// Seeds, quads, walls, target, layers and proof between the rims of linking surfaces that say what goes with
 /// what.
 ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::LinkingSurface> given_links,
@@ -419,9 +410,9 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     const int least_layers = surface::set_wall_breaks(split, size, links);
     const surface::LayerTables tables = surface::layer_tables(volume, options.boundary_layers);
     const bool by_rows = !given.heights.empty();
-    const auto [heights, by_bends] = plan_heights(
-        split, links, tables, given.heights, sizes.along, options,
-        options.size ? least_layers : std::max(least_layers, kDefaultGap), by_count_alone(split, options));
+    const auto [heights,
+                by_bends] = plan_heights(split, links, tables, given.heights, sizes.along, options,
+                                         options.size ? least_layers : std::max(least_layers, kDefaultGap));
     surface::EdgeDemands demands{surface::rim_rows(split, links, tables),
                                  surface::find_intervals(split, links, options.intervals).sides};
     refuse_kept_source(split, demands.rows, options);
@@ -716,16 +707,9 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
     return options;
 }
 
-Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
+/// With more sides for a full turn as long as too much volume is lost.
+Swept sweep_for_volume(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
 {
-    check_cancelled(context);
-    report_progress(context, "size");
-    check(asked, context);
-    if (!closure::is_watertight(volume)) {
-        throw NotSweepable("sweep.not_closed",
-                           "the volume is not sealed; close it first with volume:close()");
-    }
-    const SweepOptions options = with_layer_intervals(volume, asked);
     Swept best = sweep_as_asked(volume, options, context);
     SweepOptions rest = options;
     while (const std::optional<int> sides = sides_for_lost_volume(best.fidelity, rest)) {
@@ -750,6 +734,35 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunC
     // Of order 2, given middle nodes may bulge from straight facets.
     if (options.max_deviation <= 0 && options.order == 1) require_volume(best.fidelity, best.mesh.layers);
     return best;
+}
+
+Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
+{
+    check_cancelled(context);
+    report_progress(context, "size");
+    check(asked, context);
+    if (!closure::is_watertight(volume)) {
+        throw NotSweepable("sweep.not_closed",
+                           "the volume is not sealed; close it first with volume:close()");
+    }
+    const SweepOptions options = with_layer_intervals(volume, asked);
+    const std::optional<DrawnLayers> drawn = drawn_layers(volume, options);
+    if (!drawn) return sweep_for_volume(volume, options, context);
+    std::string why;
+    try {
+        SweepOptions moved = options;
+        moved.layers = {};
+        moved.layers.heights = drawn->heights;
+        Swept swept = sweep_for_volume(volume, moved, context);
+        swept.report.push_back(drawn->report);
+        return swept;
+    } catch (const NotSweepable& error) {
+        why = error.what();
+    }
+    log_line(context, "layers nearer to each other in the bends: " + why);
+    Swept swept = sweep_for_volume(volume, options, context);
+    swept.report.push_back("layers: even ones; nearer to each other in the bends they fail: " + why);
+    return swept;
 }
 
 Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)

@@ -17,24 +17,20 @@ struct PlannedHeights {
 
 /// Heights of the layers between source and target, as shares of the columns' length.
 ///
-/// Layers that are counted are spread as `LayerSpec` says; where even ones would turn by more than
-/// `curvature` a full turn, bends draw them nearer to each other, as far as that leaves less volume outside
-/// straight sides (measured on `surface::wall_columns()`). Others are about as high as the quads are wide,
-/// measured along the walls, and no fewer than the columns' bends ask for at `curvature` a full turn; where
-/// the size asked for changes along the sweep they follow it: their number and heights divide the sides it
-/// asks for evenly, in the mean over the columns. Boundary layers of the ends come first and last, and the
-/// rest shares what they leave.
+/// Layers that are counted are spread as `LayerSpec` says. Others are about as high as the quads are wide,
+/// measured along the walls (`surface::wall_columns()`), and no fewer than the columns' bends ask for at
+/// `curvature` a full turn; where the size asked for changes along the sweep they follow it: their number and
+/// heights divide the sides it asks for evenly, in the mean over the columns. Boundary layers of the ends
+/// come first and last, and the rest shares what they leave.
 /// @param asked  what `LayerSpec` makes of a count or of heights, from the source; empty: none are asked for.
 /// @param size   of the source's quads.
 /// @param least  layers that the walls need.
-/// @param even   the layers asked for are a count alone, and nothing else has to fit them.
 /// @throw InvalidInput  more layers than can be numbered; boundary layers of ends together with heights, or
 ///                      with fewer layers than they have.
 /// @throw NotSweepable "sweep.layers_room"  ends closer to each other than their boundary layers are high.
 PlannedHeights plan_heights(const topology::OpenVolume& volume,
                             const std::vector<surface::LinkingSurface>& links,
                             const surface::LayerTables& tables, const std::vector<double>& asked,
-                            const surface::SizeField& size, const SweepOptions& options, int least,
-                            bool even);
+                            const surface::SizeField& size, const SweepOptions& options, int least);
 
 } // namespace lacuna::sweep

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/drawn_layers.h>
+
+#include <lacuna/surface/boundary_layers.h>
+#include <lacuna/surface/wall_columns.h>
+#include <lacuna/sweep/detail/words.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+/// Steps of the way: 90° on one part in 20 of it are 29° a step.
+constexpr std::size_t kSteps = 64;
+/// What turns further than this in one step is a corner, which no layer rounds [radian]. A choice.
+constexpr double kCorner = 40 * std::numbers::pi / 180;
+/// Side lines that say where the middle between them is: the fewest that can lie round it.
+constexpr std::size_t kMiddle = 2;
+/// Columns go apart, round the edge of an end, where their middle moves by less than this part of what they
+/// do in the mean. A choice, not a measurement.
+constexpr double kSlow = 0.7;
+/// A layer over its neighbour, and the highest over the lowest, at most. Choices, not measurements.
+constexpr double kMostBeside = 2, kMostInAll = 4;
+/// How much all turns count beside the length of the way, from mild to strong. A choice: from almost even to
+/// where most layers go to the bends.
+constexpr std::array<double, 6> kPulls{0.25, 0.5, 1, 2, 4, 8};
+/// Layers are drawn further where that saves this part of the volume at least: about what few would see, and
+/// what the loss may jump by from one number of layers to the next. A choice, not a measurement.
+constexpr double kWorth = 2e-3;
+
+/// The middle of the columns at even steps.
+struct Way {
+    std::array<Vec3, kSteps + 1> points{};
+    std::array<Vec3, kSteps + 1> along{};    ///< unit vectors
+    std::array<double, kSteps + 1> turned{}; ///< up to each step, corners left out [radian]
+    double column = 0;                       ///< length of a column in the mean [model length]
+};
+
+Way way_of(const OpenVolume& volume)
+{
+    std::vector<std::vector<Vec3>> columns;
+    std::vector<surface::LinkingSurface> links = surface::linking_surfaces(volume);
+    // One seam says nothing of the middle; where another linking surface does, that is enough.
+    const bool lines = std::ranges::any_of(links,
+                                           [](const auto& link) { return link.lines.size() >= kMiddle; });
+    for (surface::LinkingSurface& link : links) {
+        if (link.lines.size() < kMiddle) {
+            if (lines) continue;
+            link.lines.clear();
+        }
+        std::ranges::move(surface::wall_columns(volume, link, kSteps), std::back_inserter(columns));
+    }
+    Way way;
+    way.points.fill(Vec3::Zero());
+    const auto share = 1 / static_cast<double>(columns.size());
+    for (const std::vector<Vec3>& points : columns) {
+        for (std::size_t i = 0; i <= kSteps; ++i) way.points[i] += share * points[i];
+        for (std::size_t i = 1; i <= kSteps; ++i) way.column += share * (points[i] - points[i - 1]).norm();
+    }
+    const double slow = kSlow * way.column / kSteps;
+    for (std::size_t i = 0; i <= kSteps; ++i)
+        way.along[i] = (way.points[std::min(i + 1, kSteps)] - way.points[i > 0 ? i - 1 : 0]).normalized();
+    for (std::size_t i = 1; i < kSteps; ++i) {
+        const Vec3 in = way.points[i] - way.points[i - 1], out = way.points[i + 1] - way.points[i];
+        const double turn = std::atan2(in.cross(out).norm(), in.dot(out));
+        if (turn > kCorner || in.norm() < slow || out.norm() < slow) continue;
+        way.turned[i] += turn / 2; // it is spread over the steps beside it
+        way.turned[i + 1] += turn / 2;
+    }
+    for (std::size_t i = 1; i <= kSteps; ++i) way.turned[i] += way.turned[i - 1];
+    return way;
+}
+
+/// Values of even steps, between them.
+template <class Value>
+Value at_share(const std::array<Value, kSteps + 1>& values, double share)
+{
+    const double at = std::clamp(share, 0.0, 1.0) * kSteps;
+    const auto i = std::min(static_cast<std::size_t>(at), kSteps - 1);
+    return values[i] + (at - static_cast<double>(i)) * (values[i + 1] - values[i]);
+}
+
+/// Heights from 0 to 1 that share out the length of the way and `pull` times its turns, within the limits.
+std::vector<double> drawn_heights(const Way& way, int layers, double pull)
+{
+    const double even = 1.0 / layers;
+    std::array<double, kSteps> wanted{};
+    for (std::size_t i = 0; i < kSteps; ++i) {
+        const double middle = (static_cast<double>(i) + 0.5) / kSteps;
+        const double from = std::max(middle - even / 2, 0.0), to = std::min(middle + even / 2, 1.0);
+        const double turn = at_share(way.turned, to) - at_share(way.turned, from);
+        wanted[i] = 1 / (1 + pull * turn / (way.turned.back() * (to - from)));
+    }
+    const double highest = *std::ranges::max_element(wanted);
+    for (double& height : wanted) height = std::max(height, highest / kMostInAll);
+    // Where heights grow by no more than this per length, layers grow by no more than the limit each.
+    const double growth = std::log(kMostBeside) / kSteps;
+    std::array<double, kSteps + 1> passed{};
+    const auto count_layers = [&](double scale) {
+        std::array<double, kSteps> height{};
+        for (std::size_t i = 0; i < kSteps; ++i)
+            height[i] = std::min(scale * wanted[i], i > 0 ? height[i - 1] + growth : scale);
+        for (std::size_t i = kSteps - 1; i-- > 0;) height[i] = std::min(height[i], height[i + 1] + growth);
+        for (std::size_t i = 0; i < kSteps; ++i) passed[i + 1] = passed[i] + 1 / (kSteps * height[i]);
+        return passed[kSteps];
+    };
+    double low = even, high = even / *std::ranges::min_element(wanted);
+    constexpr int kHalvings = 40;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double scale = (low + high) / 2;
+        (count_layers(scale) > layers ? low : high) = scale;
+    }
+    count_layers(high);
+    std::vector<double> heights{0};
+    std::size_t step = 1;
+    for (int k = 1; k < layers; ++k) {
+        const double goal = passed[kSteps] * k / layers;
+        while (passed[step] < goal) ++step;
+        const double part = (goal - passed[step - 1]) / (passed[step] - passed[step - 1]);
+        heights.push_back((static_cast<double>(step - 1) + part) / kSteps);
+    }
+    heights.push_back(1);
+    return heights;
+}
+
+std::vector<double> even_heights(int layers)
+{
+    std::vector<double> heights;
+    for (int k = 0; k <= layers; ++k) heights.push_back(static_cast<double>(k) / layers);
+    return heights;
+}
+
+/// Length of the way that flat sections of one area, across it at the heights, have between them: their
+/// volume over the area, exactly where the way turns in a plane.
+double length_between(const Way& way, const std::vector<double>& heights)
+{
+    double length = 0;
+    for (std::size_t k = 1; k < heights.size(); ++k) {
+        const Vec3 chord = at_share(way.points, heights[k]) - at_share(way.points, heights[k - 1]);
+        const Vec3 below = at_share(way.along, heights[k - 1]).normalized();
+        length += chord.dot(below + at_share(way.along, heights[k]).normalized()) / 2;
+    }
+    return length;
+}
+
+/// Whether nothing but their number says where layers lie.
+bool by_count_alone(const OpenVolume& volume, const SweepOptions& options)
+{
+    const bool beside = options.beside.settle || options.beside.shape != nullptr;
+    if (beside || options.layers.count < 2 || options.layers.bias != 1 || !options.layers.heights.empty())
+        return false;
+    if (std::ranges::any_of(volume.faces(Role::wall), [&](FaceId f) { return volume.model[f].keeps_nodes; }))
+        return false;
+    const surface::LayerTables tables = surface::layer_tables(volume, options.boundary_layers);
+    return std::ranges::none_of(tables.of,
+                                [&](const auto& of) { return volume.role[of.first.index()] != Role::wall; });
+}
+
+} // namespace
+
+std::optional<DrawnLayers> drawn_layers(const OpenVolume& volume, const SweepOptions& options)
+{
+    if (options.curvature == 0 || !by_count_alone(volume, options)) return std::nullopt;
+    const Way way = way_of(volume);
+    constexpr double kStraight = 1e-3; // [radian]
+    if (!(way.turned.back() > kStraight)) return std::nullopt;
+    const int layers = options.layers.count;
+    const double whole = length_between(way, even_heights(static_cast<int>(kSteps)));
+    const auto loss_of = [&](const std::vector<double>& heights) {
+        return 1 - length_between(way, heights) / whole;
+    };
+    double least = loss_of(even_heights(layers));
+    std::vector<double> best;
+    for (const double pull : kPulls) {
+        std::vector<double> heights = drawn_heights(way, layers, pull);
+        const double loss = loss_of(heights);
+        if (loss > least - kWorth) continue;
+        least = loss;
+        best = std::move(heights);
+    }
+    if (best.empty()) return std::nullopt;
+    double lowest = 1, highest = 0;
+    for (std::size_t k = 1; k < best.size(); ++k) {
+        lowest = std::min(lowest, best[k] - best[k - 1]);
+        highest = std::max(highest, best[k] - best[k - 1]);
+    }
+    if (volume.turned_round) {
+        std::ranges::reverse(best);
+        for (double& height : best) height = 1 - height;
+    }
+    best.erase(best.begin());
+    const std::string count = std::to_string(layers);
+    return DrawnLayers{std::move(best),
+                       "layers: " + count + " as asked, nearer to each other in the bends, from " +
+                           in_short(lowest * way.column) + " to " + in_short(highest * way.column) +
+                           " high; heights stay as given: layers = { 1/" + count + ", 2/" + count +
+                           ", …, 1 } are even ones"};
+}
+
+} // namespace lacuna::sweep
