@@ -72,7 +72,7 @@ struct LoadReply {
         std::int32_t tag = 0, curve = 0, from = 0, to = 0; ///< ends: positions in `vertex_tags`
         std::vector<double> params;
         std::vector<Index> points;
-        std::vector<Index> left_out; ///< positions in LoadReply::left_out: faces that had it
+        std::vector<Index> left_out = {}; ///< positions in LoadReply::left_out: faces that had it
     };
     /// A face that could not be cut, and is no sliver.
     struct LeftOut {
@@ -92,7 +92,7 @@ struct LoadReply {
     std::vector<Edge> edges;
     std::vector<Face> faces;
     std::vector<std::vector<Index>> solids; ///< the faces of each solid, then those of none
-    std::vector<LeftOut> left_out;
+    std::vector<LeftOut> left_out = {};
     std::vector<std::string> notes; ///< what was left out, a sentence each; first those of `left_out`
 };
 
