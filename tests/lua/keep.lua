@@ -80,59 +80,51 @@ do
   assert(message:find("source", 1, true) and message:find("auto", 1, true), message)
 end
 
--- Both ends of a sector came with meshes, no walls: shapes leave open how it turns, the given sides do not.
-do
-  local function patch(model, name, radius, across, round, turn)
-    local points, cells = {}, {}
-    for j = 0, round do
-      for i = 0, across do
-        local at = turn * j / round
-        points[#points + 1] = { 0.1 * i / across, radius * math.cos(at), radius * math.sin(at) }
-      end
+-- A face of across x along quads; `place` takes shares of both ways. Gives its number of nodes.
+local function grid_face(model, name, across, along, keep, place)
+  local points, cells = {}, {}
+  for j = 0, along do for i = 0, across do points[#points + 1] = place(i / across, j / along) end end
+  for j = 0, along - 1 do
+    for i = 1, across do
+      local a = j * (across + 1) + i
+      cells[#cells + 1] = { a, a + 1, a + across + 2, a + across + 1 }
     end
-    for j = 0, round - 1 do
-      for i = 1, across do
-        local a = j * (across + 1) + i
-        cells[#cells + 1] = { a, a + 1, a + across + 2, a + across + 1 }
-      end
-    end
-    model:add_face { name = name, points = points, cells = cells, keep_mesh = true }
-    return #points
   end
-  for _, far in ipairs { 0.15, 0.3, 0.5, 0.7, 0.85 } do
-    for _, grid in ipairs { { 2, 4 }, { 4, 2 }, { 1, 3 }, { 5, 4 } } do
-      for _, degrees in ipairs { 20, 30, 45 } do
-        local model = lacuna.model()
-        local count = patch(model, "source", 0.1, grid[1], grid[2], math.rad(degrees))
-        patch(model, "target", far, grid[1], grid[2], math.rad(degrees))
-        local mesh = model:open_volume({ source = "source", target = "target" }):sweep { layers = 4 }
-        local kept = 0
-        for _, line in ipairs(mesh.report) do
-          if line:find(("%d of %d nodes coincide"):format(count, count), 1, true) then kept = kept + 1 end
-        end
-        check.equal(kept, 2)
+  model:add_face { name = name, points = points, cells = cells, keep_mesh = keep }
+  return #points
+end
+
+local function check_both_kept(model, count)
+  local mesh = model:open_volume({ source = "source", target = "target" }):sweep { layers = 4 }
+  local kept = 0
+  for _, line in ipairs(mesh.report) do
+    if line:find(("%d of %d nodes coincide"):format(count, count), 1, true) then kept = kept + 1 end
+  end
+  check.equal(kept, 2)
+end
+
+-- Both ends of a sector came with meshes, no walls: shapes leave open how it turns, the given sides do not.
+for _, far in ipairs { 0.15, 0.3, 0.5, 0.7, 0.85 } do
+  for _, grid in ipairs { { 2, 4 }, { 4, 2 }, { 1, 3 }, { 5, 4 } } do
+    for _, degrees in ipairs { 20, 30, 45 } do
+      local model, turn = lacuna.model(), math.rad(degrees)
+      local function sector(radius)
+        return function(u, v) return { 0.1 * u, radius * math.cos(turn * v), radius * math.sin(turn * v) } end
       end
+      local count = grid_face(model, "source", grid[1], grid[2], true, sector(0.1))
+      grid_face(model, "target", grid[1], grid[2], true, sector(far))
+      check_both_kept(model, count)
     end
   end
 end
 
 -- A prism is not twisted by a quarter turn for the mesh of its target: it is what it is without one.
 do
-  local function square(model, name, nx, ny, keep, place)
-    local points, cells = {}, {}
-    for j = 0, ny do for i = 0, nx do points[#points + 1] = place(i / nx - 0.5, j / ny - 0.5) end end
-    for j = 0, ny - 1 do
-      for i = 1, nx do
-        local a = j * (nx + 1) + i
-        cells[#cells + 1] = { a, a + 1, a + nx + 2, a + nx + 1 }
-      end
-    end
-    model:add_face { name = name, points = points, cells = cells, keep_mesh = keep }
-  end
   local function volume(tilt, turn, grid, keep)
     local model = lacuna.model()
-    square(model, "source", grid[1], grid[2], keep, function(x, y) return { x, y, 0 } end)
-    square(model, "target", grid[3], grid[4], keep, function(x, y)
+    grid_face(model, "source", grid[1], grid[2], keep, function(x, y) return { x - 0.5, y - 0.5, 0 } end)
+    grid_face(model, "target", grid[3], grid[4], keep, function(x, y)
+      x, y = x - 0.5, y - 0.5
       local u, v = x * math.cos(turn) - y * math.sin(turn), x * math.sin(turn) + y * math.cos(turn)
       return { u * math.cos(tilt), v, 6 + u * math.sin(tilt) }
     end)
@@ -152,39 +144,20 @@ do
 end
 
 -- Ends that came with as many sides, of other lengths and with more corners: nodes meet nodes.
-do
-  local function patch(model, name, across, along, height, grading, bump)
-    local points, cells = {}, {}
-    for j = 0, along do
-      for i = 0, across do
-        local x, y = 3 * i / across, 5 * (j / along) ^ grading
-        if bump and i == across and j == bump then x = x + 1.2 end
-        points[#points + 1] = { x, y, height }
-      end
-    end
-    for j = 0, along - 1 do
-      for i = 1, across do
-        local a = j * (across + 1) + i
-        cells[#cells + 1] = { a, a + 1, a + across + 2, a + across + 1 }
-      end
-    end
-    model:add_face { name = name, points = points, cells = cells, keep_mesh = true }
-    return #points
-  end
-  for _, grading in ipairs { 1, 1.4, 2 } do
-    for _, grid in ipairs { { 3, 6 }, { 4, 9 }, { 6, 12 } } do
-      for _, bump in ipairs { 2, 4 } do
-        for _, turned in ipairs { false, true } do
-          local model = lacuna.model()
-          local count = patch(model, "source", grid[1], grid[2], 0, 1, turned and bump)
-          patch(model, "target", grid[1], grid[2], 2, grading, not turned and bump)
-          local mesh = model:open_volume({ source = "source", target = "target" }):sweep { layers = 3 }
-          local kept = 0
-          for _, line in ipairs(mesh.report) do
-            if line:find(("%d of %d nodes coincide"):format(count, count), 1, true) then kept = kept + 1 end
+for _, grading in ipairs { 1, 1.4, 2 } do
+  for _, grid in ipairs { { 3, 6 }, { 4, 9 }, { 6, 12 } } do
+    for _, bump in ipairs { 2, 4 } do
+      for _, on_source in ipairs { false, true } do
+        local model = lacuna.model()
+        local function board(height, power, bumped)
+          return function(u, v)
+            local at_bump = bumped and u == 1 and math.floor(v * grid[2] + 0.5) == bump
+            return { 3 * u + (at_bump and 1.2 or 0), 5 * v ^ power, height }
           end
-          check.equal(kept, 2)
         end
+        local count = grid_face(model, "source", grid[1], grid[2], true, board(0, 1, on_source))
+        grid_face(model, "target", grid[1], grid[2], true, board(2, grading, not on_source))
+        check_both_kept(model, count)
       end
     end
   end
