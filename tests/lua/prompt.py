@@ -34,6 +34,17 @@ class Terminal:
     def type(self, text):
         os.write(self.terminal, text.encode())
 
+    def say(self, line, answer):
+        """Type a line until it is answered: a Ctrl-C that is met late gives up what is typed after it."""
+        for _ in range(3):
+            self.type(line)
+            end = time.time() + PATIENCE / 3
+            while answer not in self.told and select.select([self.terminal], [], [], max(0, end - time.time()))[0]:
+                self.told += os.read(self.terminal, 4096).decode(errors="replace")
+            if answer in self.told:
+                break
+        self.wait_for(answer)
+
     def interrupt(self, text):
         """Ctrl-C until `text` is there: one that comes while no key is waited for gives up the line later."""
         end = time.time() + PATIENCE
@@ -100,8 +111,7 @@ def main():
     terminal.type("nonsense nonsense")
     terminal.wait_for("nonsense nonsense")
     terminal.interrupt("\n> ")
-    terminal.type("print('rea' .. 'dy') while true do end\r")
-    terminal.wait_for("ready")
+    terminal.say("print('rea' .. 'dy') while true do end\r", "ready")
     terminal.type("\x03")
     terminal.wait_for("interrupted")  # of one: a second would end the program
     terminal.wait_for("> ")
