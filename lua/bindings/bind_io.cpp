@@ -348,6 +348,16 @@ void write_options_beside(const Host& lent, const io::OutputPath& mesh, const Wr
     if (arguments.gmsh_options) io::write_msh_options(output_path(lent, mesh.text() + ".opt"));
 }
 
+/// The fields asked for of the cells of a mesh; decks have none.
+void add_fields(const mesh::HexMesh& mesh, const Format& format, WriteArguments& arguments,
+                const RunContext& context)
+{
+    if (format.is_deck || !arguments.with.empty()) return;
+    for (const quality::Metric metric : metrics_of(arguments))
+        arguments.msh.fields.push_back(
+            {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
+}
+
 /// mesh:write(path [, options])
 int write(lua_State* L)
 {
@@ -368,11 +378,7 @@ int write(lua_State* L)
         for (const Box<ModelState>& model : arguments.with) refresh(*model);
         arguments.deck.material = state.material;
         report_progress(context, "writing " + path.text());
-        for (const quality::Metric metric : format.is_deck || !arguments.with.empty()
-                                                ? std::vector<quality::Metric>{}
-                                                : metrics_of(arguments))
-            arguments.msh.fields.push_back(
-                {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
+        add_fields(mesh, format, arguments, context);
         format.write(mesh, path, arguments, context);
         write_options_beside(lent, path, arguments);
     });
@@ -625,13 +631,9 @@ void write_layered(const sweep::Swept& swept, const std::string& material, const
     const mesh::HexMesh& mesh = swept.mesh;
     report_progress(context, "writing " + path.text());
     if (!swept.layers) {
-        const std::vector<quality::Metric> metrics = format_of(path.text(), arguments).is_deck
-                                                         ? std::vector<quality::Metric>{}
-                                                         : metrics_of(arguments);
-        for (const quality::Metric metric : metrics)
-            arguments.msh.fields.push_back(
-                {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
-        return format_of(path.text(), arguments).write(mesh, path, arguments, context);
+        const Format& format = format_of(path.text(), arguments);
+        add_fields(mesh, format, arguments, context);
+        return format.write(mesh, path, arguments, context);
     }
     team::write_layered(
         {mesh, *swept.layers}, *swept.plan, path,

@@ -875,28 +875,40 @@ void push_write_options(lua_State* L, int index)
         fail_value(L, {"sweep_to", "write"}, "a table of options { version =, binary =, quality = }", -1);
 }
 
+/// What sweep_to tells of a mesh, as fields of its report on top of the stack.
+struct Told {
+    std::size_t nodes = 0, hexes = 0, wedges = 0;
+    int layers = 0;
+    double least = 1; ///< scaled Jacobian
+    bool streamed = false;
+    int processes = 1;
+};
+
+void set_told(lua_State* L, const Told& told)
+{
+    set_count(L, "nodes", told.nodes);
+    set_count(L, "hexes", told.hexes);
+    set_count(L, "wedges", told.wedges);
+    set_count(L, "layers", static_cast<std::size_t>(told.layers));
+    set_number(L, "min_scaled_jacobian", told.least);
+    set_boolean(L, "streamed", told.streamed);
+    set_count(L, "processes", static_cast<std::size_t>(told.processes));
+}
+
 /// What sweep_to returns of a volume that was swept in pieces, whose mesh is on top: its report.
 void push_report_of_pieces(lua_State* L)
 {
     const int mesh = lua_gettop(L);
     const auto& state = hold<AssemblyMeshState>(L, mesh);
     lua_getfield(L, mesh, "report");
-    std::size_t hexes = 0, wedges = 0;
-    int layers = 0;
-    double least = 1;
+    Told told{.nodes = state.swept.nodes};
     for (const sweep::Swept& part : state.swept.parts) {
-        hexes += part.mesh.hex_count();
-        wedges += part.mesh.wedge_count();
-        layers = std::max(layers, part.mesh.layers);
-        least = std::min(least, part.min_scaled_jacobian);
+        told.hexes += part.mesh.hex_count();
+        told.wedges += part.mesh.wedge_count();
+        told.layers = std::max(told.layers, part.mesh.layers);
+        told.least = std::min(told.least, part.min_scaled_jacobian);
     }
-    set_count(L, "nodes", state.swept.nodes);
-    set_count(L, "hexes", hexes);
-    set_count(L, "wedges", wedges);
-    set_count(L, "layers", static_cast<std::size_t>(layers));
-    set_number(L, "min_scaled_jacobian", least);
-    set_boolean(L, "streamed", false);
-    set_count(L, "processes", 1);
+    set_told(L, told);
 }
 
 /// Sweep a volume as it is and write it, a layer at a time where that goes.
@@ -936,13 +948,13 @@ bool sweep_whole_to(lua_State* L, VolumeState& state, SweepArguments& arguments,
         lua_rawseti(L, -2, to_lua(i));
     }
     const mesh::HexMesh& mesh = swept.mesh;
-    set_count(L, "nodes", mesh::corner_count(mesh) + mesh.middles.nodes.size());
-    set_count(L, "hexes", mesh.hex_count());
-    set_count(L, "wedges", mesh.wedge_count());
-    set_count(L, "layers", static_cast<std::size_t>(mesh.layers));
-    set_number(L, "min_scaled_jacobian", swept.min_scaled_jacobian);
-    set_boolean(L, "streamed", swept.layers.has_value());
-    set_count(L, "processes", swept.layers && crew != nullptr ? static_cast<std::size_t>(crew->size) : 1);
+    set_told(L, {.nodes = mesh::corner_count(mesh) + mesh.middles.nodes.size(),
+                 .hexes = mesh.hex_count(),
+                 .wedges = mesh.wedge_count(),
+                 .layers = mesh.layers,
+                 .least = swept.min_scaled_jacobian,
+                 .streamed = swept.layers.has_value(),
+                 .processes = swept.layers && crew != nullptr ? crew->size : 1});
     set_report_meta(L, seconds);
     return true;
 }

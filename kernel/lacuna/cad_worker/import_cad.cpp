@@ -135,6 +135,13 @@ constexpr const char* kNotCut =
 
 std::string not_cut_in_words(int face) { return "face " + std::to_string(face) + " " + kNotCut; }
 
+/// The edges in the wire of a side of a face, in its order.
+template <class Visit>
+void each_edge(const CadWire& wire, const CadFaceInfo::Side& side, const Visit& visit)
+{
+    for (const std::size_t piece : wire.curves[side.curve].pieces) visit(wire.pieces[piece].edge);
+}
+
 /// Whether the curves around a face lie on each other in pairs, within the tolerance: it has no inside then.
 /// A sphere's one seam, and a lune between two meridians, are no such pairs.
 bool is_sliver(const CadWire& wire, const CadFaceInfo& face)
@@ -142,7 +149,7 @@ bool is_sliver(const CadWire& wire, const CadFaceInfo& face)
     std::unordered_map<std::size_t, int> uses;
     for (const CadFaceInfo::Side& side : face.sides) {
         if (side.uses > 1) return false;
-        for (const std::size_t piece : wire.curves[side.curve].pieces) ++uses[wire.pieces[piece].edge];
+        each_edge(wire, side, [&](std::size_t edge) { ++uses[edge]; });
     }
     return std::ranges::all_of(uses, [](const auto& use) { return use.second % 2 == 0; });
 }
@@ -192,10 +199,9 @@ Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const 
                 failed.push_back(face.tag);
                 if (is_sliver(wire, face)) slivers.push_back(face.tag);
                 for (const CadFaceInfo::Side& side : face.sides) {
-                    for (const std::size_t p : wire.curves[side.curve].pieces) {
-                        double& times = refinement[wire.pieces[p].edge];
-                        times = std::max(2 * times, static_cast<double>(1 << division));
-                    }
+                    each_edge(wire, side, [&](std::size_t edge) {
+                        refinement[edge] = std::max(2 * refinement[edge], static_cast<double>(1 << division));
+                    });
                 }
                 continue;
             }
@@ -204,9 +210,9 @@ Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const 
             progress(static_cast<double>(cut.faces.size()) / static_cast<double>(wire.faces.size()));
         }
         if (failed.empty()) return cut;
-        if (slivers.empty()) {
-            if (division < kDivisions) divide(wire, options.fineness, refinement);
-            if (division < kDivisions && wire.points.size() <= kMostDivided) continue;
+        if (slivers.empty() && division < kDivisions) {
+            divide(wire, options.fineness, refinement);
+            if (wire.points.size() <= kMostDivided) continue;
         }
         // Without them, edges need not be finer than at first.
         leave_out(wire, slivers.empty() ? failed : slivers, path, gone);
@@ -255,10 +261,10 @@ std::vector<std::vector<Index>> tell_left_out(const CadWire& wire, const LeftOut
         reply.notes.push_back(not_cut_in_words(face.tag) +
                               "; it is left out: repair it in the CAD system if it is needed");
         for (const CadFaceInfo::Side& side : face.sides) {
-            for (const std::size_t piece : wire.curves[side.curve].pieces) {
-                std::vector<Index>& faces = of_edge[wire.pieces[piece].edge];
+            each_edge(wire, side, [&](std::size_t edge) {
+                std::vector<Index>& faces = of_edge[edge];
                 if (faces.empty() || faces.back() != place) faces.push_back(place);
-            }
+            });
         }
     }
     for (const int tag : gone.slivers) {
@@ -278,10 +284,8 @@ cad_protocol::LoadReply reply_of(const CadWire& wire, Cut cut, const LeftOut& go
     reply.vertex_tags = wire.point_tag;
     std::vector<bool> used(wire.edges.size(), false); // by faces that were not left out
     for (const CadFaceInfo& face : wire.faces) {
-        for (const CadFaceInfo::Side& side : face.sides) {
-            for (const std::size_t piece : wire.curves[side.curve].pieces)
-                used[wire.pieces[piece].edge] = true;
-        }
+        for (const CadFaceInfo::Side& side : face.sides)
+            each_edge(wire, side, [&](std::size_t edge) { used[edge] = true; });
     }
     for (std::size_t e = 0; e < wire.edges.size(); ++e) {
         if (!used[e]) continue;

@@ -203,13 +203,12 @@ double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part,
 /// part that lies within no other, its own; else facets face away from their middle, or towards it where the
 /// part lies within another.
 std::vector<bool> parts_facing_void(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts,
-                                    const RunContext& context)
+                                    const std::vector<char>& on_edge, const RunContext& context)
 {
     const Model& model = volume.model;
     const std::vector<bool> inner = inner_parts(model, parts, context);
     PartsSeen seen(model, parts, context);
     std::vector<bool> facing;
-    const std::vector<char> on_edge = points_on_edges(model);
     for (std::size_t p = 0; p < parts.size(); ++p) {
         check_cancelled(context);
         double before = inner[p] ? 0 : leaves_before(volume, parts[p], on_edge);
@@ -228,12 +227,12 @@ std::vector<double> concave_turns(const OpenVolume& volume, const RunContext& co
 {
     const Model& model = volume.model;
     const std::vector<std::vector<FaceId>> parts = parts_of(model);
-    const std::vector<bool> facing = parts_facing_void(volume, parts, context);
+    const std::vector<char> on_edge = points_on_edges(model);
+    const std::vector<bool> facing = parts_facing_void(volume, parts, on_edge, context);
     std::vector<double> away(model.faces.size(), 1); // from the void: +1 as the facets face
     for (std::size_t p = 0; p < parts.size(); ++p) {
         for (const FaceId face : parts[p]) away[face.index()] = facing[p] ? -1 : 1;
     }
-    const std::vector<char> on_edge = points_on_edges(model);
     std::unordered_set<std::uint64_t> sides;
     for (const Edge& edge : model.edges) {
         for (std::size_t i = 0; i + 1 < edge.points.size(); ++i)
@@ -280,7 +279,7 @@ std::vector<double> concave_turns(const OpenVolume& volume, const RunContext& co
 void face_away(OpenVolume& volume, const RunContext& context)
 {
     const std::vector<std::vector<FaceId>> parts = parts_of(volume.model);
-    const std::vector<bool> facing = parts_facing_void(volume, parts, context);
+    const std::vector<bool> facing = parts_facing_void(volume, parts, points_on_edges(volume.model), context);
     for (std::size_t p = 0; p < parts.size(); ++p)
         if (facing[p]) flip_faces(volume.model, parts[p]);
 }

@@ -88,15 +88,6 @@ std::vector<Alignment> alignments_by_vertices(const Problem& problem, const Hard
     return sorted(std::move(result));
 }
 
-/// The number of the first given side of each edge of a loop.
-std::vector<std::size_t> first_sides(const LoopShape& shape)
-{
-    std::vector<std::size_t> first{0};
-    for (const std::size_t sides : shape.sides) first.push_back(first.back() + sides);
-    first.pop_back();
-    return first;
-}
-
 /// Places where the source's start may lie on a loop paired by length: nodes, where sides are given.
 std::size_t places_of(const LoopShape& target) { return target.by_sides ? given_sides(target) : kSamples; }
 

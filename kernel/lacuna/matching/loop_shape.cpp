@@ -74,15 +74,19 @@ std::size_t given_sides(const LoopShape& shape)
     return std::accumulate(shape.sides.begin(), shape.sides.end(), std::size_t{0});
 }
 
+std::vector<std::size_t> first_sides(const LoopShape& shape)
+{
+    std::vector<std::size_t> first(shape.sides.size());
+    std::exclusive_scan(shape.sides.begin(), shape.sides.end(), first.begin(), std::size_t{0});
+    return first;
+}
+
 void count_by_sides(LoopShape& shape)
 {
     const double side = shape.length / static_cast<double>(given_sides(shape));
     for (std::size_t i = 0; i < shape.arc.size(); ++i) shape.arc[i] = side * static_cast<double>(i);
-    std::size_t before = 0;
-    for (std::size_t k = 0; k < shape.sides.size(); ++k) {
-        shape.vertex_arc[k] = side * static_cast<double>(before);
-        before += shape.sides[k];
-    }
+    std::ranges::transform(first_sides(shape), shape.vertex_arc.begin(),
+                           [&](std::size_t first) { return side * static_cast<double>(first); });
     shape.arc.back() = shape.length;
     shape.by_sides = true;
 }

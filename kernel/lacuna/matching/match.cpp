@@ -127,17 +127,16 @@ private:
         const Alignment likeliest = found.front();
         for (const Alignment& other : alignments_of(problem_, s, t, true)) {
             const bool turns_more = turn_of(other) > turn_of(likeliest) + kAsMuch;
-            if (sureness(likeliest, other) >= (turns_more ? kTie : kUnsureBesideSides) ||
-                unlike_sides(problem_, s, t, other) >= least)
-                continue;
-            least = unlike_sides(problem_, s, t, other);
+            if (sureness(likeliest, other) >= (turns_more ? kTie : kUnsureBesideSides)) continue;
+            const std::size_t unlike = unlike_sides(problem_, s, t, other);
+            if (unlike >= least) continue;
+            least = unlike;
             found = {other, likeliest};
         }
         if (!differ(problem_, s, t, found.front(), likeliest)) return;
         match_.notes.push_back(
             "source loop " + std::to_string(s + 1) +
-            " was laid on the target so that given sides agree; its shape alone fits better "
-            "otherwise");
+            " was laid on the target so that given sides agree; its shape alone fits better otherwise");
     }
 
     /// How sure an alignment is, against the next one. One hard pair settles all of a loop.

@@ -15,11 +15,10 @@ namespace lacuna::quads {
 namespace {
 
 constexpr double kRight = std::numbers::pi / 2;
-/// What `measure_plane()` promises: how far the corners and the height of a good row may be off, and edges of
-/// the size asked. Choices, not measurements.
+/// What `measure_plane()` promises: how far the corners and the height of a good row may be off. Choices, not
+/// measurements.
 constexpr double kOffRight = 20 * std::numbers::pi / 180;
 constexpr double kOffHeight = 0.3;
-constexpr double kShortest = 0.6, kLongest = 1.6;
 
 const Vec2& at(std::span<const Vec2> points, Index p) { return points[index(p)]; }
 
@@ -154,7 +153,7 @@ PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
             const double asked = region.size ? region.size((a + b) / 2) : length;
             ++result.edges;
             ratios += length / asked;
-            if (length >= kShortest * asked && length <= kLongest * asked) ++result.edges_of_size;
+            if (length >= kShortestOfSize * asked && length <= kLongestOfSize * asked) ++result.edges_of_size;
             if (other != mesh::kRimSide) continue;
             ++result.rows;
             if (stands_well(mesh.points, quad, k, asked)) ++result.good_rows;

@@ -14,6 +14,9 @@ namespace lacuna::quads {
 /// negative where a corner is folded, 0 where a side has no length.
 double scaled_jacobian(std::span<const Vec2> points, const Quad& quad);
 
+/// Sides this much shorter or longer than asked for are of another size. Choices, not measurements.
+inline constexpr double kShortestOfSize = 0.6, kLongestOfSize = 1.6;
+
 /// Quality of quads over a region.
 struct PlaneQuality {
     std::size_t quads = 0, points = 0;

@@ -18,8 +18,6 @@ namespace {
 /// off by. A choice, not a measurement.
 constexpr double kAlike = 1e-6;
 
-std::size_t index(Index p) { return static_cast<std::size_t>(p); }
-
 Vec2 middle_of(const PlanarRegion& region)
 {
     Vec2 centre = Vec2::Zero();

@@ -34,8 +34,6 @@ public:
     }
 
 private:
-    static std::size_t index(Index p) { return static_cast<std::size_t>(p); }
-
     /// Follow the quads from the boundary inward. @return false where one has no image
     [[nodiscard]] bool maps_quads(Symmetry& symmetry) const
     {

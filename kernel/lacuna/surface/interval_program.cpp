@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/interval_program.h>
 
 #include <lacuna/geometry/union_find.h>
+#include <lacuna/quads/measure_plane.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +21,8 @@ constexpr double kBelowFloor = 1e6;
 /// Up to this many free variables vectors are tried by twos as well: a board of 32 × 32 faces has as many. A
 /// choice, not a measurement.
 constexpr std::size_t kByTwos = 64;
-/// Sides this much shorter or longer than asked for are of another size, as `quads::measure_plane()` has it,
-/// and what that costs for each side wanted and each time it is off by that again. A choice.
-constexpr double kShortest = 0.6, kLongest = 1.6, kOutOfSize = 2;
+/// What sides of another size cost for each side wanted and each time they are off by that again. A choice.
+constexpr double kOutOfSize = 2;
 /// Coefficients beyond this are no interval assignment; it keeps products within range.
 constexpr std::int64_t kMostCoefficient = 1 << 20;
 /// Larger sets are left alone: these take a tenth of a second. A choice.
@@ -34,7 +34,8 @@ double wish_cost(double n, double wanted, double weight)
 {
     n = std::max(n, 0.5);
     const double longer = wanted / n; // than asked for
-    const double out = std::max({0.0, kShortest / longer - 1, longer / kLongest - 1});
+    const double out = std::max(
+        {0.0, quads::kShortestOfSize / longer - 1, longer / quads::kLongestOfSize - 1});
     return weight * ((n - wanted) * (n - wanted) / n + kOutOfSize * wanted * out);
 }
 

@@ -5,6 +5,7 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/transfinite.h>
+#include <lacuna/quads/measure_plane.h>
 #include <lacuna/surface/edge_nodes.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -21,8 +22,6 @@ namespace {
 constexpr std::size_t kSamples = 24;
 /// Lines between two sides on which sizes are asked for. A choice, not a measurement.
 constexpr std::size_t kLines = 3;
-/// Those of `quads::measure_plane()`.
-constexpr double kShortest = 0.6, kLongest = 1.6;
 
 bool is_flat(const Model& model, FaceId face)
 {
@@ -120,8 +119,9 @@ MappedFace::Shape MappedFace::shape(const SizeField& size) const
         double squares = 0;
         for (const double s : own) squares += s * s;
         const double mean = std::sqrt(squares / static_cast<double>(own.size()));
-        const auto good = std::count_if(
-            own.begin(), own.end(), [&](double s) { return s >= kShortest * mean && s <= kLongest * mean; });
+        const auto good = std::count_if(own.begin(), own.end(), [&](double s) {
+            return s >= quads::kShortestOfSize * mean && s <= quads::kLongestOfSize * mean;
+        });
         shape.even_share = std::min(shape.even_share,
                                     static_cast<double>(good) / static_cast<double>(own.size()));
     }

@@ -225,6 +225,7 @@ private:
     {
         return members_[m].volume->model[face].origin == Origin::made_void;
     }
+
     /// In the plan's order; where a member cannot keep what others have made, it goes before them.
     void sweep_all()
     {

@@ -43,10 +43,11 @@ struct Way {
     double column = 0;                       ///< length of a column in the mean [model length]
 };
 
-Way way_of(const OpenVolume& volume)
+Way way_of(const OpenVolume& volume, const RunContext& context)
 {
     std::vector<std::vector<Vec3>> columns;
-    std::vector<surface::LinkingSurface> links = surface::linking_surfaces(volume);
+    std::vector<surface::LinkingSurface> links = surface::linking_surfaces(volume, surface::Turning::each, {},
+                                                                           context);
     // One seam says nothing of the middle; where another linking surface does, that is enough.
     const bool lines = std::ranges::any_of(links,
                                            [](const auto& link) { return link.lines.size() >= kMiddle; });
@@ -165,10 +166,11 @@ bool by_count_alone(const OpenVolume& volume, const SweepOptions& options)
 
 } // namespace
 
-std::optional<DrawnLayers> drawn_layers(const OpenVolume& volume, const SweepOptions& options)
+std::optional<DrawnLayers> drawn_layers(const OpenVolume& volume, const SweepOptions& options,
+                                        const RunContext& context)
 {
     if (options.curvature == 0 || !by_count_alone(volume, options)) return std::nullopt;
-    const Way way = way_of(volume);
+    const Way way = way_of(volume, context);
     constexpr double kStraight = 1e-3; // [radian]
     if (!(way.turned.back() > kStraight)) return std::nullopt;
     const int layers = options.layers.count;

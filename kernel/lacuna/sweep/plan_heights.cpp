@@ -11,7 +11,6 @@
 #include <limits>
 #include <numbers>
 #include <string>
-#include <utility>
 
 namespace lacuna::sweep {
 

@@ -746,7 +746,7 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunC
                            "the volume is not sealed; close it first with volume:close()");
     }
     const SweepOptions options = with_layer_intervals(volume, asked);
-    const std::optional<DrawnLayers> drawn = drawn_layers(volume, options);
+    const std::optional<DrawnLayers> drawn = drawn_layers(volume, options, context);
     if (!drawn) return sweep_for_volume(volume, options, context);
     std::string why;
     try {

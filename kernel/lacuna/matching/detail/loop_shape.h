@@ -34,6 +34,9 @@ LoopShape shape_of(const topology::Model& model, const topology::Rim& rim, const
 /// Number of sides of a loop whose edges all came with sides; 0 where some did not.
 std::size_t given_sides(const LoopShape& shape);
 
+/// The number of the first given side of each edge of a loop, from 0.
+std::vector<std::size_t> first_sides(const LoopShape& shape);
+
 /// Take every given side for as long as the others: loops that came with as many are then the same all along.
 /// @pre given_sides()
 void count_by_sides(LoopShape& shape);

@@ -25,7 +25,9 @@ struct DrawnLayers {
 /// @return  nothing where even layers lose little more; where anything but a count says where layers lie
 ///          (heights, a bias, boundary layers of an end, walls that keep their nodes, neighbours in an
 ///          assembly); and where `curvature` is 0.
+/// @throw Cancelled
 /// @cost  walls with side lines: a walk along these; others: a harmonic map of them.
-std::optional<DrawnLayers> drawn_layers(const topology::OpenVolume& volume, const SweepOptions& options);
+std::optional<DrawnLayers> drawn_layers(const topology::OpenVolume& volume, const SweepOptions& options,
+                                        const RunContext& context = {});
 
 } // namespace lacuna::sweep
