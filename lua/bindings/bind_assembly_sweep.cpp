@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "bindings/classes.h"
+#include "bindings/options.h"
+#include "bindings/sweep_members.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace lacuna::lua {
+
+namespace {
+
+/// The options of one volume: those for all, which have words as keys, and what [volume] says over them. Left
+/// on the stack.
+void push_options_of(lua_State* L, int index, const Box<VolumeState>& volume)
+{
+    lua_newtable(L);
+    const int merged = lua_gettop(L);
+    const auto lay_over = [&](int from) {
+        for (lua_pushnil(L); lua_next(L, from) != 0;) {
+            if (lua_type(L, -2) == LUA_TSTRING) {
+                lua_pushvalue(L, -2);
+                lua_insert(L, -2);
+                lua_rawset(L, merged);
+            } else {
+                lua_pop(L, 1);
+            }
+        }
+    };
+    lay_over(index);
+    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
+        const Box<VolumeState>* const key = test_box<VolumeState>(L, -2);
+        if (key == nullptr || *key != volume) continue;
+        lay_over(lua_absindex(L, -1));
+    }
+}
+
+/// Refuse keys that are neither words nor volumes of the assembly, and keys of a volume's options that are no
+/// words.
+void check_volume_keys(lua_State* L, int index, const AssemblyState& assembly)
+{
+    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
+        if (lua_type(L, -2) == LUA_TSTRING) continue;
+        const Box<VolumeState>* const key = test_box<VolumeState>(L, -2);
+        const auto is_key = [key](const AssemblyState::Entry& entry) { return entry.volume == *key; };
+        if (key == nullptr || !*key || std::ranges::none_of(assembly.entries, is_key))
+            fail(L, "sweep: the keys of the options are words, or volumes of the assembly");
+        if (lua_type(L, -1) != LUA_TTABLE) fail_value(L, {"sweep", "[volume]"}, "a table of options", -1);
+        const int own = lua_gettop(L);
+        for (lua_pushnil(L); lua_next(L, own) != 0; lua_pop(L, 1)) {
+            if (lua_type(L, -2) == LUA_TSTRING) continue;
+            fail(L,
+                 "sweep: the keys of one volume's options are words; found a %s: give each volume's options "
+                 "in the table of the whole",
+                 test_box<VolumeState>(L, -2) != nullptr ? "volume" : luaL_typename(L, -2));
+        }
+    }
+}
+
+/// Which options that name faces a volume has of its own.
+void read_own(lua_State* L, int index, const Box<VolumeState>& volume, SweepArguments& arguments)
+{
+    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
+        const Box<VolumeState>* const key = test_box<VolumeState>(L, -2);
+        if (key == nullptr || *key != volume) continue;
+        for (const char* option : kOfFaces) {
+            if (lua_getfield(L, -1, option) != LUA_TNIL) guard(L, [&] { arguments.own.insert(option); });
+            lua_pop(L, 1);
+        }
+    }
+}
+
+/// mesh = assembly:sweep(options)
+int sweep_assembly(lua_State* L)
+{
+    lua_settop(L, 2);
+    const auto& assembly = hold<AssemblyState>(L, 1);
+    if (lua_isnoneornil(L, 2)) {
+        lua_newtable(L);
+        lua_replace(L, 2);
+    }
+    if (lua_type(L, 2) != LUA_TTABLE) fail_value(L, {"sweep", nullptr}, "a table of options", 2);
+    check_volume_keys(L, 2, assembly);
+    auto& arguments = temporary<std::vector<SweepArguments*>>(L);
+    for (const AssemblyState::Entry& entry : assembly.entries) {
+        if (!entry.volume) continue;
+        luaL_checkstack(L, 16, "too many volumes");
+        push_options_of(L, 2, entry.volume);
+        SweepArguments& own = push_sweep_arguments(L, lua_gettop(L), "sweep", *entry.volume);
+        read_own(L, 2, entry.volume, own);
+        guard(L, [&] { arguments.push_back(&own); });
+    }
+    RunContext& context = push_context(L);
+    if (!arguments.empty() && arguments.front()->threads != 0) context.threads = arguments.front()->threads;
+    lua_gc(L, LUA_GCCOLLECT);
+    auto& box = new_box<AssemblyMeshState>(L);
+    guard(L, [&] {
+        StageClock clock(context);
+        std::vector<ToMesh> members;
+        std::vector<sweep::LeftOut> left_out;
+        auto own = arguments.begin();
+        for (std::size_t m = 0; m < assembly.entries.size(); ++m) {
+            const AssemblyState::Entry& entry = assembly.entries[m];
+            for (std::unique_ptr<FixedMember>& fixed : fixed_members(entry, context))
+                members.push_back({nullptr, nullptr, std::move(fixed), false});
+            if (!entry.volume) continue;
+            SweepArguments& options = **own++;
+            const std::string name = entry.volume->name.empty() ? "volume_" + std::to_string(m + 1)
+                                                                : entry.volume->name;
+            options.name = name;
+            const auto add = [&] { add_members(members, entry.volume, name, options, context); };
+            if (!do_or_leave_out(left_out, name, options, add))
+                members.push_back({entry.volume, &options, nullptr, true});
+        }
+        box = sweep_members(members, std::move(left_out), context);
+        box->seconds = clock.seconds();
+    });
+    return 1;
+}
+
+const luaL_Reg kAssemblyMethods[] = {{"sweep", sweep_assembly}, {nullptr, nullptr}};
+
+} // namespace
+
+void bind_assembly_sweep(lua_State* L) { add_methods(L, kClassName<AssemblyState>, kAssemblyMethods); }
+
+} // namespace lacuna::lua

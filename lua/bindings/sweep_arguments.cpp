@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: MIT
+#include "bindings/sweep_arguments.h"
+
+#include "bindings/faces.h"
+#include "bindings/lacuna_lua.h"
+#include "bindings/options.h"
+
+#include <lacuna/cad/load.h>
+
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <thread>
+
+namespace lacuna::lua {
+
+namespace {
+
+using sweep::Quads;
+using sweep::Spacing;
+
+// --- layers ---------------------------------------------------------------------------------------------
+
+const Word<Spacing> kSpacings[] = {
+    {"geometric", Spacing::geometric},
+    {"bell", Spacing::bell},
+    {"both_ends", Spacing::both_ends},
+};
+
+void read_spacing(lua_State* L, int index, const Where& where, sweep::LayerSpec& spec)
+{
+    spec.spacing = read_word(L, index, where, kSpacings);
+}
+
+const Option<sweep::LayerSpec> kLayerOptions[] = {
+    {"count", count<&sweep::LayerSpec::count>},
+    {"bias", positive<&sweep::LayerSpec::bias>},
+    {"mode", read_spacing},
+};
+
+void read_heights(lua_State* L, int index, const Where& where, sweep::LayerSpec& spec)
+{
+    const std::size_t size = lua_rawlen(L, index);
+    guard(L, [&] { spec.heights.resize(size); });
+    std::size_t next = 0;
+    read_array(L, index, where, "",
+               [&](int element, const Where& at) { spec.heights[next++] = read_number(L, element, at); });
+}
+
+void read_layers(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    sweep::LayerSpec& spec = arguments.options.layers;
+    int whole = 0;
+    if (lua_type(L, index) == LUA_TNUMBER && lua_tointegerx(L, index, &whole) > 0 && whole) {
+        spec.count = read_whole(L, index, where, 1);
+    } else if (lua_type(L, index) == LUA_TTABLE && lua_rawlen(L, index) > 0) {
+        read_heights(L, index, where, spec);
+    } else if (lua_type(L, index) == LUA_TTABLE) {
+        read_options(L, index, "sweep: layers", kLayerOptions, spec);
+        if (spec.count == 0) fail_option(L, where, "has no 'count': { count =, bias =, mode = }");
+    } else {
+        fail_value(L, where,
+                   "a positive whole number, an array of rising heights in (0, 1] or a table "
+                   "{ count =, bias =, mode = }",
+                   index);
+    }
+}
+
+// --- size -----------------------------------------------------------------------------------------------
+
+/// A length, or a Lua function of place: where that stands is settled by push_arguments().
+void read_field(lua_State* L, int index, const Where& where, surface::SizeField& field, int& function)
+{
+    if (lua_type(L, index) == LUA_TFUNCTION) {
+        function = 1;
+    } else if (lua_type(L, index) == LUA_TNUMBER) {
+        const double length = read_positive(L, index, where);
+        guard(L, [&] { field = [length](const Vec3&) { return length; }; });
+    } else {
+        fail_value(L, where, "a positive number or a function(x, y, z) that returns one", index);
+    }
+}
+
+void read_size(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    read_field(L, index, where, arguments.options.size, arguments.size_function);
+}
+
+void read_row_height(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    read_field(L, index, where, arguments.options.row_height, arguments.row_height_function);
+}
+
+void read_rows(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.rows = read_whole(L, index, where, 1);
+}
+
+// --- boundary layers and intervals ----------------------------------------------------------------------
+
+/// A Face, a tag, a name or a selector of faces of the volume.
+void read_face_name(lua_State* L, int index, const Where& where, const VolumeState& volume,
+                    surface::FaceNames& names)
+{
+    if (const Box<FaceHandle>* handle = test_box<FaceHandle>(L, index)) {
+        if (!*handle) fail_option(L, where, "is a face that was closed");
+        guard(L, [&] { names.tags.push_back((*handle)->model->model[face_of(**handle)].tag); });
+        return;
+    }
+    switch (lua_type(L, index)) {
+    case LUA_TNUMBER: {
+        const int tag = read_whole(L, index, where, 0);
+        guard(L, [&] { names.tags.push_back(tag); });
+        return;
+    }
+    case LUA_TSTRING: {
+        const char* name = read_string(L, index, where);
+        guard(L, [&] { names.names.emplace_back(name); });
+        return;
+    }
+    case LUA_TTABLE:
+        break;
+    default:
+        fail_value(L, where, "a Face, a tag, a name, a selector or an array of those", index);
+    }
+    lua_pushnil(L);
+    if (lua_next(L, index) == 0) fail_option(L, where, "names no face");
+    lua_pop(L, 2);
+    auto& wanted = temporary<Selector>(L);
+    read_selector(L, index, where.call, wanted);
+    bool any = false;
+    guard(L, [&] {
+        for (const FaceId face : select(volume.volume.model, wanted)) {
+            if (volume.volume.model[face].origin != topology::Origin::given) continue;
+            names.tags.push_back(volume.volume.model[face].tag);
+            any = true;
+        }
+    });
+    if (!any) fail_option(L, where, "selects no face of the volume");
+}
+
+void read_face_names(lua_State* L, int index, const Where& where, const VolumeState& volume,
+                     surface::FaceNames& names)
+{
+    if (lua_type(L, index) == LUA_TTABLE && lua_rawlen(L, index) > 0) {
+        read_array(L, index, where, "",
+                   [&](int element, const Where& at) { read_face_name(L, element, at, volume, names); });
+        return;
+    }
+    read_face_name(L, index, where, volume, names);
+}
+
+struct LayerArguments {
+    surface::BoundaryLayer layer;
+    const VolumeState* volume = nullptr;
+};
+
+void read_layer_walls(lua_State* L, int index, const Where& where, LayerArguments& arguments)
+{
+    read_face_names(L, index, where, *arguments.volume, arguments.layer.walls);
+}
+
+void read_first(lua_State* L, int index, const Where& where, LayerArguments& arguments)
+{
+    arguments.layer.first = read_positive(L, index, where);
+}
+
+void read_growth(lua_State* L, int index, const Where& where, LayerArguments& arguments)
+{
+    arguments.layer.growth = read_positive(L, index, where);
+}
+
+void read_count(lua_State* L, int index, const Where& where, LayerArguments& arguments)
+{
+    arguments.layer.count = read_whole(L, index, where, 1);
+}
+
+const Option<LayerArguments> kBoundaryLayerOptions[] = {
+    {"walls", read_layer_walls},
+    {"first", read_first},
+    {"growth", read_growth},
+    {"count", read_count},
+};
+
+void read_boundary_layer(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    if (lua_type(L, index) != LUA_TTABLE)
+        fail_value(L, where, "a table { walls =, first =, growth =, count = } or an array of those", index);
+    auto& one = temporary<LayerArguments>(L);
+    one.volume = arguments.volume;
+    read_options(L, index, "sweep: boundary_layers", kBoundaryLayerOptions, one);
+    if (one.layer.walls.tags.empty() && one.layer.walls.names.empty())
+        fail_option(L, where, "has no 'walls': { walls =, first =, growth =, count = }");
+    if (one.layer.first == 0) fail_option(L, where, "has no 'first', the thickness of the first row");
+    guard(L, [&] { arguments.options.boundary_layers.push_back(one.layer); });
+}
+
+void read_boundary_layers(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    if (lua_type(L, index) == LUA_TTABLE && lua_rawlen(L, index) > 0) {
+        read_array(L, index, where, "",
+                   [&](int element, const Where& at) { read_boundary_layer(L, element, at, arguments); });
+        return;
+    }
+    read_boundary_layer(L, index, where, arguments);
+}
+
+/// Whether the value is { vertex, vertex }.
+bool is_pair_of_tags(lua_State* L, int index)
+{
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2) return false;
+    bool numbers = true;
+    for (int i = 1; i <= 2; ++i) {
+        numbers = lua_rawgeti(L, index, i) == LUA_TNUMBER && numbers;
+        lua_pop(L, 1);
+    }
+    return numbers;
+}
+
+/// { edge or { vertex, vertex } or wall or "sweep", count [, bias] }
+void read_interval(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    using Of = surface::Interval::Of;
+    const char* const expected =
+        "a table { edge tag, { vertex, vertex }, wall or \"sweep\"; count [, bias] }";
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) < 1) fail_value(L, where, expected, index);
+    auto& interval = temporary<surface::Interval>(L);
+    const int top = lua_gettop(L);
+    const auto read_either = [&](int place, const char* key) {
+        if (lua_rawgeti(L, index, place) != LUA_TNIL) return true;
+        lua_pop(L, 1);
+        return lua_getfield(L, index, key) != LUA_TNIL;
+    };
+    if (!read_either(2, "count")) fail_option(L, where, "has no count: { …, count [, bias] }");
+    interval.count = read_whole(L, lua_gettop(L), where, 1);
+    lua_settop(L, top);
+    if (read_either(3, "bias")) interval.bias = read_positive(L, lua_gettop(L), where);
+    lua_settop(L, top);
+    lua_rawgeti(L, index, 1);
+    const int what = lua_gettop(L);
+    if (lua_type(L, what) == LUA_TNUMBER) {
+        interval.of = Of::edge;
+        interval.edge = read_whole(L, what, where, 0);
+    } else if (is_pair_of_tags(L, what)) {
+        interval.of = Of::vertices;
+        for (int i = 0; i < 2; ++i) {
+            lua_rawgeti(L, what, i + 1);
+            interval.vertices[static_cast<std::size_t>(i)] = read_whole(L, lua_gettop(L), where, 0);
+            lua_pop(L, 1);
+        }
+    } else if (lua_type(L, what) == LUA_TSTRING && std::string_view(lua_tostring(L, what)) == "sweep") {
+        interval.of = Of::sweep;
+    } else {
+        interval.of = Of::wall;
+        read_face_names(L, what, where, *arguments.volume, interval.walls);
+    }
+    guard(L, [&] { arguments.options.intervals.push_back(interval); });
+}
+
+void read_intervals(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    read_array(L, index, where, "an array of { edge, { vertex, vertex }, wall or \"sweep\"; count [, bias] }",
+               [&](int element, const Where& at) { read_interval(L, element, at, arguments); });
+}
+
+/// Calls back a recipe's function. The kernel samples sizes on the thread that called it; were it ever to ask
+/// from another, Lua, which knows no threads, would be lost: so that is refused.
+struct LuaSize {
+    lua_State* state;
+    int function;
+    std::thread::id thread;
+    const char* option = "size";
+
+    double operator()(const Vec3& place) const
+    {
+        lua_State* const L = state;
+        if (std::this_thread::get_id() != thread || !lua_checkstack(L, 8))
+            throw Error("lua.size_function", std::string("the function of option '") + option +
+                                                 "' cannot be called here; give a number");
+        lua_pushvalue(L, function);
+        for (const double coordinate : place) lua_pushnumber(L, coordinate);
+        if (lua_pcall(L, 3, 1, 0) != LUA_OK) {
+            keep_callback_error(L);
+            throw CallbackFailed{};
+        }
+        const double size = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : std::nan("");
+        lua_pop(L, 1);
+        return size; // the kernel refuses what is no length
+    }
+};
+
+// --- the rest -------------------------------------------------------------------------------------------
+
+const Word<Quads> kQuads[] = {
+    {"auto", Quads::automatic}, {"paved", Quads::paved}, {"mapped", Quads::mapped},
+    {"gmsh", Quads::gmsh},      {"keep", Quads::keep},
+};
+
+void read_quads(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.quads = read_word(L, index, where, kQuads);
+}
+
+void read_wedges(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.wedges = read_boolean(L, index, where);
+}
+
+const Word<sweep::Fallback> kFallbacks[] = {
+    {"wedges", sweep::Fallback::wedges},
+    {"leave_out", sweep::Fallback::leave_out},
+};
+
+void read_fallback(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.fallback = read_word(L, index, where, kFallbacks);
+}
+
+void read_order(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.order = read_whole(L, index, where, 1);
+    if (arguments.options.order > 2) fail_value(L, where, "1 or 2", index);
+}
+
+void read_serendipity(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.second_order.serendipity = read_boolean(L, index, where);
+}
+
+void read_min_scaled_jacobian(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.min_scaled_jacobian = read_number(L, index, where);
+}
+
+void read_curvature(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.curvature = read_whole(L, index, where, 0);
+    arguments.options.volume_share = 0; // who names the sides for a turn gets those
+}
+
+void read_gap(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.gap = read_whole(L, index, where, 1);
+}
+
+void read_max_deviation(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.max_deviation = read_positive(L, index, where);
+}
+
+const Word<sweep::Interior> kInteriors[] = {
+    {"auto", sweep::Interior::automatic},
+    {"affine", sweep::Interior::affine},
+    {"residual", sweep::Interior::residual},
+    {"normals", sweep::Interior::normals},
+};
+
+void read_interior(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    arguments.options.interior = read_word(L, index, where, kInteriors);
+}
+
+const Option<sweep::ImproveOptions> kImproveOptions[] = {
+    {"iterations", count<&sweep::ImproveOptions::iterations>},
+    {"seconds", positive<&sweep::ImproveOptions::seconds>},
+};
+
+void read_improve(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    if (lua_type(L, index) == LUA_TTABLE) {
+        read_options(L, index, "sweep: improve", kImproveOptions, arguments.options.improving);
+    } else if (lua_type(L, index) == LUA_TBOOLEAN) {
+        arguments.options.improve = read_boolean(L, index, where);
+    } else {
+        fail_value(L, where, "true, false or a table { iterations =, seconds = }", index);
+    }
+}
+
+const Option<SweepArguments> kSweepOptions[] = {
+    {"layers", read_layers},
+    {"size", read_size},
+    {"curvature", read_curvature},
+    {"gap", read_gap},
+    {"max_deviation", read_max_deviation},
+    {"quads", read_quads},
+    {"wedges", read_wedges},
+    {"fallback", read_fallback},
+    {"rows", read_rows},
+    {"row_height", read_row_height},
+    {"boundary_layers", read_boundary_layers},
+    {"intervals", read_intervals},
+    {"order", read_order},
+    {"serendipity", read_serendipity},
+    {"min_scaled_jacobian", read_min_scaled_jacobian},
+    {"improve", read_improve},
+    {"interior", read_interior},
+    {"threads", count<&SweepArguments::threads>},
+};
+
+/// Leave the function of an option on the stack, if it is one, for the field to call.
+void push_field(lua_State* L, int index, const char* option, int function, surface::SizeField& field)
+{
+    if (!function) return;
+    lua_getfield(L, index, option);
+    const int place = lua_gettop(L);
+    guard(L, [&] { field = LuaSize{L, place, std::this_thread::get_id(), option}; });
+}
+
+} // namespace
+
+SweepArguments& push_sweep_arguments(lua_State* L, int index, const char* call, const VolumeState& volume)
+{
+    auto& arguments = temporary<SweepArguments>(L);
+    arguments.volume = &volume;
+    read_options(L, index, call, kSweepOptions, arguments);
+    push_field(L, index, "size", arguments.size_function, arguments.options.size);
+    push_field(L, index, "row_height", arguments.row_height_function, arguments.options.row_height);
+    guard(L, [&] { arguments.options.quad_mesher = cad::recombine; });
+    // A height alone stands for one row of it.
+    if (arguments.options.row_height && arguments.options.rows == 0) arguments.options.rows = 1;
+    guard(L, [&] {
+        RunContext context;
+        context.threads = arguments.threads;
+        sweep::check(arguments.options, context);
+    });
+    return arguments;
+}
+
+} // namespace lacuna::lua

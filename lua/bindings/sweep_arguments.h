@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The options of volume:sweep, volume:sweep_to and assembly:sweep, read from a table.
+
+#include "bindings/classes.h"
+
+#include <array>
+#include <set>
+#include <string>
+
+struct lua_State;
+
+namespace lacuna::lua {
+
+/// Options of a sweep as a recipe gave them.
+struct SweepArguments {
+    sweep::SweepOptions options;
+    int threads = 0;
+    int size_function = 0; ///< stack index of a Lua function, 0 for none
+    int row_height_function = 0;
+    const VolumeState* volume = nullptr; ///< that selectors choose the faces of
+    std::string name;                    ///< of that volume
+    std::set<std::string> own;           ///< options that were given for it alone, and name its faces
+};
+
+/// The options that name faces.
+inline constexpr std::array<const char*, 2> kOfFaces{"boundary_layers", "intervals"};
+
+/// Read the options at `index`, nil or a table, of the method `call`, as a temporary. Leaves the functions
+/// that sizes call on the stack.
+/// @param volume  that selectors choose the faces of; it outlives what is returned.
+SweepArguments& push_sweep_arguments(lua_State* L, int index, const char* call, const VolumeState& volume);
+
+} // namespace lacuna::lua
