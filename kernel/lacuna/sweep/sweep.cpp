@@ -8,6 +8,7 @@
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/drawn_layers.h>
+#include <lacuna/sweep/detail/known_links.h>
 #include <lacuna/sweep/detail/mean_outline.h>
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/sweep_between.h>
@@ -75,7 +76,7 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
 
 /// From source to target, by the linking surfaces that the walls are.
 ProvedSweep sweep_one_way(const OpenVolume& volume, const SourceSize& size, const SweepOptions& options,
-                          Outline outline, const RunContext& context)
+                          Outline outline, KnownLinks& known, const RunContext& context)
 {
     const bool counted = options.layers.count > 0 || !options.layers.heights.empty();
     std::vector<double> heights = counted ? layer_heights(options.layers) : std::vector<double>{};
@@ -84,8 +85,7 @@ ProvedSweep sweep_one_way(const OpenVolume& volume, const SourceSize& size, cons
         for (double& h : heights) h = 1 - h;
     }
     report_progress(context, "linking surfaces");
-    const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(
-        volume, surface::Turning::each, {}, context);
+    const std::vector<surface::LinkingSurface>& links = known.of(volume, context);
     return can_turn_together(links) ? better_turning(volume, links, heights, size, options, outline, context)
                                     : sweep_between(volume, links, heights, size, options, outline, context);
 }
@@ -120,10 +120,11 @@ void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, 
 }
 
 /// A mesh that was proved, and compared with the sealed skin.
-Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
+Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
+                     const RunContext& context)
 {
     const OneWay one_way = [&](const OpenVolume& way, const SweepOptions& rest, Outline outline) {
-        return sweep_one_way(way, source_size(way, rest, context), rest, outline, context);
+        return sweep_one_way(way, source_size(way, rest, context), rest, outline, links, context);
     };
     ProvedSweep result = sweep_both_ways(volume, options, one_way, context);
     quality::require(result.proof);
@@ -152,16 +153,17 @@ constexpr double kPoorCurved = 0.1;
 constexpr int kMostForCurved = 32;
 
 /// The sweep asked for. Of order 2, with more sides for a turn as long as cells are poor or not valid.
-Swept sweep_as_asked(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
+Swept sweep_as_asked(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
+                     const RunContext& context)
 {
     if (options.order == 1 || options.volume_share == 0 || options.curvature == 0)
-        return sweep_compared(volume, options, context);
+        return sweep_compared(volume, options, links, context);
     std::optional<Swept> best;
     std::optional<NotSweepable> refused;
     for (SweepOptions rest = options; rest.curvature <= kMostForCurved;
          rest.curvature += rest.curvature / 4 + 1) {
         try {
-            Swept next = sweep_compared(volume, rest, context);
+            Swept next = sweep_compared(volume, rest, links, context);
             if (rest.curvature != options.curvature)
                 next.report.push_back(
                     "order 2: " + std::to_string(rest.curvature) + " sides for a full turn instead of " +
@@ -178,11 +180,11 @@ Swept sweep_as_asked(const OpenVolume& volume, const SweepOptions& options, cons
 }
 
 /// The options, with the layers that intervals ask for.
-SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options)
+SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options, KnownLinks& known,
+                                  const RunContext& context)
 {
     if (options.intervals.empty()) return options;
-    const auto links = surface::linking_surfaces(volume);
-    const auto layers = surface::find_intervals(volume, links, options.intervals).layers;
+    const auto layers = surface::find_intervals(volume, known.of(volume, context), options.intervals).layers;
     if (!layers) return options;
     LayerSpec& spec = options.layers;
     if (spec.count > 0 || !spec.heights.empty()) {
@@ -201,14 +203,15 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
 }
 
 /// With more sides for a full turn as long as too much volume is lost.
-Swept sweep_for_volume(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
+Swept sweep_for_volume(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
+                       const RunContext& context)
 {
-    Swept best = sweep_as_asked(volume, options, context);
+    Swept best = sweep_as_asked(volume, options, links, context);
     SweepOptions rest = options;
     while (const std::optional<int> sides = sides_for_lost_volume(best.fidelity, rest)) {
         rest.curvature = *sides;
         try {
-            Swept next = sweep_compared(volume, rest, context);
+            Swept next = sweep_compared(volume, rest, links, context);
             const double enough = std::min(best.min_scaled_jacobian, options.improving.good_enough);
             if (!is_closer(volume_lost(next.fidelity), volume_lost(best.fidelity)) ||
                 next.min_scaled_jacobian < enough)
@@ -229,7 +232,8 @@ Swept sweep_for_volume(const OpenVolume& volume, const SweepOptions& options, co
     return best;
 }
 
-Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
+Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks& links,
+                 const RunContext& context)
 {
     check_cancelled(context);
     report_progress(context, "size");
@@ -238,33 +242,34 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunC
         throw NotSweepable("sweep.not_closed",
                            "the volume is not sealed; close it first with volume:close()");
     }
-    const SweepOptions options = with_layer_intervals(volume, asked);
-    const std::optional<DrawnLayers> drawn = drawn_layers(volume, options, context);
-    if (!drawn) return sweep_for_volume(volume, options, context);
+    const SweepOptions options = with_layer_intervals(volume, asked, links, context);
+    const std::optional<DrawnLayers> drawn = drawn_layers(volume, options, links, context);
+    if (!drawn) return sweep_for_volume(volume, options, links, context);
     std::string why;
     try {
         SweepOptions moved = options;
         moved.layers = {};
         moved.layers.heights = drawn->heights;
-        Swept swept = sweep_for_volume(volume, moved, context);
+        Swept swept = sweep_for_volume(volume, moved, links, context);
         swept.report.push_back(drawn->report);
         return swept;
     } catch (const NotSweepable& error) {
         why = error.what();
     }
     log_line(context, "layers nearer to each other in the bends: " + why);
-    Swept swept = sweep_for_volume(volume, options, context);
+    Swept swept = sweep_for_volume(volume, options, links, context);
     swept.report.push_back("layers: even ones; nearer to each other in the bends they fail: " + why);
     return swept;
 }
 
 Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {
-    if (asked.fallback != Fallback::wedges || asked.wedges) return sweep_once(volume, asked, context);
+    KnownLinks links;
+    if (asked.fallback != Fallback::wedges || asked.wedges) return sweep_once(volume, asked, links, context);
     std::exception_ptr why;
     std::string words;
     try {
-        return sweep_once(volume, asked, context);
+        return sweep_once(volume, asked, links, context);
     } catch (const NotSweepable& error) {
         why = std::current_exception();
         words = error.what();
@@ -272,7 +277,7 @@ Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, 
     try {
         SweepOptions with_wedges = asked;
         with_wedges.wedges = true;
-        Swept swept = sweep_once(volume, with_wedges, context);
+        Swept swept = sweep_once(volume, with_wedges, links, context);
         swept.report.push_back("fallback: meshed with wedges, because " + words);
         return swept;
     } catch (const Cancelled&) {
