@@ -46,6 +46,22 @@ TEST_CASE("a file that is given up leaves nothing, and what was there before sta
     CHECK(folder.entries() == 1);
 }
 
+TEST_CASE("room that was taken before is filled in any order")
+{
+    const test::Folder folder;
+    const std::string path = folder.file("a.txt");
+    {
+        io::WholeFile file(path);
+        file.reserve(0, 4);
+        file.reserve(4, 10);
+        file.write_at(7, "two");
+        file.write_at(0, "one and");
+        CHECK_FALSE(std::filesystem::exists(path));
+        file.commit();
+    }
+    CHECK(test::bytes_of(path) == "one andtwo");
+}
+
 TEST_CASE("places that cannot be written to are told apart")
 {
     const test::Folder folder;

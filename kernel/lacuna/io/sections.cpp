@@ -30,6 +30,9 @@ struct Chunk {
     std::string_view text;
     std::size_t begin, end;
     std::uint64_t offset; ///< in the file, where sizes are exact
+    /// Where sizes are exact, the bytes of them that are this chunk's: between [skip, skip + bytes) of text and
+    /// records together. A record that two chunks meet in is filled for both.
+    std::size_t skip = 0, bytes = 0;
 
     [[nodiscard]] std::size_t most_bytes() const
     {
@@ -37,23 +40,57 @@ struct Chunk {
     }
 };
 
-/// This process's share of each section. The text goes with the first records.
-std::vector<Chunk> cut(const std::vector<Section>& sections, const Team* team)
+/// This process's share of each section, cut where the file's blocks of `kBufferBytes` begin: what is written
+/// then fills pages. The text goes with the first records.
+std::vector<Chunk> cut_exact(const std::vector<Section>& sections, const Team* team)
 {
     const bool first = team == nullptr || team->rank == 0;
     std::vector<Chunk> chunks;
-    std::uint64_t offset = 0;
+    std::uint64_t start = 0; // of a section in the file
     for (const Section& section : sections) {
         const auto [share_begin, share_end] = share_of(team, section.records);
+        const std::uint64_t records = start + section.text.size(), size = section.record_bytes;
+        std::string_view text = first ? section.text : std::string_view();
+        std::uint64_t at = text.empty() ? records + share_begin * size : start;
+        const std::uint64_t end = std::max(records, records + share_end * size);
+        while (at < end) {
+            const std::uint64_t next = std::min((at / kBufferBytes + 1) * kBufferBytes, end);
+            Chunk chunk{&section, {}, share_begin, share_begin, at, 0, static_cast<std::size_t>(next - at)};
+            if (at < records) {
+                chunk.text = text.substr(static_cast<std::size_t>(at - start));
+                if (next < records) chunk.text = chunk.text.substr(0, chunk.bytes);
+            } else {
+                chunk.begin = static_cast<std::size_t>((at - records) / size);
+                chunk.skip = static_cast<std::size_t>((at - records) % size);
+            }
+            if (next > records) chunk.end = static_cast<std::size_t>((next - records + size - 1) / size);
+            chunks.push_back(chunk);
+            at = next;
+        }
+        start = records + section.records * size;
+    }
+    return chunks;
+}
+
+std::uint64_t size_of(const std::vector<Section>& sections)
+{
+    std::uint64_t bytes = 0;
+    for (const Section& section : sections)
+        bytes += section.text.size() + section.records * section.record_bytes;
+    return bytes;
+}
+
+/// Sections whose records vary, in pieces. The text goes with the first records.
+std::vector<Chunk> cut(const std::vector<Section>& sections)
+{
+    std::vector<Chunk> chunks;
+    for (const Section& section : sections) {
         const std::size_t step = section.record_bytes == 0
                                      ? 1
                                      : std::max<std::size_t>(1, kBufferBytes / section.record_bytes);
-        std::string_view text = first ? section.text : std::string_view();
-        for (std::size_t begin = share_begin; begin < share_end || !text.empty(); begin += step, text = {})
-            chunks.push_back(
-                {&section, text, begin, std::min(begin + step, share_end),
-                 offset + (text.empty() ? section.text.size() : 0) + begin * section.record_bytes});
-        offset += section.text.size() + section.records * section.record_bytes;
+        std::string_view text = section.text;
+        for (std::size_t begin = 0; begin < section.records || !text.empty(); begin += step, text = {})
+            chunks.push_back({&section, text, begin, std::min(begin + step, section.records), 0});
     }
     return chunks;
 }
@@ -113,7 +150,8 @@ void write_exact(const std::vector<Chunk>& chunks, const WriteAt& write, Share& 
                      Buffer buffer;
                      for (std::size_t c = begin; c < end; ++c) {
                          check_cancelled(context);
-                         write(chunks[c].offset, buffer.filled(chunks[c]));
+                         const std::string_view all = buffer.filled(chunks[c]);
+                         write(chunks[c].offset, all.substr(chunks[c].skip, chunks[c].bytes));
                          share.add(1);
                      }
                  });
@@ -176,11 +214,21 @@ void write_sections(const std::vector<Section>& sections, Sizes sizes, const Wri
                     const std::string& stage, const RunContext& context, const Team* team)
 {
     const bool in_rounds = sizes == Sizes::varying && team != nullptr;
-    const std::vector<Chunk> chunks = cut(sections, in_rounds ? nullptr : team);
+    const std::vector<Chunk> chunks = sizes == Sizes::exact ? cut_exact(sections, team) : cut(sections);
     Share share(context, stage, chunks.size());
     if (sizes == Sizes::exact) return write_exact(chunks, write, share, context);
     if (in_rounds) return write_in_rounds(chunks, write, share, context, *team);
     write_varying(chunks, write, share, context);
+}
+
+/// Room for a whole file, some at a time: where it is in memory that takes a while.
+void reserve(WholeFile& file, std::uint64_t bytes, const RunContext& context)
+{
+    constexpr std::uint64_t kStep = std::uint64_t(256) << 20; // tens of milliseconds in memory: a choice
+    for (std::uint64_t begin = 0; begin < bytes; begin += kStep) {
+        check_cancelled(context);
+        file.reserve(begin, std::min(begin + kStep, bytes));
+    }
 }
 
 /// Files of rank 0 that all of a team write to.
@@ -201,6 +249,7 @@ public:
     {
         if (team_ == nullptr) {
             WholeFile& file = *files[f];
+            if (sizes == Sizes::exact) reserve(file, size_of(sections), context);
             return write_sections(
                 sections, sizes,
                 [&](std::uint64_t offset, std::string_view bytes) { file.write_at(offset, bytes); }, stage,

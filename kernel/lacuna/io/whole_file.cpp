@@ -215,6 +215,20 @@ void WholeFile::fail(int error)
                                               ". Nothing was left behind");
 }
 
+void WholeFile::reserve(std::uint64_t begin, std::uint64_t end)
+{
+#ifdef FALLOC_FL_KEEP_SIZE
+    if (begin >= end) return;
+    while (::fallocate(descriptor_, 0, static_cast<off_t>(begin), static_cast<off_t>(end - begin)) != 0) {
+        if (errno == EINTR) continue;
+        if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG) fail(errno);
+        return; // a file system that cannot
+    }
+#else
+    static_cast<void>(begin), static_cast<void>(end);
+#endif
+}
+
 void WholeFile::write_at(std::uint64_t offset, std::string_view bytes)
 {
     while (!bytes.empty()) {

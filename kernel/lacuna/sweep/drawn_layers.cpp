@@ -43,20 +43,23 @@ struct Way {
     double column = 0;                       ///< length of a column in the mean [model length]
 };
 
-Way way_of(const OpenVolume& volume, const RunContext& context)
+Way way_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links)
 {
     std::vector<std::vector<Vec3>> columns;
-    std::vector<surface::LinkingSurface> links = surface::linking_surfaces(volume, surface::Turning::each, {},
-                                                                           context);
     // One seam says nothing of the middle; where another linking surface does, that is enough.
     const bool lines = std::ranges::any_of(links,
                                            [](const auto& link) { return link.lines.size() >= kMiddle; });
-    for (surface::LinkingSurface& link : links) {
-        if (link.lines.size() < kMiddle) {
-            if (lines) continue;
-            link.lines.clear();
-        }
+    const auto add = [&](const surface::LinkingSurface& link) {
         std::ranges::move(surface::wall_columns(volume, link, kSteps), std::back_inserter(columns));
+    };
+    for (const surface::LinkingSurface& link : links) {
+        if (link.lines.size() >= kMiddle) {
+            add(link);
+        } else if (!lines) {
+            surface::LinkingSurface without = link;
+            without.lines.clear();
+            add(without);
+        }
     }
     Way way;
     way.points.fill(Vec3::Zero());
@@ -167,10 +170,10 @@ bool by_count_alone(const OpenVolume& volume, const SweepOptions& options)
 } // namespace
 
 std::optional<DrawnLayers> drawn_layers(const OpenVolume& volume, const SweepOptions& options,
-                                        const RunContext& context)
+                                        KnownLinks& links, const RunContext& context)
 {
     if (options.curvature == 0 || !by_count_alone(volume, options)) return std::nullopt;
-    const Way way = way_of(volume, context);
+    const Way way = way_of(volume, links.of(volume, context));
     constexpr double kStraight = 1e-3; // [radian]
     if (!(way.turned.back() > kStraight)) return std::nullopt;
     const int layers = options.layers.count;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/sweep/detail/known_links.h>
 #include <lacuna/sweep/sweep.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -28,6 +29,6 @@ struct DrawnLayers {
 /// @throw Cancelled
 /// @cost  walls with side lines: a walk along these; others: a harmonic map of them.
 std::optional<DrawnLayers> drawn_layers(const topology::OpenVolume& volume, const SweepOptions& options,
-                                        const RunContext& context = {});
+                                        KnownLinks& links, const RunContext& context = {});
 
 } // namespace lacuna::sweep

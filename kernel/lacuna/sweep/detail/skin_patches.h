@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/surface/source_mesh.h>
+#include <lacuna/surface/walls.h>
+#include <lacuna/sweep/detail/morph_ends.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// Give every quad of a mesh's skin its patch: one a face, with the groups a person reads.
+/// @param ends  faces of each quad on the source and on the target.
+/// @return  face of each patch.
+std::vector<FaceId> set_patches(const topology::OpenVolume& volume, const surface::SourceMesh& source,
+                                const EndFaces& ends, const std::vector<surface::WallMesh>& walls,
+                                mesh::HexMesh& mesh);
+
+} // namespace lacuna::sweep

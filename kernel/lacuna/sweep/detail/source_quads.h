@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/quads/region.h>
+#include <lacuna/surface/seeds.h>
+#include <lacuna/surface/source_mesh.h>
+#include <lacuna/sweep/detail/size_words.h>
+#include <lacuna/sweep/sweep.h>
+
+/// What the options of a sweep ask of the source's quads.
+namespace lacuna::sweep {
+
+surface::QuadStyle style_of(const SweepOptions& options, bool rows_along_walls);
+
+/// What fills the source faces that are not mapped: the kernel's paver, or the mesher handed in.
+/// @param narrow  quads are asked for across places that may be narrow.
+quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow);
+
+/// The same for regions that may have an odd number of sides.
+quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow);
+
+/// The size asked for, or the default; smaller where the shape needs it.
+/// @throw InvalidInput  a size that is no positive length; too many cells to number. @throw Cancelled
+SourceSize source_size(const topology::OpenVolume& volume, const SweepOptions& options,
+                       const RunContext& context);
+
+/// The size, and the height of rows where they are asked for.
+surface::SizeFields size_fields(const surface::SizeField& size, const SweepOptions& options);
+
+} // namespace lacuna::sweep

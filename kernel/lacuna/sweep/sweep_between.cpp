@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/sweep_between.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/core/progress.h>
+#include <lacuna/quality/layered.h>
+#include <lacuna/quality/quality.h>
+#include <lacuna/surface/given_target.h>
+#include <lacuna/surface/imprint.h>
+#include <lacuna/surface/source_mesh.h>
+#include <lacuna/surface/wall_breaks.h>
+#include <lacuna/sweep/detail/given_meshes.h>
+#include <lacuna/sweep/detail/keep_thickness.h>
+#include <lacuna/sweep/detail/morph_ends.h>
+#include <lacuna/sweep/detail/normals.h>
+#include <lacuna/sweep/detail/plan_heights.h>
+#include <lacuna/sweep/detail/prove_or_improve.h>
+#include <lacuna/sweep/detail/skin_patches.h>
+#include <lacuna/sweep/detail/source_quads.h>
+#include <lacuna/sweep/detail/words.h>
+#include <lacuna/sweep/layers.h>
+#include <lacuna/sweep/morph.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+RimColumns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
+                      const std::vector<surface::GivenColumns>& given, const surface::SourceMesh& source,
+                      const std::vector<double>& heights, std::vector<surface::WallMesh>& walls,
+                      const RunContext& context)
+{
+    RimColumns columns;
+    columns.layers = static_cast<int>(heights.size()) - 1;
+    walls = surface::mesh_walls(volume, links, source.links, heights, given, context);
+    for (std::size_t b = 0; b < links.size(); ++b) {
+        for (std::size_t i = 0; i < source.links[b].source_at.size(); ++i)
+            columns.rim.push_back(source.first[b] + static_cast<Index>(i));
+    }
+    for (std::size_t layer = 0; layer < heights.size(); ++layer) {
+        for (std::size_t b = 0; b < links.size(); ++b) {
+            const std::size_t n = source.links[b].source_at.size();
+            const auto row = walls[b].points.begin() + static_cast<std::ptrdiff_t>(layer * n);
+            columns.points.insert(columns.points.end(), row, row + static_cast<std::ptrdiff_t>(n));
+        }
+    }
+    return columns;
+}
+
+/// Void walls alone, ruled between the ends: the paper's class I, whose node lines are straight. Not where
+/// void edges are bent.
+bool ruled(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links)
+{
+    for (const FaceId wall : volume.faces(Role::wall)) {
+        if (volume.model[wall].origin == Origin::given) return false;
+    }
+    for (const surface::LinkingSurface& link : links) {
+        if (link.lines.empty()) return false;
+        for (const surface::LinkingLine& line : link.lines) {
+            const surface::Chain chain(volume.model, line.line.uses);
+            const double chord = (volume.model.at(volume.model[line.line.target].point) -
+                                  volume.model.at(volume.model[line.line.source].point))
+                                     .norm();
+            if (chain.length() - chord > volume.model.tolerance) return false;
+        }
+    }
+    return true;
+}
+
+/// Layers and, where it had to be found out, how good their cells are.
+struct BestLayers {
+    LayerNodes layers;
+    std::optional<quality::Quality> quality;
+};
+
+/// The layers, by the way whose worst cell is best: with the rim's residual spread over each layer, and,
+/// where that leaves poor cells, without.
+BestLayers best_layers(const surface::SourceMesh& source, const Morphed& morphed, const RimColumns& columns,
+                       PlacementOptions placement, const SweepOptions& options, const RunContext& context)
+{
+    if (options.interior == Interior::normals)
+        return {place_along_normals(source.quads, morphed.nodes, columns, context), {}};
+    placement.spread_residual = options.interior != Interior::affine;
+    LayerNodes spread = place_layers(source.quads, morphed.nodes, columns, placement, context);
+    if (options.interior != Interior::automatic || spread.placement != Placement::fitted)
+        return {std::move(spread), {}};
+    const auto measured = [&](LayerNodes& layers) {
+        mesh::HexMesh mesh;
+        mesh.nodes_per_layer = static_cast<Index>(source.quads.nodes.size());
+        mesh.layers = columns.layers;
+        mesh.quads = source.quads.quads;
+        mesh.nodes = std::move(layers.nodes);
+        quality::Quality found = quality::measure(mesh, context);
+        layers.nodes = std::move(mesh.nodes);
+        return found;
+    };
+    quality::Quality with = measured(spread);
+    if (with.min_scaled_jacobian >= options.improving.good_enough)
+        return {std::move(spread), std::move(with)};
+    placement.spread_residual = false;
+    LayerNodes plain = place_layers(source.quads, morphed.nodes, columns, placement, context);
+    quality::Quality without = measured(plain);
+    if (without.min_scaled_jacobian > with.min_scaled_jacobian) return {std::move(plain), std::move(without)};
+    return {std::move(spread), std::move(with)};
+}
+
+/// The same, left to be made, and how good the cells are; nothing where they are not good enough to stay as
+/// they are placed.
+struct GoodLayers {
+    PlacedLayers layers;
+    LayersFound found;
+};
+std::optional<GoodLayers> good_layers(const surface::SourceMesh& source, const Morphed& morphed,
+                                      const RimColumns& columns, PlacementOptions placement,
+                                      const SweepOptions& options, const RunContext& context)
+{
+    placement.spread_residual = options.interior != Interior::affine;
+    GoodLayers good{placed_layers(std::make_shared<const LayerPlan>(
+                                      LayerPlan{source.quads, morphed.nodes, columns, placement}),
+                                  context),
+                    {}};
+    const double least = std::max(options.improving.good_enough, options.min_scaled_jacobian);
+    good.found = find_in_layers(good.layers, least, options.crew, context);
+    if (!good.found.good_enough) return std::nullopt;
+    return good;
+}
+
+/// Whether nothing but the placing of layers has a say in where nodes inside are.
+bool may_be_layered(const SweepOptions& options)
+{
+    return options.layered && options.order == 1 && options.boundary_layers.empty() &&
+           !options.beside.settle && options.interior != Interior::normals;
+}
+
+/// Whether all faces of an end came with a mesh that can stay.
+bool came_with_mesh(const OpenVolume& volume, Role end, bool wedges)
+{
+    const std::vector<FaceId> faces = volume.faces(end);
+    return std::all_of(faces.begin(), faces.end(), [&](FaceId id) {
+        const Face& face = volume.model[id];
+        return face.keeps_nodes && has_cells_to_keep(face, wedges);
+    });
+}
+
+/// Given quads do not move, and leave no place for rows of other heights.
+void refuse_kept_source(const OpenVolume& volume, const surface::RimRows& rows, const SweepOptions& options)
+{
+    if (rows.empty() || options.quads != Quads::automatic) return;
+    for (const FaceId face : volume.faces(Role::source)) {
+        if (!volume.model[face].keeps_nodes || !has_cells_to_keep(volume.model[face], options.wedges))
+            continue;
+        throw NotSweepable("sweep.layers_given",
+                           name_of(volume.model, face) +
+                               " came with quads, which stay, and walls at its rim are to have boundary "
+                               "layers; quads = \"paved\" meshes it anew, as does loading with keep_mesh = "
+                               "false");
+    }
+}
+
+/// The inner edges of the target on the source; nothing where it has none, or where both ends came with
+/// meshes that may be the same graph.
+std::optional<surface::Imprint> imprint_of(const OpenVolume& volume,
+                                           const std::vector<surface::LinkingSurface>& links,
+                                           const surface::SizeField& size, bool wedges)
+{
+    if (surface::inner_edges(volume, Role::target).empty()) return std::nullopt;
+    if (came_with_mesh(volume, Role::source, wedges) && came_with_mesh(volume, Role::target, wedges))
+        return std::nullopt;
+    return surface::imprint_target(volume, links, size);
+}
+
+} // namespace
+
+const OpenVolume& shape_of(const OpenVolume& volume, const SweepOptions& options)
+{
+    return options.beside.shape != nullptr ? *options.beside.shape : volume;
+}
+
+ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::LinkingSurface> given_links,
+                          const std::vector<double>& asked, const SourceSize& sizes,
+                          const SweepOptions& options, Outline outline, const RunContext& context)
+{
+    const surface::SizeField& size = sizes.shape.at;
+    Swept result;
+    std::optional<surface::Imprint> imprint = imprint_of(volume, given_links, size, options.wedges);
+    const OpenVolume& split = imprint ? *imprint->volume : volume;
+    std::vector<surface::LinkingSurface>& links = imprint ? imprint->links : given_links;
+    check_cancelled(context);
+    GivenMeshes given = given_meshes(split, links, asked, size, options);
+    const int least_layers = surface::set_wall_breaks(split, size, links);
+    const surface::LayerTables tables = surface::layer_tables(volume, options.boundary_layers);
+    const bool by_rows = !given.heights.empty();
+    const auto [heights,
+                by_bends] = plan_heights(split, links, tables, given.heights, sizes.along, options,
+                                         options.size ? least_layers : std::max(least_layers, kDefaultGap));
+    surface::EdgeDemands demands{surface::rim_rows(split, links, tables),
+                                 surface::find_intervals(split, links, options.intervals).sides};
+    refuse_kept_source(split, demands.rows, options);
+    for (std::string& note : given.notes) result.report.push_back("given: " + note);
+    report_progress(context, "quads of the source");
+    check_cancelled(context);
+    const surface::Seeds seeds = surface::seed_source(
+        split, links, size, style_of(options, !demands.rows.empty()), sizes.sizing,
+        imprint ? surface::image_lengths(*imprint) : std::map<EdgeId, double>{}, options.wedges, demands);
+    for (const std::string& note : seeds.notes) result.report.push_back("given: " + note);
+    result.defaults = sizes_in_words(volume, split, sizes, seeds, options,
+                                     {static_cast<int>(heights.size()) - 1, by_rows, by_bends});
+    result.report.insert(result.report.end(), result.defaults.begin(), result.defaults.end());
+    surface::SourceMesh source = surface::mesh_source(split, links, seeds, size_fields(size, options),
+                                                      mesher_for_all(options, sizes.narrow), context);
+    report_progress(context, "walls");
+    std::vector<surface::WallMesh> walls;
+    RimColumns columns = columns_of(split, links, given.columns, source, heights, walls, context);
+    if (outline == Outline::mean && !options.wedges)
+        source = laid_between(split, std::move(source), columns, size, mesher_of(options, sizes.narrow),
+                              context);
+    for (std::string& note : source.notes) result.report.push_back("source " + note);
+    for (const surface::WallMesh& wall : walls) {
+        for (const std::string& note : wall.notes) result.report.push_back("walls: " + note);
+    }
+    check_cancelled(context);
+
+    report_progress(context, "target");
+    std::string why;
+    std::optional<surface::GivenTarget> given_target;
+    if (!imprint) given_target = surface::given_target(volume, links, source, why, options.wedges);
+    if (!given_target && !imprint && !surface::inner_edges(volume, Role::target).empty())
+        imprint = surface::imprint_target(volume, links, size); // refuses what keeps its quads, by name
+    EndFaces ends = end_faces(volume, source, imprint);
+    if (given_target) ends.target = given_target->face;
+    if (!why.empty()) result.report.push_back("target: the quads it came with are not kept: " + why);
+    Morphed morphed;
+    if (given_target) {
+        morphed.nodes = given_target->nodes;
+        morphed.report = "its own quads are laid out as the source's and stay";
+    } else {
+        const OpenVolume& shape = shape_of(volume, options);
+        const std::optional<OpenVolume> turned = shape.turned_round != volume.turned_round
+                                                     ? std::optional(turned_round(shape))
+                                                     : std::nullopt;
+        morphed = imprint ? morph_onto_faces(source, columns, seeds, *imprint, ends.target, context)
+                          : morph_onto(turned ? *turned : shape, source, columns, context);
+    }
+    result.report.push_back("target: " + morphed.report);
+    report_progress(context, "layers");
+    PlacementOptions placement;
+    placement.straight_lines = options.interior == Interior::automatic && ruled(volume, links);
+    placement.heights = heights;
+    std::optional<GoodLayers> good;
+    if (may_be_layered(options)) good = good_layers(source, morphed, columns, placement, options, context);
+    LayerNodes layers;
+    std::optional<quality::Quality> measured;
+    if (good) {
+        layers = {source.quads.nodes, good->layers.placement, good->layers.report};
+        result.layers = std::move(good->layers.nodes);
+        result.plan = std::move(good->layers.plan);
+    } else {
+        BestLayers best = best_layers(source, morphed, columns, placement, options, context);
+        layers = std::move(best.layers);
+        measured = std::move(best.quality);
+    }
+    result.report.push_back(layers.report);
+    SweptParts parts{
+        split, links, source, walls, ends, columns.layers, {}, !seeds.kept.empty(), given_target.has_value()};
+    if (imprint) {
+        for (const auto& [edge, image] : imprint->images) parts.target_edges[edge] = image.target;
+    }
+    KeptThickness kept;
+    if (!good) kept = keep_thickness(parts, tables, layers.nodes, context);
+    if (!tables.heights.empty()) measured.reset(); // nodes were moved
+    for (std::string& note : kept.report) result.report.push_back(std::move(note));
+
+    mesh::HexMesh& mesh = result.mesh;
+    mesh.nodes_per_layer = static_cast<Index>(source.quads.nodes.size());
+    mesh.layers = columns.layers;
+    mesh.nodes = std::move(layers.nodes);
+    mesh.quads = source.quads.quads;
+    for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
+        mesh.rim.push_back({side.from, side.to});
+    const std::vector<FaceId> faces = set_patches(volume, source, ends, walls, mesh);
+    // The proof needs room: what the nodes were made of goes.
+    walls = {};
+    columns = {};
+    for (const FaceId wall : volume.faces(Role::wall)) {
+        if (volume.model[wall].origin != Origin::given ||
+            std::find(faces.begin(), faces.end(), wall) != faces.end())
+            continue;
+        result.report.push_back("walls: " + name_of(volume.model, wall) +
+                                " is smaller than the quads there and has none, nor a group");
+    }
+    report_progress(context, "proof of every cell");
+    check_cancelled(context);
+    std::set<FaceId> still = given_faces(volume, seeds.kept, options.wedges);
+    if (options.beside.settle) {
+        still.merge(options.beside.settle(mesh, faces));
+        measured.reset();
+    }
+    quality::Proof proof = good
+                               ? quality::prove(mesh::LayeredMesh{mesh, *result.layers},
+                                                std::move(good->found.quality),
+                                                std::move(good->found.misplaced), options.min_scaled_jacobian)
+                               : prove_or_improve(result, volume.model, faces, still, std::move(kept.held),
+                                                  std::move(measured), options, context);
+    const quality::Quality& quality = proof.quality;
+    result.min_scaled_jacobian = quality.min_scaled_jacobian;
+    const std::string wedges = quality.wedges > 0
+                                   ? " hexahedra and " + std::to_string(quality.wedges) + " wedges"
+                                   : "";
+    result.report.push_back("cells: " + std::to_string(quality.hexes) + wedges +
+                            ", all certified, scaled Jacobian " +
+                            std::to_string(quality.min_scaled_jacobian) + " at least, " +
+                            std::to_string(quality.mean_scaled_jacobian) + " on average");
+    report_given(volume, result, options.wedges);
+    result.quality = quality;
+    return {std::move(result), std::move(proof), faces, seeds.kept};
+}
+
+} // namespace lacuna::sweep
