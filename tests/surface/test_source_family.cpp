@@ -152,3 +152,46 @@ TEST_CASE("free faces beside mapped ones get numbers of sides that a pattern has
         }
     }
 }
+
+TEST_CASE(
+    "lines over flat half and quarter rings stand nearly square to both sides, symmetric where those are")
+{
+    for (const test::FamilySource& source : test::source_family()) {
+        if (!source.name.starts_with("flat ring")) continue;
+        for (const double quads : {40.0, 120.0, 250.0, 400.0, 1000.0, 3000.0}) {
+            CAPTURE(source.name);
+            CAPTURE(quads);
+            const Meshed made = mesh_family_source(source, quads);
+            CHECK(made.quality.min_scaled_jacobian > 0.85);
+            CHECK(made.quality.mean_scaled_jacobian > 0.95);
+            std::size_t moved = 0;
+            for (const auto& [edge, pieces] : made.seeds.pieces) {
+                const std::vector<double> at = made.seeds.fractions(edge);
+                const auto n = static_cast<double>(at.size() - 1);
+                CHECK(at.size() - 1 == static_cast<std::size_t>(made.seeds.count(edge)));
+                for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+                    CHECK(n * (at[i + 1] - at[i]) > 0.6);
+                    CHECK(n * (at[i + 1] - at[i]) < 1.6);
+                    // Half an ellipse is its own image in its other axis.
+                    if (source.name.ends_with("halves"))
+                        CHECK(at[i] + at[at.size() - 1 - i] == doctest::Approx(1).epsilon(1e-9));
+                }
+                for (const surface::SeedPiece& piece : pieces) moved += piece.placed.size();
+            }
+            CHECK(moved > 0);
+        }
+    }
+}
+
+TEST_CASE("nodes of mapped faces whose lines are square already stay evenly spread")
+{
+    for (const test::FamilySource& source : test::source_family()) {
+        if (!source.grid || source.name == "trapezia in a row" || source.name.starts_with("saddle") ||
+            source.name == "twisted")
+            continue;
+        CAPTURE(source.name);
+        for (const auto& [edge, pieces] : mesh_family_source(source, 120).seeds.pieces) {
+            for (const surface::SeedPiece& piece : pieces) CHECK(piece.placed.empty());
+        }
+    }
+}

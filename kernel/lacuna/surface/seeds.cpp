@@ -10,6 +10,7 @@
 #include <lacuna/surface/detail/interval_program.h>
 #include <lacuna/surface/detail/mapped_face.h>
 #include <lacuna/surface/detail/plane_loops.h>
+#include <lacuna/surface/detail/square_lines.h>
 
 #include <algorithm>
 #include <cmath>
@@ -974,8 +975,9 @@ std::vector<double> Seeds::fractions(EdgeId edge) const
 std::vector<double> SeedPiece::fractions() const
 {
     std::vector<double> result{from};
-    if (fixed) {
-        result.insert(result.end(), kept.begin(), kept.end());
+    if (fixed || !placed.empty()) {
+        const std::vector<double>& inside = fixed ? kept : placed;
+        result.insert(result.end(), inside.begin(), inside.end());
         return result;
     }
     result.insert(result.end(), low.begin(), low.end());
@@ -1000,11 +1002,42 @@ std::vector<double> SeedPiece::fractions() const
     return result;
 }
 
+std::size_t Seeds::piece_of(const LinkingSurface& link, const RimSegment& segment) const
+{
+    const double middle = link.source.position((segment.source_from + segment.source_to) / 2).fraction;
+    const std::vector<SeedPiece>& own = pieces.at(link.source.uses()[segment.use].edge);
+    const auto piece = std::upper_bound(own.begin(), own.end(), middle,
+                                        [](double at, const SeedPiece& p) { return at < p.to; });
+    return static_cast<std::size_t>(piece - own.begin());
+}
+
+std::vector<std::vector<double>> Seeds::shares(const LinkingSurface& link) const
+{
+    std::vector<std::vector<double>> all;
+    for (const RimSegment& segment : link.segments) {
+        const EdgeUse use = link.source.uses()[segment.use];
+        all.push_back(pieces.at(use.edge)[piece_of(link, segment)].shares(use.reversed));
+    }
+    return all;
+}
+
+std::vector<double> SeedPiece::shares(bool reversed) const
+{
+    std::vector<double> shares = fractions();
+    for (double& f : shares) f = (f - from) / (to - from);
+    if (!reversed) return shares;
+    std::vector<double> back{0};
+    for (std::size_t i = shares.size(); i-- > 1;) back.push_back(1 - shares[i]);
+    return back;
+}
+
 Seeds seed_source(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
                   QuadStyle style, const ShapeSizing& sizing, const std::map<EdgeId, double>& lengths,
                   bool wedges, const EdgeDemands& demands)
 {
-    return Seeder(volume, links, size, style, sizing, lengths, wedges, demands).run();
+    Seeds seeds = Seeder(volume, links, size, style, sizing, lengths, wedges, demands).run();
+    square_mapped_lines(seeds, volume, links);
+    return seeds;
 }
 
 } // namespace lacuna::surface

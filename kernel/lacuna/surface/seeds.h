@@ -36,9 +36,11 @@ struct SeedPiece {
     /// How much the rim it is swept to turns along it, at even steps from the start [radian]. Empty: unknown.
     std::vector<double> opposite{};
     std::vector<double> kept{}; ///< nodes inside that were given, as fractions of the edge; with `fixed`
-    bool fixed = false;         ///< the nodes of a given mesh, or asked for: none more, none less
-    bool asked = false;         ///< with `fixed`: by a person
-    bool bends = false;         ///< its bends asked for more sides than the size
+    /// Nodes inside where the lines of mapped faces meet the edge best, as fractions. Empty: by `wanted`.
+    std::vector<double> placed{};
+    bool fixed = false; ///< the nodes of a given mesh, or asked for: none more, none less
+    bool asked = false; ///< with `fixed`: by a person
+    bool bends = false; ///< its bends asked for more sides than the size
     /// Nodes near the start and the end on which rows of boundary layers end, as fractions of the edge.
     std::vector<double> low{}, high{};
 
@@ -46,6 +48,8 @@ struct SeedPiece {
     [[nodiscard]] int between() const { return count - static_cast<int>(low.size() + high.size()); }
     /// Fractions of the edge at the piece's nodes, its start included, its end not.
     [[nodiscard]] std::vector<double> fractions() const;
+    /// Shares of the piece at its nodes as a use of the edge meets them, from 0, below 1.
+    [[nodiscard]] std::vector<double> shares(bool reversed) const;
 };
 
 /// A number of sides for parts of the source's rim that follow each other.
@@ -80,6 +84,10 @@ struct Seeds {
     [[nodiscard]] int count(EdgeId edge) const;
     /// Fractions of the edge's nodes, both ends included.
     [[nodiscard]] std::vector<double> fractions(EdgeId edge) const;
+    /// The piece, among those of its edge, that a segment of a rim is.
+    [[nodiscard]] std::size_t piece_of(const LinkingSurface& link, const RimSegment& segment) const;
+    /// Shares of each segment of a rim at its nodes, as `linking_nodes()` takes them.
+    [[nodiscard]] std::vector<std::vector<double>> shares(const LinkingSurface& link) const;
 };
 
 /// Assign numbers of sides to the edges of the source: by the size, or by the curvature where it wants more.
@@ -102,6 +110,7 @@ struct Seeds {
 /// is free. Free faces then get the counts of a grid one after the other, with what others have settled;
 /// those with the most loops first, for their loops must agree. Last, each free face with an odd total gets
 /// one more side on a rim edge of its own, or on an edge towards one; a mapped face between passes it on.
+/// Then nodes on the sides of mapped faces move along them, where the grid's lines are oblique to them.
 /// @param sizing  sides for a full turn; with a gap no face is submapped that need not be, unless
 ///                `counts_across` is set: then the sides of mapped faces get the gap's quads at least. The
 ///                rest of it is in the size already.

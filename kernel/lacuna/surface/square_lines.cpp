@@ -1,0 +1,413 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/square_lines.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/sparse_factor.h>
+#include <lacuna/geometry/union_find.h>
+#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/surface/walls.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// Points of an edge known for each side of quads: enough for a cubic through them. A choice.
+constexpr int kPerSide = 4;
+/// Steps of the solution, and times that evenness is made to count for more. Choices: the first is far from
+/// even where it takes more.
+constexpr int kSteps = 12, kRounds = 5;
+/// A side may become so much shorter and longer than it was: half of what is right for its size.
+constexpr double kShortest = 0.75, kLongest = 1.35;
+/// The worst cosine has to fall by so much, or nodes stay where they are: 3°. A choice.
+constexpr double kWorthIt = 0.05;
+/// A grid's lines are straight at a side where its neighbours leave it within this share of a line's length;
+/// only then are sections of the volume above known from the walls. A choice.
+constexpr double kStraight = 0.1;
+/// Sections of the volume that a line is looked at in, evenly from source to target. A choice.
+constexpr std::size_t kSections = 5;
+constexpr std::size_t kSource = 0;
+
+/// A piece of an edge as a curve over its sides, 0 at its start.
+struct Line {
+    SeedPiece* piece = nullptr;
+    std::array<std::vector<Vec3>, kSections> points; ///< evenly over the sides; above the source may be none
+    std::vector<double> at;                          ///< where the nodes stand, ends included [sides]
+    std::vector<std::size_t> variable;               ///< of each node; kNone for those that stay
+    bool on_rim = false;
+
+    [[nodiscard]] Vec3 place(std::size_t section, double u) const
+    {
+        const std::vector<Vec3>& p = points[section];
+        const auto last = static_cast<double>(p.size() - 1);
+        const double x = std::clamp(u / piece->count * last, 0.0, last);
+        const std::size_t i = std::min(static_cast<std::size_t>(x), p.size() - 2);
+        const double f = x - static_cast<double>(i);
+        const Vec3 before = i > 0 ? Vec3(p[i - 1]) : Vec3(2 * p[0] - p[1]);
+        const Vec3 after = i + 2 < p.size() ? Vec3(p[i + 2]) : Vec3(2 * p[i + 1] - p[i]);
+        const Vec3 a = (p[i + 1] - before) / 2, b = (after - p[i]) / 2;
+        return (1 - f) * (1 - f) * ((1 + 2 * f) * p[i] + f * a) +
+               f * f * ((3 - 2 * f) * p[i + 1] - (1 - f) * b);
+    }
+    /// Along the edge, over half a side each way.
+    [[nodiscard]] Vec3 tangent(std::size_t section, double u) const
+    {
+        return (place(section, u + 0.5) - place(section, u - 0.5)).stableNormalized();
+    }
+};
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+struct Node {
+    std::size_t line = 0, node = 0;
+};
+
+/// A line of a grid between nodes of opposite sides.
+struct Rung {
+    Node from, to;
+    /// What its direction at either end differs by from the straight way between them, at the source.
+    std::array<Vec3, 2> bend{Vec3::Zero(), Vec3::Zero()};
+    bool on_rims = false; ///< both ends
+};
+
+class LineSquarer {
+public:
+    LineSquarer(Seeds& seeds, const OpenVolume& volume, std::span<const LinkingSurface> links)
+        : seeds_(seeds), volume_(volume), model_(volume.model), links_(links)
+    {
+        for (const LinkingSurface& link : links) {
+            for (const EdgeUse& use : link.source.uses()) rim_.insert(use.edge);
+        }
+        for (const auto& [face, corners] : seeds.corners) add_edges(face);
+        for (const auto& [face, corners] : seeds.corners) add_rungs(face, corners);
+    }
+
+    void run()
+    {
+        geometry::UnionFind sets(lines_.size());
+        for (const Rung& rung : rungs_) sets.unite_least(rung.from.line, rung.to.line);
+        std::map<std::size_t, std::pair<std::vector<std::size_t>, std::vector<std::size_t>>> parts;
+        for (std::size_t l = 0; l < lines_.size(); ++l) parts[sets.find(l)].first.push_back(l);
+        for (std::size_t r = 0; r < rungs_.size(); ++r)
+            parts[sets.find(rungs_[r].from.line)].second.push_back(r);
+        bool above = false; // whether sections above the source were asked for
+        for (const auto& [set, part] : parts) {
+            const auto& [lines, rungs] = part;
+            if (worst_cosine(rungs, 1) < kWorthIt) continue;
+            const bool swept = std::any_of(rungs.begin(), rungs.end(),
+                                           [&](std::size_t r) { return rungs_[r].on_rims; });
+            if (swept && !std::exchange(above, true) && !add_sections()) return;
+            settle(lines, rungs);
+        }
+    }
+
+private:
+    void add_edges(FaceId face)
+    {
+        for (const EdgeUse& use : model_[face].loops[0].uses) {
+            const auto [found, fresh] = first_.try_emplace(use.edge, lines_.size());
+            if (!fresh) continue;
+            for (SeedPiece& piece : seeds_.pieces.at(use.edge)) {
+                Line line;
+                line.piece = &piece;
+                line.on_rim = rim_.contains(use.edge);
+                const std::vector<double> at = fractions_of(piece, kPerSide);
+                line.points[kSource] = edge_points(model_, use.edge, at);
+                for (int i = 0; i <= piece.count; ++i) line.at.push_back(i);
+                lines_.push_back(std::move(line));
+            }
+        }
+    }
+
+    /// Fractions of the edge at even parts of a piece's sides, its end included.
+    static std::vector<double> fractions_of(const SeedPiece& piece, int per_side)
+    {
+        std::vector<double> nodes = piece.fractions(), at;
+        nodes.push_back(piece.to);
+        for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+            for (int k = 0; k < per_side; ++k)
+                at.push_back(nodes[i] + (nodes[i + 1] - nodes[i]) * k / per_side);
+        }
+        at.push_back(piece.to);
+        return at;
+    }
+
+    /// Where the nodes of the source's rims come to lie higher up. @return false where the walls cannot say
+    bool add_sections()
+    {
+        std::vector<LinkingNodes> nodes;
+        for (const LinkingSurface& link : links_) nodes.push_back(linking_nodes(link, seeds_.shares(link)));
+        std::vector<double> heights;
+        for (std::size_t k = 0; k < kSections; ++k)
+            heights.push_back(static_cast<double>(k) / (kSections - 1));
+        std::vector<WallMesh> walls;
+        try {
+            walls = mesh_walls(volume_, links_, nodes, heights);
+        } catch (const NotSweepable&) {
+            return false; // more edges to follow than sections
+        }
+        for (std::size_t b = 0; b < links_.size(); ++b) {
+            std::size_t next = 0;
+            const std::size_t round = nodes[b].source_at.size();
+            for (const RimSegment& segment : links_[b].segments) {
+                const EdgeUse use = links_[b].source.uses()[segment.use];
+                const std::size_t piece = seeds_.piece_of(links_[b], segment);
+                const auto sides = static_cast<std::size_t>(seeds_.pieces.at(use.edge)[piece].count);
+                const auto first = first_.find(use.edge);
+                for (std::size_t k = 1; first != first_.end() && k < kSections; ++k) {
+                    std::vector<Vec3>& points = lines_[first->second + piece].points[k];
+                    points.clear();
+                    for (std::size_t i = 0; i <= sides; ++i)
+                        points.push_back(walls[b].points[k * round + (next + i) % round]);
+                    if (use.reversed) std::reverse(points.begin(), points.end());
+                }
+                next += sides;
+            }
+        }
+        return true;
+    }
+
+    void add_rungs(FaceId face, const std::vector<std::size_t>& corners)
+    {
+        const Loop& loop = model_[face].loops[0];
+        std::array<std::vector<Node>, 4> side;
+        for (std::size_t s = 0; s < 4; ++s) {
+            for (std::size_t i = corners[s]; i != corners[(s + 1) % 4]; i = (i + 1) % loop.uses.size())
+                add_nodes(loop.uses[i], side[s]);
+        }
+        std::reverse(side[2].begin(), side[2].end());
+        std::reverse(side[3].begin(), side[3].end());
+        add_between(side[0], side[2], side[3], side[1]);
+        add_between(side[3], side[1], side[0], side[2]);
+    }
+
+    void add_nodes(EdgeUse use, std::vector<Node>& side) const
+    {
+        const std::size_t first = first_.at(use.edge), pieces = seeds_.pieces.at(use.edge).size();
+        for (std::size_t k = 0; k < pieces; ++k) {
+            const std::size_t l = use.reversed ? first + pieces - 1 - k : first + k;
+            const std::size_t last = lines_[l].at.size() - 1;
+            for (std::size_t i = side.empty() ? 0 : 1; i <= last; ++i)
+                side.push_back({l, use.reversed ? last - i : i});
+        }
+    }
+
+    [[nodiscard]] Vec3 now(std::size_t end, const Node& node) const
+    {
+        return lines_[node.line].place(end, lines_[node.line].at[node.node]);
+    }
+
+    /// The lines from a side to the one opposite, which the sides `first` and `last` run along.
+    void add_between(const std::vector<Node>& from, const std::vector<Node>& to,
+                     const std::vector<Node>& first, const std::vector<Node>& last)
+    {
+        const auto sides = static_cast<double>(first.size() - 1);
+        std::array<std::array<Vec3, 2>, 2> bend; // of the first and the last line, at either end
+        bool straight = true;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const std::vector<Node>& own = k == 0 ? first : last;
+            const std::size_t n = own.size();
+            const Vec3 whole = now(kSource, own[n - 1]) - now(kSource, own[0]);
+            bend[k][0] = sides * (now(kSource, own[1]) - now(kSource, own[0])) - whole;
+            bend[k][1] = sides * (now(kSource, own[n - 1]) - now(kSource, own[n - 2])) - whole;
+            for (const Vec3& b : bend[k]) straight = straight && b.norm() <= kStraight * whole.norm();
+        }
+        for (std::size_t i = 1; i + 1 < from.size(); ++i) {
+            const double share = static_cast<double>(i) / static_cast<double>(from.size() - 1);
+            Rung rung{from[i], to[i]};
+            for (std::size_t k = 0; k < 2; ++k) rung.bend[k] = (1 - share) * bend[0][k] + share * bend[1][k];
+            rung.on_rims = straight && lines_[from[i].line].on_rim && lines_[to[i].line].on_rim;
+            rungs_.push_back(rung);
+        }
+    }
+
+    /// Cosine between a line and the edge it starts from (0) or ends on (1).
+    [[nodiscard]] double cosine(const Rung& rung, std::size_t section, std::size_t side, double from,
+                                double to) const
+    {
+        const Line &a = lines_[rung.from.line], &b = lines_[rung.to.line];
+        Vec3 way = b.place(section, to) - a.place(section, from);
+        if (section == kSource) way += rung.bend[side];
+        const Vec3 along = side == 0 ? a.tangent(section, from) : b.tangent(section, to);
+        const double length = way.norm();
+        return length > 0 ? way.dot(along) / length : 0;
+    }
+
+    [[nodiscard]] double at(const Node& node) const { return lines_[node.line].at[node.node]; }
+    [[nodiscard]] std::size_t variable(const Node& node) const
+    {
+        return lines_[node.line].variable[node.node];
+    }
+
+    /// What a section of a line counts beside the lengths of sides.
+    static double share(const Rung& rung) { return rung.on_rims ? 1.0 / kSections : 1; }
+
+    template <class Visit>
+    void for_cosines(const std::vector<std::size_t>& rungs, std::size_t most, const Visit& visit) const
+    {
+        for (const std::size_t r : rungs) {
+            const std::size_t sections = rungs_[r].on_rims ? most : 1;
+            for (std::size_t section = 0; section < sections; ++section) {
+                for (std::size_t side = 0; side < 2; ++side) visit(rungs_[r], section, side);
+            }
+        }
+    }
+
+    [[nodiscard]] double worst_cosine(const std::vector<std::size_t>& rungs, std::size_t sections) const
+    {
+        double worst = 0;
+        for_cosines(rungs, sections, [&](const Rung& rung, std::size_t section, std::size_t side) {
+            worst = std::max(worst, std::abs(cosine(rung, section, side, at(rung.from), at(rung.to))));
+        });
+        return worst;
+    }
+
+    [[nodiscard]] double energy(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
+                                double weight) const
+    {
+        double sum = 0;
+        for (const std::size_t l : lines) {
+            const std::vector<double>& u = lines_[l].at;
+            for (std::size_t i = 0; i + 1 < u.size(); ++i) sum += weight * std::pow(u[i + 1] - u[i] - 1, 2);
+        }
+        for_cosines(rungs, kSections, [&](const Rung& rung, std::size_t section, std::size_t side) {
+            sum += share(rung) * std::pow(cosine(rung, section, side, at(rung.from), at(rung.to)), 2);
+        });
+        return sum;
+    }
+
+    /// One step of Gauss and Newton. @return how far it goes [sides]
+    double step(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs, double weight,
+                std::size_t variables)
+    {
+        std::vector<Eigen::Triplet<double>> entries;
+        Eigen::VectorXd right = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(variables));
+        const auto add = [&](std::size_t a, double da, std::size_t b, double db, double r, double w) {
+            const std::array<std::pair<std::size_t, double>, 2> own{{{a, da}, {b, db}}};
+            for (const auto& [v, dv] : own) {
+                if (v == kNone) continue;
+                right[static_cast<Eigen::Index>(v)] -= w * dv * r;
+                for (const auto& [o, d_o] : own) {
+                    if (o != kNone && o <= v)
+                        entries.emplace_back(static_cast<int>(v), static_cast<int>(o), w * dv * d_o);
+                }
+            }
+        };
+        for (const std::size_t l : lines) {
+            const Line& line = lines_[l];
+            for (std::size_t i = 0; i + 1 < line.at.size(); ++i)
+                add(line.variable[i], -1, line.variable[i + 1], 1, line.at[i + 1] - line.at[i] - 1, weight);
+        }
+        constexpr double kApart = 0.05; // of the points a slope is taken between [sides]
+        for_cosines(rungs, kSections, [&](const Rung& rung, std::size_t section, std::size_t side) {
+            const double a = at(rung.from), b = at(rung.to);
+            const double da = (cosine(rung, section, side, a + kApart, b) -
+                               cosine(rung, section, side, a - kApart, b)) /
+                              (2 * kApart);
+            const double db = (cosine(rung, section, side, a, b + kApart) -
+                               cosine(rung, section, side, a, b - kApart)) /
+                              (2 * kApart);
+            add(variable(rung.from), da, variable(rung.to), db, cosine(rung, section, side, a, b),
+                share(rung));
+        });
+        const auto n = static_cast<Eigen::Index>(variables);
+        Eigen::SparseMatrix<double> matrix(n, n);
+        matrix.setFromTriplets(entries.begin(), entries.end());
+        const geometry::SparseFactor factor(matrix);
+        if (!factor.good()) return 0;
+        const Eigen::VectorXd move = factor.solve(right);
+        const double before = energy(lines, rungs, weight);
+        double length = 1;
+        for (double last = 0; length > 1.0 / 16; length /= 2) {
+            shift(lines, move, length - last);
+            last = length;
+            if (energy(lines, rungs, weight) < before) return length * move.cwiseAbs().maxCoeff();
+        }
+        shift(lines, move, -2 * length);
+        return 0;
+    }
+
+    void shift(const std::vector<std::size_t>& lines, const Eigen::VectorXd& move, double length)
+    {
+        for (const std::size_t l : lines) {
+            Line& line = lines_[l];
+            for (std::size_t i = 0; i < line.at.size(); ++i) {
+                if (line.variable[i] != kNone)
+                    line.at[i] += length * move[static_cast<Eigen::Index>(line.variable[i])];
+            }
+        }
+    }
+
+    [[nodiscard]] bool is_even(const std::vector<std::size_t>& lines) const
+    {
+        return std::all_of(lines.begin(), lines.end(), [&](std::size_t l) {
+            const std::vector<double>& u = lines_[l].at;
+            for (std::size_t i = 0; i + 1 < u.size(); ++i) {
+                if (u[i + 1] - u[i] < kShortest || u[i + 1] - u[i] > kLongest) return false;
+            }
+            return true;
+        });
+    }
+
+    void settle(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs)
+    {
+        const double before = worst_cosine(rungs, kSections);
+        std::size_t variables = 0;
+        for (const std::size_t l : lines) {
+            Line& line = lines_[l];
+            line.variable.assign(line.at.size(), kNone);
+            if (line.piece->fixed || !line.piece->low.empty() || !line.piece->high.empty()) continue;
+            for (std::size_t i = 1; i + 1 < line.at.size(); ++i) line.variable[i] = variables++;
+        }
+        if (variables == 0) return;
+        constexpr double kStill = 1e-3; // [sides]; less than can be seen
+        double weight = 1;
+        for (int round = 0; round < kRounds; ++round, weight *= 2) {
+            for (int k = 0; k < kSteps && step(lines, rungs, weight, variables) > kStill; ++k) {}
+            if (!is_even(lines)) continue;
+            if (worst_cosine(rungs, kSections) < before - kWorthIt) take(lines);
+            return;
+        }
+    }
+
+    void take(const std::vector<std::size_t>& lines)
+    {
+        for (const std::size_t l : lines) {
+            Line& line = lines_[l];
+            std::vector<double> nodes = line.piece->fractions(), placed;
+            nodes.push_back(line.piece->to);
+            for (std::size_t i = 1; i + 1 < line.at.size(); ++i) {
+                if (line.variable[i] == kNone) break;
+                const auto k = std::min(static_cast<std::size_t>(line.at[i]), nodes.size() - 2);
+                placed.push_back(nodes[k] +
+                                 (line.at[i] - static_cast<double>(k)) * (nodes[k + 1] - nodes[k]));
+            }
+            line.piece->placed = std::move(placed);
+        }
+    }
+
+    Seeds& seeds_;
+    const OpenVolume& volume_;
+    const Model& model_;
+    std::span<const LinkingSurface> links_;
+    std::set<EdgeId> rim_;
+    std::vector<Line> lines_;
+    std::vector<Rung> rungs_;
+    std::map<EdgeId, std::size_t> first_; ///< line of an edge's first piece
+};
+
+} // namespace
+
+void square_mapped_lines(Seeds& seeds, const OpenVolume& volume, std::span<const LinkingSurface> links)
+{
+    if (!seeds.corners.empty()) LineSquarer(seeds, volume, links).run();
+}
+
+} // namespace lacuna::surface
