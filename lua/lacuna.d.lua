@@ -472,6 +472,11 @@ local Assembly = {}
 ---@param options? lacuna.SweepOptions|table<lacuna.Volume, lacuna.SweepOptions>
 ---@return lacuna.AssemblyMesh
 function Assembly:sweep(options) end
+--- Sweep and write a layer at a time, as Volume:sweep_to: the bytes of sweep(options):write(path).
+---@param path string
+---@param options? lacuna.SweepToOptions|table<lacuna.Volume, lacuna.SweepOptions>
+---@return table report
+function Assembly:sweep_to(path, options) end
 
 --- Where two volumes are a little further apart than the tolerance and share no nodes.
 ---@class lacuna.NearMiss

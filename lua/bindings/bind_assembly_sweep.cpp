@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "bindings/classes.h"
+#include "bindings/io_paths.h"
+#include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
 #include "bindings/sweep_members.h"
+#include "bindings/sweep_to.h"
 
 #include <algorithm>
 #include <string>
@@ -71,24 +74,28 @@ void read_own(lua_State* L, int index, const Box<VolumeState>& volume, SweepArgu
     }
 }
 
-/// mesh = assembly:sweep(options)
-int sweep_assembly(lua_State* L)
+/// Sweep the assembly that is the first argument with the options at `index`, nil or a table; its mesh is on
+/// top of the stack then.
+/// @param crew  of a mesh that need not hold its nodes; null: nobody
+/// @return  what it was swept in, which stays as long as the stack
+RunContext& push_swept(lua_State* L, int index, const char* call, bool layered, const Crew* crew)
 {
-    lua_settop(L, 2);
     const auto& assembly = hold<AssemblyState>(L, 1);
-    if (lua_isnoneornil(L, 2)) {
+    if (lua_isnoneornil(L, index)) {
         lua_newtable(L);
-        lua_replace(L, 2);
+        lua_replace(L, index);
     }
-    if (lua_type(L, 2) != LUA_TTABLE) fail_value(L, {"sweep", nullptr}, "a table of options", 2);
-    check_volume_keys(L, 2, assembly);
+    if (lua_type(L, index) != LUA_TTABLE) fail_value(L, {call, nullptr}, "a table of options", index);
+    check_volume_keys(L, index, assembly);
     auto& arguments = temporary<std::vector<SweepArguments*>>(L);
     for (const AssemblyState::Entry& entry : assembly.entries) {
         if (!entry.volume) continue;
         luaL_checkstack(L, 16, "too many volumes");
-        push_options_of(L, 2, entry.volume);
-        SweepArguments& own = push_sweep_arguments(L, lua_gettop(L), "sweep", *entry.volume);
-        read_own(L, 2, entry.volume, own);
+        push_options_of(L, index, entry.volume);
+        SweepArguments& own = push_sweep_arguments(L, lua_gettop(L), call, *entry.volume);
+        own.options.layered = layered;
+        own.options.crew = layered ? crew : nullptr;
+        read_own(L, index, entry.volume, own);
         guard(L, [&] { arguments.push_back(&own); });
     }
     RunContext& context = push_context(L);
@@ -116,10 +123,33 @@ int sweep_assembly(lua_State* L)
         box = sweep_members(members, std::move(left_out), context);
         box->seconds = clock.seconds();
     });
+    return context;
+}
+
+/// mesh = assembly:sweep(options)
+int sweep_assembly(lua_State* L)
+{
+    lua_settop(L, 2);
+    push_swept(L, 2, "sweep", false, nullptr);
     return 1;
 }
 
-const luaL_Reg kAssemblyMethods[] = {{"sweep", sweep_assembly}, {nullptr, nullptr}};
+/// report = assembly:sweep_to(path, options)
+int sweep_assembly_to(lua_State* L)
+{
+    lua_settop(L, 3);
+    check<AssemblyState>(L, 1);
+    const io::OutputPath& path = push_output_path(L, 2, "sweep_to");
+    push_write_options(L, 3);
+    WriteArguments& file = push_layered_write(L, lua_gettop(L), path);
+    const Crew* const crew = host(L).crew;
+    const RunContext& context = push_swept(L, 3, "sweep_to", may_be_layered_of_parts(file, path), crew);
+    write_swept_parts(L, path, file, crew, context);
+    return 1;
+}
+
+const luaL_Reg kAssemblyMethods[] = {
+    {"sweep", sweep_assembly}, {"sweep_to", sweep_assembly_to}, {nullptr, nullptr}};
 
 } // namespace
 

@@ -407,8 +407,11 @@ io::Deck deck_of_parts(const AssemblyMeshState& state, WriteArguments& arguments
 
 /// Write the mesh of an assembly, in parts where these are asked for.
 void write_parts(const AssemblyMeshState& state, const io::OutputPath& path, WriteArguments& arguments,
-                 const RunContext& context)
+                 const Crew* crew, const RunContext& context)
 {
+    if (state.swept.number.empty())
+        return team::write_parts(state.swept, path, {arguments.msh.binary, arguments.msh.version}, crew,
+                                 context);
     const std::string ending = io::ending_of(path.text());
     const bool pieces = ending == ".pvtu";
     if (pieces)
@@ -623,6 +626,11 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
     return arguments;
 }
 
+bool may_be_layered_of_parts(const WriteArguments& arguments, const io::OutputPath& path)
+{
+    return team::is_layered_of_parts(io::ending_of(path.text())) && !arguments.partitions_given;
+}
+
 void write_layered(const sweep::Swept& swept, const std::string& material, const io::OutputPath& path,
                    WriteArguments& arguments, const Crew* crew, const RunContext& context)
 {
@@ -651,7 +659,7 @@ void write_pieces(const AssemblyMeshState& state, const io::OutputPath& path, Wr
     count_parts(arguments, path, crew);
     for (const sweep::LeftOut& out : state.left_out)
         log_line(context, "note: " + path.text() + " has a hole: left out is " + out.message);
-    write_parts(state, path, arguments, context);
+    write_parts(state, path, arguments, crew, context);
 }
 
 void bind_io(lua_State* L)

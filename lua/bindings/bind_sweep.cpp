@@ -5,6 +5,7 @@
 #include "bindings/options.h"
 #include "bindings/other_ways.h"
 #include "bindings/sweep_members.h"
+#include "bindings/sweep_to.h"
 #include "bindings/write_mesh.h"
 
 #include <lacuna/closure/branches.h>
@@ -135,66 +136,6 @@ int sweep_volume(lua_State* L)
     }
 }
 
-/// Take `write` out of a table of options: a copy without it stands at `index` then, and it on top.
-void push_write_options(lua_State* L, int index)
-{
-    if (lua_type(L, index) != LUA_TTABLE) {
-        lua_pushnil(L);
-        return;
-    }
-    lua_newtable(L);
-    for (lua_pushnil(L); lua_next(L, index) != 0;) {
-        lua_pushvalue(L, -2);
-        lua_insert(L, -2);
-        lua_rawset(L, -4);
-    }
-    lua_pushliteral(L, "write");
-    lua_rawget(L, -2);
-    lua_pushliteral(L, "write");
-    lua_pushnil(L);
-    lua_rawset(L, -4);
-    lua_insert(L, -2);
-    lua_replace(L, index);
-    if (lua_type(L, -1) != LUA_TNIL && lua_type(L, -1) != LUA_TTABLE)
-        fail_value(L, {"sweep_to", "write"}, "a table of options { version =, binary =, quality = }", -1);
-}
-
-/// What sweep_to tells of a mesh, as fields of its report on top of the stack.
-struct Told {
-    std::size_t nodes = 0, hexes = 0, wedges = 0;
-    int layers = 0;
-    double least = 1; ///< scaled Jacobian
-    bool streamed = false;
-    int processes = 1;
-};
-
-void set_told(lua_State* L, const Told& told)
-{
-    set_count(L, "nodes", told.nodes);
-    set_count(L, "hexes", told.hexes);
-    set_count(L, "wedges", told.wedges);
-    set_count(L, "layers", static_cast<std::size_t>(told.layers));
-    set_number(L, "min_scaled_jacobian", told.least);
-    set_boolean(L, "streamed", told.streamed);
-    set_count(L, "processes", static_cast<std::size_t>(told.processes));
-}
-
-/// What sweep_to returns of a volume that was swept in pieces, whose mesh is on top: its report.
-void push_report_of_pieces(lua_State* L)
-{
-    const int mesh = lua_gettop(L);
-    const auto& state = hold<AssemblyMeshState>(L, mesh);
-    lua_getfield(L, mesh, "report");
-    Told told{.nodes = state.swept.nodes};
-    for (const sweep::Swept& part : state.swept.parts) {
-        told.hexes += part.mesh.hex_count();
-        told.wedges += part.mesh.wedge_count();
-        told.layers = std::max(told.layers, part.mesh.layers);
-        told.least = std::min(told.least, part.min_scaled_jacobian);
-    }
-    set_told(L, told);
-}
-
 /// Sweep a volume as it is and write it, a layer at a time where that goes.
 /// @return  whether it is swept
 bool sweep_whole_to(lua_State* L, VolumeState& state, SweepArguments& arguments, OtherWays& ways,
@@ -262,10 +203,10 @@ int sweep_to(lua_State* L)
         const int top = lua_gettop(L);
         bool steps = false;
         guard(L, [&] { steps = closure::has_pieces(state.volume, context); });
+        arguments.options.layered = may_be_layered_of_parts(file, path);
+        arguments.options.crew = arguments.options.layered ? crew : nullptr;
         if (steps && sweep_steps(L, volume, arguments, ways, context)) {
-            const auto& pieces = check<AssemblyMeshState>(L, -1); // which stays on the stack
-            guard(L, [&] { write_pieces(pieces, path, file, crew, context); });
-            push_report_of_pieces(L);
+            write_swept_parts(L, path, file, crew, context);
             return 1;
         }
         if (!steps && sweep_whole_to(L, state, arguments, ways, path, file, crew, context)) return 1;

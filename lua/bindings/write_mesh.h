@@ -17,12 +17,15 @@ struct WriteArguments;
 /// Refuses endings and options that such files do not have.
 WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath& path);
 
+/// Whether the mesh of an assembly is written so, whose parts then need not hold their nodes.
+bool may_be_layered_of_parts(const WriteArguments& arguments, const io::OutputPath& path);
+
 /// Write a mesh, whose nodes may be still to be made, with the bytes of mesh:write.
 /// @param material  the volume's, which decks name.
 void write_layered(const sweep::Swept& swept, const std::string& material, const io::OutputPath& path,
                    WriteArguments& arguments, const Crew* crew, const RunContext& context);
 
-/// Write the mesh of an assembly, as assembly_mesh:write does.
+/// Write the mesh of an assembly, whose nodes may be still to be made, as assembly_mesh:write does.
 void write_pieces(const AssemblyMeshState& state, const io::OutputPath& path, WriteArguments& arguments,
                   const Crew* crew, const RunContext& context);
 

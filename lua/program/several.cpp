@@ -35,7 +35,7 @@ Exit run_as_several(const CommandLine& line, const std::function<Exit(const Comm
     if (line.action == Action::run && result == Exit::done && !ranks.were_called())
         std::fprintf(stderr,
                      "lacuna: note: the first of the %d processes did all: what they share is the layers "
-                     "of volume:sweep_to\n",
+                     "of volume:sweep_to and assembly:sweep_to\n",
                      size);
     if (line.verbose) {
         const mpi::Traffic sent = ranks.traffic();

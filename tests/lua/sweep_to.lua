@@ -91,7 +91,67 @@ local whole = open("prism", drop())():sweep { layers = 4, size = 0.3, order = 2 
 whole:write(path("whole.msh"))
 check.that(bytes("whole.msh") == bytes("second.msh"), "order 2")
 
--- --- volumes in pieces
+-- --- volumes in pieces, and several volumes
+
+local part_formats = {
+  { "msh" }, { "msh", { binary = false } }, { "msh", { version = 2.2 } },
+  { "msh", { version = 2.2, binary = false } }, { "vtu" }, { "vtk" }, { "vtk", { binary = false } },
+  { "inp" }, { "bdf" }, { "unv" }, { "exo", nil, "held" }, { "msh", { partitions = 2 }, "held" },
+}
+
+-- Sweep several volumes both ways; all is streamed but where the format has it held, or `held` says so.
+local function same_parts(what, make, options, held)
+  for i, format in ipairs(part_formats) do
+    local ending, write = format[1], format[2]
+    local whole = make():sweep(options)
+    whole:write(path("whole." .. ending), write)
+    local all = { write = write }
+    for key, value in pairs(options) do all[key] = value end
+    local report = make():sweep_to(path("pieces." .. ending), all)
+    check.that(bytes("whole." .. ending) == bytes("pieces." .. ending), what .. ", format " .. i)
+    check.equal(report.hexes, whole.hexes, what)
+    check.equal(report.nodes, whole.nodes, what)
+    local is_held = held or format[3] ~= nil
+    check.equal(report.streamed, not is_held, what .. ", format " .. i)
+    check.equal(tostring(report):find("were held in memory", 1, true) ~= nil, is_held)
+    check.equal(#report, #whole.report + (is_held and 1 or 0), what)
+    if not is_held then check.equal(table.concat(report, "\n"), table.concat(whole.report, "\n")) end
+  end
+end
+
+do
+  local function of(options, name)
+    return lacuna.synthetic.prism(options):open_volume { source = "source", target = "target",
+      walls = "auto", name = name }
+  end
+  -- A core in a ring that lacks the wall between them: straight, twisted, tapered, with a core that came
+  -- with no wall either, and one whose members are not all streamed.
+  local function core_and_ring(shape, more)
+    return function()
+      local own, round = { sides = 6, height = 2 }, { sides = 6, radius = 2, height = 2, holes = 1,
+        hole_radius = 1, drop = { "wall_2" } }
+      for key, value in pairs(shape) do own[key], round[key] = value, value end
+      local core, ring = of(own, "core"), of(round, "ring")
+      local assembly = lacuna.assembly { core, ring }
+      if not more then return assembly end
+      local function own_options(options)
+        local all = { [core] = more }
+        for key, value in pairs(options) do all[key] = value end
+        return all
+      end
+      return {
+        sweep = function(_, options) return assembly:sweep(own_options(options)) end,
+        sweep_to = function(_, to, options) return assembly:sweep_to(to, own_options(options)) end,
+      }
+    end
+  end
+  same_parts("core and ring", core_and_ring {}, { size = 0.4, layers = 6 })
+  same_parts("twisted", core_and_ring { twist = 20 }, { size = 0.4, layers = 7 })
+  same_parts("tapered", core_and_ring { taper = 0.7 }, { size = 0.4 })
+  same_parts("cells that are moved", core_and_ring { taper = 0.7, twist = 15 }, { size = 0.4 }, true)
+  same_parts("a core with rows at its ends", core_and_ring({},
+    { boundary_layers = { walls = "source", first = 0.05, count = 2 } }), { size = 0.4 }, true)
+end
 
 do
   -- A stair of two steps.
@@ -118,15 +178,7 @@ do
     return model:open_volume { source = "bottom", target = { "low", "high" },
       walls = { "left", "right", "riser", "side0", "side1" } }
   end
-  for _, ending in ipairs { "msh", "exo", "vtu" } do
-    local whole = stair():sweep { size = 0.25 }
-    whole:write(path("whole." .. ending))
-    local own = stair():sweep_to(path("pieces." .. ending), { size = 0.25 })
-    check.that(bytes("whole." .. ending) == bytes("pieces." .. ending), "pieces as " .. ending)
-    check.equal(own.hexes, whole.hexes)
-    check.equal(own.nodes, whole.nodes)
-    check.equal(own.streamed, false)
-  end
+  same_parts("a stair", stair, { size = 0.25 })
   local own = stair():sweep_to(path("pieces.pvtu"), { size = 0.25, write = { partitions = 2 } })
   check.that(own.hexes > 0 and #bytes("pieces_1.vtu") > 0)
 end

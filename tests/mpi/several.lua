@@ -39,6 +39,30 @@ end
 ]])
 end
 
+-- Two volumes side by side; and where asked for, one of them held, since its cells are moved.
+local assembly = path("assembly.recipe.lua")
+do
+  local file <close> = assert(io.open(assembly, "w"))
+  file:write([[
+local lacuna = require "lacuna"
+local p = lacuna.params { output = "", layers = 12, size = 0.3, fail = "", held = false, binary = true }
+local function open(name, shape)
+  shape.sides, shape.height, shape.taper = 6, 2, 0.7
+  if p.held then shape.twist = 15 end
+  return lacuna.synthetic.prism(shape):open_volume { source = "source", target = "target", walls = "auto",
+    name = name }
+end
+local core = open("core", {})
+local ring = open("ring", { radius = 2, holes = 1, hole_radius = 1, drop = { "wall_2" } })
+if p.held then p.layers, p.size = nil, 0.4 end
+local report = lacuna.assembly { core, ring }:sweep_to(p.output, { layers = p.layers, size = p.size,
+  write = not p.output:find "inp" and not p.output:find "vtu" and { binary = p.binary } or {},
+  min_scaled_jacobian = p.fail == "proof" and 0.999 or nil, improve = p.fail ~= "proof" })
+assert(report.streamed == not p.held)
+print(report.processes, report.hexes)
+]])
+end
+
 -- Exit code, standard output and standard error of so many processes.
 local function run(count, ...)
   local start = count > 1
@@ -63,6 +87,25 @@ for _, name in ipairs { "mesh.msh", "mesh.vtu", "mesh.vtk" } do
       check.that(#first > 1000 and bytes(name) == first, name .. " of " .. count)
     end
   end
+end
+
+-- Several volumes, and where one is held.
+for _, name in ipairs { "assembly.msh", "assembly.vtu", "assembly.inp", "held.msh" } do
+  for _, binary in ipairs { "true", "false" } do
+    local held = name == "held.msh"
+    local first
+    for _, count in ipairs { 1, 2, 4 } do
+      os.remove(path(name))
+      local code, out, err = run(count, assembly, "output=" .. path(name), "binary=" .. binary,
+        "held=" .. tostring(held))
+      check.equal(code, 0, err)
+      check.equal(tonumber(out:match("^(%d+)")), held and 1 or count)
+      check.equal(err, "")
+      first = first or bytes(name)
+      check.that(#first > 1000 and bytes(name) == first, name .. " of " .. count)
+    end
+  end
+  os.remove(path(name))
 end
 
 -- Layers in several parts, so that each has some.

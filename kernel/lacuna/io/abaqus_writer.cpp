@@ -161,7 +161,7 @@ private:
             for (std::size_t s = 0; s < deck_.sets.size(); ++s) {
                 const DeckSet& set = deck_.sets[s];
                 if (set.kind != DeckSet::Kind::elements || !same_word(set.name, deck_.regions[r].name) ||
-                    (set.members != members[r] && !bulk_.is_all(set)))
+                    set.members != members[r] || bulk_.parts_of(set) != bulk_.parts_of(static_cast<Index>(r)))
                     continue;
                 by_elements_[s] = true;
                 makes_set_[r] = true;
@@ -180,13 +180,22 @@ private:
         for (std::size_t e = 0; e < block.count(); ++e)
             of_region[block.regions[e]].push_back(static_cast<std::uint32_t>(e));
         const auto nodes = static_cast<std::size_t>(shape_info(block.shape).nodes);
-        if (bulk_.is_made(block)) {
-            file_.sections.push_back({head_of(type, 0), bulk_.count(block), (nodes + 1) * kNumberBytes + 4,
-                                      [bulk = bulk_, &block](std::size_t begin, std::size_t end, char* out) {
-                                          for (std::size_t e = begin; e < end; ++e)
-                                              out = put_element(bulk, block, e, out);
-                                          return out;
-                                      }});
+        // Made elements of a part are in a row, parts of a region are not.
+        std::map<Index, std::vector<std::pair<std::size_t, std::size_t>>> made;
+        for (const BulkReader::MadeRun& run : bulk_.made_runs(block))
+            made[run.region].emplace_back(run.begin, run.end);
+        for (const auto& [region, runs] : made) {
+            std::string head = head_of(type, region);
+            for (const auto& [first, last] : runs) {
+                file_.sections.push_back(
+                    {std::move(head), last - first, (nodes + 1) * kNumberBytes + 4,
+                     [bulk = bulk_, &block, from = first](std::size_t begin, std::size_t end, char* out) {
+                         for (std::size_t e = from + begin; e < from + end; ++e)
+                             out = put_element(bulk, block, e, out);
+                         return out;
+                     }});
+                head.clear();
+            }
         }
         for (auto& [region, elements] : of_region) {
             const std::size_t count = elements.size();

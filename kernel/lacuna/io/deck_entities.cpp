@@ -18,7 +18,7 @@ int SetLists::extended(int list, int set)
     return found->second;
 }
 
-DeckEntities entities_of(const Deck& deck)
+DeckEntities entities_of(const Deck& deck, const BulkReader& bulk)
 {
     std::vector<DeckTag> tags;
     for (const DeckBlock& block : deck.blocks) tags.insert(tags.end(), block.tags.begin(), block.tags.end());
@@ -32,28 +32,42 @@ DeckEntities entities_of(const Deck& deck)
                 list[index(e)] = lists.extended(list[index(e)], static_cast<int>(s));
     }
 
+    // All cells of a part that is made are in the same sets.
+    std::map<const BulkPart*, int> list_of_part;
+    for (std::size_t s = 0; s < deck.sets.size(); ++s)
+        for (const BulkPart* part : bulk.parts_of(deck.sets[s]))
+            list_of_part[part] = lists.extended(list_of_part[part], static_cast<int>(s));
+
     DeckEntities found;
     std::map<std::tuple<int, Index, int>, Index> known;
+    const auto entity_of = [&](int dimension, Index region, int own_list) {
+        const auto [at, fresh] = known.try_emplace(std::tuple(dimension, region, own_list),
+                                                   static_cast<Index>(found.all.size()));
+        if (fresh) {
+            DeckEntity& entity = found.all.emplace_back();
+            entity.dimension = dimension;
+            entity.region = region;
+            for (const int set : lists[own_list]) entity.groups.push_back(deck.sets[index(set)].name);
+            if (entity.region >= 0) entity.groups.push_back(deck.regions[index(entity.region)].name);
+        }
+        return at->second;
+    };
     std::size_t e = 0;
     for (const DeckBlock& block : deck.blocks) {
         std::vector<Index>& of = found.of.emplace_back(block.count());
+        auto& made = found.made.emplace_back();
         const int dimension = shape_info(block.shape).dimension;
-        std::tuple<int, Index, int> last{-1, 0, 0};
+        for (const BulkReader::MadeRun& run : bulk.made_runs(block)) {
+            const Index place = entity_of(dimension, run.region, list_of_part[run.part]);
+            made.emplace_back(run.end, place);
+            found.all[index(place)].count += run.end - run.begin;
+        }
+        std::pair<Index, int> last{-2, 0};
         Index place = 0;
         for (std::size_t b = 0; b < block.count(); ++b, ++e) {
-            const std::tuple<int, Index, int> key{dimension, block.regions[b], list[e]};
-            if (key != last) {
-                const auto [at, fresh] = known.try_emplace(key, static_cast<Index>(found.all.size()));
-                if (fresh) {
-                    DeckEntity& entity = found.all.emplace_back();
-                    entity.dimension = dimension;
-                    entity.region = block.regions[b];
-                    for (const int set : lists[list[e]]) entity.groups.push_back(deck.sets[index(set)].name);
-                    if (entity.region >= 0) entity.groups.push_back(deck.regions[index(entity.region)].name);
-                }
-                place = at->second;
-                last = key;
-            }
+            const std::pair<Index, int> key{block.regions[b], list[e]};
+            if (key != last) place = entity_of(dimension, block.regions[b], list[e]);
+            last = key;
             of[b] = place;
             ++found.all[index(place)].count;
         }

@@ -22,8 +22,23 @@ namespace {
 struct Part {
     std::size_t entity, block;
     std::vector<std::uint32_t> elements;
-    Index part = 0; ///< of a partition
-    int tag = 0;    ///< of the entity they are written under
+    Index part = 0;                                          ///< of a partition
+    int tag = 0;                                             ///< of the entity they are written under
+    std::vector<std::pair<std::size_t, std::size_t>> made{}; ///< elements [first, second), instead
+
+    [[nodiscard]] std::size_t count() const
+    {
+        std::size_t all = elements.size();
+        for (const auto& [begin, end] : made) all += end - begin;
+        return all;
+    }
+    [[nodiscard]] std::size_t element(std::size_t i) const
+    {
+        if (made.empty()) return elements[i];
+        std::size_t run = 0;
+        for (; i >= made[run].second - made[run].first; ++run) i -= made[run].second - made[run].first;
+        return made[run].first + i;
+    }
 };
 
 struct Content {
@@ -48,7 +63,7 @@ struct Content {
 };
 
 /// Groups of an MSH file keep their tags.
-void keep_tags(const Deck& deck, GroupTags& groups)
+void keep_tags(const Deck& deck, const BulkReader& bulk, GroupTags& groups)
 {
     std::vector<DeckTag> tags;
     std::vector<int> dimension; // of the elements
@@ -58,8 +73,11 @@ void keep_tags(const Deck& deck, GroupTags& groups)
     }
     const TagPlaces places(tags, [](Index, Index) {});
     for (const DeckSet& set : deck.sets) {
-        if (set.kind != DeckSet::Kind::elements || set.members.empty()) continue;
-        if (const Index e = places.find(set.members.front()); e >= 0)
+        if (set.kind != DeckSet::Kind::elements || bulk.count(set) == 0) continue;
+        const DeckTag first = bulk.member(set, 0);
+        if (set.members.empty() || first != set.members.front())
+            groups.keep(3, set.name, set.tag); // a cell that is made
+        else if (const Index e = places.find(first); e >= 0)
             groups.keep(dimension[index(e)], set.name, set.tag);
     }
 }
@@ -133,15 +151,16 @@ void part_entities(const Deck& deck, const DeckPartition& partition, bool ghosts
              [cells = cells](std::size_t i) { return static_cast<std::uint64_t>((*cells)[i]); }});
 }
 
-std::shared_ptr<const Content> content_of(const Deck& deck, const DeckFileOptions& options, DeckFile& file)
+std::shared_ptr<const Content> content_of(const Deck& deck, const BulkReader& bulk,
+                                          const DeckFileOptions& options, DeckFile& file)
 {
     const DeckPartition* const partition = options.partition;
     auto content = std::make_shared<Content>();
-    content->entities = entities_of(deck);
+    content->entities = entities_of(deck, bulk);
     content->tag = entity_tags(deck, content->entities);
     GroupTags groups;
     const bool same = deck.format == DeckFormat::msh;
-    if (same) keep_tags(deck, groups);
+    if (same) keep_tags(deck, bulk, groups);
     for (const DeckEntity& entity : content->entities.all)
         content->physical.push_back(groups.tags_of(entity.dimension, entity.groups, same ? "" : "elements"));
     content->names = groups.take();
@@ -155,12 +174,17 @@ std::shared_ptr<const Content> content_of(const Deck& deck, const DeckFileOption
             content->physical[n], {}, [&](int tag) { return size[std::pair(dimension(n), tag)]; });
         content->smallest.push_back(least == content->physical[n].end() ? 0 : *least);
     }
-    std::vector<std::vector<Index>> place(content->entities.all.size());
     for (std::size_t b = 0; b < deck.blocks.size(); ++b) {
         const DeckBlock& block = deck.blocks[b];
         if (std::ranges::find(block.nodes, -1) != block.nodes.end())
             refuse_element(block, "MSH", "some have not all their middle nodes");
         std::map<std::pair<Index, Index>, std::size_t> part; // of entity and part
+        for (const BulkReader::MadeRun& run : bulk.made_runs(block)) {
+            const Index entity = content->entities.at(b, run.begin);
+            const auto [at, fresh] = part.try_emplace({entity, 0}, content->parts.size());
+            if (fresh) content->parts.push_back({index(entity), b, {}, 0, content->tag[index(entity)]});
+            content->parts[at->second].made.emplace_back(run.begin, run.end);
+        }
         for (std::size_t e = 0; e < block.count(); ++e) {
             const Index entity = content->entities.of[b][e];
             const Index own = partition != nullptr ? partition->part[b][e] : 0;
@@ -168,14 +192,18 @@ std::shared_ptr<const Content> content_of(const Deck& deck, const DeckFileOption
             if (fresh) content->parts.push_back({index(entity), b, {}, own, content->tag[index(entity)]});
             content->parts[at->second].elements.push_back(static_cast<std::uint32_t>(e));
         }
-        content->elements += block.count();
-        if (block.count() == 0) continue;
-        const auto [low, high] = std::ranges::minmax(block.tags);
+        content->elements += bulk.count(block);
+        if (bulk.count(block) == 0) continue;
+        const auto [low, high] = bulk.tags(block);
         content->first_element = content->last_element == 0 ? low : std::min(content->first_element, low);
         content->last_element = std::max(content->last_element, high);
     }
     std::ranges::stable_sort(content->parts, {},
                              [](const Part& part) { return std::pair(part.entity, part.part); });
+    if (deck.points.empty() && bulk.points() > 0) {
+        content->first_node = 1;
+        content->last_node = static_cast<DeckTag>(bulk.points());
+    }
     if (!deck.point_tags.empty()) {
         const auto [low, high] = std::ranges::minmax(deck.point_tags);
         content->first_node = low;
@@ -185,6 +213,7 @@ std::shared_ptr<const Content> content_of(const Deck& deck, const DeckFileOption
         throw InvalidInput("io.number_taken", deck.path + " has a node or an element of number 0, which an "
                                                           "MSH file cannot hold; write another format");
     for (const Vec3& point : deck.points) content->box.extend(point);
+    bulk.each_on_skin([&](const Vec3& point) { content->box.extend(point); });
     if (partition != nullptr) part_entities(deck, *partition, partition->lists.size() > 1, *content);
     const auto count = [&](DeckSet::Kind kind) {
         return static_cast<std::size_t>(std::ranges::count(deck.sets, kind, &DeckSet::kind));
@@ -219,19 +248,19 @@ std::string entities_text(const Content& content, const MshNumbers& numbers)
 }
 
 template <class Tag>
-char* put_nodes(const Deck& deck, const DeckBlock& block, std::size_t e, const MshNumbers& numbers, char* out)
+char* put_nodes(const BulkReader& bulk, DeckShape shape, std::span<const Index> nodes,
+                const MshNumbers& numbers, char* out)
 {
-    const std::span<const Index> nodes = block.element(e);
-    const std::span<const std::uint8_t> places = gmsh_places(block.shape);
+    const std::span<const std::uint8_t> places = gmsh_places(shape);
     std::array<Tag, 27> tags{};
     for (std::size_t k = 0; k < nodes.size(); ++k)
-        tags[places.empty() ? k : places[k]] = static_cast<Tag>(deck.point_tags[index(nodes[k])]);
+        tags[places.empty() ? k : places[k]] = static_cast<Tag>(bulk.point_tag(nodes[k]));
     for (std::size_t k = 0; k < nodes.size(); ++k) out = numbers.add(out, tags[k]);
     return numbers.end(out);
 }
 
-void add_41(const Deck& deck, const std::shared_ptr<const Content>& content, const MshNumbers& numbers,
-            DeckFile& file)
+void add_41(const Deck& deck, const BulkReader& bulk, const std::shared_ptr<const Content>& content,
+            const MshNumbers& numbers, DeckFile& file)
 {
     const std::string gap = numbers.binary ? "\n" : "";
     std::string text = msh_opening(content->names, "4.1", numbers.binary) + entities_text(*content, numbers);
@@ -239,38 +268,51 @@ void add_41(const Deck& deck, const std::shared_ptr<const Content>& content, con
         text += msh_partitioned(static_cast<int>(content->nodes.size()), content->ghost_tags,
                                 content->of_parts, numbers);
     text += "$Nodes\n" + numbers.line(size_of(std::max<std::size_t>(content->nodes.size(), 1)),
-                                      size_of(deck.points.size()),
-                                      static_cast<std::uint64_t>(content->first_node),
+                                      size_of(bulk.points()), static_cast<std::uint64_t>(content->first_node),
                                       static_cast<std::uint64_t>(content->last_node));
-    const auto add_nodes = [&](int dimension, int tag, std::size_t count, const auto& point) {
+    const auto put_point = [numbers](const Vec3& point, char* out) {
+        for (const double x : point) out = numbers.add(out, x);
+        return numbers.end(out);
+    };
+    /// @param place   of a point in the file's order
+    /// @param points  calls back with the points [begin, end) in that order
+    const auto add_nodes = [&](int dimension, int tag, std::size_t count, const auto& place,
+                               const auto& points) {
         text += numbers.line(dimension, tag, 0, size_of(count));
         file.sections.push_back({text, count, numbers.room(1, 8),
-                                 [&deck, point, numbers](std::size_t begin, std::size_t end, char* out) {
+                                 [bulk, place, numbers](std::size_t begin, std::size_t end, char* out) {
                                      for (std::size_t i = begin; i < end; ++i)
                                          out = numbers.end(numbers.add(
-                                             out, static_cast<std::uint64_t>(deck.point_tags[point(i)])));
+                                             out, static_cast<std::uint64_t>(bulk.point_tag(place(i)))));
                                      return out;
                                  }});
         text.clear();
         file.sections.push_back({{},
                                  count,
                                  numbers.room(3, sizeof(Vec3)),
-                                 [&deck, point, numbers](std::size_t begin, std::size_t end, char* out) {
-                                     for (std::size_t i = begin; i < end; ++i) {
-                                         for (const double x : deck.points[point(i)])
-                                             out = numbers.add(out, x);
-                                         out = numbers.end(out);
-                                     }
+                                 [points, put_point](std::size_t begin, std::size_t end, char* out) {
+                                     points(begin, end,
+                                            [&](const Vec3& point) { out = put_point(point, out); });
                                      return out;
                                  }});
     };
     const DeckEntity* const first = content->entities.all.empty() ? nullptr : &content->entities.all.front();
     if (content->nodes.empty())
-        add_nodes(first == nullptr ? 3 : first->dimension, first == nullptr ? 1 : content->tag.front(),
-                  deck.points.size(), [](std::size_t i) { return i; });
-    for (std::size_t n = 0; n < content->nodes.size(); ++n)
-        add_nodes(content->nodes[n].dimension, content->nodes[n].tag, content->nodes[n].points.size(),
-                  [content, n](std::size_t i) { return std::size_t(content->nodes[n].points[i]); });
+        add_nodes(
+            first == nullptr ? 3 : first->dimension, first == nullptr ? 1 : content->tag.front(),
+            bulk.points(), [](std::size_t i) { return static_cast<Index>(i); },
+            [bulk](std::size_t begin, std::size_t end, const auto& visit) {
+                bulk.each_point(begin, end, [&](std::size_t, DeckTag, const Vec3& point) { visit(point); });
+            });
+    for (std::size_t n = 0; n < content->nodes.size(); ++n) {
+        const auto place = [content, n](std::size_t i) {
+            return static_cast<Index>(content->nodes[n].points[i]);
+        };
+        add_nodes(content->nodes[n].dimension, content->nodes[n].tag, content->nodes[n].points.size(), place,
+                  [&deck, place](std::size_t begin, std::size_t end, const auto& visit) {
+                      for (std::size_t i = begin; i < end; ++i) visit(deck.points[index(place(i))]);
+                  });
+    }
     std::string head = gap + "$EndNodes\n$Elements\n" +
                        numbers.line(size_of(content->parts.size()), size_of(content->elements),
                                     static_cast<std::uint64_t>(content->first_element),
@@ -280,15 +322,16 @@ void add_41(const Deck& deck, const std::shared_ptr<const Content>& content, con
         const DeckBlock& block = deck.blocks[part.block];
         const std::size_t each = static_cast<std::size_t>(shape_info(block.shape).nodes) + 1;
         head += numbers.line(shape_info(block.shape).dimension, part.tag, gmsh_type(block.shape),
-                             size_of(part.elements.size()));
+                             size_of(part.count()));
         file.sections.push_back(
-            {head, part.elements.size(), numbers.room(each, 8 * each),
-             [content, p, &deck, &block, numbers](std::size_t begin, std::size_t end, char* out) {
-                 for (std::size_t i = begin; i < end; ++i) {
-                     const std::uint32_t e = content->parts[p].elements[i];
-                     out = numbers.add(out, static_cast<std::uint64_t>(block.tags[e]));
-                     out = put_nodes<std::uint64_t>(deck, block, e, numbers, out);
-                 }
+            {head, part.count(), numbers.room(each, 8 * each),
+             [content, p, bulk, &block, numbers](std::size_t begin, std::size_t end, char* out) {
+                 const auto put = [&](DeckTag tag, Index, std::span<const Index> nodes) {
+                     out = numbers.add(out, static_cast<std::uint64_t>(tag));
+                     out = put_nodes<std::uint64_t>(bulk, block.shape, nodes, numbers, out);
+                 };
+                 for (std::size_t i = begin; i < end; ++i)
+                     bulk.element(block, content->parts[p].element(i), put);
                  return out;
              }});
         head.clear();
@@ -298,19 +341,20 @@ void add_41(const Deck& deck, const std::shared_ptr<const Content>& content, con
 }
 
 /// An element carries one physical group and its entity.
-void add_22(const Deck& deck, const std::shared_ptr<const Content>& content, const MshNumbers& numbers,
-            DeckFile& file)
+void add_22(const Deck& deck, const BulkReader& bulk, const std::shared_ptr<const Content>& content,
+            const MshNumbers& numbers, DeckFile& file)
 {
     const std::string gap = numbers.binary ? "\n" : "";
     file.sections.push_back({msh_opening(content->names, "2.2", numbers.binary) + "$Nodes\n" +
-                                 std::to_string(deck.points.size()) + "\n",
-                             deck.points.size(), numbers.room(4, 4 + sizeof(Vec3)),
-                             [&deck, numbers](std::size_t begin, std::size_t end, char* out) {
-                                 for (std::size_t p = begin; p < end; ++p) {
-                                     out = numbers.add(out, static_cast<int>(deck.point_tags[p]));
-                                     for (const double x : deck.points[p]) out = numbers.add(out, x);
-                                     out = numbers.end(out);
-                                 }
+                                 std::to_string(bulk.points()) + "\n",
+                             bulk.points(), numbers.room(4, 4 + sizeof(Vec3)),
+                             [bulk, numbers](std::size_t begin, std::size_t end, char* out) {
+                                 bulk.each_point(begin, end,
+                                                 [&](std::size_t, DeckTag tag, const Vec3& point) {
+                                                     out = numbers.add(out, static_cast<int>(tag));
+                                                     for (const double x : point) out = numbers.add(out, x);
+                                                     out = numbers.end(out);
+                                                 });
                                  return out;
                              }});
     std::string head = gap + "$EndNodes\n$Elements\n" + std::to_string(content->elements) + "\n";
@@ -321,19 +365,19 @@ void add_22(const Deck& deck, const std::shared_ptr<const Content>& content, con
         const std::size_t each = static_cast<std::size_t>(shape_info(block.shape).nodes) + 5;
         const int type = gmsh_type(block.shape);
         if (content->physical[part.entity].size() > 1) ++lost;
-        if (numbers.binary) head += numbers.line(type, static_cast<int>(part.elements.size()), 2);
+        if (numbers.binary) head += numbers.line(type, static_cast<int>(part.count()), 2);
         file.sections.push_back(
-            {head, part.elements.size(), numbers.room(each, 4 * (each - 2)),
-             [content, p, type, &deck, &block, numbers](std::size_t begin, std::size_t end, char* out) {
+            {head, part.count(), numbers.room(each, 4 * (each - 2)),
+             [content, p, type, bulk, &block, numbers](std::size_t begin, std::size_t end, char* out) {
                  const Part& of = content->parts[p];
-                 for (std::size_t i = begin; i < end; ++i) {
-                     const std::uint32_t e = of.elements[i];
-                     out = numbers.add(out, static_cast<int>(block.tags[e]));
+                 const auto put = [&](DeckTag tag, Index, std::span<const Index> nodes) {
+                     out = numbers.add(out, static_cast<int>(tag));
                      if (!numbers.binary) out = numbers.add(numbers.add(out, type), 2);
                      out = numbers.add(out, content->smallest[of.entity]);
                      out = numbers.add(out, content->tag[of.entity]);
-                     out = put_nodes<int>(deck, block, e, numbers, out);
-                 }
+                     out = put_nodes<int>(bulk, block.shape, nodes, numbers, out);
+                 };
+                 for (std::size_t i = begin; i < end; ++i) bulk.element(block, of.element(i), put);
                  return out;
              }});
         head.clear();
@@ -345,16 +389,17 @@ void add_22(const Deck& deck, const std::shared_ptr<const Content>& content, con
 
 } // namespace
 
-DeckFile msh_of_deck(const Deck& deck, const DeckFileOptions& options)
+DeckFile msh_of_deck(const Deck& deck, const DeckFileOptions& options, const LayeredBulk* layered)
 {
     DeckFile file;
     file.sizes = options.binary ? Sizes::exact : Sizes::varying;
-    const auto content = content_of(deck, options, file);
+    const BulkReader bulk(deck, layered);
+    const auto content = content_of(deck, bulk, options, file);
     const MshNumbers numbers{options.binary};
     if (options.msh_version == 2.2)
-        add_22(deck, content, numbers, file);
+        add_22(deck, bulk, content, numbers, file);
     else
-        add_41(deck, content, numbers, file);
+        add_41(deck, bulk, content, numbers, file);
     return file;
 }
 

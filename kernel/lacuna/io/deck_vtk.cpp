@@ -15,6 +15,7 @@ namespace {
 /// The cells, block after block; what the sections of the file refer to.
 struct Cells {
     const Deck& deck;
+    BulkReader bulk;
     DeckEntities entities;
     std::vector<std::size_t> blocks;     ///< those that are written
     std::size_t count = 0, lists = 0;    ///< of cells, and of their nodes
@@ -23,10 +24,11 @@ struct Cells {
 };
 
 /// @param own  the deck where it is to live as long as its cells; null: it does so by itself.
-std::shared_ptr<const Cells> cells_of(const Deck& deck, DeckEntities entities,
+std::shared_ptr<const Cells> cells_of(const Deck& deck, const BulkReader& bulk, DeckEntities entities,
                                       std::shared_ptr<const Deck> own = nullptr)
 {
-    auto cells = std::make_shared<Cells>(Cells{deck, std::move(entities), {}, 0, 0, {}, std::move(own)});
+    auto cells = std::make_shared<Cells>(
+        Cells{deck, bulk, std::move(entities), {}, 0, 0, {}, std::move(own)});
     for (std::size_t b = 0; b < deck.blocks.size(); ++b) {
         const DeckBlock& block = deck.blocks[b];
         if (std::ranges::find(block.nodes, -1) != block.nodes.end())
@@ -34,8 +36,8 @@ std::shared_ptr<const Cells> cells_of(const Deck& deck, DeckEntities entities,
         if (vtk_type_of(block.shape) == 0) refuse_element(block, "VTK", "there is no such cell");
         cells->blocks.push_back(b);
         cells->first_node.push_back(cells->lists);
-        cells->count += block.count();
-        cells->lists += block.nodes.size();
+        cells->count += bulk.count(block);
+        cells->lists += bulk.count(block) * static_cast<std::size_t>(shape_info(block.shape).nodes);
     }
     return cells;
 }
@@ -71,7 +73,7 @@ std::vector<Section> by_blocks(const std::shared_ptr<const Cells>& cells,
     for (std::size_t at = 0; at < cells->blocks.size(); ++at) {
         const DeckBlock& block = cells->deck.blocks[cells->blocks[at]];
         sections.push_back(
-            {{}, block.count(), bytes(block), each([cells, at, put_one](std::size_t e, char* out) {
+            {{}, cells->bulk.count(block), bytes(block), each([cells, at, put_one](std::size_t e, char* out) {
                  return put_one(*cells, at, e, out);
              })});
     }
@@ -81,21 +83,21 @@ std::vector<Section> by_blocks(const std::shared_ptr<const Cells>& cells,
 
 const DeckBlock& block_at(const Cells& cells, std::size_t at) { return cells.deck.blocks[cells.blocks[at]]; }
 
-/// Node `k` of an element in VTK's order, in which a wedge's triangle 0-1-2 looks away from 3-4-5.
-Index node_at(const DeckBlock& block, std::size_t e, std::size_t k)
+/// The place in an element of node `k` in VTK's order, where a wedge's triangle 0-1-2 looks away from 3-4-5.
+std::size_t place_of_node(DeckShape shape, std::size_t k)
 {
     constexpr std::array<std::size_t, 6> kWedge{0, 2, 1, 3, 5, 4};
-    return block.element(e)[block.shape == DeckShape::wedge6 ? kWedge[k] : k];
+    return shape == DeckShape::wedge6 ? kWedge[k] : k;
 }
 
 std::int32_t entity_at(const Cells& cells, std::size_t at, std::size_t e)
 {
-    return cells.entities.of[cells.blocks[at]][e] + 1;
+    return cells.entities.at(cells.blocks[at], e) + 1;
 }
 
 std::int32_t region_at(const Cells& cells, std::size_t at, std::size_t e)
 {
-    const Index region = block_at(cells, at).regions[e];
+    const Index region = cells.bulk.region(block_at(cells, at), e);
     return region < 0 ? 0 : cells.deck.regions[index(region)].tag;
 }
 
@@ -107,39 +109,45 @@ namespace {
 
 std::vector<VtuArray> vtu_arrays(const std::shared_ptr<const Cells>& cells)
 {
-    const Deck& deck = cells->deck;
+    const std::size_t points = cells->bulk.points();
     const auto fixed = [](std::size_t bytes) { return [bytes](const DeckBlock&) { return bytes; }; };
     using Place = VtuArray::Place;
     std::vector<VtuArray> arrays;
     arrays.push_back({Place::points,
                       "type=\"Float64\" NumberOfComponents=\"3\"",
-                      deck.points.size() * sizeof(Vec3),
-                      {{{}, deck.points.size(), sizeof(Vec3), each([cells](std::size_t i, char* out) {
-                            const Deck& of = cells->deck;
-                            std::memcpy(out, of.points[i].data(), sizeof(Vec3));
-                            return out + sizeof(Vec3);
-                        })}}});
+                      points * sizeof(Vec3),
+                      {{{}, points, sizeof(Vec3), [cells](std::size_t begin, std::size_t end, char* out) {
+                            cells->bulk.each_point(begin, end, [&](std::size_t, DeckTag, const Vec3& point) {
+                                std::memcpy(out, point.data(), sizeof(Vec3));
+                                out += sizeof(Vec3);
+                            });
+                            return out;
+                        }}}});
     arrays.push_back({Place::point_data,
                       "type=\"Int64\" Name=\"node_number\"",
-                      deck.points.size() * 8,
-                      {{{}, deck.points.size(), 8, each([cells](std::size_t i, char* out) {
-                            return put(out, static_cast<std::int64_t>(cells->deck.point_tags[i]));
+                      points * 8,
+                      {{{}, points, 8, each([cells](std::size_t i, char* out) {
+                            return put(
+                                out, static_cast<std::int64_t>(cells->bulk.point_tag(static_cast<Index>(i))));
                         })}}});
     const auto add = [&](Place place, const char* attributes, std::size_t bytes, auto put_one) {
         arrays.push_back({place, attributes, cells->count * bytes, by_blocks(cells, fixed(bytes), put_one)});
     };
-    arrays.push_back({Place::cells, "type=\"Int32\" Name=\"connectivity\"", cells->lists * 4,
-                      by_blocks(
-                          cells,
-                          [](const DeckBlock& block) {
-                              return static_cast<std::size_t>(shape_info(block.shape).nodes) * 4;
-                          },
-                          [](const Cells& of, std::size_t at, std::size_t e, char* out) {
-                              const DeckBlock& block = block_at(of, at);
-                              for (std::size_t k = 0; k < block.element(e).size(); ++k)
-                                  out = put(out, static_cast<std::int32_t>(node_at(block, e, k)));
-                              return out;
-                          })});
+    arrays.push_back(
+        {Place::cells, "type=\"Int32\" Name=\"connectivity\"", cells->lists * 4,
+         by_blocks(
+             cells,
+             [](const DeckBlock& block) {
+                 return static_cast<std::size_t>(shape_info(block.shape).nodes) * 4;
+             },
+             [](const Cells& of, std::size_t at, std::size_t e, char* out) {
+                 const DeckBlock& block = block_at(of, at);
+                 of.bulk.element(block, e, [&](DeckTag, Index, std::span<const Index> nodes) {
+                     for (std::size_t k = 0; k < nodes.size(); ++k)
+                         out = put(out, static_cast<std::int32_t>(nodes[place_of_node(block.shape, k)]));
+                 });
+                 return out;
+             })});
     add(Place::cells, "type=\"Int64\" Name=\"offsets\"", 8,
         [](const Cells& of, std::size_t at, std::size_t e, char* out) {
             const auto nodes = static_cast<std::size_t>(shape_info(block_at(of, at).shape).nodes);
@@ -159,7 +167,7 @@ std::vector<VtuArray> vtu_arrays(const std::shared_ptr<const Cells>& cells)
         });
     add(Place::cell_data, "type=\"Int64\" Name=\"cell_number\"", 8,
         [](const Cells& of, std::size_t at, std::size_t e, char* out) {
-            return put(out, static_cast<std::int64_t>(block_at(of, at).tags[e]));
+            return put(out, static_cast<std::int64_t>(of.bulk.tag(block_at(of, at), e)));
         });
     return arrays;
 }
@@ -181,6 +189,7 @@ Piece piece_of(const Deck& deck, const DeckEntities& entities, const DeckPartiti
     own.regions = deck.regions;
     DeckEntities own_entities;
     own_entities.all = entities.all;
+    own_entities.made.resize(deck.blocks.size());
     std::vector<Index> point(deck.points.size(), -1);
     std::vector<char> used(deck.points.size(), 0);
     const auto of_piece = [&](std::size_t b, std::size_t e) {
@@ -215,7 +224,7 @@ Piece piece_of(const Deck& deck, const DeckEntities& entities, const DeckPartiti
     for (DeckBlock& block : own.blocks)
         for (Index& node : block.nodes)
             if (node >= 0) node = point[index(node)];
-    piece.cells = cells_of(own, std::move(own_entities), piece.deck);
+    piece.cells = cells_of(own, {own, nullptr}, std::move(own_entities), piece.deck);
     return piece;
 }
 
@@ -242,20 +251,21 @@ std::vector<VtuArray> piece_arrays(const std::shared_ptr<const Piece>& piece, bo
 
 } // namespace
 
-DeckFile vtu_of_deck(const Deck& deck)
+DeckFile vtu_of_deck(const Deck& deck, const LayeredBulk* layered)
 {
+    const BulkReader bulk(deck, layered);
     DeckFile file;
     file.sizes = Sizes::exact;
-    const auto cells = cells_of(deck, entities_of(deck));
+    const auto cells = cells_of(deck, bulk, entities_of(deck, bulk));
     const VtkTable table = table_of(deck, cells->entities, file);
-    file.sections = vtu_file(deck.points.size(), cells->count, vtu_arrays(cells), table);
+    file.sections = vtu_file(bulk.points(), cells->count, vtu_arrays(cells), table);
     return file;
 }
 
 void write_pvtu(const Deck& deck, const DeckPartition& partition, int ghosts, const OutputPath& path,
                 const RunContext& context)
 {
-    const DeckEntities entities = entities_of(deck);
+    const DeckEntities entities = entities_of(deck, {deck, nullptr});
     DeckFile file;
     const VtkTable table = table_of(deck, entities, file);
     std::vector<Index> lowest(deck.points.size(), partition.parts);
@@ -280,23 +290,27 @@ void write_pvtu(const Deck& deck, const DeckPartition& partition, int ghosts, co
                 context);
 }
 
-DeckFile vtk_of_deck(const Deck& deck, bool binary)
+DeckFile vtk_of_deck(const Deck& deck, bool binary, const LayeredBulk* layered)
 {
+    const BulkReader bulk(deck, layered);
     DeckFile file;
     file.sizes = binary ? Sizes::exact : Sizes::varying;
-    const auto cells = cells_of(deck, entities_of(deck));
+    const auto cells = cells_of(deck, bulk, entities_of(deck, bulk));
     const auto room = [binary](std::size_t numbers, std::size_t bytes) {
         return binary ? numbers * bytes : numbers * kNumberBytes + 1;
     };
     const std::string count = std::to_string(cells->count);
     const VtkTable table = table_of(deck, cells->entities, file);
     std::string head = vtk_head(table, binary);
-    head.append("POINTS ").append(std::to_string(deck.points.size())).append(" double\n");
+    head.append("POINTS ").append(std::to_string(bulk.points())).append(" double\n");
     file.sections.push_back(
-        {head, deck.points.size(), room(3, 8), each([&deck, binary](std::size_t i, char* out) {
-             for (const double x : deck.points[i]) out = put_number(out, x, binary);
-             return end_line(out, binary);
-         })});
+        {head, bulk.points(), room(3, 8), [bulk, binary](std::size_t begin, std::size_t end, char* out) {
+             bulk.each_point(begin, end, [&](std::size_t, DeckTag, const Vec3& point) {
+                 for (const double x : point) out = put_number(out, x, binary);
+                 out = end_line(out, binary);
+             });
+             return out;
+         }});
     const auto add = [&](const std::string& before, std::vector<Section> sections) {
         sections.front().text = before;
         for (Section& section : sections) file.sections.push_back(std::move(section));
@@ -316,10 +330,12 @@ DeckFile vtk_of_deck(const Deck& deck, bool binary)
             },
             [binary](const Cells& of, std::size_t at, std::size_t e, char* out) {
                 const DeckBlock& block = block_at(of, at);
-                const std::size_t nodes = block.element(e).size();
-                out = put_number(out, static_cast<std::int32_t>(nodes), binary);
-                for (std::size_t k = 0; k < nodes; ++k)
-                    out = put_number(out, static_cast<std::int32_t>(node_at(block, e, k)), binary);
+                of.bulk.element(block, e, [&](DeckTag, Index, std::span<const Index> nodes) {
+                    out = put_number(out, static_cast<std::int32_t>(nodes.size()), binary);
+                    for (std::size_t k = 0; k < nodes.size(); ++k)
+                        out = put_number(out, static_cast<std::int32_t>(nodes[place_of_node(block.shape, k)]),
+                                         binary);
+                });
                 return end_line(out, binary);
             }));
     one("\nCELL_TYPES " + count + "\n", 4,
@@ -328,12 +344,13 @@ DeckFile vtk_of_deck(const Deck& deck, bool binary)
     one("\nSCALARS region int 1\nLOOKUP_TABLE default\n", 4, region_at);
     one("\nSCALARS cell_number long 1\nLOOKUP_TABLE default\n", 8,
         [](const Cells& of, std::size_t at, std::size_t e) {
-            return static_cast<std::int64_t>(block_at(of, at).tags[e]);
+            return static_cast<std::int64_t>(of.bulk.tag(block_at(of, at), e));
         });
-    file.sections.push_back({"\nPOINT_DATA " + std::to_string(deck.points.size()) +
+    file.sections.push_back({"\nPOINT_DATA " + std::to_string(bulk.points()) +
                                  "\nSCALARS node_number long 1\nLOOKUP_TABLE default\n",
-                             deck.points.size(), room(1, 8), each([&deck, binary](std::size_t i, char* out) {
-                                 const auto tag = static_cast<std::int64_t>(deck.point_tags[i]);
+                             bulk.points(), room(1, 8), each([bulk, binary](std::size_t i, char* out) {
+                                 const auto tag = static_cast<std::int64_t>(
+                                     bulk.point_tag(static_cast<Index>(i)));
                                  return end_line(put_number(out, tag, binary), binary);
                              })});
     file.sections.push_back({"\n", 0, 0, {}});

@@ -14,6 +14,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace lacuna::io {
 namespace {
@@ -283,37 +284,144 @@ void refuse_element(const DeckBlock& block, std::string_view format, std::string
                                                  std::string(why));
 }
 
+LayeredBulk::LayeredBulk(const Deck& deck, std::vector<BulkPart> own)
+    : parts(std::move(own)), sets(deck.sets.size()), set_size(deck.sets.size(), 0)
+{
+    for (const BulkPart& part : parts) {
+        points += part.points();
+        hexes.push_back(hexes.back() + part.count(true));
+        wedges.push_back(wedges.back() + part.count(false));
+    }
+    // Numbers rise: those held that are lower than a part's come before its cells.
+    std::vector<std::size_t> taken(sets.size(), 0);
+    const auto take_held = [&](std::size_t s, std::size_t until) {
+        if (until == taken[s]) return;
+        sets[s].push_back({set_size[s], nullptr, taken[s]});
+        set_size[s] += until - taken[s];
+        taken[s] = until;
+    };
+    for (const BulkPart& part : parts)
+        for (const std::size_t s : part.place.sets) {
+            const std::vector<DeckTag>& held = deck.sets[s].members;
+            take_held(s, static_cast<std::size_t>(std::ranges::lower_bound(held, part.place.first_cell) -
+                                                  held.begin()));
+            sets[s].push_back({set_size[s], &part});
+            set_size[s] += part.mesh.cell_count();
+        }
+    for (std::size_t s = 0; s < sets.size(); ++s)
+        if (!sets[s].empty()) take_held(s, deck.sets[s].members.size());
+}
+
+std::size_t BulkReader::made_cell(const BulkPart& part, bool hex, std::size_t e) const
+{
+    const auto at = static_cast<std::size_t>(&part - layered_->parts.data());
+    return hex ? part.kinds.cell(e - layered_->hexes[at])
+               : part.kinds.cell(part.kinds.hexes() + (e - layered_->wedges[at]));
+}
+
+DeckTag BulkReader::tag(const DeckBlock& block, std::size_t e) const
+{
+    if (!is_made(block)) return block.tags[e];
+    const bool hex = is_of_hexes(block);
+    const BulkPart& part = layered_->part_of(hex, e);
+    return part.tag(made_cell(part, hex, e));
+}
+
+Index BulkReader::region(const DeckBlock& block, std::size_t e) const
+{
+    return is_made(block) ? layered_->part_of(is_of_hexes(block), e).place.region : block.regions[e];
+}
+
+std::vector<BulkReader::MadeRun> BulkReader::made_runs(const DeckBlock& block) const
+{
+    std::vector<MadeRun> runs;
+    if (!is_made(block)) return runs;
+    const std::vector<std::size_t>& before = is_of_hexes(block) ? layered_->hexes : layered_->wedges;
+    for (std::size_t p = 0; p < layered_->parts.size(); ++p)
+        if (before[p] < before[p + 1])
+            runs.push_back({before[p], before[p + 1], layered_->parts[p].place.region, &layered_->parts[p]});
+    return runs;
+}
+
+std::pair<DeckTag, DeckTag> BulkReader::tags(const DeckBlock& block) const
+{
+    if (!is_made(block)) {
+        const auto [low, high] = std::ranges::minmax(block.tags);
+        return {low, high};
+    }
+    std::pair<DeckTag, DeckTag> all{std::numeric_limits<DeckTag>::max(), 0};
+    const bool hex = is_of_hexes(block);
+    for (const BulkPart& part : layered_->parts) {
+        const std::size_t count = part.count(hex), first = hex ? 0 : part.kinds.hexes();
+        if (count == 0) continue;
+        all.first = std::min(all.first, part.tag(part.kinds.cell(first)));
+        all.second = std::max(all.second, part.tag(part.kinds.cell(first + count - 1)));
+    }
+    return all;
+}
+
+std::vector<const BulkPart*> BulkReader::parts_of(Index region) const
+{
+    std::vector<const BulkPart*> found;
+    if (layered_ == nullptr) return found;
+    for (const BulkPart& part : layered_->parts)
+        if (part.place.region == region) found.push_back(&part);
+    return found;
+}
+
+std::vector<const BulkPart*> BulkReader::parts_of(const DeckSet& set) const
+{
+    std::vector<const BulkPart*> found;
+    for (const LayeredBulk::Run& run : runs(set))
+        if (run.part != nullptr) found.push_back(run.part);
+    return found;
+}
+
 std::size_t BulkReader::count(const DeckBlock& block) const
 {
     if (!is_made(block)) return block.count();
-    const std::size_t hexes = layered_->kinds.hexes();
-    return shape_info(block.shape).corners == 8 ? hexes : layered_->mesh.cell_count() - hexes;
+    return is_of_hexes(block) ? layered_->hexes.back() : layered_->wedges.back();
 }
 
-std::size_t BulkReader::made_cell(const DeckBlock& block, std::size_t e) const
-{
-    const mesh::CellKinds& kinds = layered_->kinds;
-    return kinds.cell(shape_info(block.shape).corners == 8 ? e : kinds.hexes() + e);
-}
-
-DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& options)
+DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& options,
+                 const LayeredBulk* layered)
 {
     switch (format) {
     case DeckFormat::nastran:
-        return nastran_file(deck);
+        return nastran_file(deck, layered);
     case DeckFormat::abaqus:
-        return abaqus_file(deck);
+        return abaqus_file(deck, layered);
     case DeckFormat::exodus:
-        return exodus_file(deck);
+        return exodus_file(deck, layered);
     case DeckFormat::msh:
-        return msh_of_deck(deck, options);
+        return msh_of_deck(deck, options, layered);
     case DeckFormat::vtu:
-        return vtu_of_deck(deck);
+        return vtu_of_deck(deck, layered);
     case DeckFormat::vtk:
-        return vtk_of_deck(deck, options.binary);
+        return vtk_of_deck(deck, options.binary, layered);
     default:
-        return unv_file(deck);
+        return unv_file(deck, layered);
     }
+}
+
+namespace {
+
+void write_bulk(const Deck& deck, const LayeredBulk& bulk, DeckFormat format, const DeckFileOptions& options,
+                const OutputPath& path, const RunContext& context, const Team* team)
+{
+    const DeckFile file = file_of(deck, format, options, &bulk);
+    if (team == nullptr || team->rank == 0)
+        for (const std::string& note : file.notes) log_line(context, path.text() + ": " + note);
+    write_file(path, file.sections, file.sizes, context, team);
+}
+
+} // namespace
+
+bool is_layered_of_parts(DeckFormat format)
+{
+    return is_layered(format)
+               ? format != DeckFormat::exodus
+               : format == DeckFormat::msh || format == DeckFormat::vtu || format == DeckFormat::vtk;
 }
 
 bool is_layered(DeckFormat format)
@@ -325,16 +433,30 @@ bool is_layered(DeckFormat format)
 void write_deck(const mesh::LayeredMesh& layered, const MeshDeckOptions& options, const OutputPath& path,
                 const RunContext& context, const Team* team)
 {
-    const Deck deck = deck_without_bulk(layered.mesh, options, context);
-    const NodeReader nodes(layered, context);
-    const LayeredBulk bulk{layered.mesh, nodes};
-    const DeckFile file = options.format == DeckFormat::nastran  ? nastran_file(deck, &bulk)
-                          : options.format == DeckFormat::abaqus ? abaqus_file(deck, &bulk)
-                          : options.format == DeckFormat::exodus ? exodus_file(deck, &bulk)
-                                                                 : unv_file(deck, &bulk);
-    if (team == nullptr || team->rank == 0)
-        for (const std::string& note : file.notes) log_line(context, path.text() + ": " + note);
-    write_file(path, file.sections, file.sizes, context, team);
+    BulkPlace place;
+    const Deck deck = deck_without_bulk(layered.mesh, options, place, context);
+    std::vector<BulkPart> parts;
+    parts.push_back(
+        {layered.mesh, std::make_unique<NodeReader>(layered, context), nullptr, std::move(place)});
+    write_bulk(deck, LayeredBulk(deck, std::move(parts)), options.format, {}, path, context, team);
+}
+
+void write_parts(std::span<const mesh::LayeredPart> parts, DeckFormat format, const DeckFileOptions& file,
+                 const OutputPath& path, const RunContext& context, const Team* team)
+{
+    MeshDeckOptions options;
+    options.format = format;
+    std::vector<BulkPlace> places;
+    const Deck deck = deck_without_bulk(parts, options, false, places, context);
+    std::vector<BulkPart> bulk;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        const mesh::HexMesh& mesh = parts[p].mesh;
+        auto nodes = parts[p].nodes != nullptr
+                         ? std::make_unique<NodeReader>(mesh::LayeredMesh{mesh, *parts[p].nodes}, context)
+                         : std::make_unique<NodeReader>(mesh);
+        bulk.push_back({mesh, std::move(nodes), &parts[p].numbers, std::move(places[p])});
+    }
+    write_bulk(deck, LayeredBulk(deck, std::move(bulk)), format, file, path, context, team);
 }
 
 bool find_deck_format(std::string_view ending, DeckFormat& format)

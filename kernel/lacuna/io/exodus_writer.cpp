@@ -246,8 +246,9 @@ struct Block {
 /// Where the file has a cell that is made.
 Index place_of_cell(const LayeredBulk& layered, std::size_t cell)
 {
-    const std::size_t columns = layered.mesh.quads.size(), hexes = layered.kinds.hexes();
-    const std::size_t quads = hexes / index(layered.mesh.layers);
+    const mesh::HexMesh& mesh = layered.parts.front().mesh;
+    const std::size_t columns = mesh.quads.size(), hexes = layered.hexes.back();
+    const std::size_t quads = hexes / index(mesh.layers);
     const std::size_t layer = cell / columns, column = cell % columns;
     return static_cast<Index>(column < quads ? layer * quads + column
                                              : hexes + layer * (columns - quads) + (column - quads));
@@ -365,11 +366,11 @@ private:
         };
         const auto shape = [&](Index at) {
             if (layered_ == nullptr) return shapes[index(at)];
-            return index(at) < layered_->kinds.hexes() ? DeckShape::hex8 : DeckShape::wedge6;
+            return index(at) < layered_->hexes.back() ? DeckShape::hex8 : DeckShape::wedge6;
         };
         for (const DeckSet& set : deck_.sets) {
             Set found{set.name, std::make_shared<std::vector<std::int32_t>>(), nullptr};
-            if (bulk_.is_all(set)) {
+            if (!bulk_.parts_of(set).empty()) {
                 found.all = true;
                 cells_.push_back(found);
                 continue;
@@ -426,7 +427,8 @@ private:
                    {text_attribute("name", "ID")});
         nc_.names("eb_names", {count, name_}, names);
         nc_.wholes("elem_num_map", {elements}, [tags, layered = layered_](std::size_t i) {
-            return layered != nullptr ? static_cast<DeckTag>(layered->kinds.cell(i)) + 1 : (*tags)[i];
+            return layered != nullptr ? static_cast<DeckTag>(layered->parts.front().kinds.cell(i)) + 1
+                                      : (*tags)[i];
         });
         for (std::size_t b = 0; b < blocks_.size(); ++b) {
             const std::string number = std::to_string(b + 1);

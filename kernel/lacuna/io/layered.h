@@ -6,8 +6,10 @@
 #include <lacuna/io/msh.h>
 #include <lacuna/io/vtk.h>
 #include <lacuna/mesh/layered_nodes.h>
+#include <lacuna/mesh/mesh_part.h>
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,5 +51,14 @@ bool is_layered(DeckFormat format);
 /// @pre  is_layered(), and the mesh is of order 1.
 void write_deck(const mesh::LayeredMesh& layered, const MeshDeckOptions& options, const OutputPath& path,
                 const RunContext& context = {}, const Team* team = nullptr);
+
+/// Whether decks of several meshes are written so: all of those but Exodus, and .msh, .vtu and .vtk.
+bool is_layered_of_parts(DeckFormat format);
+/// `write_deck()` of `deck_of()` several meshes with nodes in common, in such a format: the same bytes, and
+/// memory as above. Parts may hold their nodes.
+/// @param team  who each write their share of it; then each has all parts.
+/// @pre  is_layered_of_parts(), without a partition, and the meshes are of order 1.
+void write_parts(std::span<const mesh::LayeredPart> parts, DeckFormat format, const DeckFileOptions& file,
+                 const OutputPath& path, const RunContext& context = {}, const Team* team = nullptr);
 
 } // namespace lacuna::io

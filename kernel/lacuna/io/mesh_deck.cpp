@@ -8,6 +8,7 @@
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/msh_content.h>
 #include <lacuna/mesh/layered_nodes.h>
+#include <lacuna/mesh/mesh_part.h>
 
 #include <algorithm>
 #include <map>
@@ -109,17 +110,24 @@ private:
     }
 
     /// The deck's point that a node of the mesh is, and its number.
-    [[nodiscard]] Index point(Index node) const { return added_.bulk_elsewhere ? node : point_[index(node)]; }
+    [[nodiscard]] Index point(Index node) const
+    {
+        if (added_.bulk == nullptr) return point_[index(node)];
+        return added_.numbers != nullptr ? added_.numbers->of(node) : node;
+    }
     [[nodiscard]] DeckTag point_tag(Index node) const
     {
-        return added_.bulk_elsewhere ? DeckTag(node) + 1 : deck_.point_tags[index(point_[index(node)])];
+        return added_.bulk ? DeckTag(point(node)) + 1 : deck_.point_tags[index(point(node))];
     }
 
     void add_points()
     {
-        if (added_.bulk_elsewhere) {
+        if (added_.bulk != nullptr) {
             std::vector<DeckTag> none;
-            free_from(1, mesh::corner_count(mesh_), {}, none, 0, "first_node", "node");
+            const std::size_t nodes = mesh::corner_count(mesh_) + mesh_.middles.nodes.size();
+            const auto* const of = added_.numbers;
+            free_from(of ? DeckTag(of->first()) + 1 : 1, of ? of->fresh() : nodes, {}, none, 0, "first_node",
+                      "node");
             return;
         }
         const std::size_t fresh = static_cast<std::size_t>(std::ranges::count(added_.points, -1));
@@ -143,7 +151,7 @@ private:
             taken.insert(taken.end(), block.tags.begin(), block.tags.end());
         const std::size_t skin = added_.skin_cells ? mesh_.skin_count() : 0;
         first_cell_ = free_from(options_.first_cell, mesh_.cell_count() + skin, texts_.cells, taken,
-                                deck_.gap.cell, "first_cell", "element");
+                                added_.bulk ? added_.bulk->highest : deck_.gap.cell, "first_cell", "element");
         int highest = static_cast<int>(
             std::min<DeckTag>(texts_.property, std::numeric_limits<int>::max() - 2));
         for (const DeckRegion& region : deck_.regions) highest = std::max(highest, region.tag);
@@ -151,6 +159,10 @@ private:
         if (!takes_place())
             deck_.regions.push_back({highest + 1, set_name(DeckSet::Kind::elements, volume_), material_});
         const Index region = region_ = takes_place() ? place_ : static_cast<Index>(deck_.regions.size()) - 1;
+        if (added_.bulk != nullptr) {
+            added_.bulk->first_cell = first_cell_;
+            added_.bulk->region = region;
+        }
         if (name_of_region() != volume_)
             log_line(context_, "the cells of " + volume_ + " are the set " + name_of_region());
         const bool abaqus = options_.format == DeckFormat::abaqus;
@@ -159,7 +171,7 @@ private:
         const auto add = [&](DeckShape shape, const std::string& type, std::size_t begin, std::size_t end) {
             if (begin == end) return;
             DeckBlock& block = block_of(shape, type);
-            for (std::size_t i = begin; i < end && !added_.bulk_elsewhere; ++i) {
+            for (std::size_t i = begin; i < end && added_.bulk == nullptr; ++i) {
                 poll(i);
                 const std::size_t c = kinds.cell(i);
                 for (const Index node : cell_nodes(mesh_, c).all()) block.nodes.push_back(point(node));
@@ -216,7 +228,9 @@ private:
     {
         DeckSet& set = set_of(DeckSet::Kind::elements, group);
         if (group == volume_) set.name = name_of_region();
-        for (std::size_t c = 0; c < mesh_.cell_count() && !added_.bulk_elsewhere; ++c)
+        if (added_.bulk != nullptr)
+            added_.bulk->sets.push_back(static_cast<std::size_t>(&set - deck_.sets.data()));
+        for (std::size_t c = 0; c < mesh_.cell_count() && added_.bulk == nullptr; ++c)
             set.members.push_back(first_cell_ + static_cast<DeckTag>(c));
     }
 
@@ -258,7 +272,7 @@ private:
     {
         if (added_.skin_tags == nullptr) return false;
         Quad rising = skin_quad(mesh_, i).nodes;
-        for (Index& node : rising) node = point_[index(node)];
+        for (Index& node : rising) node = point(node);
         std::sort(rising.begin(), rising.end());
         const auto [found, fresh] = added_.skin_tags->try_emplace(rising, skin_tag(i));
         if (!fresh) skin_of_.emplace(i, found->second);
@@ -478,48 +492,100 @@ Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options, const Ru
     return deck;
 }
 
-Deck deck_without_bulk(const mesh::HexMesh& mesh, const MeshDeckOptions& options, const RunContext& context)
+Deck deck_without_bulk(const mesh::HexMesh& mesh, const MeshDeckOptions& options, BulkPlace& place,
+                       const RunContext& context)
 {
     Deck deck = empty_deck(options.format);
-    add_mesh(deck, mesh, {.points = {}, .skin_cells = has_skin_cells(options.format), .bulk_elsewhere = true},
+    add_mesh(deck, mesh, {.points = {}, .skin_cells = has_skin_cells(options.format), .bulk = &place},
              options, context);
     return deck;
 }
 
-Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& options, bool interfaces)
+namespace {
+
+/// Put several meshes into one deck.
+/// @param number  of a node of a mesh, from 0: `number(mesh, node)`
+/// @param fill    tells where nodes and cells of a mesh go: `fill(mesh, added)`
+/// @param added   called behind each mesh
+template <class Meshes, class Number, class Fill, class Added>
+Deck deck_of_meshes(const Meshes& meshes, const Number& number, const Fill& fill, const Added& was_added,
+                    MeshDeckOptions options, bool interfaces, const RunContext& context)
 {
     Deck deck = empty_deck(options.format);
-    const auto rising = [](const mesh::MeshPart& part, std::size_t i) {
-        Quad quad = skin_quad(*part.mesh, i).nodes;
-        for (Index& n : quad) n = part.number[index(n)];
+    const auto rising = [&](std::size_t m, std::size_t i) {
+        Quad quad = skin_quad(*meshes[m], i).nodes;
+        for (Index& n : quad) n = number(m, n);
         std::sort(quad.begin(), quad.end());
         return quad;
     };
     std::map<Quad, int> uses;
     const bool cells = has_skin_cells(options.format);
-    for (const mesh::MeshPart& part : parts) {
-        for (std::size_t i = 0; cells && i < part.mesh->skin_count(); ++i) ++uses[rising(part, i)];
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        for (std::size_t i = 0; cells && i < meshes[m]->skin_count(); ++i) ++uses[rising(m, i)];
     }
-    std::vector<Index> point; // of each node of the whole
     std::map<Quad, DeckTag> skin_tags;
     std::map<std::string, Index> regions; // parts of one name are one region
-    MeshDeckOptions next = options;
-    for (const mesh::MeshPart& part : parts) {
-        std::vector<Index> points;
-        for (const Index number : part.number)
-            points.push_back(index(number) < point.size() ? point[index(number)] : -1);
-        AddedMesh added{.points = points, .skin_cells = cells, .skin_tags = &skin_tags, .own_sets = 0};
-        for (std::size_t i = 0; cells && !interfaces && i < part.mesh->skin_count(); ++i)
-            added.inner.push_back(uses.at(rising(part, i)) > 1 ? 1 : 0);
-        const std::string region = part.mesh->volume_groups.empty() ? "" : part.mesh->volume_groups.front();
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        const mesh::HexMesh& mesh = *meshes[m];
+        AddedMesh added{.points = {}, .skin_cells = cells, .skin_tags = &skin_tags, .own_sets = 0};
+        fill(m, added);
+        for (std::size_t i = 0; cells && !interfaces && i < mesh.skin_count(); ++i)
+            added.inner.push_back(uses.at(rising(m, i)) > 1 ? 1 : 0);
+        const std::string region = mesh.volume_groups.empty() ? "" : mesh.volume_groups.front();
         if (const auto known = regions.find(region); known != regions.end()) added.region = known->second;
-        const auto before = static_cast<Index>(deck.points.size());
-        add_mesh(deck, *part.mesh, added, next);
+        add_mesh(deck, mesh, added, options, context);
         if (!region.empty()) regions.try_emplace(region, static_cast<Index>(deck.regions.size()) - 1);
-        for (auto p = before; p < static_cast<Index>(deck.points.size()); ++p) point.push_back(p);
-        next.first_node = next.first_cell = 0;
+        was_added(m, deck);
+        options.first_node = options.first_cell = 0;
     }
     return deck;
+}
+
+template <class Parts, class MeshOf>
+std::vector<const mesh::HexMesh*> meshes_of(const Parts& parts, const MeshOf& mesh_of)
+{
+    std::vector<const mesh::HexMesh*> meshes;
+    for (const auto& part : parts) meshes.push_back(mesh_of(part));
+    return meshes;
+}
+
+} // namespace
+
+Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& options, bool interfaces)
+{
+    std::vector<Index> point, points; // of each node of the whole, and of a mesh
+    return deck_of_meshes(
+        meshes_of(parts, [](const mesh::MeshPart& part) { return part.mesh; }),
+        [&](std::size_t m, Index node) { return parts[m].number[index(node)]; },
+        [&](std::size_t m, AddedMesh& added) {
+            points.clear();
+            for (const Index number : parts[m].number)
+                points.push_back(index(number) < point.size() ? point[index(number)] : -1);
+            added.points = points;
+        },
+        [&](std::size_t, const Deck& deck) {
+            while (point.size() < deck.points.size()) point.push_back(static_cast<Index>(point.size()));
+        },
+        options, interfaces, {});
+}
+
+Deck deck_without_bulk(std::span<const mesh::LayeredPart> parts, const MeshDeckOptions& options,
+                       bool interfaces, std::vector<BulkPlace>& places, const RunContext& context)
+{
+    places.assign(parts.size(), {});
+    DeckTag highest = 0;
+    return deck_of_meshes(
+        meshes_of(parts, [](const mesh::LayeredPart& part) { return &part.mesh; }),
+        [&](std::size_t m, Index node) { return parts[m].numbers.of(node); },
+        [&](std::size_t m, AddedMesh& added) {
+            places[m].highest = highest;
+            added.bulk = &places[m];
+            added.numbers = &parts[m].numbers;
+        },
+        [&](std::size_t m, const Deck&) {
+            highest = places[m].first_cell + static_cast<DeckTag>(parts[m].mesh.cell_count()) - 1;
+        },
+        options, interfaces, context);
 }
 
 } // namespace lacuna::io

@@ -30,6 +30,17 @@ struct LayeredMesh {
     const LayeredNodes& nodes;
 };
 
+/// Nodes of the skin of a mesh, whether it holds them or not. Refers to both.
+struct SkinNodes {
+    const HexMesh& mesh;
+    const LayeredNodes* layers = nullptr; ///< null: the mesh holds its nodes
+
+    [[nodiscard]] Vec3 operator[](Index node) const
+    {
+        return layers != nullptr ? layers->on_skin(node) : mesh.node(index(node));
+    }
+};
+
 /// All nodes of a mesh, held or not.
 inline std::size_t corner_count(const HexMesh& mesh)
 {

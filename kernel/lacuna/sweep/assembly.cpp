@@ -36,7 +36,7 @@ void hand_on(const Swept& part, FaceId from, OpenVolume& volume, FaceId to)
     for (Quad& quad : quads) {
         for (Index& n : quad) {
             const auto [place, fresh] = number.try_emplace(n, static_cast<Index>(nodes.size()));
-            if (fresh) nodes.push_back(part.mesh.nodes[index(n)]);
+            if (fresh) nodes.push_back(part.skin()[n]);
             n = place->second;
         }
     }
@@ -448,8 +448,8 @@ private:
             if (face.a == m) options.beside.between.insert(face.face_a);
             if (face.b == m) options.beside.between.insert(face.face_b);
         }
-        options.beside.settle = [&](mesh::HexMesh& mesh, const std::vector<FaceId>& faces) {
-            return settle(m, alike, mesh, faces);
+        options.beside.settle = [&](const mesh::SkinNodes& skin, const std::vector<FaceId>& faces) {
+            return settle(m, alike, skin, faces);
         };
         const auto sweep_it = [&] {
             OpenVolume volume = *member.volume, sealed = *member.volume;
@@ -582,25 +582,25 @@ private:
         std::vector<NodePair> pairs;
     };
 
-    /// Lay a member's nodes on faces onto its neighbours' nodes.
-    std::set<FaceId> settle(std::size_t m, const std::vector<Neighbour>& alike, mesh::HexMesh& mesh,
-                            const std::vector<FaceId>& faces)
+    /// The neighbours' nodes that a member's nodes on faces are to be laid onto.
+    SettledNodes settle(std::size_t m, const std::vector<Neighbour>& alike, const mesh::SkinNodes& skin,
+                        const std::vector<FaceId>& faces)
     {
-        std::set<FaceId> settled;
+        SettledNodes settled;
         settled_.clear();
         const double within = kRounding * coordinates_of(m);
         for (const Neighbour& n : alike) {
             const Swept& part = result_.parts[n.other];
-            std::vector<Quad> own = quads_on(mesh, faces, n.own);
-            auto pairs = same_quads_.pairs(mesh, own, part.mesh, quads_on(part.mesh, part.faces, n.there),
+            const mesh::SkinNodes theirs = part.skin();
+            std::vector<Quad> own = quads_on(skin.mesh, faces, n.own);
+            auto pairs = same_quads_.pairs(skin, own, theirs, quads_on(part.mesh, part.faces, n.there),
                                            within);
             if (!pairs)
                 throw UnlikeNeighbour("assembly.unlike", named(m, n.own) +
                                                              " is meshed unlike its neighbour; that mesh is "
                                                              "handed on to it");
-            for (const NodePair& pair : *pairs)
-                mesh.nodes[index(pair.own)] = part.mesh.nodes[index(pair.other)];
-            settled.insert(n.own);
+            for (const NodePair& pair : *pairs) settled.nodes.emplace_back(pair.own, theirs[pair.other]);
+            settled.faces.insert(n.own);
             settled_.insert_or_assign(n.own, Settled{std::move(own), std::move(*pairs)});
         }
         return settled;
@@ -641,11 +641,11 @@ private:
         const auto settled = settled_.find(own);
         if (settled != settled_.end() && settled->second.quads == quads &&
             std::ranges::all_of(settled->second.pairs, [&](const NodePair& pair) {
-                return part.mesh.nodes[index(pair.own)] == beside.mesh.nodes[index(pair.other)];
+                return part.skin()[pair.own] == beside.skin()[pair.other];
             }))
             return std::move(settled->second.pairs);
-        return same_quads_.pairs(part.mesh, quads, beside.mesh, quads_on(beside.mesh, beside.faces, there),
-                                 0);
+        return same_quads_.pairs(part.skin(), quads, beside.skin(),
+                                 quads_on(beside.mesh, beside.faces, there), 0);
     }
 
     /// The quads of faces that members before this one have too are theirs, to the bit.

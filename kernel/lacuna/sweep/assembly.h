@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/mesh/mesh_part.h>
 #include <lacuna/sweep/sweep.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -75,9 +76,10 @@ struct SweptAssembly {
     /// Of each part's nodes, the number in the whole, from 0. Parts come one after the other; a node that
     /// an earlier part has keeps that one's number.
     std::vector<std::vector<Index>> number;
-    std::size_t nodes = 0;             ///< of the whole
-    std::vector<SharedFace> shared;    ///< whose quads are one; `a` and `b` are places in `parts`
-    std::vector<NearMiss> near_misses; ///< `a` and `b` are places in `parts`
+    std::vector<mesh::NodeNumbers> numbering; ///< the same; alone where parts do not hold their nodes
+    std::size_t nodes = 0;                    ///< of the whole
+    std::vector<SharedFace> shared;           ///< whose quads are one; `a` and `b` are places in `parts`
+    std::vector<NearMiss> near_misses;        ///< `a` and `b` are places in `parts`
     /// A line for each shared face and each near miss, and the order they were meshed in.
     std::vector<std::string> report;
 };
@@ -89,6 +91,8 @@ struct SweptAssembly {
 /// other, each keeping, node for node, what its neighbours' meshes are on the faces they share. Where a
 /// volume cannot keep what its neighbours have made, the order is changed so that it goes before them. A void
 /// face with the rim of a neighbour's given one is that face.
+/// Members whose options say `layered` may come out as parts that do not hold their nodes; then `number` is
+/// empty.
 /// A fixed member is a part as it came, before all others: they keep its quads where they share its faces.
 /// A member that cannot be meshed so is tried with wedges or left out, as its `fallback` says, and the whole
 /// is worked out anew without it: what it would have given others is not there.

@@ -27,20 +27,24 @@ struct PartNode {
 
 /// Each node but the first in its place, with that first one.
 std::vector<std::pair<PartNode, PartNode>> in_same_places(const SweptAssembly& assembly,
-                                                          std::vector<PartNode> nodes)
+                                                          const std::vector<PartNode>& nodes)
 {
-    const auto place = [&](const PartNode& node) -> const Vec3& {
-        return assembly.parts[node.part].mesh.node(index(node.node));
+    struct Placed {
+        Vec3 place;
+        PartNode node;
     };
-    std::sort(nodes.begin(), nodes.end(), [&](const PartNode& a, const PartNode& b) {
-        if (before(place(a), place(b))) return true;
-        if (before(place(b), place(a))) return false;
-        return a < b;
+    std::vector<Placed> placed;
+    placed.reserve(nodes.size());
+    for (const PartNode& node : nodes) placed.push_back({assembly.parts[node.part].skin()[node.node], node});
+    std::sort(placed.begin(), placed.end(), [&](const Placed& a, const Placed& b) {
+        if (before(a.place, b.place)) return true;
+        if (before(b.place, a.place)) return false;
+        return a.node < b.node;
     });
     std::vector<std::pair<PartNode, PartNode>> same;
-    for (std::size_t i = 0, first = 0; i < nodes.size(); ++i) {
-        if (i == 0 || before(place(nodes[first]), place(nodes[i]))) first = i;
-        if (first != i) same.emplace_back(nodes[i], nodes[first]);
+    for (std::size_t i = 0, first = 0; i < placed.size(); ++i) {
+        if (i == 0 || before(placed[first].place, placed[i].place)) first = i;
+        if (first != i) same.emplace_back(placed[i].node, placed[first].node);
     }
     return same;
 }
@@ -63,24 +67,25 @@ void add_middles(const mesh::HexMesh& mesh, std::size_t part, std::vector<PartNo
 void number_nodes(SweptAssembly& assembly, std::span<const std::vector<SharedNodes>> shared)
 {
     std::vector<PartNode> by_place;
-    std::vector<std::vector<bool>> on_border(assembly.parts.size());
+    std::vector<std::vector<Index>> on_border(assembly.parts.size()); // rising
     for (std::size_t p = 0; p < assembly.parts.size(); ++p) {
         const mesh::HexMesh& mesh = assembly.parts[p].mesh;
-        on_border[p].resize(mesh.nodes.size(), false);
-        for (const Segment& side : patch_borders(mesh)) {
-            for (const Index n : side) {
-                if (!on_border[p][index(n)]) by_place.push_back({p, n});
-                on_border[p][index(n)] = true;
-            }
-        }
+        for (const Segment& side : patch_borders(mesh))
+            on_border[p].insert(on_border[p].end(), side.begin(), side.end());
+        std::ranges::sort(on_border[p]);
+        const auto again = std::ranges::unique(on_border[p]);
+        on_border[p].erase(again.begin(), again.end());
+        for (const Index n : on_border[p]) by_place.push_back({p, n});
         if (mesh.order() > 1) add_middles(mesh, p, by_place);
     }
-    std::vector<std::pair<PartNode, PartNode>> same = in_same_places(assembly, std::move(by_place));
+    std::vector<std::pair<PartNode, PartNode>> same = in_same_places(assembly, by_place);
     for (const std::vector<SharedNodes>& faces : shared) {
         for (const SharedNodes& face : faces) {
             for (const NodePair& pair : face.pairs) {
                 PartNode a{face.own, pair.own}, b{face.other, pair.other};
-                if (on_border[a.part][index(a.node)] && on_border[b.part][index(b.node)]) continue;
+                if (std::ranges::binary_search(on_border[a.part], a.node) &&
+                    std::ranges::binary_search(on_border[b.part], b.node))
+                    continue;
                 if (a < b) std::swap(a, b);
                 same.emplace_back(a, b);
             }
@@ -89,18 +94,24 @@ void number_nodes(SweptAssembly& assembly, std::span<const std::vector<SharedNod
     std::sort(same.begin(), same.end());
     Index next = 0;
     auto twin = same.begin();
-    assembly.number.resize(assembly.parts.size());
+    const bool held = std::ranges::none_of(assembly.parts,
+                                           [](const Swept& part) { return bool(part.layers); });
+    assembly.number.resize(held ? assembly.parts.size() : 0);
+    assembly.numbering.clear();
     for (std::size_t p = 0; p < assembly.parts.size(); ++p) {
-        std::vector<Index>& number = assembly.number[p];
-        number.resize(assembly.parts[p].mesh.node_count());
-        for (std::size_t n = 0; n < number.size(); ++n) {
-            if (twin != same.end() && twin->first == PartNode{p, static_cast<Index>(n)}) {
-                number[n] = assembly.number[twin->second.part][index(twin->second.node)];
-                ++twin;
-            } else {
-                number[n] = next++;
-            }
+        const mesh::HexMesh& mesh = assembly.parts[p].mesh;
+        const std::size_t nodes = mesh::corner_count(mesh) + mesh.middles.nodes.size();
+        std::vector<std::pair<Index, Index>> known;
+        for (; twin != same.end() && twin->first.part == p; ++twin) {
+            if (!known.empty() && known.back().first == twin->first.node) continue;
+            known.emplace_back(twin->first.node, assembly.numbering[twin->second.part].of(twin->second.node));
         }
+        assembly.numbering.emplace_back(next, std::move(known), nodes);
+        next += static_cast<Index>(assembly.numbering.back().fresh());
+        if (!held) continue;
+        assembly.number[p].resize(nodes);
+        for (std::size_t n = 0; n < nodes; ++n)
+            assembly.number[p][n] = assembly.numbering[p].of(static_cast<Index>(n));
     }
     assembly.nodes = index(next);
 }
@@ -117,22 +128,20 @@ void check_no_hanging_nodes(const SweptAssembly& assembly, std::span<const Assem
     std::vector<std::pair<std::size_t, Index>> at;
     std::vector<Vec3> points;
     std::unordered_set<std::uint64_t> known_sides;
-    std::vector<bool> known(assembly.nodes, false);
+    std::unordered_set<Index> known;
     double tolerance = 0;
     for (std::size_t p = 0; p < members.size(); ++p) {
         tolerance = std::max(tolerance, members[p].volume->model.tolerance);
-        const mesh::HexMesh& mesh = assembly.parts[p].mesh;
-        const std::vector<Index>& number = assembly.number[p];
-        for (const Segment& side : patch_borders(mesh)) {
-            if (!known_sides.insert(edge_key(number[index(side[0])], number[index(side[1])])).second)
-                continue;
+        const mesh::SkinNodes skin = assembly.parts[p].skin();
+        const mesh::NodeNumbers& number = assembly.numbering[p];
+        for (const Segment& side : patch_borders(skin.mesh)) {
+            if (!known_sides.insert(edge_key(number.of(side[0]), number.of(side[1]))).second) continue;
             sides.push_back({p, side});
-            segments.push_back({mesh.nodes[index(side[0])], mesh.nodes[index(side[1])]});
+            segments.push_back({skin[side[0]], skin[side[1]]});
             for (const Index n : side) {
-                if (known[index(number[index(n)])]) continue;
-                known[index(number[index(n)])] = true;
+                if (!known.insert(number.of(n)).second) continue;
                 at.emplace_back(p, n);
-                points.push_back(mesh.nodes[index(n)]);
+                points.push_back(skin[n]);
             }
         }
     }
@@ -140,9 +149,9 @@ void check_no_hanging_nodes(const SweptAssembly& assembly, std::span<const Assem
         const auto& [part, node] = at[index(near.point)];
         const EdgeSide& side = sides[index(near.segment)];
         if (part == side.part) continue;
-        const Index number = assembly.number[part][index(node)];
-        const Segment ends{assembly.number[side.part][index(side.nodes[0])],
-                           assembly.number[side.part][index(side.nodes[1])]};
+        const Index number = assembly.numbering[part].of(node);
+        const Segment ends{assembly.numbering[side.part].of(side.nodes[0]),
+                           assembly.numbering[side.part].of(side.nodes[1])};
         if (number == ends[0] || number == ends[1]) continue;
         const Vec3& p = points[index(near.point)];
         const auto& [a, b] = segments[index(near.segment)];

@@ -4,6 +4,7 @@
 #include <lacuna/quality/layered.h>
 #include <lacuna/sweep/detail/layer_placer.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -44,6 +45,28 @@ void put_plan(A& with, Plan& plan, std::int8_t& straight, std::int8_t& spread)
     with(plan.options.heights), with(straight), with(spread);
 }
 
+/// Lay nodes elsewhere as the plan says.
+mesh::LayeredNodes laid_nodes(mesh::LayeredNodes nodes, const std::shared_ptr<const LayerPlan>& plan)
+{
+    if (plan->laid.empty()) return nodes;
+    const auto from = [plan](Index node) {
+        return std::ranges::lower_bound(plan->laid, node, {}, &std::pair<Index, Vec3>::first);
+    };
+    const auto row = static_cast<Index>(plan->source.nodes.size());
+    mesh::LayeredNodes laid;
+    laid.place = [place = std::move(nodes.place), plan, from, row](int first, int last, std::span<Vec3> out,
+                                                                   const RunContext& context) {
+        place(first, last, out, context);
+        for (auto at = from(first * row); at != plan->laid.end() && at->first < last * row; ++at)
+            out[index(at->first - first * row)] = at->second;
+    };
+    laid.on_skin = [on_skin = std::move(nodes.on_skin), plan, from](Index node) {
+        const auto at = from(node);
+        return at != plan->laid.end() && at->first == node ? at->second : on_skin(node);
+    };
+    return laid;
+}
+
 /// What each of a team does.
 LayersFound find_in_share(const PlacedLayers& layers, double least, const Team* team,
                           const RunContext& context)
@@ -74,7 +97,17 @@ PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan, const RunConte
         placed->placer.place(first, last, out, own);
     };
     result.nodes.on_skin = [placed](Index node) { return placed->on_skin(node); };
+    result.nodes = laid_nodes(std::move(result.nodes), result.plan);
     return result;
+}
+
+PlacedLayers with_laid(PlacedLayers layers, std::vector<std::pair<Index, Vec3>> laid)
+{
+    auto plan = std::make_shared<LayerPlan>(*layers.plan);
+    plan->laid = std::move(laid);
+    layers.plan = std::move(plan);
+    layers.nodes = laid_nodes(std::move(layers.nodes), layers.plan);
+    return layers;
 }
 
 void put(Writer& writer, const LayerPlan& plan)
@@ -82,12 +115,21 @@ void put(Writer& writer, const LayerPlan& plan)
     auto straight = static_cast<std::int8_t>(plan.options.straight_lines),
          spread = static_cast<std::int8_t>(plan.options.spread_residual);
     put_plan(writer, plan, straight, spread);
+    std::vector<Index> laid;
+    std::vector<Vec3> places;
+    for (const auto& [node, place] : plan.laid) laid.push_back(node), places.push_back(place);
+    writer(laid), writer(places);
 }
 
 void put(Reader& reader, LayerPlan& plan)
 {
     std::int8_t straight = 0, spread = 0;
     put_plan(reader, plan, straight, spread);
+    std::vector<Index> laid;
+    std::vector<Vec3> places;
+    reader(laid), reader(places);
+    if (laid.size() != places.size()) throw ProtocolError("a plan lays nodes elsewhere and says not where");
+    for (std::size_t i = 0; i < laid.size(); ++i) plan.laid.emplace_back(laid[i], places[i]);
     plan.options.straight_lines = straight != 0;
     plan.options.spread_residual = spread != 0;
 }

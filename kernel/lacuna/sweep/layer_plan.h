@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace lacuna::sweep {
@@ -23,6 +24,8 @@ struct LayerPlan {
     std::vector<Vec3> target;
     RimColumns columns;
     PlacementOptions options;
+    /// Nodes of the skin that are laid elsewhere once all are placed, rising.
+    std::vector<std::pair<Index, Vec3>> laid{};
 };
 
 /// The layers of `place_layers()` to be made when they are asked for, and its report.
@@ -35,6 +38,9 @@ struct PlacedLayers {
 
 /// @throw  as `place_layers()`
 PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan, const RunContext& context = {});
+
+/// The same layers with nodes of the skin laid elsewhere. @param laid  rising
+PlacedLayers with_laid(PlacedLayers layers, std::vector<std::pair<Index, Vec3>> laid);
 
 /// A plan for other processes, whole and within a message.
 void put(Writer& writer, const LayerPlan& plan);

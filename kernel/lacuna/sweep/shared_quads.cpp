@@ -13,37 +13,35 @@ namespace {
 
 /// Nodes of some quads, each once, in the order they are met, with their places along a slanted line.
 struct NodesOf {
-    std::vector<Index>& number;                 ///< of each node of the mesh, -1: not of these quads
+    NodeMarkers& number;                        ///< of each node of the mesh, -1: not of these quads
     std::vector<Index> nodes;                   ///< of the mesh
+    std::vector<Vec3> places;                   ///< of those
     std::vector<std::pair<double, Index>> line; ///< place along the line and place in `nodes`, sorted
 
-    NodesOf(const mesh::HexMesh& mesh, std::span<const Quad> quads, std::vector<Index>& markers)
-        : number(markers)
+    NodesOf(const mesh::SkinNodes& skin, std::span<const Quad> quads, NodeMarkers& markers) : number(markers)
     {
-        if (number.size() < mesh.nodes.size()) number.resize(mesh.nodes.size(), -1);
+        number.be_for(skin);
         // No direction that the rows of a mesh are likely to have.
         const Vec3 slanted = Vec3(1, 0.6180339887498949, 0.2720196495140690).normalized();
         for (const Quad& quad : quads) {
             for (const Index n : quad) {
-                if (number[index(n)] >= 0) continue;
-                number[index(n)] = static_cast<Index>(nodes.size());
-                line.emplace_back(slanted.dot(mesh.nodes[index(n)]), static_cast<Index>(nodes.size()));
+                Index& own = number[n];
+                if (own >= 0) continue;
+                own = static_cast<Index>(nodes.size());
+                places.push_back(skin[n]);
+                line.emplace_back(slanted.dot(places.back()), own);
                 nodes.push_back(n);
             }
         }
         std::sort(line.begin(), line.end());
     }
-    ~NodesOf()
-    {
-        for (const Index n : nodes) number[index(n)] = -1;
-    }
+    ~NodesOf() { number.clear(nodes); }
     NodesOf(const NodesOf&) = delete;
     NodesOf& operator=(const NodesOf&) = delete;
 };
 
 /// Of each own node the other's, by place in the lists; empty where one has none.
-std::vector<Index> same_places(const mesh::HexMesh& own, const NodesOf& a, const mesh::HexMesh& other,
-                               const NodesOf& b, double within)
+std::vector<Index> same_places(const NodesOf& a, const NodesOf& b, double within)
 {
     std::vector<Index> twin(a.nodes.size(), -1);
     std::vector<char> used(b.nodes.size(), 0);
@@ -53,10 +51,10 @@ std::vector<Index> same_places(const mesh::HexMesh& own, const NodesOf& a, const
                          1e-15 * std::max(std::abs(a.line.front().first), std::abs(a.line.back().first));
     for (const auto& [at, place] : a.line) {
         while (first < b.line.size() && b.line[first].first < at - slack) ++first;
-        const Vec3& p = own.nodes[index(a.nodes[index(place)])];
+        const Vec3& p = a.places[index(place)];
         for (std::size_t i = first; i < b.line.size() && b.line[i].first <= at + slack; ++i) {
             const Index candidate = b.line[i].second;
-            const Vec3& q = other.nodes[index(b.nodes[index(candidate)])];
+            const Vec3& q = b.places[index(candidate)];
             const bool same = within > 0 ? (p - q).squaredNorm() <= within * within : p == q;
             if (!same || used[index(candidate)] != 0) continue;
             used[index(candidate)] = 1;
@@ -91,15 +89,15 @@ std::vector<Quad> quads_on(const mesh::HexMesh& mesh, std::span<const FaceId> fa
     return quads;
 }
 
-std::optional<std::vector<NodePair>> SameQuads::pairs(const mesh::HexMesh& own,
+std::optional<std::vector<NodePair>> SameQuads::pairs(const mesh::SkinNodes& own,
                                                       std::span<const Quad> own_quads,
-                                                      const mesh::HexMesh& other,
+                                                      const mesh::SkinNodes& other,
                                                       std::span<const Quad> other_quads, double within)
 {
     if (own_quads.size() != other_quads.size() || own_quads.empty()) return std::nullopt;
     const NodesOf a(own, own_quads, own_number_), b(other, other_quads, other_number_);
     if (a.nodes.size() != b.nodes.size()) return std::nullopt;
-    const std::vector<Index> twin = same_places(own, a, other, b, within);
+    const std::vector<Index> twin = same_places(a, b, within);
     if (twin.empty()) return std::nullopt;
     // The other's quads by their least node.
     std::vector<std::size_t> first(b.nodes.size() + 1, 0);
@@ -107,7 +105,7 @@ std::optional<std::vector<NodePair>> SameQuads::pairs(const mesh::HexMesh& own,
     theirs.reserve(other_quads.size());
     for (const Quad& quad : other_quads) {
         Quad own_numbers{};
-        for (std::size_t k = 0; k < 4; ++k) own_numbers[k] = b.number[index(quad[k])];
+        for (std::size_t k = 0; k < 4; ++k) own_numbers[k] = b.number[quad[k]];
         theirs.push_back(sorted(own_numbers));
         ++first[index(theirs.back()[0]) + 1];
     }
@@ -118,7 +116,7 @@ std::optional<std::vector<NodePair>> SameQuads::pairs(const mesh::HexMesh& own,
     std::vector<char> found(theirs.size(), 0);
     for (const Quad& quad : own_quads) {
         Quad numbers{};
-        for (std::size_t k = 0; k < 4; ++k) numbers[k] = twin[index(a.number[index(quad[k])])];
+        for (std::size_t k = 0; k < 4; ++k) numbers[k] = twin[index(a.number[quad[k]])];
         numbers = sorted(numbers);
         const auto begin = by_least.begin() + static_cast<std::ptrdiff_t>(first[index(numbers[0])]);
         const auto end = by_least.begin() + static_cast<std::ptrdiff_t>(first[index(numbers[0]) + 1]);

@@ -19,6 +19,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lacuna::sweep {
@@ -57,12 +58,17 @@ enum class Interior {
     normals,   ///< for comparison: the paper's advance along local normals
 };
 
+/// Nodes of the skin that a neighbour has in the same places but for rounding.
+struct SettledNodes {
+    std::set<FaceId> faces;                    ///< they are on; their nodes stay from then on
+    std::vector<std::pair<Index, Vec3>> nodes; ///< and where the neighbour has them; some more than once
+};
+
 /// What a volume's neighbours in an assembly have to say to its sweep.
 struct Beside {
-    /// Null, or called with each mesh before it is proved, and with the face of each of its patches: lays
-    /// nodes of the skin onto those that a neighbour has in the same places but for rounding. What it returns
-    /// are the faces it did so on; their nodes stay from then on.
-    std::function<std::set<FaceId>(mesh::HexMesh&, const std::vector<FaceId>&)> settle;
+    /// Null, or called with each mesh before it is proved, and with the face of each of its patches: finds
+    /// nodes that are to be laid onto a neighbour's.
+    std::function<SettledNodes(const mesh::SkinNodes&, const std::vector<FaceId>&)> settle;
     /// The shape that the skin is compared with, of the volume's faces; null: the volume itself.
     const topology::OpenVolume* shape = nullptr;
     /// Faces between this volume and others, which are skin of neither; see `FidelityOptions`.
@@ -138,6 +144,8 @@ struct Swept {
     /// Those lines of the report that say which size and number of layers were taken where none was asked
     /// for. They are logged as well, once, of an assembly by whoever sweeps the whole.
     std::vector<std::string> defaults;
+
+    [[nodiscard]] mesh::SkinNodes skin() const { return {mesh, layers ? &*layers : nullptr}; }
 };
 
 /// Fill a sealed volume with hexahedra, and with wedges where those are asked for. What goes with what is

@@ -119,6 +119,12 @@ BestLayers best_layers(const surface::SourceMesh& source, const Morphed& morphed
 struct GoodLayers {
     PlacedLayers layers;
     LayersFound found;
+
+    void judge(const SweepOptions& options, const RunContext& context)
+    {
+        const double least = std::max(options.improving.good_enough, options.min_scaled_jacobian);
+        found = find_in_layers(layers, least, options.crew, context);
+    }
 };
 std::optional<GoodLayers> good_layers(const surface::SourceMesh& source, const Morphed& morphed,
                                       const RimColumns& columns, PlacementOptions placement,
@@ -129,17 +135,53 @@ std::optional<GoodLayers> good_layers(const surface::SourceMesh& source, const M
                                       LayerPlan{source.quads, morphed.nodes, columns, placement}),
                                   context),
                     {}};
-    const double least = std::max(options.improving.good_enough, options.min_scaled_jacobian);
-    good.found = find_in_layers(good.layers, least, options.crew, context);
+    good.judge(options, context);
     if (!good.found.good_enough) return std::nullopt;
     return good;
+}
+
+/// Rising, each node once, the last place said.
+std::vector<std::pair<Index, Vec3>> in_order(std::vector<std::pair<Index, Vec3>> nodes)
+{
+    std::ranges::stable_sort(nodes, {}, &std::pair<Index, Vec3>::first);
+    std::vector<std::pair<Index, Vec3>> once;
+    for (const auto& node : nodes) {
+        if (!once.empty() && once.back().first == node.first) once.pop_back();
+        once.push_back(node);
+    }
+    return once;
+}
+
+/// Lay nodes of the skin onto neighbours'. Layers that are not good enough then are held from there on.
+void lay_onto_neighbours(std::vector<std::pair<Index, Vec3>> nodes, Swept& swept,
+                         std::optional<GoodLayers>& good, const SweepOptions& options,
+                         const RunContext& context)
+{
+    mesh::HexMesh& mesh = swept.mesh;
+    if (!good) {
+        for (const auto& [node, place] : nodes) mesh.nodes[index(node)] = place;
+        return;
+    }
+    if (nodes.empty()) return;
+    good->layers.plan = swept.plan;
+    good->layers.nodes = *swept.layers;
+    good->layers = with_laid(std::move(good->layers), in_order(std::move(nodes)));
+    good->judge(options, context);
+    swept.plan = good->layers.plan;
+    swept.layers = good->layers.nodes;
+    if (good->found.good_enough) return;
+    mesh.nodes.resize(mesh::corner_count(mesh));
+    swept.layers->place(0, mesh.layers + 1, mesh.nodes, context);
+    swept.layers.reset();
+    swept.plan.reset();
+    good.reset();
 }
 
 /// Whether nothing but the placing of layers has a say in where nodes inside are.
 bool may_be_layered(const SweepOptions& options)
 {
     return options.layered && options.order == 1 && options.boundary_layers.empty() &&
-           !options.beside.settle && options.interior != Interior::normals;
+           options.interior != Interior::normals;
 }
 
 /// Whether all faces of an end came with a mesh that can stay.
@@ -302,7 +344,9 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     check_cancelled(context);
     std::set<FaceId> still = given_faces(volume, seeds.kept, options.wedges);
     if (options.beside.settle) {
-        still.merge(options.beside.settle(mesh, faces));
+        SettledNodes settled = options.beside.settle(result.skin(), faces);
+        still.merge(settled.faces);
+        lay_onto_neighbours(std::move(settled.nodes), result, good, options, context);
         measured.reset();
     }
     quality::Proof proof = good

@@ -4,13 +4,15 @@
 #include <lacuna/io/deck.h>
 #include <lacuna/io/layered.h>
 
+#include <deque>
 #include <memory>
+#include <span>
 #include <utility>
 
 namespace lacuna::team {
 namespace {
 
-constexpr std::string_view kWriteTask = "write";
+constexpr std::string_view kWriteTask = "write", kPartsTask = "write parts";
 
 /// A mesh but for its nodes and quads, which its plan has, within a message.
 template <class A, class Mesh>
@@ -40,6 +42,41 @@ LayeredFile read_file(Reader& reader)
     file.binary = binary != 0;
     for (const int metric : metrics) file.quality.push_back(static_cast<quality::Metric>(metric));
     return file;
+}
+
+/// A mesh that came in a message, and what its nodes are made by.
+struct Received {
+    mesh::HexMesh mesh;
+    sweep::PlacedLayers layers;
+};
+Received read_mesh(Reader& reader, const RunContext& context)
+{
+    auto plan = std::make_shared<sweep::LayerPlan>();
+    Received received;
+    sweep::put(reader, *plan);
+    put_mesh(reader, received.mesh);
+    received.mesh.nodes = plan->source.nodes;
+    received.mesh.quads = plan->source.quads;
+    received.layers = sweep::placed_layers(std::move(plan), context);
+    return received;
+}
+
+void put_numbers(Writer& writer, const mesh::NodeNumbers& numbers)
+{
+    std::vector<Index> nodes, known;
+    for (const auto& [node, number] : numbers.known()) nodes.push_back(node), known.push_back(number);
+    writer(numbers.first()), writer(nodes), writer(known);
+}
+
+mesh::NodeNumbers read_numbers(Reader& reader, const mesh::HexMesh& mesh)
+{
+    Index first = 0;
+    std::vector<Index> nodes, numbers;
+    reader(first), reader(nodes), reader(numbers);
+    if (nodes.size() != numbers.size()) throw ProtocolError("numbers of nodes are missing");
+    std::vector<std::pair<Index, Index>> known;
+    for (std::size_t i = 0; i < nodes.size(); ++i) known.emplace_back(nodes[i], numbers[i]);
+    return {first, std::move(known), mesh::corner_count(mesh)};
 }
 
 /// Values of a metric, of some layers at a time.
@@ -77,7 +114,41 @@ void write_share(const mesh::LayeredMesh& layered, const io::OutputPath& path, c
         throw InvalidInput("io.not_layered", path.text() + ": files of this ending are written whole alone");
 }
 
+void write_share(std::span<const mesh::LayeredPart> parts, const io::OutputPath& path,
+                 const LayeredFile& file, const Team* team, const RunContext& context)
+{
+    io::DeckFormat format{};
+    io::find_deck_format(io::ending_of(path.text()), format);
+    io::write_parts(parts, format, {file.binary, file.version}, path, context, team);
+}
+
+void help_write_parts(const std::string& bytes, const Team& team, const RunContext& context)
+{
+    Reader reader(bytes);
+    std::uint64_t count = 0;
+    reader(count);
+    std::deque<Received> received;
+    std::deque<mesh::NodeNumbers> numbers;
+    std::vector<mesh::LayeredPart> parts;
+    for (std::uint64_t p = 0; p < count; ++p) {
+        received.push_back(read_mesh(reader, context));
+        numbers.push_back(read_numbers(reader, received.back().mesh));
+        parts.push_back({received.back().mesh, &received.back().layers.nodes, numbers.back()});
+    }
+    std::string path;
+    reader(path);
+    const LayeredFile file = read_file(reader);
+    reader.finish();
+    write_share(parts, path, file, &team, context);
+}
+
 } // namespace
+
+bool is_layered_of_parts(const std::string& ending)
+{
+    io::DeckFormat format{};
+    return io::find_deck_format(ending, format) && io::is_layered_of_parts(format);
+}
 
 bool is_layered(const std::string& ending)
 {
@@ -104,24 +175,42 @@ void write_layered(const mesh::LayeredMesh& layered, const sweep::LayerPlan& pla
     do_together(&team, [&] { write_share(layered, path, file, &team, context); });
 }
 
+void write_parts(const sweep::SweptAssembly& assembly, const io::OutputPath& path, const LayeredFile& file,
+                 const Crew* crew, const RunContext& context)
+{
+    std::vector<mesh::LayeredPart> parts;
+    bool all = true;
+    for (std::size_t p = 0; p < assembly.parts.size(); ++p) {
+        const sweep::Swept& part = assembly.parts[p];
+        parts.push_back({part.mesh, part.layers ? &*part.layers : nullptr, assembly.numbering[p]});
+        all = all && part.layers.has_value();
+    }
+    if (crew == nullptr || !all) return write_share(parts, path, file, nullptr, context);
+    Writer writer;
+    writer(static_cast<std::uint64_t>(parts.size()));
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        sweep::put(writer, *assembly.parts[p].plan);
+        put_mesh(writer, parts[p].mesh);
+        put_numbers(writer, parts[p].numbers);
+    }
+    writer(path.text()), put_file(writer, file);
+    const Team& team = crew->call(kPartsTask, std::move(writer).take());
+    do_together(&team, [&] { write_share(parts, path, file, &team, context); });
+}
+
 void help(std::string_view task, const std::string& bytes, const Team& team, const RunContext& context)
 {
     do_together(&team, [&] {
         if (task == sweep::kLayersTask) return sweep::help_find_in_layers(bytes, team, context);
+        if (task == kPartsTask) return help_write_parts(bytes, team, context);
         if (task != kWriteTask) throw ProtocolError("there is no task '" + std::string(task) + "'");
-        auto plan = std::make_shared<sweep::LayerPlan>();
-        mesh::HexMesh mesh;
-        std::string path;
         Reader reader(bytes);
-        sweep::put(reader, *plan);
-        put_mesh(reader, mesh);
+        const Received received = read_mesh(reader, context);
+        std::string path;
         reader(path);
         const LayeredFile file = read_file(reader);
         reader.finish();
-        mesh.nodes = plan->source.nodes;
-        mesh.quads = plan->source.quads;
-        const sweep::PlacedLayers layers = sweep::placed_layers(std::move(plan), context);
-        write_share({mesh, layers.nodes}, path, file, &team, context);
+        write_share({received.mesh, received.layers.nodes}, path, file, &team, context);
     });
 }
 

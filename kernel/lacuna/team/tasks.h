@@ -7,6 +7,7 @@
 #include <lacuna/io/whole_file.h>
 #include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/quality/metrics.h>
+#include <lacuna/sweep/assembly.h>
 #include <lacuna/sweep/layer_plan.h>
 
 #include <string>
@@ -37,6 +38,17 @@ bool is_layered(quality::Metric metric);
 /// @throw  as `io::write_msh()`; TeamFailed
 void write_layered(const mesh::LayeredMesh& layered, const sweep::LayerPlan& plan, const io::OutputPath& path,
                    const LayeredFile& file, const Crew* crew, const RunContext& context);
+
+/// Whether the mesh of an assembly, whose parts may not hold their nodes, is written so in files of an
+/// ending.
+bool is_layered_of_parts(const std::string& ending);
+
+/// Write the mesh of an assembly with the bytes of `io::write_deck()` of its deck: with a crew, where there
+/// is one and no part holds its nodes.
+/// @pre  is_layered_of_parts() of the ending; `file` has no parts, fields or material
+/// @throw  as `write_layered()`
+void write_parts(const sweep::SweptAssembly& assembly, const io::OutputPath& path, const LayeredFile& file,
+                 const Crew* crew, const RunContext& context);
 
 /// Do one's part of a task that a crew was called to.
 /// @throw  what went wrong; all of the team know of it.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/io/deck.h>
+#include <lacuna/io/detail/deck_writer.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -34,12 +35,21 @@ struct DeckEntity {
 struct DeckEntities {
     std::vector<DeckEntity> all;        ///< numbered from 1 in files
     std::vector<std::vector<Index>> of; ///< of each element of each block, its place in `all`
+    /// Of each block whose elements are made, where those of one entity end, and that entity.
+    std::vector<std::vector<std::pair<std::size_t, Index>>> made;
     /// Groups with the entities that are in them, counted from 1, as first met. Faces of a group that has
     /// solids too are one of their own, ":faces" behind its name.
     std::vector<std::pair<std::string, std::vector<int>>> groups;
+
+    /// The entity of element `e` of block `b`.
+    [[nodiscard]] Index at(std::size_t b, std::size_t e) const
+    {
+        if (made[b].empty()) return of[b][e];
+        return std::ranges::upper_bound(made[b], e, {}, &std::pair<std::size_t, Index>::first)->second;
+    }
 };
 
 /// @note  O(n) in the elements and the members of sets but for finding sparse tags.
-DeckEntities entities_of(const Deck& deck);
+DeckEntities entities_of(const Deck& deck, const BulkReader& bulk);
 
 } // namespace lacuna::io

@@ -2,11 +2,16 @@
 #pragma once
 
 #include <lacuna/io/deck_file.h>
+#include <lacuna/io/detail/mesh_deck.h>
 #include <lacuna/io/detail/node_reader.h>
 #include <lacuna/io/detail/sections.h>
 #include <lacuna/mesh/second_order.h>
 
+#include <algorithm>
+#include <iterator>
+#include <memory>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,11 +20,55 @@
 /// What the writers of decks share. Internal to this folder.
 namespace lacuna::io {
 
-/// Nodes and cells that a deck does not hold, numbered from 1; the cells are of its first region.
-struct LayeredBulk {
+/// A mesh whose nodes and cells a deck does not hold.
+struct BulkPart {
     const mesh::HexMesh& mesh;
-    const NodeReader& nodes;
+    std::unique_ptr<const NodeReader> nodes;
+    const mesh::NodeNumbers* numbers; ///< of its nodes, from 0; null: they are the whole's
+    BulkPlace place;
     mesh::CellKinds kinds{mesh};
+
+    /// Nodes that no part before it has, and the number of the first.
+    [[nodiscard]] std::size_t points() const { return numbers ? numbers->fresh() : nodes->count(); }
+    [[nodiscard]] std::size_t first_point() const { return numbers ? index(numbers->first()) : 0; }
+    [[nodiscard]] Index number(Index node) const { return numbers ? numbers->of(node) : node; }
+    /// Cells that are in blocks of hexahedra, else of wedges.
+    [[nodiscard]] std::size_t count(bool hexes) const
+    {
+        return hexes ? kinds.hexes() : mesh.cell_count() - kinds.hexes();
+    }
+    [[nodiscard]] DeckTag tag(std::size_t cell) const
+    {
+        return place.first_cell + static_cast<DeckTag>(cell);
+    }
+};
+
+/// Meshes that a deck does not hold. Nodes are numbered from 1.
+class LayeredBulk {
+public:
+    LayeredBulk(const Deck& deck, std::vector<BulkPart> parts);
+
+    std::vector<BulkPart> parts;
+    std::size_t points = 0;
+
+    /// Members of a set in a row: of the cells of a part, or of those that the deck holds.
+    struct Run {
+        std::size_t begin;          ///< members of the set before it
+        const BulkPart* part;       ///< null: the deck holds them
+        std::size_t first_held = 0; ///< place of the first in the set's `members`
+    };
+    /// Of each set of the deck; empty: the deck holds all members.
+    std::vector<std::vector<Run>> sets;
+    std::vector<std::size_t> set_size;
+    /// Cells before those of each part, of hexahedra and of wedges, and all.
+    std::vector<std::size_t> hexes{0}, wedges{0};
+
+    /// The part that the `i`-th of the hexahedra or wedges is of.
+    [[nodiscard]] const BulkPart& part_of(bool hex, std::size_t i) const
+    {
+        const std::vector<std::size_t>& before = hex ? hexes : wedges;
+        return parts[static_cast<std::size_t>(std::ranges::upper_bound(before, i) - before.begin()) - 1];
+    }
 };
 
 /// What a deck holds in bulk, or leaves to be made.
@@ -27,19 +76,30 @@ class BulkReader {
 public:
     BulkReader(const Deck& deck, const LayeredBulk* layered) : deck_(&deck), layered_(layered) {}
 
-    [[nodiscard]] std::size_t points() const
-    {
-        return layered_ ? layered_->nodes.count() : deck_->points.size();
-    }
+    [[nodiscard]] std::size_t points() const { return layered_ ? layered_->points : deck_->points.size(); }
     /// Call `visit(place, tag, point)` for the points [begin, end).
     template <class Visit>
     void each_point(std::size_t begin, std::size_t end, const Visit& visit) const
     {
-        if (layered_ != nullptr)
-            return layered_->nodes.each(begin, end, [&](std::size_t n, const Vec3& point) {
-                visit(n, static_cast<DeckTag>(n) + 1, point);
-            });
-        for (std::size_t p = begin; p < end; ++p) visit(p, deck_->point_tags[p], deck_->points[p]);
+        if (layered_ == nullptr) {
+            for (std::size_t p = begin; p < end; ++p) visit(p, deck_->point_tags[p], deck_->points[p]);
+            return;
+        }
+        for (const BulkPart& part : layered_->parts) {
+            const std::size_t first = part.first_point();
+            const std::size_t low = std::max(begin, first), high = std::min(end, first + part.points());
+            if (low < high) each_of(part, low, high, visit);
+        }
+    }
+    /// Call `visit(point)` for the nodes on the skins of meshes that the deck does not hold, some of them
+    /// more than once.
+    template <class Visit>
+    void each_on_skin(const Visit& visit) const
+    {
+        if (layered_ == nullptr) return;
+        for (const BulkPart& part : layered_->parts)
+            for (std::size_t i = 0; i < part.mesh.skin_count(); ++i)
+                for (const Index node : skin_quad(part.mesh, i).nodes) visit(part.nodes->on_skin(node));
     }
     [[nodiscard]] DeckTag point_tag(Index place) const
     {
@@ -57,27 +117,83 @@ public:
     void element(const DeckBlock& block, std::size_t e, const Visit& visit) const
     {
         if (!is_made(block)) return visit(block.tags[e], block.regions[e], block.element(e));
-        const std::size_t cell = made_cell(block, e);
-        const mesh::CellNodes nodes = mesh::cell_nodes(layered_->mesh, cell);
-        visit(static_cast<DeckTag>(cell) + 1, Index{0}, std::span<const Index>(nodes.all()));
+        const bool hex = is_of_hexes(block);
+        const BulkPart& part = layered_->part_of(hex, e);
+        const std::size_t cell = made_cell(part, hex, e);
+        mesh::CellNodes nodes = mesh::cell_nodes(part.mesh, cell);
+        if (part.numbers != nullptr)
+            for (std::size_t k = 0; k < nodes.count; ++k) nodes.node[k] = part.numbers->of(nodes.node[k]);
+        visit(part.tag(cell), part.place.region, std::span<const Index>(nodes.all()));
     }
+    [[nodiscard]] DeckTag tag(const DeckBlock& block, std::size_t e) const;
+    [[nodiscard]] Index region(const DeckBlock& block, std::size_t e) const;
+    /// Elements [begin, end) of a block that are made for one part, and their region.
+    struct MadeRun {
+        std::size_t begin, end;
+        Index region;
+        const BulkPart* part;
+    };
+    /// In the block's order; empty: the deck holds its elements.
+    [[nodiscard]] std::vector<MadeRun> made_runs(const DeckBlock& block) const;
+    /// The lowest and the highest number in a block, which is not empty.
+    [[nodiscard]] std::pair<DeckTag, DeckTag> tags(const DeckBlock& block) const;
 
-    /// Members of a set of nodes or elements; of those made, a set of elements without any is all cells.
+    /// Parts whose cells are of a region, and those whose cells are all members of a set.
+    [[nodiscard]] std::vector<const BulkPart*> parts_of(Index region) const;
+    [[nodiscard]] std::vector<const BulkPart*> parts_of(const DeckSet& set) const;
+
+    /// Members of a set of nodes or elements.
     [[nodiscard]] std::size_t count(const DeckSet& set) const
     {
-        return is_all(set) ? layered_->mesh.cell_count() : set.members.size();
+        return runs(set).empty() ? set.members.size() : layered_->set_size[place_of(set)];
     }
     [[nodiscard]] DeckTag member(const DeckSet& set, std::size_t i) const
     {
-        return is_all(set) ? static_cast<DeckTag>(i) + 1 : set.members[i];
-    }
-    [[nodiscard]] bool is_all(const DeckSet& set) const
-    {
-        return layered_ != nullptr && set.kind == DeckSet::Kind::elements && set.members.empty();
+        const std::span<const LayeredBulk::Run> all = runs(set);
+        if (all.empty()) return set.members[i];
+        const auto& run = *std::prev(std::ranges::upper_bound(all, i, {}, &LayeredBulk::Run::begin));
+        return run.part != nullptr ? run.part->tag(i - run.begin)
+                                   : set.members[run.first_held + (i - run.begin)];
     }
 
+    static bool is_of_hexes(const DeckBlock& block) { return shape_info(block.shape).corners == 8; }
+
 private:
-    [[nodiscard]] std::size_t made_cell(const DeckBlock& block, std::size_t e) const;
+    [[nodiscard]] std::size_t place_of(const DeckSet& set) const
+    {
+        return static_cast<std::size_t>(&set - deck_->sets.data());
+    }
+    [[nodiscard]] std::span<const LayeredBulk::Run> runs(const DeckSet& set) const
+    {
+        if (layered_ == nullptr) return {};
+        return layered_->sets[place_of(set)];
+    }
+    [[nodiscard]] std::size_t made_cell(const BulkPart& part, bool hex, std::size_t e) const;
+
+    /// Points [begin, end) that a part is the first to have.
+    template <class Visit>
+    static void each_of(const BulkPart& part, std::size_t begin, std::size_t end, const Visit& visit)
+    {
+        const auto call = [&](std::size_t place, const Vec3& point) {
+            visit(place, static_cast<DeckTag>(place) + 1, point);
+        };
+        if (part.numbers == nullptr || part.numbers->known().empty()) {
+            const std::size_t first = part.first_point();
+            part.nodes->each(begin - first, end - first,
+                             [&](std::size_t n, const Vec3& point) { call(first + n, point); });
+            return;
+        }
+        const std::size_t first = part.numbers->fresh_node(begin - part.first_point());
+        const std::size_t last = part.numbers->fresh_node(end - 1 - part.first_point());
+        auto known = std::ranges::lower_bound(part.numbers->known(), static_cast<Index>(first), {},
+                                              &std::pair<Index, Index>::first);
+        part.nodes->each(first, last + 1, [&](std::size_t n, const Vec3& point) {
+            if (known != part.numbers->known().end() && index(known->first) == n)
+                ++known;
+            else
+                call(begin++, point);
+        });
+    }
 
     const Deck* deck_;
     const LayeredBulk* layered_;
@@ -90,15 +206,18 @@ struct DeckFile {
     Sizes sizes = Sizes::varying;
 };
 
-DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& options);
 /// @param layered  what `deck_without_bulk()` left out; null: the deck holds all. Sections refer to it.
+DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& options,
+                 const LayeredBulk* layered = nullptr);
 DeckFile nastran_file(const Deck& deck, const LayeredBulk* layered = nullptr);
 DeckFile abaqus_file(const Deck& deck, const LayeredBulk* layered = nullptr);
 DeckFile unv_file(const Deck& deck, const LayeredBulk* layered = nullptr);
-DeckFile msh_of_deck(const Deck& deck, const DeckFileOptions& options);
+/// @param layered  without a partition
+DeckFile msh_of_deck(const Deck& deck, const DeckFileOptions& options, const LayeredBulk* layered = nullptr);
+/// @param layered  of one part
 DeckFile exodus_file(const Deck& deck, const LayeredBulk* layered = nullptr);
-DeckFile vtu_of_deck(const Deck& deck);
-DeckFile vtk_of_deck(const Deck& deck, bool binary);
+DeckFile vtu_of_deck(const Deck& deck, const LayeredBulk* layered = nullptr);
+DeckFile vtk_of_deck(const Deck& deck, bool binary, const LayeredBulk* layered = nullptr);
 
 /// Text of one place, all parts.
 std::string text_at(const Deck& deck, DeckText::Place place);

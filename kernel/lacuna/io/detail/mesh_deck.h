@@ -3,6 +3,8 @@
 
 #include <lacuna/io/deck_file.h>
 
+#include <lacuna/mesh/mesh_part.h>
+
 #include <limits>
 #include <map>
 #include <span>
@@ -10,6 +12,14 @@
 
 /// Putting a swept mesh into a deck. Internal to this folder.
 namespace lacuna::io {
+
+/// Where a deck has the cells of a mesh that it does not hold.
+struct BulkPlace {
+    DeckTag first_cell = 1;          ///< number of the first, which the others follow
+    Index region = 0;                ///< all are of
+    std::vector<std::size_t> sets{}; ///< places of the sets that all are in
+    DeckTag highest = 0;             ///< number of a cell of the meshes before it
+};
 
 struct AddedMesh {
     std::span<const Index> points; ///< of each node of the mesh the deck's point it is; -1: a new one
@@ -21,10 +31,12 @@ struct AddedMesh {
     /// Sets from this one on are those of meshes added before, and join this one's of the same names.
     std::size_t own_sets = std::numeric_limits<std::size_t>::max();
     Index region = -1; ///< of the deck, that the cells are more of; -1: one of their own
-    /// Nodes and cells are not put in the deck: only regions, sets and empty blocks of the cells' shapes.
-    /// Sets of elements without members are all cells then.
-    /// @pre the deck is empty, and no first numbers are asked for
-    bool bulk_elsewhere = false;
+    /// Not null: nodes and cells are not put in the deck, only regions, sets and empty blocks of the cells'
+    /// shapes; here is where it would have them. Points are numbered from 1.
+    /// @pre the deck is empty but for such meshes, and no first numbers are asked for
+    BulkPlace* bulk = nullptr;
+    /// Then of each node its number in the whole, from 0; null: it is its own.
+    const mesh::NodeNumbers* numbers = nullptr;
     /// Of each quad of the skin, whether it is left out of the elements; empty: none is.
     std::vector<char> inner{};
     /// Of the elements beside the mesh, and the name of their region; empty: none is known.
@@ -34,8 +46,12 @@ struct AddedMesh {
 void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
               const RunContext& context = {});
 
-/// `deck_of()` without nodes and cells; see `AddedMesh::bulk_elsewhere`.
-Deck deck_without_bulk(const mesh::HexMesh& mesh, const MeshDeckOptions& options, const RunContext& context);
+/// `deck_of()` without nodes and cells; see `AddedMesh::bulk`.
+Deck deck_without_bulk(const mesh::HexMesh& mesh, const MeshDeckOptions& options, BulkPlace& place,
+                       const RunContext& context);
+/// The same of several meshes. @param places  of each mesh
+Deck deck_without_bulk(std::span<const mesh::LayeredPart> parts, const MeshDeckOptions& options,
+                       bool interfaces, std::vector<BulkPlace>& places, const RunContext& context);
 
 /// The deck's middle nodes that are the mesh's on the sides they share.
 /// @param matched  quads of the skin that are faces of the deck's elements.
