@@ -145,8 +145,7 @@ std::vector<FaceId> all_of(const topology::Roles& roles)
 VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, const RunContext& context)
 {
     VolumeState state;
-    if (!arguments.roles_named && !arguments.faces_named)
-        for (std::size_t f = 0; f < model.faces.size(); ++f) arguments.faces.emplace_back(f);
+    if (!arguments.roles_named && !arguments.faces_named) arguments.faces = topology::all_faces(model);
     if (arguments.full_turn) {
         if (!arguments.roles_named) {
             if (!arguments.faces_named) cad::require_none_left_out(model, arguments.faces, "walls");

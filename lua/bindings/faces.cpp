@@ -227,13 +227,6 @@ bool matches(const topology::Model& model, FaceId id, const Selector& selector)
     return area >= selector.area[0] && area <= selector.area[1];
 }
 
-std::vector<FaceId> all_faces(const topology::Model& model)
-{
-    std::vector<FaceId> faces;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
-    return faces;
-}
-
 /// Append what `pick` returns; raises `none_found` with the model's faces where that is nothing.
 template <class Pick>
 void append(lua_State* L, const Where& where, const topology::Model& model, std::vector<FaceId>& faces,
@@ -246,7 +239,7 @@ void append(lua_State* L, const Where& where, const topology::Model& model, std:
     });
     if (faces.size() > before) return;
     auto& all = temporary<std::vector<FaceId>>(L);
-    guard(L, [&] { all = all_faces(model); });
+    guard(L, [&] { all = topology::all_faces(model); });
     fail_option(L, where, "%s; the model has %s", none_found, push_names(L, model, all));
 }
 
@@ -378,7 +371,7 @@ void read_selector(lua_State* L, int index, const char* call, Selector& selector
 std::vector<FaceId> select(const topology::Model& model, const Selector& selector)
 {
     std::vector<FaceId> faces;
-    for (const FaceId face : all_faces(model))
+    for (const FaceId face : topology::all_faces(model))
         if (matches(model, face, selector)) faces.push_back(face);
     if (selector.touching_model || selector.touching_tag || !selector.touching_name.empty())
         keep_touching(model, selector, faces);

@@ -584,6 +584,31 @@ TEST_CASE("walls missing from one row of a stack are closed")
     MESSAGE(combinations << " stacks");
 }
 
+TEST_CASE("ends beside each other on a channel get no void edge where the channel's own rim joins them")
+{
+    // A slot with two shelves beside its mouth, and a floor of one or more faces: shelves are the ends.
+    const std::vector<std::vector<Vec2>> sections{
+        {{-1, 1}, {-3, 1}, {-3, -1}, {3, -1}, {3, 1}, {1, 1}},
+        {{-1, 1}, {-3, 1}, {-3, -1}, {-1, -2}, {1, -2}, {3, -1}, {3, 1}, {1, 1}},
+        {{-1, 1}, {-3, 1}, {-4, -1}, {4, -1}, {3, 1}, {1, 1}},
+    };
+    for (const std::vector<Vec2>& outline : sections) {
+        const int sides = static_cast<int>(outline.size());
+        const auto slot = test::prism(
+            {.height = 5, .outline = outline, .drop = without(true, true, false, {sides - 1})});
+        Roles roles{{slot.face({Role::wall, 0, 0})}, {slot.face({Role::wall, 0, sides - 2})}, {}};
+        for (int side = 1; side + 2 < sides; ++side) roles.walls.push_back(slot.face({Role::wall, 0, side}));
+        CAPTURE(sides);
+        auto volume = open_volume(slot.model, roles);
+        const Closure closed = closure::close(volume, matching::match(volume),
+                                              {.edge_shape = closure::EdgeShape::straight});
+        test::check_sealed(volume);
+        CHECK(closed.void_edges.size() == 2);
+        CHECK(closed.void_faces.size() == 3);
+        CHECK(closure::enclosed_volume(volume) == doctest::Approx(slot.facet_volume));
+    }
+}
+
 TEST_CASE("pieces of walls missing from a row are closed")
 {
     int combinations = 0;

@@ -20,13 +20,6 @@ using test::PrismOptions;
 
 namespace {
 
-std::vector<FaceId> all_faces(const Model& model)
-{
-    std::vector<FaceId> faces;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
-    return faces;
-}
-
 /// Area of the given faces by tag.
 std::map<int, double> given_area(const Model& model)
 {

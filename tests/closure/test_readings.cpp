@@ -18,13 +18,6 @@ using test::without;
 
 namespace {
 
-std::vector<FaceId> all_faces(const Model& model)
-{
-    std::vector<FaceId> faces;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
-    return faces;
-}
-
 /// What a reading encloses once it is closed, by the roles it names.
 double closed_volume(closure::Reading reading)
 {
@@ -314,6 +307,45 @@ TEST_CASE("an end and a wall beside it may be missing: two flat faces meet in a 
             CHECK(reading.enclosed == doctest::Approx(prism.facet_volume));
             CHECK(closed_volume(reading) == doctest::Approx(prism.facet_volume));
         }
+    }
+}
+
+TEST_CASE("a groove without its ends and its mouth is closed by a flat face for each, whatever its section")
+{
+    // Outlines whose last side is the mouth.
+    const std::vector<std::vector<Vec2>> sections{
+        {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}},
+        {{2, 1}, {-2, 1}, {-1, -1}, {1, -1}},
+        {{1, 1}, {-1, 1}, {-2, -1}, {2, -1}},
+        {{1, 2}, {-1, 2}, {-1, 1}, {-3, 1}, {-3, -1}, {3, -1}, {3, 1}, {1, 1}},
+        {{1, 2}, {-1, 2}, {-1, 1}, {-1, -1}, {3, -1}, {3, 1}, {1, 1}},
+        {{2, 1}, {-2, 1}, {-2, 0}, {-1, -1}, {1, -1}, {2, 0}},
+    };
+    for (const std::vector<Vec2>& corners : sections) {
+        const int sides = static_cast<int>(corners.size());
+        for (int turn = 0; turn < sides; ++turn) {
+            std::vector<Vec2> outline = corners;
+            std::rotate(outline.begin(), outline.begin() + turn, outline.end());
+            const int mouth = (sides - turn) % sides;
+            const auto groove = test::prism(
+                {.height = 5, .outline = outline, .drop = without(true, true, false, {mouth})});
+            CAPTURE(sides);
+            CAPTURE(mouth);
+            const auto reading = closure::find_reading(groove.model, all_faces(groove.model));
+            CHECK(reading.enclosed == doctest::Approx(groove.facet_volume).epsilon(1e-6));
+            CHECK(closed_volume(reading) == doctest::Approx(groove.facet_volume).epsilon(1e-6));
+            if (!reading.closure) continue;
+            CHECK(reading.closure->void_faces.size() == 3);
+        }
+    }
+}
+
+TEST_CASE("a floor and a wall beside it alone are no groove: nothing says where their prism ends")
+{
+    for (const int cuts : {2, 4}) {
+        const auto prism = test::prism({.sides = 4, .cuts = cuts});
+        const std::vector<FaceId> corner{prism.face({Role::source}), prism.face({Role::wall, 0, 3})};
+        CHECK(test::refusal([&] { closure::find_reading(prism.model, corner); }) == "topology.no_roles");
     }
 }
 

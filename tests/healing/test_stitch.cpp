@@ -31,13 +31,6 @@ namespace {
 constexpr double kTolerance = 1e-4;
 constexpr double pi = std::numbers::pi;
 
-std::vector<FaceId> all_faces(const Model& model)
-{
-    std::vector<FaceId> faces;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
-    return faces;
-}
-
 std::vector<std::size_t> uses_of(const Model& model)
 {
     std::vector<std::size_t> uses;

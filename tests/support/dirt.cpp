@@ -11,13 +11,6 @@ using namespace topology;
 
 namespace {
 
-std::vector<FaceId> all_faces(const Model& model)
-{
-    std::vector<FaceId> faces;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
-    return faces;
-}
-
 } // namespace
 
 void append_loose(Model& to, const Model& from, const std::vector<FaceId>& faces)

@@ -19,13 +19,6 @@ using test::without;
 
 namespace {
 
-std::vector<FaceId> all_faces(const Model& model)
-{
-    std::vector<FaceId> faces;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
-    return faces;
-}
-
 /// A plate with blind square pockets in its upper side: five faces each, and six of the plate.
 healing::FacetSoup pocketed_plate(int count)
 {

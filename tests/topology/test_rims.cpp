@@ -28,13 +28,6 @@ Model board(int n, int m, const std::vector<std::pair<int, int>>& squares)
     return healing::split_facets(soup);
 }
 
-std::vector<FaceId> all_faces(const Model& model)
-{
-    std::vector<FaceId> all;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
-    return all;
-}
-
 /// Each rim is a closed walk, and together they use exactly the edges the set uses once, the faces on the
 /// left.
 void check_rims(const Model& model, const std::vector<FaceId>& faces)

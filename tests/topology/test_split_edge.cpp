@@ -68,13 +68,6 @@ void check_model(const Model& model)
     }
 }
 
-std::vector<FaceId> all_faces(const Model& model)
-{
-    std::vector<FaceId> faces;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
-    return faces;
-}
-
 std::string code_of(const std::function<void()>& work, const std::string& word)
 {
     try {

@@ -16,7 +16,8 @@ using namespace topology;
 
 namespace {
 
-const char* word(VolumeClass value)
+/// @param mouths  free loops of its faces
+const char* word(VolumeClass value, std::size_t mouths)
 {
     switch (value) {
     case VolumeClass::closed:
@@ -24,7 +25,7 @@ const char* word(VolumeClass value)
     case VolumeClass::IV:
         return "pocket";
     case VolumeClass::V:
-        return "bore";
+        return mouths > 1 ? "bore" : "slot";
     default:
         return "slot";
     }
@@ -36,7 +37,7 @@ std::optional<Cavity> cavity(const Model& model, const std::vector<FaceId>& face
         const std::vector<Reading> readings = find_readings(model, faces, context);
         if (readings.size() != 1) return std::nullopt;
         const VolumeClass value = readings.front().classification.value;
-        return Cavity{word(value), faces, value, readings.front().enclosed};
+        return Cavity{word(value, rims(model, faces).size()), faces, value, readings.front().enclosed};
     } catch (const InvalidInput&) {
         return std::nullopt;
     } catch (const NotClosed&) {

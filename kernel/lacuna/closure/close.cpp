@@ -64,8 +64,7 @@ void add_face(OpenVolume& volume, Closure& closure, const std::vector<Loop>& loo
 void turn_target_to_source(OpenVolume& volume, const matching::Match& match)
 {
     if (match.loops.empty() || !match.loops.front().flipped) return;
-    std::vector<FaceId> all;
-    for (std::size_t f = 0; f < volume.model.faces.size(); ++f) all.emplace_back(f);
+    const std::vector<FaceId> all = all_faces(volume.model);
     for (const std::vector<FaceId>& part : connected_parts(volume.model, all)) {
         const auto holds = [&](Role role) {
             return std::any_of(part.begin(), part.end(),
@@ -241,8 +240,7 @@ Closure close_as(OpenVolume& volume, const matching::Match& match, VolumeClass v
         break;
     }
     if (enclosed_volume(volume) < 0) {
-        std::vector<FaceId> all;
-        for (std::size_t f = 0; f < volume.model.faces.size(); ++f) all.emplace_back(f);
+        const std::vector<FaceId> all = all_faces(volume.model);
         flip_faces(volume.model, all);
     }
     return closure;

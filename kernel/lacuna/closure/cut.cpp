@@ -33,13 +33,6 @@ constexpr double kSlit = 1e-6;
 
 std::string number(double value) { return with_digits(value, 4); }
 
-std::vector<FaceId> all_faces(const Model& model)
-{
-    std::vector<FaceId> faces;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
-    return faces;
-}
-
 double signed_area(std::span<const Vec2> loop)
 {
     double twice = 0;

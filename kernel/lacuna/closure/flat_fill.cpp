@@ -7,7 +7,6 @@
 #include <lacuna/geometry/newell.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace lacuna::closure {
@@ -59,27 +58,110 @@ std::size_t flat_run(const Model& model, const Rim& rim, std::size_t start)
     return uses;
 }
 
-/// A loop that lies in two planes as two flat ones, with a straight void edge between them.
-std::optional<std::array<FlatLoop, 2>> split_in_two(Model& model, const Rim& rim)
+/// Part of a loop: `count` uses from `first` on, round its end.
+struct Run {
+    std::size_t first = 0, count = 0;
+};
+
+/// Cut runs of uses off a loop by straight void edges. @return  each run's loop, then what is left.
+std::vector<FlatLoop> cut_off(Model& model, const Rim& rim, const std::vector<Run>& runs)
 {
     const std::size_t uses = rim.uses.size();
-    std::vector<std::size_t> run;
-    for (std::size_t i = 0; i < uses; ++i) run.push_back(flat_run(model, rim, i));
+    std::vector<FlatLoop> parts(runs.size() + 1);
+    std::size_t at = runs.front().first;
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        for (std::size_t k = 0; k < runs[r].count; ++k, ++at) parts[r].uses.push_back(rim.uses[at % uses]);
+        const VertexId a = use_from(model, parts[r].uses.front()), b = use_to(model, parts[r].uses.back());
+        const EdgeId edge = add_void_edge(model, a, b, {model[a].point, model[b].point});
+        parts[r].uses.push_back({edge, true});
+        parts.back().uses.push_back({edge, false});
+        const std::size_t next = r + 1 < runs.size() ? runs[r + 1].first : runs.front().first;
+        for (; at % uses != next; ++at) parts.back().uses.push_back(rim.uses[at % uses]);
+    }
+    return parts;
+}
+
+/// Where to part a loop that lies in two planes.
+std::optional<Run> half_run(const std::vector<std::size_t>& run)
+{
+    const std::size_t uses = run.size();
     for (std::size_t i = 0; i < uses; ++i) {
         const std::size_t first = run[i], j = (i + first) % uses;
         if (first < 2 || first >= uses || uses - first < 2 || run[j] < uses - first) continue;
         // Runs that go on past each other leave several places to part them: none is more right.
-        if (run[j] > uses - first) continue;
-        const VertexId a = use_from(model, rim.uses[i]), b = use_from(model, rim.uses[j]);
-        const EdgeId edge = add_void_edge(model, a, b, {model[a].point, model[b].point});
-        std::array<FlatLoop, 2> parts;
-        for (std::size_t k = 0; k < uses; ++k)
-            parts[k < first ? 0 : 1].uses.push_back(rim.uses[(i + k) % uses]);
-        parts[0].uses.push_back({edge, true});
-        parts[1].uses.push_back({edge, false});
-        return parts;
+        if (run[j] == uses - first) return Run{i, first};
     }
     return std::nullopt;
+}
+
+/// The faces at the free edges.
+std::vector<FaceId> faces_at_edges(const Model& model)
+{
+    std::vector<FaceId> at(model.edges.size());
+    for (const FaceId face : all_faces(model))
+        for (const Loop& loop : model[face].loops)
+            for (const EdgeUse& use : loop.uses) at[use.edge.index()] = face;
+    return at;
+}
+
+/// Whether all facets of a face lie in a plane.
+bool lies_in(const Model& model, FaceId face, const geometry::Plane& plane)
+{
+    return std::ranges::all_of(model[face].triangles, [&](const Triangle& t) {
+        return std::ranges::all_of(
+            t, [&](Index p) { return std::abs(geometry::height(plane, model.at(p))) <= model.tolerance; });
+    });
+}
+
+/// How often an open chain of points changes its direction.
+std::size_t turns(const std::vector<Vec3>& chain)
+{
+    std::size_t count = 0;
+    for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
+        const Vec3 a = chain[i] - chain[i - 1], b = chain[i + 1] - chain[i];
+        count += a.cross(b).norm() > kFlatLoop * a.norm() * b.norm() ? 1 : 0;
+    }
+    return count;
+}
+
+/// The ends of a groove: runs of a loop that lie in planes of their own, where no given face does, and are no
+/// mere corners, which two straight edges are.
+std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vector<std::size_t>& run)
+{
+    const std::size_t uses = rim.uses.size();
+    const std::vector<FaceId> at = faces_at_edges(model);
+    std::vector<Run> ends;
+    for (std::size_t i = 0; i < uses; ++i) {
+        if (run[i] == uses || run[(i + uses - 1) % uses] > run[i]) continue; // part of a longer one
+        std::vector<EdgeUse> own;
+        for (std::size_t k = 0; k < run[i]; ++k) own.push_back(rim.uses[(i + k) % uses]);
+        std::vector<std::vector<Vec3>> points{points_of(model, own)};
+        points.front().push_back(model.at(model[use_to(model, own.back())].point));
+        if (turns(points.front()) < 2) continue;
+        const geometry::Plane plane = geometry::newell_plane(points);
+        const bool given = std::ranges::all_of(
+            own, [&](const EdgeUse& use) { return lies_in(model, at[use.edge.index()], plane); });
+        if (!given) ends.push_back({i, run[i]});
+    }
+    return ends;
+}
+
+/// A loop that is not flat as flat ones with straight void edges between them: two, or those of a groove's
+/// ends and of its mouth.
+std::optional<std::vector<FlatLoop>> split_flat(Model& model, const Rim& rim)
+{
+    std::vector<std::size_t> run;
+    for (std::size_t i = 0; i < rim.uses.size(); ++i) run.push_back(flat_run(model, rim, i));
+    if (const auto half = half_run(run)) return cut_off(model, rim, {*half});
+    const std::vector<Run> ends = groove_ends(model, rim, run);
+    if (ends.size() < 2) return std::nullopt;
+    for (std::size_t r = 0; r < ends.size(); ++r) {
+        const std::size_t next = r + 1 < ends.size() ? ends[r + 1].first : ends[0].first + rim.uses.size();
+        if (ends[r].first + ends[r].count > next) return std::nullopt; // they go on past each other
+    }
+    std::vector<FlatLoop> parts = cut_off(model, rim, ends);
+    if (!is_flat(model, {parts.back().uses})) return std::nullopt;
+    return parts;
 }
 
 /// Loops that lie in one plane.
@@ -143,9 +225,11 @@ std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector
             loops.push_back({rim.uses});
             continue;
         }
-        auto parts = split_in_two(volume.model, rim);
+        const std::size_t edges = volume.model.edges.size();
+        auto parts = split_flat(volume.model, rim);
         if (!parts) return std::nullopt;
-        result.closure.void_edges.emplace_back(volume.model.edges.size() - 1);
+        for (std::size_t e = edges; e < volume.model.edges.size(); ++e)
+            result.closure.void_edges.emplace_back(e);
         loops.insert(loops.end(), parts->begin(), parts->end());
         result.each_alone = false;
     }

@@ -91,8 +91,7 @@ double section_length(const Model& model, const std::vector<FaceId>& faces, cons
 std::vector<Candidate> candidates_of(const Model& model, const RunContext& context)
 {
     const std::vector<FaceId> faces = [&] {
-        std::vector<FaceId> all;
-        for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
+        const std::vector<FaceId> all = all_faces(model);
         return all;
     }();
     const Middle middle = middle_of(model);

@@ -54,14 +54,8 @@ struct Void {
     Sealed sealed;                   ///< as that seals it
     std::vector<RoleCandidate> ways; ///< the likeliest first
     bool fills_flat_loops = false;   ///< all that is missing
+    bool flat_filled = false;        ///< sealed by flat faces within the free loops, by no roles
 };
-
-std::vector<FaceId> all_faces(const Model& model)
-{
-    std::vector<FaceId> faces;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
-    return faces;
-}
 
 /// Whether what is missing is one face for each of the free loops: nothing needs a void edge, and no face has
 /// several loops.
@@ -381,7 +375,8 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
         reading.others = std::make_shared<const OtherSweeps>(
             OtherSweeps{found.sealed.volume, found.sealed.closure, std::move(sweeps)});
     if (same != found.ways.end()) {
-        const bool as_sealed = same == found.ways.begin() && !found.sealed.closure.void_faces.empty();
+        const bool as_sealed = same == found.ways.begin() && !found.flat_filled &&
+                               !found.sealed.closure.void_faces.empty();
         take_open(model, *same, reading, context);
         if (as_sealed) reading.sealed = std::move(found.sealed);
         reading.roles.irregular = irregular;
@@ -398,8 +393,8 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
                                given_part(reading.roles.roles.walls, as_named).faces};
         reading.classification = class_as_given(model, reading.roles.roles);
         reading.roles.value = reading.classification.value;
-        const std::string how = found.ways.empty() ? "sealed by flat faces within its free loops"
-                                                   : "sealed as " + in_words(model, first.roles, first.value);
+        const std::string how = found.flat_filled ? "sealed by flat faces within its free loops"
+                                                  : "sealed as " + in_words(model, first.roles, first.value);
         reading.roles.reasons.push_back(how + ", and swept between faces that closing made");
     }
     if (reading.ways > 1) reading.roles.reasons.push_back(ways_in_words(reading));
@@ -420,6 +415,7 @@ std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& fac
     found.sealed.volume = std::move(filled->volume);
     found.sealed.closure = std::move(filled->closure);
     found.sealed.enclosed = enclosed_volume(found.sealed.volume);
+    found.flat_filled = true;
     return found;
 }
 
@@ -495,12 +491,19 @@ std::optional<Reading> read_floor(const Model& model, const std::vector<FaceId>&
     return reading;
 }
 
-/// Add a void unless it is one of those known; only those about as likely as the likeliest stay.
-void add_void(std::vector<Void>& found, Void more)
+/// Add a void that flat faces close, unless it is one of those known: then that is closed by the fewer faces.
+/// Only those about as likely as the likeliest stay.
+void add_filled(std::vector<Void>& found, Void filled)
 {
-    const bool known = std::any_of(found.begin(), found.end(),
-                                   [&](const Void& v) { return enclose_the_same(v.sealed, more.sealed); });
-    if (!known) found.push_back(std::move(more));
+    const auto known = std::ranges::find_if(
+        found, [&](const Void& v) { return enclose_the_same(v.sealed, filled.sealed); });
+    if (known == found.end()) {
+        found.push_back(std::move(filled));
+    } else if (filled.sealed.closure.void_faces.size() < known->sealed.closure.void_faces.size()) {
+        known->first = std::move(filled.first);
+        known->sealed = std::move(filled.sealed);
+        known->flat_filled = true;
+    }
     keep_likely(found);
 }
 
@@ -532,7 +535,7 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
         });
         found = voids(model, {seals, end}, context);
     }
-    if (auto filled = fill_flat(model, faces, context)) add_void(found, std::move(*filled));
+    if (auto filled = fill_flat(model, faces, context)) add_filled(found, std::move(*filled));
     std::vector<Reading> readings;
     for (Void& now : found) {
         if (auto reading = read(model, found, now, context)) readings.push_back(std::move(*reading));

@@ -72,8 +72,7 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
 
 double enclosed_volume(const OpenVolume& volume)
 {
-    std::vector<FaceId> all;
-    for (std::size_t f = 0; f < volume.model.faces.size(); ++f) all.emplace_back(f);
+    const std::vector<FaceId> all = all_faces(volume.model);
     return volume_integral(volume.model, all);
 }
 

@@ -19,9 +19,7 @@ namespace {
 
 std::vector<std::vector<FaceId>> parts_of(const Model& model)
 {
-    std::vector<FaceId> faces;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
-    return connected_parts(model, faces);
+    return connected_parts(model, all_faces(model));
 }
 
 std::vector<Triangle> facets_of(const Model& model, const std::vector<FaceId>& faces)

@@ -88,6 +88,32 @@ public:
         return way;
     }
 
+    /// Whether one way along a free loop, and one alone, leads from one vertex to another past no end: then
+    /// the walls' own rim is the side line there. Both ways do round a hole in the walls.
+    [[nodiscard]] bool joined(VertexId from, VertexId to, const std::vector<Rim>& loops) const
+    {
+        for (const Rim& loop : loops) {
+            const std::size_t uses = loop.uses.size();
+            const auto leads = [&](std::size_t at, VertexId wanted) {
+                for (std::size_t k = 0; k < uses; ++k) {
+                    const VertexId next = use_to(model_, loop.uses[(at + k) % uses]);
+                    if (next == wanted) return true;
+                    if (on_end_.contains(next)) return false;
+                }
+                return false;
+            };
+            const auto leaves = [&](VertexId vertex) {
+                return std::ranges::find_if(
+                    loop.uses, [&](const EdgeUse& use) { return use_from(model_, use) == vertex; });
+            };
+            const auto a = leaves(from), b = leaves(to);
+            if (a == loop.uses.end() || b == loop.uses.end()) continue;
+            const auto place = [&](auto at) { return static_cast<std::size_t>(at - loop.uses.begin()); };
+            return leads(place(a), to) != leads(place(b), from);
+        }
+        return false;
+    }
+
 private:
     /// The mean way of the wall edges that leave a rim vertex.
     [[nodiscard]] Vec3 off_rim(VertexId at) const
@@ -460,6 +486,7 @@ std::vector<Gap> find_gaps(const OpenVolume& volume, const matching::Match& matc
     const Model& model = volume.model;
     const Climber climber(volume);
     const std::set<VertexId> free = free_vertices(volume);
+    const std::vector<Rim> loops = free_loops(volume);
     std::vector<Gap> gaps;
     for (const auto& [source, target] : match.vertices) {
         Gap gap{source, target, source, target, climber.climb(source), climber.climb(target)};
@@ -467,7 +494,9 @@ std::vector<Gap> find_gaps(const OpenVolume& volume, const matching::Match& matc
         for (const EdgeUse& use : gap.below) reached.insert(gap.from = use_to(model, use));
         bool joined = reached.contains(target);
         for (const EdgeUse& use : gap.above) joined = joined || reached.contains(gap.to = use_to(model, use));
-        if (!joined && free.contains(gap.from) && free.contains(gap.to)) gaps.push_back(std::move(gap));
+        joined = joined || !free.contains(gap.from) || !free.contains(gap.to) ||
+                 climber.joined(gap.from, gap.to, loops);
+        if (!joined) gaps.push_back(std::move(gap));
     }
     return gaps;
 }

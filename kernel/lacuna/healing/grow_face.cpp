@@ -224,9 +224,7 @@ GrownFace grow_face(const topology::Model& model, const Vec3& near, std::span<co
     for (std::size_t c = 0; c < grown.size(); ++c)
         same = same && grown[c] == (grower.cells()[c].face == seed);
     if (same) {
-        GrownFace found{model, FaceId(index(seed)), {}};
-        for (std::size_t f = 0; f < model.faces.size(); ++f) found.now.emplace_back(f);
-        return found;
+        return {model, FaceId(index(seed)), all_faces(model)};
     }
     GrownFace found;
     found.model = split_facets(soup_of(model, grower.cells(), grown),

@@ -30,8 +30,7 @@ struct Lines {
 
 std::vector<Gap> gaps(const Model& model, const RunContext& context)
 {
-    std::vector<FaceId> all;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
+    const std::vector<FaceId> all = all_faces(model);
     const std::vector<std::vector<FaceId>> parts = connected_parts(model, all);
     std::vector<std::size_t> part_of(model.faces.size(), 0);
     for (std::size_t p = 0; p < parts.size(); ++p)

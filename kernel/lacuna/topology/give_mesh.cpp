@@ -179,8 +179,7 @@ public:
         for (Vertex& vertex : model_.vertices) vertex.point = moved(vertex.point);
         for (std::size_t e = 0; e < model_.edges.size(); ++e) drop_folded(EdgeId(e));
         // Points that nothing uses any more, and seams that are gone.
-        std::vector<FaceId> all;
-        for (std::size_t f = 0; f < model_.faces.size(); ++f) all.emplace_back(f);
+        const std::vector<FaceId> all = all_faces(model_);
         Model whole = extract(model_, all);
         whole.notes = std::move(model_.notes);
         model_ = std::move(whole);

@@ -16,8 +16,7 @@ namespace {
 /// The faces of closed parts. @pre oriented
 std::vector<bool> on_closed_skins(const Model& model, const std::vector<std::vector<FaceUse>>& uses)
 {
-    std::vector<FaceId> all;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
+    const std::vector<FaceId> all = all_faces(model);
     std::vector<bool> closed(model.faces.size(), false);
     for (const std::vector<FaceId>& part : connected_parts(model, all)) {
         const bool whole = std::all_of(part.begin(), part.end(), [&](FaceId face) {

@@ -256,6 +256,13 @@ Vec3 face_area_vector(const Model& model, FaceId face)
     return sum / 2;
 }
 
+std::vector<FaceId> all_faces(const Model& model)
+{
+    std::vector<FaceId> faces;
+    for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
+    return faces;
+}
+
 Vec3 face_centroid(const Model& model, FaceId face)
 {
     Vec3 sum = Vec3::Zero();
@@ -378,8 +385,7 @@ void orient_consistently(Model& model)
                 names + "); the skin of a volume has two at each edge: leave the others out of the volume");
     }
 
-    std::vector<FaceId> all;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
+    const std::vector<FaceId> all = all_faces(model);
     std::vector<bool> settled(model.faces.size(), false), flipped(model.faces.size(), false);
     for (const std::vector<FaceId>& part : connected_parts(model, all)) {
         bool open = false;

@@ -116,6 +116,8 @@ std::vector<Triangle> loose_triangles(const Face& face);
 /// Whether the cells the face came with can be its mesh: quads all over, or, with wedges on them, triangles
 /// too of a face that came as a mesh.
 bool has_cells_to_keep(const Face& face, bool wedges);
+/// Every face of a model, in its order.
+std::vector<FaceId> all_faces(const Model& model);
 /// Area-weighted centre of the facets.
 Vec3 face_centroid(const Model& model, FaceId face);
 

@@ -78,8 +78,7 @@ std::string gap_in_words(const Model& model, const std::vector<FaceId>& part)
 void check_walls_touch(const OpenVolume& volume)
 {
     const Model& model = volume.model;
-    std::vector<FaceId> all;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
+    const std::vector<FaceId> all = all_faces(model);
     bool ends = false;
     for (const Role role : volume.role) ends = ends || role != Role::wall;
     if (!ends) return;

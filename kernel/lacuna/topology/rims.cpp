@@ -96,8 +96,7 @@ std::vector<EdgeId> free_edges(const OpenVolume& volume)
 
 std::vector<Rim> free_loops(const OpenVolume& volume)
 {
-    std::vector<FaceId> all;
-    for (std::size_t f = 0; f < volume.model.faces.size(); ++f) all.emplace_back(f);
+    const std::vector<FaceId> all = all_faces(volume.model);
     return rims(volume.model, all);
 }
 

@@ -18,7 +18,8 @@ struct FlatFilling {
 
 /// Fill the free loops of some faces with flat faces. Loops in one plane that lie within each other bound one
 /// face with holes. A loop that lies in two planes, as where an end and a wall beside it are missing, is
-/// filled with two faces that meet in a straight void edge.
+/// filled with two faces that meet in a straight void edge; that of a groove without its ends and its mouth
+/// with a face for each.
 /// @return  nothing where a loop lies in more planes, or where the result is not sealed or crosses itself.
 /// @throw InvalidInput  faces that cannot be oriented. Cancelled.
 std::optional<FlatFilling> fill_flat_loops(const topology::Model& model, const std::vector<FaceId>& faces,
