@@ -264,7 +264,7 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks
 
 Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {
-    KnownLinks links;
+    KnownLinks links(volume);
     if (asked.fallback != Fallback::wedges || asked.wedges) return sweep_once(volume, asked, links, context);
     std::exception_ptr why;
     std::string words;

@@ -5,28 +5,35 @@
 #include <lacuna/surface/linking_surface.h>
 #include <lacuna/topology/open_volume.h>
 
-#include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace lacuna::sweep {
 
-/// The linking surfaces of one volume, found once for either end it is swept from: whoever plans its layers
-/// asks for the same ones as each try of its sweep.
+/// The linking surfaces of one volume, found once: whoever plans its layers asks for the same ones as each try
+/// of its sweep. Those of the volume turned round are found when they are asked for, since they refer to that
+/// volume, which lives no longer than a try.
 class KnownLinks {
 public:
-    /// @param volume  always the same one, or that one turned round.
+    /// @param volume  outlives this.
+    explicit KnownLinks(const topology::OpenVolume& volume) : volume_(volume) {}
+
+    /// @return  for as long as `way` lives and until the next call for another one that is not the volume.
     /// @throw  as `surface::linking_surfaces()`; nothing is kept then.
-    const std::vector<surface::LinkingSurface>& of(const topology::OpenVolume& volume,
-                                                   const RunContext& context)
+    const std::vector<surface::LinkingSurface>& of(const topology::OpenVolume& way, const RunContext& context)
     {
-        std::optional<std::vector<surface::LinkingSurface>>& links = links_[volume.turned_round ? 1 : 0];
-        if (!links) links = surface::linking_surfaces(volume, surface::Turning::each, {}, context);
-        return *links;
+        const bool own = &way == &volume_;
+        if (!own || !own_) {
+            auto found = surface::linking_surfaces(way, surface::Turning::each, {}, context);
+            (own ? own_ : other_) = std::move(found);
+        }
+        return own ? *own_ : *other_;
     }
 
 private:
-    std::array<std::optional<std::vector<surface::LinkingSurface>>, 2> links_;
+    const topology::OpenVolume& volume_;
+    std::optional<std::vector<surface::LinkingSurface>> own_, other_;
 };
 
 } // namespace lacuna::sweep
