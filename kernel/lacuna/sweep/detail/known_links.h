@@ -11,8 +11,8 @@
 
 namespace lacuna::sweep {
 
-/// The linking surfaces of one volume, found once: whoever plans its layers asks for the same ones as each try
-/// of its sweep. Those of the volume turned round are found when they are asked for, since they refer to that
+/// The linking surfaces of one volume, found once: whoever plans its layers asks for the same ones as each
+/// try of its sweep. Those of the volume turned round are found when they are asked for: they refer to that
 /// volume, which lives no longer than a try.
 class KnownLinks {
 public:
