@@ -49,8 +49,10 @@ private:
     void try_grids();
     /// The part between mirror axes, where there are any, with nodes on them.
     [[nodiscard]] std::optional<MirrorPart> part_of_region() const;
-    /// Keep images of a part where they are good, else add them to the grids. @return whether they were kept
-    bool try_part(const MirrorPart& part, std::vector<Attempt>& grids);
+    /// Keep images of a part where they are good, else add them to the grids.
+    /// @param few  whether given sides decide the sizes of quads.
+    /// @return whether they were kept.
+    bool try_part(const MirrorPart& part, bool few, std::vector<Attempt>& grids);
     /// Images of that part's quads.
     [[nodiscard]] Attempt fill_part(const MirrorPart& part) const;
     void try_few_weights();
@@ -72,6 +74,7 @@ private:
     bool cut_;
     int least_irregular_; ///< that topology allows
     bool is_few_;         ///< quads, about
+    bool few_graded_;     ///< so few that given sides decide their sizes
     AttemptSetting setting_;
     Attempt best_;
     double best_score_ = -2;
