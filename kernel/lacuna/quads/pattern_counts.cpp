@@ -200,7 +200,7 @@ private:
                 if (is_part_) {
                     const double off = std::log(static_cast<double>(rows) / fitting);
                     made.cost += kRows * soft * std::max(1.0, fitting / 2.0) * off * off +
-                                 kUnlike * unlike(made.loops, pairs);
+                                 kUnlike * unlike(*counts_of(made.loops), pairs);
                     if (std::abs(quads - asked) > kMostOff * asked) made.cost += kOff;
                 }
                 if (made.cost < best.cost && (!few_ || have_place(grids))) {
@@ -264,11 +264,8 @@ private:
     }
 
     /// How many pairs have unlike numbers of sides, or an odd one.
-    [[nodiscard]] int unlike(const std::vector<CountedLoop>& loops,
-                             const std::vector<std::array<std::size_t, 2>>& pairs) const
+    static int unlike(const std::vector<int>& counts, const std::vector<std::array<std::size_t, 2>>& pairs)
     {
-        if (pairs.empty()) return 0;
-        const std::vector<int> counts = *counts_of(loops);
         return static_cast<int>(std::count_if(pairs.begin(), pairs.end(), [&](const auto& pair) {
             return counts[pair[0]] != counts[pair[1]] || (pair[0] == pair[1] && counts[pair[0]] % 2 != 0);
         }));
@@ -355,8 +352,11 @@ private:
             parts[t].least = std::max(
                 1, static_cast<int>(std::ceil(whole.least * parts[t].wanted / whole.wanted - kTiny)));
         }
-        const std::optional<Counts> counts = of_part(part.region, own, parts, few);
-        const std::vector<int> sides = counts ? counts->sides : rounded(parts);
+        std::optional<Counts> counts = of_part(part.region, own, parts, few);
+        const auto pairs = CountSolver(part.region, own, parts).mirrored_segments();
+        // What is symmetric about more axes is so with numbers that fit them, if no grid.
+        if (counts && !few && part.has_centre && unlike(counts->sides, pairs) > 0) counts.reset();
+        const std::vector<int> sides = counts ? counts->sides : rounded(parts, pairs);
         std::vector<int> sum(segments_.size(), 0);
         std::vector<char> done(parts.size(), 0);
         for (const auto& loop : part.region.loops) {
@@ -370,12 +370,19 @@ private:
         return counts ? PartCounts{sum, counts->cost} : PartCounts{sum};
     }
 
-    /// The sides wanted of each segment, rounded.
-    static std::vector<int> rounded(const std::vector<BoundarySegment>& parts)
+    /// The sides wanted of each segment, rounded: to an even number where it mirrors itself.
+    static std::vector<int> rounded(const std::vector<BoundarySegment>& parts,
+                                    const std::vector<std::array<std::size_t, 2>>& pairs)
     {
         std::vector<int> counts;
         for (const BoundarySegment& part : parts)
             counts.push_back(std::max(part.least, static_cast<int>(std::lround(part.wanted))));
+        for (const auto& [a, b] : pairs) {
+            if (a == b && !parts[a].fixed)
+                counts[a] = std::max(2 * ((parts[a].least + 1) / 2),
+                                     2 * static_cast<int>(std::lround(parts[a].wanted / 2)));
+            if (!parts[b].fixed) counts[b] = counts[a];
+        }
         return counts;
     }
 
