@@ -199,6 +199,29 @@ double mirror_error(const quads::PlanarQuads& mesh, double axis)
     return farthest;
 }
 
+double area_of(const std::vector<std::vector<Piece>>& loops)
+{
+    double area = 0;
+    const Seeded fine = seed(loops, 0.01, nullptr);
+    for (const auto& loop : fine.region.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec2 &p = fine.region.points[static_cast<std::size_t>(loop[i])],
+                       &q = fine.region.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
+            area += (p.x() * q.y() - p.y() * q.x()) / 2;
+        }
+    }
+    return area;
+}
+
+/// Pieces with the numbers of sides that `pattern_counts()` gives them.
+Seeded seed_with_counts(const std::vector<std::vector<Piece>>& loops, double size)
+{
+    const Seeded plain = seed(loops, size, nullptr);
+    const auto counts = quads::pattern_counts(plain.region, plain.segment, plain.segments);
+    REQUIRE(counts.has_value());
+    return seed(loops, size, &*counts);
+}
+
 } // namespace
 
 TEST_CASE("plates with rows of holes, slots and flanges are mirrored about both axes, whatever their sizes")
@@ -229,20 +252,8 @@ TEST_CASE("plates with rows of holes, slots and flanges are mirrored about both 
             for (const double x : {-0.6 * a, 0.6 * a}) loops.push_back(round({x, 0}, r, true));
             loops.push_back(round({0, 0}, r, true));
         }
-        double area = 0;
-        const Seeded fine = seed(loops, 0.01, nullptr);
-        for (const auto& loop : fine.region.loops) {
-            for (std::size_t i = 0; i < loop.size(); ++i) {
-                const Vec2 &p = fine.region.points[static_cast<std::size_t>(loop[i])],
-                           &q = fine.region.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
-                area += (p.x() * q.y() - p.y() * q.x()) / 2;
-            }
-        }
-        const double asked = roll(300, 1500), size = std::sqrt(area / asked);
-        const Seeded plain = seed(loops, size, nullptr);
-        const auto counts = quads::pattern_counts(plain.region, plain.segment, plain.segments);
-        REQUIRE(counts.has_value());
-        const Seeded made = seed(loops, size, &*counts);
+        const double asked = roll(300, 1500), size = std::sqrt(area_of(loops) / asked);
+        const Seeded made = seed_with_counts(loops, size);
         const quads::PlanarQuads mesh = quads::pave(made.region).mesh;
         CHECK(quads::find_fault(mesh, made.region) == "");
         CAPTURE(mesh.how);
@@ -305,4 +316,74 @@ TEST_CASE(
             for (const double axis : {0.0, kPi / 2}) CHECK(mirror_error(mesh, axis) < 1e-9);
         }
     }
+}
+
+TEST_CASE("flanges with four holes are mirrored about the axes between their holes too")
+{
+    std::mt19937 dice(23);
+    const auto roll = [&](double from, double to) {
+        return from + (to - from) * static_cast<double>(dice()) / static_cast<double>(std::mt19937::max());
+    };
+    for (int n = 0; n < 12; ++n) {
+        CAPTURE(n);
+        const double a = roll(1.5, 2.5), far = a * roll(0.5, 0.7), r = a * roll(0.08, 0.14);
+        std::vector<std::vector<Piece>> loops{round({0, 0}, a, false)};
+        for (const Vec2& at : {Vec2(far, 0), Vec2(0, far), Vec2(-far, 0), Vec2(0, -far)})
+            loops.push_back(round(at, r, true));
+        const double asked = roll(800, 3000);
+        CAPTURE(asked);
+        const Seeded made = seed_with_counts(loops, std::sqrt(area_of(loops) / asked));
+        const quads::PlanarQuads mesh = quads::pave(made.region).mesh;
+        CAPTURE(mesh.how);
+        CHECK(quads::find_fault(mesh, made.region) == "");
+        for (const double axis : {0.0, kPi / 4, kPi / 2, 3 * kPi / 4}) CHECK(mirror_error(mesh, axis) < 1e-9);
+        const quads::PlaneQuality quality = quads::measure_plane(mesh, made.region);
+        CHECK(quality.min_scaled_jacobian > 0.7);
+        CHECK(quality.mean_scaled_jacobian > 0.95);
+    }
+}
+
+TEST_CASE("few quads of plates and flanges with holes are well shaped and nearly always symmetric")
+{
+    std::mt19937 dice(29);
+    const auto roll = [&](double from, double to) {
+        return from + (to - from) * static_cast<double>(dice()) / static_cast<double>(std::mt19937::max());
+    };
+    int good = 0, symmetric = 0, all = 0;
+    for (int n = 0; n < 24; ++n) {
+        CAPTURE(n);
+        const double a = roll(1.4, 2), r = roll(0.14, 0.2);
+        std::vector<std::vector<Piece>> loops;
+        if (n % 2 == 0) {
+            loops = {{line({-a, -1}, {a, -1}), line({a, -1}, {a, 1}), line({a, 1}, {-a, 1}),
+                      line({-a, 1}, {-a, -1})}};
+            for (const double x : {-a * 0.65, a * 0.65}) {
+                for (const double y : {-0.5, 0.5}) loops.push_back(round({x, y}, r, true));
+            }
+            if (n % 4 == 0) loops.push_back(round({0, 0}, 2 * r, true));
+        } else {
+            loops = {round({0, 0}, a, false)};
+            for (const double x : {-0.45 * a, 0.45 * a}) {
+                for (const double y : {-0.45 * a, 0.45 * a}) loops.push_back(round({x, y}, r, true));
+            }
+        }
+        const double asked = roll(60, 200);
+        CAPTURE(asked);
+        const Seeded made = seed_with_counts(loops, std::sqrt(area_of(loops) / asked));
+        const quads::PlanarQuads mesh = quads::pave(made.region).mesh;
+        CAPTURE(mesh.how);
+        CHECK(quads::find_fault(mesh, made.region) == "");
+        // A flange may be so about the axes through its holes alone.
+        const auto error = [&](double axis) {
+            return std::max(mirror_error(mesh, axis), mirror_error(mesh, axis + kPi / 2));
+        };
+        symmetric += error(0) < 1e-9 || (n % 2 != 0 && error(kPi / 4) < 1e-9) ? 1 : 0;
+        const quads::PlaneQuality quality = quads::measure_plane(mesh, made.region);
+        CHECK(quality.min_scaled_jacobian > 0.5);
+        ++all;
+        good += quality.min_scaled_jacobian > 0.7 && quality.mean_scaled_jacobian > 0.87 ? 1 : 0;
+    }
+    MESSAGE(all << " meshes, " << symmetric << " symmetric, " << good << " good");
+    CHECK(symmetric >= all - 2);
+    CHECK(good >= all - 2);
 }

@@ -438,8 +438,8 @@ bool lies_in(const PlanarRegion& region, const Vec2& p)
     return around == 1;
 }
 
-/// The angle at which the part ends, from one at which it begins.
-std::array<double, 2> part_between(const std::vector<Axis>& axes, bool has_centre)
+/// The angles at which the part may begin and end, the likeliest first.
+std::vector<std::array<double, 2>> parts_between(const std::vector<Axis>& axes, bool has_centre)
 {
     constexpr double kPi = std::numbers::pi;
     // More images make no better quads. A choice, not a measurement.
@@ -447,22 +447,28 @@ std::array<double, 2> part_between(const std::vector<Axis>& axes, bool has_centr
     if (!has_centre && axes.size() > 1) {
         std::size_t every = (axes.size() + kMostAxes - 1) / kMostAxes;
         while (axes.size() % every != 0) ++every;
-        return {axes[0].angle, every == axes.size() ? axes[0].angle + kPi : axes[every].angle};
+        return {{axes[0].angle, every == axes.size() ? axes[0].angle + kPi : axes[every].angle}};
     }
-    const auto more = [](const Axis& a, const Axis& b) { return a.worth < b.worth; };
-    int most = -1;
-    std::array<double, 2> best{};
+    struct Pair {
+        int worth;
+        double angle;
+    };
+    std::vector<Pair> pairs;
     for (const Axis& axis : axes) {
         for (const Axis& other : axes) {
-            if (std::abs(other.angle - axis.angle - kPi / 2) > 1e-6 || axis.worth + other.worth <= most)
-                continue;
-            most = axis.worth + other.worth;
-            best = {axis.angle, axis.angle + kPi / 2};
+            if (std::abs(other.angle - axis.angle - kPi / 2) <= 1e-6)
+                pairs.push_back({axis.worth + other.worth, axis.angle});
         }
     }
-    if (most >= 0) return best;
-    const double angle = std::max_element(axes.begin(), axes.end(), more)->angle;
-    return {angle, angle + kPi};
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Pair& a, const Pair& b) { return a.worth > b.worth; });
+    std::vector<std::array<double, 2>> parts;
+    for (const Pair& pair : pairs) parts.push_back({pair.angle, pair.angle + kPi / 2});
+    if (!parts.empty()) return parts;
+    const double angle = std::max_element(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) {
+                             return a.worth < b.worth;
+                         })->angle;
+    return {{angle, angle + kPi}};
 }
 
 } // namespace
@@ -470,13 +476,15 @@ std::array<double, 2> part_between(const std::vector<Axis>& axes, bool has_centr
 std::vector<Symmetry> outline_symmetries(const PlanarRegion& region) { return OutlineFinder(region).run(); }
 
 std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vector<Symmetry>& symmetries,
-                                      const std::function<double(const Vec2&)>& size)
+                                      const std::function<double(const Vec2&)>& size, std::size_t choice)
 {
     const std::vector<Axis> axes = axes_of(region, symmetries);
     if (axes.empty()) return std::nullopt;
     const Vec2 centre = symmetries.front().map.centre;
     const bool has_centre = lies_in(region, centre);
-    const auto [from, to] = part_between(axes, has_centre);
+    const std::vector<std::array<double, 2>> parts = parts_between(axes, has_centre);
+    if (choice >= parts.size()) return std::nullopt;
+    const auto [from, to] = parts[choice];
     auto part = PartCutter(region, centre, from, to, has_centre).run(size);
     if (!part) return std::nullopt;
     // The images: turned by twice the angle of the part, or mirrored and turned.

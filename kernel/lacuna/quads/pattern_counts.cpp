@@ -68,17 +68,30 @@ struct CountedLoop {
 
 class CountSolver {
 public:
+    /// @param range  that segments may get in a straight grid.
+    /// @param few    whether the quads are few, so that holes may find no place between so few lines.
     CountSolver(const PlanarRegion& region, std::span<const int> segment,
-                std::span<const BoundarySegment> segments)
-        : region_(region), segment_(segment), segments_(segments), own_(segments.size(), 0)
+                std::span<const BoundarySegment> segments, const Range& range = kSegment, bool few = false)
+        : region_(region),
+          segment_(segment),
+          segments_(segments),
+          range_(range),
+          few_(few),
+          own_(segments.size(), 0)
     {
         for (const auto& loop : region.loops) {
             for (const Index p : loop) ++own_[segment_of(p)];
         }
     }
 
+    /// Numbers of sides of every segment, and what they cost beside those of other parts of a region.
+    struct Counts {
+        std::vector<int> sides;
+        double cost = 0;
+    };
+
     /// @param cut  whether the region may be cut along mirror axes.
-    std::optional<std::vector<int>> run(bool cut)
+    std::optional<Counts> run(bool cut)
     {
         std::size_t about = 0;
         for (std::size_t l = 1; l < region_.loops.size(); ++l) {
@@ -86,19 +99,29 @@ public:
         }
         std::optional<std::vector<int>> ring;
         if (about > 0) ring = ring_counts(about);
-        if (ring && (!cut || are_alike(*ring, mirrored_segments()))) return ring;
+        if (ring && (!cut || are_alike(*ring, mirrored_segments()))) return Counts{*ring};
         is_part_ = !cut;
         if (cut) {
-            if (auto counts = part_counts()) return counts;
+            if (auto counts = part_counts()) return Counts{std::move(*counts)};
         }
-        return ring ? ring : straight_counts();
+        if (ring) return Counts{*ring};
+        return straight_counts();
+    }
+
+    /// Counts for a part of a region, between mirror axes: in the range that is promised or, of few quads,
+    /// where no grid fills it so, in a ring's.
+    static std::optional<Counts> of_part(const PlanarRegion& part, std::span<const int> segment,
+                                         std::span<const BoundarySegment> segments, bool few)
+    {
+        auto counts = CountSolver(part, segment, segments, kSegment, few).run(false);
+        return counts || !few ? counts : CountSolver(part, segment, segments, kRingSegment, few).run(false);
     }
 
 private:
     /// Counts for straight lines, where ends of 135° may be soft or hard: those of the lower cost. As many
     /// quads as asked count too, for the rows before soft ends add some. Soft ends have quads so much better
     /// shaped that they may cost more.
-    [[nodiscard]] std::optional<std::vector<int>> straight_counts() const
+    [[nodiscard]] std::optional<Counts> straight_counts() const
     {
         // What those are worth; chosen on 40 of the held family (benchmarks/pave/).
         constexpr double kSoft = 2;
@@ -113,7 +136,7 @@ private:
             best = std::move(counts.loops);
         }
         if (!best) return std::nullopt;
-        return counts_of(*best);
+        return Counts{*counts_of(*best), least};
     }
 
     struct StraightCounts {
@@ -130,7 +153,8 @@ private:
         constexpr double kUnlike = 10; // of segments that mirror each other: hardly ever; a choice
         // As many quads as asked, a quarter more or less, is what is promised. Choices.
         constexpr double kMostOff = 0.25, kOff = 2;
-        constexpr std::array<double, 4> kShares{1, 0.9, 0.8, 1.1}; // a choice, not a measurement
+        constexpr std::array<double, 7> kShares{1, 0.9, 0.8, 1.1, 0.65, 1.25, 1.5}; // choices
+        constexpr std::size_t kNear = 4; // of those, for the range that is promised
         const double angle = main_angle(region_), asked = quads_asked();
         std::vector<PatternLoop> headed;
         int fitting = 1;
@@ -142,10 +166,14 @@ private:
             headed.push_back(std::move(*loop));
         }
         const std::vector<std::array<std::size_t, 2>> pairs = mirrored_segments();
+        if (few_ && are_close()) return {};
         StraightCounts best;
         // What is no part has no axes that take up the difference: one row, and the numbers wanted.
         const std::vector<int> all_rows = is_part_ ? rows_to_try(fitting) : std::vector<int>{1};
-        const std::span<const double> shares = std::span(kShares).first(is_part_ ? kShares.size() : 1);
+        const bool wide = range_.most > kSegment.most;
+        const std::span<const double> shares = std::span(kShares).first(!is_part_ ? 1
+                                                                        : wide    ? kShares.size()
+                                                                                  : kNear);
         for (const int rows : all_rows) {
             for (const double share : shares) {
                 StraightCounts made{{}, 0};
@@ -156,7 +184,7 @@ private:
                     PatternLoop loop = headed[l];
                     set_soft_rows(loop, rows);
                     auto counts = counted(std::move(loop), share);
-                    if (!counts || !close(*counts, kSegment)) break;
+                    if (!counts || !close(*counts, range_)) break;
                     for (Run& run : counts->runs) run.wanted /= share;
                     made.cost += sum_of_costs(*counts);
                     soft += counts->soft;
@@ -172,10 +200,10 @@ private:
                 if (is_part_) {
                     const double off = std::log(static_cast<double>(rows) / fitting);
                     made.cost += kRows * soft * std::max(1.0, fitting / 2.0) * off * off +
-                                 kUnlike * unlike(made.loops, pairs);
+                                 kUnlike * unlike(*counts_of(made.loops), pairs);
                     if (std::abs(quads - asked) > kMostOff * asked) made.cost += kOff;
                 }
-                if (made.cost < best.cost) {
+                if (made.cost < best.cost && (!few_ || have_place(grids))) {
                     if (made.loops.size() > 1 && !grids.empty()) centre_holes(made.loops, grids.front());
                     best = std::move(made);
                 }
@@ -236,81 +264,11 @@ private:
     }
 
     /// How many pairs have unlike numbers of sides, or an odd one.
-    [[nodiscard]] int unlike(const std::vector<CountedLoop>& loops,
-                             const std::vector<std::array<std::size_t, 2>>& pairs) const
+    static int unlike(const std::vector<int>& counts, const std::vector<std::array<std::size_t, 2>>& pairs)
     {
-        if (pairs.empty()) return 0;
-        const std::vector<int> counts = *counts_of(loops);
         return static_cast<int>(std::count_if(pairs.begin(), pairs.end(), [&](const auto& pair) {
             return counts[pair[0]] != counts[pair[1]] || (pair[0] == pair[1] && counts[pair[0]] % 2 != 0);
         }));
-    }
-
-    /// Counts for the part of a symmetric region between mirror axes, for all of its images.
-    /// Those with which a grid fills it or, where there are none, the numbers wanted, rounded.
-    [[nodiscard]] std::optional<std::vector<int>> part_counts() const
-    {
-        const Halved halved = halve_crossed();
-        const auto part = mirror_part(halved.region, segment_symmetries(halved.region, halved.segment),
-                                      paving::size_with_boundary(region_));
-        if (!part) return std::nullopt;
-        std::vector<int> own;
-        std::vector<BoundarySegment> parts;
-        std::vector<Index> starts; // the side that each begins with, by the whole region's node; -1: an axis
-        own.resize(part->region.points.size());
-        for (const auto& loop : part->region.loops) {
-            int last = -1;
-            for (const Index p : loop) {
-                const auto at = static_cast<std::size_t>(p);
-                const int axis = part->axis[at];
-                const int key = axis >= 0 ? -2 - axis : halved.segment_at(part->whole[at]);
-                if (p == loop.front() || key != last) {
-                    parts.push_back({0, 1, false});
-                    starts.push_back(axis >= 0 ? -1 : part->whole[at]);
-                }
-                last = key;
-                own[at] = static_cast<int>(parts.size()) - 1;
-                if (axis >= 0) {
-                    parts.back().wanted = part->wanted[static_cast<std::size_t>(axis)];
-                    continue;
-                }
-                const auto s = static_cast<std::size_t>(key);
-                const double share = halved.weight[static_cast<std::size_t>(part->whole[at])] / own_[s];
-                parts.back().wanted += share * segments_[s].wanted;
-                for (const Symmetry& image : part->images)
-                    parts.back().fixed = parts.back().fixed ||
-                                         segments_[image_of(halved, *part, image, p)].fixed;
-            }
-        }
-        for (std::size_t t = 0; t < parts.size(); ++t) {
-            if (starts[t] < 0) continue;
-            const BoundarySegment& whole = segments_[static_cast<std::size_t>(halved.segment_at(starts[t]))];
-            parts[t].least = std::max(
-                1, static_cast<int>(std::ceil(whole.least * parts[t].wanted / whole.wanted - kTiny)));
-        }
-        auto counts = CountSolver(part->region, own, parts).run(false);
-        if (!counts) counts = rounded(parts);
-        std::vector<int> sum(segments_.size(), 0);
-        std::vector<char> done(parts.size(), 0);
-        for (const auto& loop : part->region.loops) {
-            for (const Index p : loop) {
-                const auto t = static_cast<std::size_t>(own[static_cast<std::size_t>(p)]);
-                if (done[t] || starts[t] < 0) continue;
-                done[t] = 1;
-                for (const Symmetry& image : part->images)
-                    sum[image_of(halved, *part, image, p)] += (*counts)[t];
-            }
-        }
-        return sum;
-    }
-
-    /// The sides wanted of each segment, rounded.
-    static std::vector<int> rounded(const std::vector<BoundarySegment>& parts)
-    {
-        std::vector<int> counts;
-        for (const BoundarySegment& part : parts)
-            counts.push_back(std::max(part.least, static_cast<int>(std::lround(part.wanted))));
-        return counts;
     }
 
     static constexpr double kTiny = 1e-6; ///< far above rounding, far below a side
@@ -323,6 +281,110 @@ private:
         std::vector<double> weight; ///< that side in sides of the region: 1 or ½
         [[nodiscard]] int segment_at(Index p) const { return segment[static_cast<std::size_t>(p)]; }
     };
+
+    /// Counts for the part of a symmetric region between mirror axes, for all of its images.
+    /// Those with which a grid fills it or, where there are none, the numbers wanted, rounded.
+    [[nodiscard]] std::optional<std::vector<int>> part_counts() const
+    {
+        const Halved halved = halve_crossed();
+        const std::vector<Symmetry> symmetries = segment_symmetries(halved.region, halved.segment);
+        std::function<double(const Vec2&)> asked = region_.size;
+        if (!asked) asked = [mean = mean_size()](const Vec2&) { return mean; };
+        // Few quads do not change their size as slowly as many.
+        std::vector<std::function<double(const Vec2&)>> sizes{paving::size_with_boundary(region_)};
+        if (quads_asked() < kFewForGrading) sizes.insert(sizes.begin(), asked);
+        std::optional<std::vector<int>> first, best;
+        double least = std::numeric_limits<double>::infinity();
+        for (const auto& size : sizes) {
+            const std::size_t choices = &size == &sizes.back() ? 1 : kMostChoices;
+            for (std::size_t choice = 0; choice < choices; ++choice) {
+                const auto part = mirror_part(halved.region, symmetries, size, choice);
+                if (!part) break;
+                auto counts = part_counts(halved, *part, sizes.size() > 1);
+                if (counts.cost < least) best = counts.sides;
+                least = std::min(least, counts.cost);
+                if (&size == &sizes.back()) first = std::move(counts.sides);
+            }
+            if (best) break;
+        }
+        return best ? best : first;
+    }
+
+    struct PartCounts {
+        std::vector<int> sides;
+        double cost = std::numeric_limits<double>::infinity(); ///< infinite where no grid fills the part
+    };
+
+    /// The same of one part.
+    [[nodiscard]] PartCounts part_counts(const Halved& halved, const MirrorPart& part, bool few) const
+    {
+        std::vector<int> own;
+        std::vector<BoundarySegment> parts;
+        std::vector<Index> starts; // the side that each begins with, by the whole region's node; -1: an axis
+        own.resize(part.region.points.size());
+        for (const auto& loop : part.region.loops) {
+            int last = -1;
+            for (const Index p : loop) {
+                const auto at = static_cast<std::size_t>(p);
+                const int axis = part.axis[at];
+                const int key = axis >= 0 ? -2 - axis : halved.segment_at(part.whole[at]);
+                if (p == loop.front() || key != last) {
+                    parts.push_back({0, 1, false});
+                    starts.push_back(axis >= 0 ? -1 : part.whole[at]);
+                }
+                last = key;
+                own[at] = static_cast<int>(parts.size()) - 1;
+                if (axis >= 0) {
+                    parts.back().wanted = part.wanted[static_cast<std::size_t>(axis)];
+                    continue;
+                }
+                const auto s = static_cast<std::size_t>(key);
+                const double share = halved.weight[static_cast<std::size_t>(part.whole[at])] / own_[s];
+                parts.back().wanted += share * segments_[s].wanted;
+                for (const Symmetry& image : part.images)
+                    parts.back().fixed = parts.back().fixed ||
+                                         segments_[image_of(halved, part, image, p)].fixed;
+            }
+        }
+        for (std::size_t t = 0; t < parts.size(); ++t) {
+            if (starts[t] < 0) continue;
+            const BoundarySegment& whole = segments_[static_cast<std::size_t>(halved.segment_at(starts[t]))];
+            parts[t].least = std::max(
+                1, static_cast<int>(std::ceil(whole.least * parts[t].wanted / whole.wanted - kTiny)));
+        }
+        std::optional<Counts> counts = of_part(part.region, own, parts, few);
+        const auto pairs = CountSolver(part.region, own, parts).mirrored_segments();
+        // What is symmetric about more axes is so with numbers that fit them, if no grid.
+        if (counts && !few && part.has_centre && unlike(counts->sides, pairs) > 0) counts.reset();
+        const std::vector<int> sides = counts ? counts->sides : rounded(parts, pairs);
+        std::vector<int> sum(segments_.size(), 0);
+        std::vector<char> done(parts.size(), 0);
+        for (const auto& loop : part.region.loops) {
+            for (const Index p : loop) {
+                const auto t = static_cast<std::size_t>(own[static_cast<std::size_t>(p)]);
+                if (done[t] || starts[t] < 0) continue;
+                done[t] = 1;
+                for (const Symmetry& image : part.images) sum[image_of(halved, part, image, p)] += sides[t];
+            }
+        }
+        return counts ? PartCounts{sum, counts->cost} : PartCounts{sum};
+    }
+
+    /// The sides wanted of each segment, rounded: to an even number where it mirrors itself.
+    static std::vector<int> rounded(const std::vector<BoundarySegment>& parts,
+                                    const std::vector<std::array<std::size_t, 2>>& pairs)
+    {
+        std::vector<int> counts;
+        for (const BoundarySegment& part : parts)
+            counts.push_back(std::max(part.least, static_cast<int>(std::lround(part.wanted))));
+        for (const auto& [a, b] : pairs) {
+            if (a == b && !parts[a].fixed)
+                counts[a] = std::max(2 * ((parts[a].least + 1) / 2),
+                                     2 * static_cast<int>(std::lround(parts[a].wanted / 2)));
+            if (!parts[b].fixed) counts[b] = counts[a];
+        }
+        return counts;
+    }
 
     [[nodiscard]] Halved halve_crossed() const
     {
@@ -540,6 +602,44 @@ private:
         made.grid = positions_of(*headed);
         made.laid = quads.size();
         return made;
+    }
+
+    /// Whether some quads between two loops would be much flatter than asked.
+    [[nodiscard]] bool are_close() const
+    {
+        constexpr double kNarrow = 0.5; // of the size asked: a choice, not a measurement
+        const double narrow = kNarrow * mean_size();
+        for (std::size_t l = 1; l < region_.loops.size(); ++l) {
+            for (std::size_t m = 0; m < l; ++m) {
+                if (ring_widths(region_.points, region_.loops[m], region_.loops[l]).least < narrow)
+                    return true;
+            }
+        }
+        return false;
+    }
+
+    /// Whether holes lie apart in the outer loop's grid, each where its coordinates put it.
+    [[nodiscard]] bool have_place(const std::vector<LoopGrid>& grids) const
+    {
+        if (grids.size() < region_.loops.size()) return false;
+        std::vector<GridLoop> loops;
+        for (const LoopGrid& own : grids) {
+            loops.push_back(own.grid);
+            if (loops.size() == 1) continue;
+            Vec2 by = Vec2::Zero();
+            for (std::size_t i = 0; i < own.grid.nodes.size(); ++i) {
+                const Vec2& p = own.points[static_cast<std::size_t>(own.grid.nodes[i])];
+                const GridPosition& at = own.grid.positions[i];
+                by += (mean_value_position(grids[0].points, grids[0].grid, p) - Vec2(at[0], at[1])) /
+                      static_cast<double>(own.grid.nodes.size());
+            }
+            if (!by.allFinite()) return false;
+            for (GridPosition& at : loops.back().positions) {
+                at[0] += static_cast<int>(std::lround(by.x()));
+                at[1] += static_cast<int>(std::lround(by.y()));
+            }
+        }
+        return SubmapGrid(loops).enclose(loops);
     }
 
     /// Give holes an even number of columns where their middle lies on a line of the outer loop's grid, and
@@ -782,6 +882,8 @@ private:
     const PlanarRegion& region_;
     std::span<const int> segment_;
     std::span<const BoundarySegment> segments_;
+    Range range_;
+    bool few_;
     std::vector<int> own_; ///< sides that each segment has in the region
     bool is_part_ = false; ///< whether the region is a part of another, with axes
 };
@@ -791,10 +893,12 @@ private:
 std::optional<std::vector<int>> pattern_counts(const PlanarRegion& region, std::span<const int> segment,
                                                std::span<const BoundarySegment> segments)
 {
-    return CountSolver(region, segment, segments).run(true);
+    auto counts = CountSolver(region, segment, segments).run(true);
+    if (!counts) return std::nullopt;
+    return std::move(counts->sides);
 }
 
-void count_axes(MirrorPart& part, const std::function<double(const Vec2&)>& size)
+std::optional<double> count_axes(MirrorPart& part, const std::function<double(const Vec2&)>& size, bool few)
 {
     // Given sides between corners are segments of their own, for no corner may move.
     std::vector<int> segment(part.region.points.size());
@@ -822,13 +926,16 @@ void count_axes(MirrorPart& part, const std::function<double(const Vec2&)>& size
         sides.push_back(static_cast<int>(segments[of_axis[a]].wanted));
         segments[of_axis[a]].wanted = part.wanted[a];
     }
-    if (const auto counts = CountSolver(part.region, segment, segments).run(false)) {
-        for (std::size_t a = 0; a < of_axis.size(); ++a) sides[a] = (*counts)[of_axis[a]];
+    const auto counts = CountSolver::of_part(part.region, segment, segments, few);
+    if (counts) {
+        for (std::size_t a = 0; a < of_axis.size(); ++a) sides[a] = counts->sides[of_axis[a]];
     }
     // Quads alone take an even number of sides.
     if (std::accumulate(sides.begin(), sides.end(), given) % 2 != 0)
         ++*std::max_element(sides.begin(), sides.end());
     divide_axes(part, sides, size);
+    if (!counts) return std::nullopt;
+    return counts->cost;
 }
 
 } // namespace lacuna::quads

@@ -8,6 +8,15 @@ namespace lacuna::quads {
 
 /// Give the axes of a part numbers of sides with which one grid fills it, as `pattern_counts()` does; where
 /// there are none, those of the size with an even number round the part.
-void count_axes(MirrorPart& part, const std::function<double(const Vec2&)>& size);
+/// @return what the grid costs beside that of other parts; nothing where there is none.
+/// @param few  whether numbers may be as far from those wanted as a ring's, where there is none else.
+std::optional<double> count_axes(MirrorPart& part, const std::function<double(const Vec2&)>& size, bool few);
+
+/// A part's axes are divided by a size that changes slowly away from short given sides; where there are fewer
+/// quads than this, by the size asked first. A choice, not a measurement.
+inline constexpr double kFewForGrading = 200;
+
+/// Parts between other mirror axes that are looked at. A choice, not a measurement.
+inline constexpr std::size_t kMostChoices = 4;
 
 } // namespace lacuna::quads

@@ -70,9 +70,10 @@ struct MirrorPart {
 /// nodes as far apart as the size asks.
 /// @param symmetries  of the region that may be used, all that it has or a group of them.
 /// @param size        that nodes on the axes are spaced by.
-/// @return nothing where there is no such axis.
+/// @param choice      which of these, from 0 on.
+/// @return nothing where there is no such axis, nor so many choices.
 std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vector<Symmetry>& symmetries,
-                                      const std::function<double(const Vec2&)>& size);
+                                      const std::function<double(const Vec2&)>& size, std::size_t choice = 0);
 
 /// Give the pieces of the axes other numbers of sides, >= 1.
 void divide_axes(MirrorPart& part, const std::vector<int>& sides,

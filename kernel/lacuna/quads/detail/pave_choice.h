@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/quads/detail/central_block.h>
 #include <lacuna/quads/detail/outline_symmetry.h>
 #include <lacuna/quads/detail/pave_attempt.h>
 
@@ -47,10 +48,17 @@ private:
     /// The grid of a region of right angles; unless that is good, images of a part between mirror axes and
     /// the grids of `fill_patterns()`, whichever are likelier to be good first.
     void try_grids();
+    /// Keep images of a part about a block in the middle, where they are good and score no less than what is
+    /// kept already. @return whether they were kept
+    bool try_blocks();
+    /// Those about one block, smoothed with it.
+    [[nodiscard]] Attempt fill_about(const CentralBlock& block) const;
     /// The part between mirror axes, where there are any, with nodes on them.
     [[nodiscard]] std::optional<MirrorPart> part_of_region() const;
-    /// Keep images of a part where they are good, else add them to the grids. @return whether they were kept
-    bool try_part(const MirrorPart& part, std::vector<Attempt>& grids);
+    /// Keep images of a part where they are good, else add them to the grids.
+    /// @param few  whether given sides decide the sizes of quads.
+    /// @return whether they were kept.
+    bool try_part(const MirrorPart& part, bool few, std::vector<Attempt>& grids);
     /// Images of that part's quads.
     [[nodiscard]] Attempt fill_part(const MirrorPart& part) const;
     void try_few_weights();
@@ -72,6 +80,7 @@ private:
     bool cut_;
     int least_irregular_; ///< that topology allows
     bool is_few_;         ///< quads, about
+    bool few_graded_;     ///< so few that given sides decide their sizes
     AttemptSetting setting_;
     Attempt best_;
     double best_score_ = -2;
