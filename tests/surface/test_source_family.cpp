@@ -195,3 +195,22 @@ TEST_CASE("nodes of mapped faces whose lines are square already stay evenly spre
         }
     }
 }
+
+TEST_CASE("halves and quarters of a disc get rows along their round sides, and counts that do for both")
+{
+    for (const test::FamilySource& source : test::source_family()) {
+        if (source.name != "disc in quarters" && source.name != "disc in halves") continue;
+        for (const double quads : {120.0, 400.0, 1000.0}) {
+            CAPTURE(source.name);
+            CAPTURE(quads);
+            const Meshed made = mesh_family_source(source, quads);
+            const test::UnionQuality& q = made.quality;
+            CHECK(test::UnionQuality::share(q.good_rows, q.rows) >= 0.95);
+            CHECK(test::UnionQuality::share(q.good_shared_rows, q.shared_rows) >= 0.95);
+            CHECK(q.irregular == 4);
+            CHECK(q.irregular_shared == 0);
+            CHECK(q.mean_scaled_jacobian > 0.96);
+            CHECK(std::abs(static_cast<double>(q.quads) / quads - 1) < 0.25);
+        }
+    }
+}

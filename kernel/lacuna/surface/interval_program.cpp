@@ -4,6 +4,8 @@
 #include <lacuna/geometry/union_find.h>
 #include <lacuna/quads/measure_plane.h>
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -61,9 +63,22 @@ public:
     {
         const auto size = static_cast<double>(rows_.size());
         if (size * size * static_cast<double>(own_.size()) > kMostWork) return std::nullopt;
-        if (!reduce() || !start()) return std::nullopt;
+        if (!reduce() || !find_vectors()) return std::nullopt;
+        std::optional<std::vector<int>> best = solve_from(rounded_wishes());
+        const double cost = cost_;
+        if (free_.size() > kByTwos) return best;
+        auto other = solve_from(relaxed());
+        return best && (!other || cost <= cost_) ? best : other;
+    }
+
+private:
+    /// Down from numbers of the free variables. @return nothing where that ends below a floor
+    std::optional<std::vector<int>> solve_from(const std::vector<std::int64_t>& start)
+    {
+        if (!start_from(start)) return std::nullopt;
         sums_.clear();
         for (const Term& term : terms_) sums_.push_back(sum_of(term));
+        cost_ = whole_cost();
         while (step()) {}
         for (std::size_t i = 0; i < own_.size(); ++i) {
             if (count_[i] < variable(i).least) return std::nullopt;
@@ -75,7 +90,6 @@ public:
         return std::vector<int>(count_.begin(), count_.end());
     }
 
-private:
     using Row = std::vector<std::int64_t>; ///< coefficients of the set's variables, then the right-hand side
 
     /// A wish, or with no weight a floor.
@@ -178,10 +192,9 @@ private:
                            [](std::int64_t x) { return std::abs(x) < kMostCoefficient; });
     }
 
-    /// The rounded wishes for the free variables, and what follows; and the vectors to go along.
-    bool start()
+    [[nodiscard]] std::vector<std::int64_t> rounded_wishes() const
     {
-        count_.assign(own_.size(), 0);
+        std::vector<std::int64_t> counts;
         for (const std::size_t v : free_) {
             double wanted = 0, weight = 0;
             for (const auto& [t, times] : terms_of_[v]) {
@@ -189,12 +202,69 @@ private:
                 wanted += terms_[t].weight * terms_[t].wanted;
                 weight += terms_[t].weight;
             }
-            count_[v] = std::max<std::int64_t>(variable(v).least,
-                                               weight > 0 ? std::llround(wanted / weight) : 1);
+            counts.push_back(weight > 0 ? std::llround(wanted / weight) : 1);
         }
+        return counts;
+    }
+
+    /// The free variables of least Σ weight (n − wanted)² / wanted in real numbers, rounded: a start that
+    /// knows what others need.
+    [[nodiscard]] std::vector<std::int64_t> relaxed() const
+    {
+        const auto free = static_cast<Eigen::Index>(free_.size());
+        // How each variable follows from the free ones; last what it is without them.
+        Eigen::MatrixXd of = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(own_.size()), free + 1);
+        for (std::size_t k = 0; k < free_.size(); ++k)
+            of(static_cast<Eigen::Index>(free_[k]), static_cast<Eigen::Index>(k)) = 1;
+        for (std::size_t r = 0; r < rows_.size(); ++r) {
+            const auto p = static_cast<Eigen::Index>(pivot_[r]);
+            const auto by = static_cast<double>(rows_[r][pivot_[r]]);
+            for (std::size_t k = 0; k < free_.size(); ++k)
+                of(p, static_cast<Eigen::Index>(k)) = -static_cast<double>(rows_[r][free_[k]]) / by;
+            of(p, free) = static_cast<double>(rows_[r].back()) / by;
+        }
+        constexpr double kNoWish = 1e-9; // of variables that no wish is for
+        Eigen::MatrixXd normal = kNoWish * Eigen::MatrixXd::Identity(free, free);
+        Eigen::VectorXd right = Eigen::VectorXd::Constant(free, kNoWish);
+        for (const Term& term : terms_) {
+            if (term.weight == 0) continue;
+            Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(free + 1);
+            for (const auto& [v, times] : term.variables) sum += times * of.row(static_cast<Eigen::Index>(v));
+            const double rest = term.wanted - static_cast<double>(term.given) - sum[free];
+            const double weight = term.weight / term.wanted;
+            normal += weight * sum.head(free).transpose() * sum.head(free);
+            right += weight * rest * sum.head(free).transpose();
+        }
+        const Eigen::VectorXd x = normal.ldlt().solve(right);
+        std::vector<std::int64_t> counts;
+        for (Eigen::Index k = 0; k < free; ++k)
+            counts.push_back(std::llround(std::clamp(x[k], 1.0, double(kMostCoefficient))));
+        return counts;
+    }
+
+    /// These numbers for the free variables, and what follows.
+    bool start_from(const std::vector<std::int64_t>& free)
+    {
+        count_.assign(own_.size(), 0);
+        for (std::size_t k = 0; k < free_.size(); ++k)
+            count_[free_[k]] = std::max<std::int64_t>(variable(free_[k]).least, free[k]);
         for (std::size_t r = 0; r < rows_.size(); ++r) {
             if (!make_whole(r)) return false;
         }
+        return true;
+    }
+
+    [[nodiscard]] double whole_cost() const
+    {
+        double cost = 0;
+        for (std::size_t v = 0; v < own_.size(); ++v) cost += below(v, count_[v]);
+        for (std::size_t t = 0; t < terms_.size(); ++t) cost += term_cost(terms_[t], sums_[t]);
+        return cost;
+    }
+
+    /// The vectors to go along.
+    bool find_vectors()
+    {
         for (const std::size_t v : free_) {
             std::int64_t stride = 1;
             for (std::size_t r = 0; r < rows_.size(); ++r) {

@@ -98,12 +98,14 @@ struct Seeds {
 /// keep their own quads have the nodes of those. Where size or curvature change along an edge its nodes
 /// follow. A free face that one grid fills gets numbers for which it closes (`quads::pattern_counts()`).
 ///
-/// Mapped and submapped faces, and free ones that share an edge with them, are solved together, as one
-/// program of whole numbers over all their edges:
+/// Mapped and submapped faces, free ones that share an edge with them, and sectors that share one with any
+/// free face, are solved together, as one program of whole numbers over all their edges:
 ///   least Σ (n − wanted)² / n  over the edges' pieces and three lines across each mapped face, and more for
 ///   sides of another size, so that opposite sides have as many and no piece fewer than it needs; so that a
-///   free face of three sides is three grids round a node, one of two a grid with two corners inside it, and
-///   any other has an even number in all.
+///   free face of three sides is three grids round a node, a half disc two such, another of two sides a grid
+///   with two corners inside it, and any other has an even number in all.
+/// A face with one round side is to have rows a third of its radius deep along it, and the line behind these
+/// as many sides as its length asks for: the two are terms of the sum as well.
 /// Lengths are those in space, so a face that bulges between its sides, or is narrower there, gets what its
 /// inside needs. Where given numbers contradict each other, sides are raised to the larger count, a face at a
 /// time until nothing changes. A face whose grid would be poor all over, by its angles and lengths in space,

@@ -47,10 +47,11 @@ struct IntervalProgram {
 ///
 /// Variables that no equation joins are solved apart. Each such set of equations is brought to reduced row
 /// echelon form in whole numbers, as @cite mitchell_2021_intervals does; its free variables then give vectors
-/// along which all equations stay solved. From the rounded wishes the program goes down those vectors, alone
-/// and by twos, by steps of powers of two, always the one that gains most, until none gains. A set with more
-/// than 64 free variables goes down them alone. Where it ends may be a little above the least: of 143 random
-/// programs with solutions one did, by a tenth (tests/surface/test_interval_program.cpp).
+/// along which all equations stay solved. From the rounded wishes, and again from the least in real numbers,
+/// the program goes down those vectors, alone and by twos, by steps of powers of two, always the one that
+/// gains most, until none gains; the better end stays. A set with more than 64 free variables goes down them
+/// alone, from the wishes. Where it ends may be a little above the least: from the wishes alone, of 143
+/// random programs with solutions one did, by a tenth (tests/surface/test_interval_program.cpp).
 /// @return  a number for each variable; 0 for those of a set that is too large, whose equations contradict
 ///          each other or a floor, or that has no start in whole numbers.
 /// @note    Deterministic. O(equations² · variables) a set, and O(free² · wishes) a step.
