@@ -340,6 +340,62 @@ TEST_CASE("a groove without its ends and its mouth is closed by a flat face for 
     }
 }
 
+TEST_CASE("faces with rims that bend in space are read as well, and are no grooves")
+{
+    for (const int sides : {0, 3, 4, 6}) {
+        for (const test::End end : {test::End::bowed, test::End::saddle}) {
+            for (const bool source : {false, true}) {
+                const auto prism = test::prism(
+                    {.sides = sides, .target = end, .drop = without(source, true, false)});
+                CAPTURE(sides);
+                CAPTURE(source);
+                const auto readings = closure::find_readings(prism.model, all_faces(prism.model));
+                REQUIRE(!readings.empty());
+                for (const closure::Reading& reading : readings)
+                    CHECK(closed_volume(reading) == doctest::Approx(prism.facet_volume).epsilon(0.2));
+            }
+        }
+    }
+}
+
+TEST_CASE("a bent bar is read from end to end where the flat faces beside its bend cannot be cut apart")
+{
+    // Its flanges are flat faces that all look along the axis of the bend: ends of a stepped sweep, likelier
+    // at first sight, but the steps between them are round.
+    const std::vector<std::vector<Vec2>> sections{
+        {{-0.25, -1}, {0.25, -1}, {0.25, 0.4}, {1, 0.4}, {1, 1}, {-1, 1}, {-1, 0.4}, {-0.25, 0.4}},
+        {{-1, -1}, {1, -1}, {1, 1}, {0.5, 1}, {0.5, -0.4}, {-0.5, -0.4}, {-0.5, 1}, {-1, 1}},
+        {{0.3, -1},
+         {0.3, -0.3},
+         {1, -0.3},
+         {1, 0.3},
+         {0.3, 0.3},
+         {0.3, 1},
+         {-0.3, 1},
+         {-0.3, 0.3},
+         {-1, 0.3},
+         {-1, -0.3},
+         {-0.3, -0.3},
+         {-0.3, -1}},
+    };
+    for (const std::vector<Vec2>& outline : sections) {
+        for (const double bend : {60.0, 90.0, 120.0}) {
+            const auto bar = test::prism({.height = 2.5 * bend * 3.141592653589793 / 180,
+                                          .outline = outline,
+                                          .levels = 24,
+                                          .bend = bend});
+            CAPTURE(outline.size());
+            CAPTURE(bend);
+            const auto reading = closure::find_reading(bar.model, all_faces(bar.model));
+            const Roles& roles = reading.roles.roles;
+            REQUIRE(roles.source.size() == 1);
+            REQUIRE(roles.target.size() == 1);
+            CHECK(std::set<FaceId>{roles.source.front(), roles.target.front()} ==
+                  std::set<FaceId>{bar.face({Role::source}), bar.face({Role::target})});
+        }
+    }
+}
+
 TEST_CASE("a floor and a wall beside it alone are no groove: nothing says where their prism ends")
 {
     for (const int cuts : {2, 4}) {

@@ -132,7 +132,8 @@ std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vect
     const std::vector<FaceId> at = faces_at_edges(model);
     std::vector<Run> ends;
     for (std::size_t i = 0; i < uses; ++i) {
-        if (run[i] == uses || run[(i + uses - 1) % uses] > run[i]) continue; // part of a longer one
+        if (run[i] == 0 || run[i] == uses) continue;
+        if (run[(i + uses - 1) % uses] > run[i]) continue; // part of a longer one
         std::vector<EdgeUse> own;
         for (std::size_t k = 0; k < run[i]; ++k) own.push_back(rim.uses[(i + k) % uses]);
         std::vector<std::vector<Vec3>> points{points_of(model, own)};

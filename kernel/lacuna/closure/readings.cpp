@@ -210,15 +210,24 @@ bool can_be_cut(const Model& skin, const Roles& roles, const RunContext& context
     }
 }
 
-/// The ways to sweep a closed skin about as likely as the likeliest: those with the fewest irregular nodes
-/// first, and of these the ones with the most even cells.
+/// The ways to sweep a closed skin about as likely as the likeliest that can be cut where it has to be: those
+/// with the fewest irregular nodes first, and of these the ones with the most even cells.
 std::vector<RoleCandidate> best_sweeps(const Model& skin, const RunContext& context)
 {
-    std::vector<RoleCandidate> all = role_candidates(skin, all_faces(skin), {}, context);
-    std::erase_if(all, [&](const RoleCandidate& way) {
-        const bool several = way.roles.source.size() + way.roles.target.size() > 2;
-        return several && !can_be_cut(skin, way.roles, context);
-    });
+    const auto fails = [&](const RoleCandidate& way) { return !can_be_cut(skin, way.roles, context); };
+    const RoleOptions near;
+    std::vector<RoleCandidate> all = role_candidates(skin, all_faces(skin), near, context);
+    const bool any = !all.empty();
+    std::erase_if(all, fails);
+    if (any && all.empty()) { // the likeliest cannot be swept; what comes after them may
+        RoleOptions far;
+        far.margin = std::numeric_limits<double>::infinity();
+        all = role_candidates(skin, all_faces(skin), far, context);
+        all.erase(all.begin(), std::ranges::find_if_not(all, fails));
+        std::erase_if(all, [&, least = all.empty() ? 0 : all.front().cost](const RoleCandidate& way) {
+            return way.cost > least + near.margin || fails(way);
+        });
+    }
     std::stable_sort(all.begin(), all.end(), [](const RoleCandidate& a, const RoleCandidate& b) {
         return a.irregular < b.irregular;
     });
