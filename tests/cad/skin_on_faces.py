@@ -22,7 +22,9 @@ import sys
 import tempfile
 
 SHARE_OF_SIDE = 0.25  # what a sweep allows where nothing is said
-LESS, MORE = 0.99, 1.5  # of what is found here: what the report may say
+# Of what is found here: what the report may say. It compares nodes, middles of sides and middles of quads, and
+# slanted quads on a bend were up to 1.2 % further off between these.
+LESS, MORE = 0.98, 1.5
 ROUNDING = 1e-6  # of the face's extent: how well Open CASCADE finds the nearest point
 
 RECIPE = """
