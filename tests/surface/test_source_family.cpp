@@ -3,6 +3,8 @@
 #include "support/source_family.h"
 
 #include <lacuna/quads/pave.h>
+#include <lacuna/surface/detail/face_sides.h>
+#include <lacuna/surface/detail/round_sides.h>
 #include <lacuna/surface/seeds.h>
 #include <lacuna/surface/source_mesh.h>
 
@@ -211,6 +213,26 @@ TEST_CASE("halves and quarters of a disc get rows along their round sides, and c
             CHECK(q.irregular_shared == 0);
             CHECK(q.mean_scaled_jacobian > 0.96);
             CHECK(std::abs(static_cast<double>(q.quads) / quads - 1) < 0.25);
+        }
+    }
+}
+
+TEST_CASE("a side is round where it bulges outward, and not where it is bent inward")
+{
+    for (const test::FamilySource& source : test::source_family()) {
+        const bool sector = source.name == "disc in quarters", half = source.name == "disc in halves",
+                   holed = source.name == "holed plate in quarters";
+        if (!sector && !half && !holed) continue;
+        CAPTURE(source.name);
+        const Model& model = source.volume.model;
+        for (const FaceId face : source.volume.faces(Role::source)) {
+            const auto sides = surface::sides_by_corners(model, face);
+            const auto round = surface::bulge_of(model, face, sides, [](const Vec3&) { return 0.1; });
+            REQUIRE(round.has_value() == !holed);
+            if (!round) continue;
+            CHECK(sides.size() == (sector ? 3 : 2));
+            CHECK(round->radius == doctest::Approx(1).epsilon(0.01));
+            CHECK(round->turn == doctest::Approx(std::acos(-1.0) / (sector ? 2 : 1)).epsilon(0.05));
         }
     }
 }

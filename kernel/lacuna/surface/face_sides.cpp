@@ -26,15 +26,9 @@ std::vector<EdgeId> side_edges(const Loop& loop, const std::vector<std::size_t>&
 {
     std::vector<EdgeId> edges;
     const std::size_t n = loop.uses.size();
-    for (std::size_t i = corners[side]; i != corners[(side + 1) % 4]; i = (i + 1) % n)
+    for (std::size_t i = corners[side]; i != corners[(side + 1) % corners.size()]; i = (i + 1) % n)
         edges.push_back(loop.uses[i].edge);
     return edges;
-}
-
-double length_of(const Model& model, const std::vector<EdgeId>& edges)
-{
-    return std::accumulate(edges.begin(), edges.end(), 0.0,
-                           [&](double sum, EdgeId e) { return sum + edge_length(model, e); });
 }
 
 } // namespace
@@ -116,6 +110,21 @@ bool alike(const Model& model, const std::vector<SidePair>& pairs)
         const double a = length_of(model, sides[0]), b = length_of(model, sides[1]);
         return std::max(a, b) <= kUnlike * std::min(a, b);
     });
+}
+
+double length_of(const Model& model, const std::vector<EdgeId>& edges)
+{
+    return std::accumulate(edges.begin(), edges.end(), 0.0,
+                           [&](double sum, EdgeId e) { return sum + edge_length(model, e); });
+}
+
+std::vector<std::vector<EdgeId>> sides_by_corners(const Model& model, FaceId face)
+{
+    std::vector<std::vector<EdgeId>> sides;
+    const auto corners = corners_of(model, face);
+    for (std::size_t s = 0; corners && s < corners->size(); ++s)
+        sides.push_back(side_edges(model[face].loops[0], *corners, s));
+    return sides;
 }
 
 } // namespace lacuna::surface

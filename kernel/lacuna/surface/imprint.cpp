@@ -10,9 +10,11 @@
 #include <lacuna/geometry/triangulate.h>
 #include <lacuna/matching/corners.h>
 #include <lacuna/surface/detail/alike_ends.h>
+#include <lacuna/surface/detail/flat_edges.h>
 #include <lacuna/surface/detail/imprint_map.h>
 #include <lacuna/surface/detail/linking_map.h>
 #include <lacuna/surface/detail/plane_regions.h>
+#include <lacuna/surface/detail/surface_curve.h>
 #include <lacuna/topology/split_edge.h>
 
 #include <algorithm>
@@ -32,92 +34,12 @@ namespace {
 /// choice, not a measurement.
 constexpr double kOneEdge = 0.4;
 
-/// A polyline on a face, lifted to its exact surface between its points.
-class SurfaceCurve : public geometry::ExactCurve {
-public:
-    SurfaceCurve(std::vector<Vec3> points, std::vector<Vec2> uv,
-                 std::shared_ptr<const geometry::ExactSurface> surface)
-        : points_(std::move(points)), uv_(std::move(uv)), surface_(std::move(surface))
-    {
-    }
-
-    /// A parameter is the number of a point and the share of the way to the next.
-    void evaluate(std::span<const double> params, std::span<Vec3> points,
-                  const RunContext& context) const override
-    {
-        std::vector<Vec2> uv;
-        for (std::size_t i = 0; i < params.size(); ++i) {
-            const double last = static_cast<double>(points_.size()) - 2;
-            const double whole = std::clamp(std::floor(params[i]), 0.0, last);
-            const auto k = static_cast<std::size_t>(whole);
-            const double f = params[i] - whole;
-            points[i] = (1 - f) * points_[k] + f * points_[k + 1];
-            uv.emplace_back((1 - f) * uv_[k] + f * uv_[k + 1]);
-        }
-        surface_->project(points, uv, context);
-    }
-
-private:
-    std::vector<Vec3> points_;
-    std::vector<Vec2> uv_;
-    std::shared_ptr<const geometry::ExactSurface> surface_;
-};
-
 [[noreturn]] void refuse(const Model& model, EdgeId edge, const std::string& why)
 {
     throw NotSweepable(
         "surface.not_imprinted",
         name_of(model, edge) +
             " lies inside the end that is swept to and cannot be imprinted on the other: " + why);
-}
-
-/// An edge in the plane, cut at nodes.
-struct FlatEdge {
-    EdgeId edge;
-    std::vector<Vec2> line;
-    std::vector<double> at; ///< share of the edge's length of each point of `line`
-    struct Cut {
-        double at;
-        std::size_t node;
-    };
-    std::vector<Cut> cuts; ///< both ends among them; in order after `sort()`
-
-    void sort()
-    {
-        std::stable_sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.at < b.at; });
-    }
-};
-
-/// The place of a polyline closest to a point.
-struct Closest {
-    double distance = std::numeric_limits<double>::infinity();
-    double at = 0; ///< share of the edge's length
-    Vec2 place = Vec2::Zero();
-};
-
-Closest closest_on(const std::vector<Vec2>& line, const std::vector<double>& at, const Vec2& p)
-{
-    Closest best;
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        const Vec2 d = line[i + 1] - line[i];
-        const double length2 = d.squaredNorm();
-        const double f = length2 > 0 ? std::clamp((p - line[i]).dot(d) / length2, 0.0, 1.0) : 0;
-        const Vec2 place = line[i] + f * d;
-        if ((p - place).norm() >= best.distance) continue;
-        best = {(p - place).norm(), at[i] + f * (at[i + 1] - at[i]), place};
-    }
-    return best;
-}
-
-/// Where two segments cross, as shares of both; none where they are parallel or miss each other.
-std::optional<Vec2> crossing(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d)
-{
-    const Vec2 u = b - a, v = d - c, w = c - a;
-    const double turn = u.x() * v.y() - u.y() * v.x();
-    if (std::abs(turn) <= 1e-14 * u.norm() * v.norm()) return std::nullopt;
-    const double s = (w.x() * v.y() - w.y() * v.x()) / turn, t = (w.x() * u.y() - w.y() * u.x()) / turn;
-    if (s < 0 || s > 1 || t < 0 || t > 1) return std::nullopt;
-    return Vec2(s, t);
 }
 
 /// A part of a flat edge between two cuts that follow each other.

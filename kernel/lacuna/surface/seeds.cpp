@@ -10,6 +10,8 @@
 #include <lacuna/surface/detail/interval_program.h>
 #include <lacuna/surface/detail/mapped_face.h>
 #include <lacuna/surface/detail/plane_loops.h>
+#include <lacuna/surface/detail/round_sides.h>
+#include <lacuna/surface/detail/seed_pieces.h>
 #include <lacuna/surface/detail/square_lines.h>
 
 #include <algorithm>
@@ -39,33 +41,19 @@ constexpr int kSizeSamples = 32;
 /// seen.
 constexpr double kSameSize = 1e-3;
 
-/// What a line across a mapped face weighs beside an edge of its rim, and the least that is wanted of either.
-/// Choices, not measurements.
-constexpr double kLineWeight = 1, kLeastWish = 0.1;
+/// What a line across a mapped face weighs beside an edge of its rim: a choice, not a measurement.
+constexpr double kLineWeight = 1;
 /// Faces whose grid would have a mean scaled Jacobian or a share of even sides below these are given to the
 /// planar mesher. Grids bear more than the source alone shows: of the bent pipe's flat rings they have a mean
 /// of 0.80 and what is paved instead 0.95, but swept the grids' hexahedra have 0.94 and those of the others
 /// 0.88, the worst 0.67 and 0.58. So this is for grids that no sweep makes good; a choice.
 constexpr double kFairMean = 0.7, kFairEven = 0.6;
 
-/// A side of a face is round from this turn on, and two threes side by side fill it from that on [radian]:
-/// 45° and 120°. Choices, not measurements.
-constexpr double kBulges = std::numbers::pi / 4, kHalves = 2 * std::numbers::pi / 3;
-/// Rows before a round side reach so deep: as the patterns of discs have it (`quads::pattern_counts()`).
-constexpr double kRowsOfRadius = 1.0 / 3;
+/// Two threes side by side fill a face from this turn of its round side on: 120°. A choice.
+constexpr double kHalves = 2 * std::numbers::pi / 3;
 /// What a core of as many sides one way as the other weighs beside an edge. With a quarter of it sectors
 /// about one point got unlike numbers, 15 and 13 on every other radius.
 constexpr double kEvenCore = 1;
-
-/// Sides wanted from a piece's start to a fraction of its edge, where they change along it.
-double wanted_at(const SeedPiece& piece, double fraction)
-{
-    const auto steps = static_cast<double>(piece.wanted.size() - 1);
-    const double at = std::clamp((fraction - piece.from) / (piece.to - piece.from), 0.0, 1.0) * steps;
-    const auto step = std::min(static_cast<std::size_t>(at), piece.wanted.size() - 2);
-    return piece.wanted[step] +
-           (at - static_cast<double>(step)) * (piece.wanted[step + 1] - piece.wanted[step]);
-}
 
 class Seeder {
 public:
@@ -682,63 +670,13 @@ private:
     /// sides there has to do for both.
     [[nodiscard]] bool is_sector_beside(FaceId face, const std::vector<EdgeId>& edges) const
     {
-        if (gap_ > 0 || sides_by_corners(face).size() != 3 || !bulge_of(face, sides_by_corners(face)))
-            return false;
+        const std::vector<std::vector<EdgeId>> sides = sides_by_corners(model_, face);
+        if (gap_ > 0 || sides.size() != 3 || !bulge_of(model_, face, sides, size_)) return false;
         return std::any_of(edges.begin(), edges.end(), [&](EdgeId edge) {
             const std::set<FaceId>& users = users_.at(edge);
             return std::any_of(users.begin(), users.end(),
                                [&](FaceId user) { return user != face && is_free(user); });
         });
-    }
-
-    /// The edges of a face's sides between corners; none where it has several loops or a corner bends inward.
-    [[nodiscard]] std::vector<std::vector<EdgeId>> sides_by_corners(FaceId face) const
-    {
-        const auto corners = corners_of(model_, face);
-        const std::size_t sides = corners ? corners->size() : 0;
-        std::vector<std::vector<EdgeId>> side(sides);
-        for (std::size_t s = 0; s < sides; ++s) {
-            const Loop& loop = model_[face].loops[0];
-            for (std::size_t i = (*corners)[s], n = loop.uses.size(); i != (*corners)[(s + 1) % sides];
-                 i = (i + 1) % n)
-                side[s].push_back(loop.uses[i].edge);
-        }
-        return side;
-    }
-
-    /// The one side of a face that is round and bulges outward.
-    struct Bulge {
-        std::size_t side = 0;
-        double turn = 0, radius = 0, size = 1; ///< [radian], [model length], asked for in its middle
-    };
-    [[nodiscard]] std::optional<Bulge> bulge_of(FaceId face,
-                                                const std::vector<std::vector<EdgeId>>& sides) const
-    {
-        std::optional<Bulge> found;
-        const Vec3 centre = face_centroid(model_, face);
-        for (std::size_t s = 0; s < sides.size(); ++s) {
-            double turn = 0;
-            for (const EdgeId edge : sides[s]) {
-                const EdgeTurning turning(model_, edge);
-                turn += turning.between(0, turning.length());
-            }
-            if (turn < kBulges) continue;
-            if (found) return {};
-            const double length = length_of_edges(sides[s]);
-            double before = 0;
-            std::size_t e = 0;
-            while (e + 1 < sides[s].size() && before + edge_length(model_, sides[s][e]) < length / 2)
-                before += edge_length(model_, sides[s][e++]);
-            // Which way the edge runs is no matter in the middle of one.
-            const double own = edge_length(model_, sides[s][e]);
-            const double at[] = {
-                0, sides[s].size() == 1 ? 0.5 : std::clamp((length / 2 - before) / own, 0.0, 1.0), 1};
-            const std::vector<Vec3> points = edge_points(model_, sides[s][e], at);
-            const double radius = length / turn;
-            if ((points[1] - centre).norm() > 2 * radius || (points[1] - centre).norm() == 0) return {};
-            found = Bulge{s, turn, radius, size_(points[1])};
-        }
-        return found;
     }
 
     /// What a free face needs. Of three sides: each as many as two of three grids have that meet in one node
@@ -754,8 +692,8 @@ private:
             intervals.variables.push_back({});
             return intervals.variables.size() - 1;
         };
-        const std::vector<std::vector<EdgeId>> side = sides_by_corners(face);
-        const auto bulge = bulge_of(face, side);
+        const std::vector<std::vector<EdgeId>> side = sides_by_corners(model_, face);
+        const auto bulge = bulge_of(model_, face, side, size_);
         if (side.size() == 3) {
             std::array<std::vector<std::size_t>, 3> own;
             for (std::size_t s = 0; s < 3; ++s) own[s] = variables_of(side[s], program);
@@ -779,7 +717,7 @@ private:
             intervals.wishes.push_back({{core}, wish_rows(*bulge, 2, round, rows, intervals), kEvenCore});
             return true;
         } else if (side.size() == 2) {
-            const double a = length_of_edges(side[0]), b = length_of_edges(side[1]);
+            const double a = length_of(model_, side[0]), b = length_of(model_, side[1]);
             std::vector<std::size_t> longer = variables_of(side[a > b ? 0 : 1], program),
                                      shorter = variables_of(side[a > b ? 1 : 0], program);
             const std::size_t more = fresh();
@@ -791,28 +729,6 @@ private:
             intervals.equations.push_back({std::move(all), {half, half}});
         }
         return false;
-    }
-
-    /// Rows along a round side as deep as a third of its radius, and as many sides on the line behind them as
-    /// it has, which is shorter.
-    /// @param parts  equal ones that the side is divided into, each with a corner of that line behind it
-    /// @return  sides wanted on half of the line behind a part
-    static double wish_rows(const Bulge& bulge, int parts, const std::vector<std::size_t>& round,
-                            std::size_t rows, IntervalProgram& intervals)
-    {
-        const double deep = kRowsOfRadius * bulge.radius, angle = bulge.turn / parts / 2;
-        // From the corner, on the part's middle ray, to the rays at its ends, as deep below the side.
-        const double left = bulge.radius - deep;
-        const double line = 2 * parts * std::hypot(left * std::sin(angle), left * (1 - std::cos(angle)));
-        intervals.wishes.push_back({{rows}, std::max(deep / bulge.size, kLeastWish), 1});
-        intervals.wishes.push_back({round, std::max(line / bulge.size, kLeastWish), 1});
-        return std::max(line / bulge.size / (2 * parts), kLeastWish);
-    }
-
-    [[nodiscard]] double length_of_edges(const std::vector<EdgeId>& edges) const
-    {
-        return std::accumulate(edges.begin(), edges.end(), 0.0,
-                               [&](double sum, EdgeId e) { return sum + edge_length(model_, e); });
     }
 
     /// Whether a grid over a face is nearly as good as what the planar mesher makes, or cannot be had
@@ -1055,83 +971,6 @@ private:
 };
 
 } // namespace
-
-int Seeds::count(EdgeId edge) const
-{
-    int sum = 0;
-    for (const SeedPiece& piece : pieces.at(edge)) sum += piece.count;
-    return sum;
-}
-
-std::vector<double> Seeds::fractions(EdgeId edge) const
-{
-    std::vector<double> result;
-    for (const SeedPiece& piece : pieces.at(edge)) {
-        const std::vector<double> more = piece.fractions();
-        result.insert(result.end(), more.begin(), more.end());
-    }
-    result.push_back(1);
-    return result;
-}
-
-std::vector<double> SeedPiece::fractions() const
-{
-    std::vector<double> result{from};
-    if (fixed || !placed.empty()) {
-        const std::vector<double>& inside = fixed ? kept : placed;
-        result.insert(result.end(), inside.begin(), inside.end());
-        return result;
-    }
-    result.insert(result.end(), low.begin(), low.end());
-    const double first = result.back(), last = high.empty() ? to : high.front();
-    const double before = wanted.empty() ? 0 : wanted_at(*this, first);
-    const double apart = wanted.empty() ? 0 : wanted_at(*this, last) - before;
-    std::size_t step = 0;
-    for (int i = 1; i < between(); ++i) {
-        const double share = static_cast<double>(i) / between();
-        if (wanted.empty()) {
-            result.push_back(first + (last - first) * share);
-            continue;
-        }
-        const double at = before + share * apart;
-        while (step + 2 < wanted.size() && wanted[step + 1] < at) ++step;
-        const double along = (static_cast<double>(step) +
-                              (at - wanted[step]) / (wanted[step + 1] - wanted[step])) /
-                             static_cast<double>(wanted.size() - 1);
-        result.push_back(from + (to - from) * along);
-    }
-    result.insert(result.end(), high.begin(), high.end());
-    return result;
-}
-
-std::size_t Seeds::piece_of(const LinkingSurface& link, const RimSegment& segment) const
-{
-    const double middle = link.source.position((segment.source_from + segment.source_to) / 2).fraction;
-    const std::vector<SeedPiece>& own = pieces.at(link.source.uses()[segment.use].edge);
-    const auto piece = std::upper_bound(own.begin(), own.end(), middle,
-                                        [](double at, const SeedPiece& p) { return at < p.to; });
-    return static_cast<std::size_t>(piece - own.begin());
-}
-
-std::vector<std::vector<double>> Seeds::shares(const LinkingSurface& link) const
-{
-    std::vector<std::vector<double>> all;
-    for (const RimSegment& segment : link.segments) {
-        const EdgeUse use = link.source.uses()[segment.use];
-        all.push_back(pieces.at(use.edge)[piece_of(link, segment)].shares(use.reversed));
-    }
-    return all;
-}
-
-std::vector<double> SeedPiece::shares(bool reversed) const
-{
-    std::vector<double> shares = fractions();
-    for (double& f : shares) f = (f - from) / (to - from);
-    if (!reversed) return shares;
-    std::vector<double> back{0};
-    for (std::size_t i = shares.size(); i-- > 1;) back.push_back(1 - shares[i]);
-    return back;
-}
 
 Seeds seed_source(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
                   QuadStyle style, const ShapeSizing& sizing, const std::map<EdgeId, double>& lengths,

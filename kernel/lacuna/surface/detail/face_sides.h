@@ -20,6 +20,12 @@ double inner_angle(const topology::Model& model, FaceId face, const topology::Lo
 /// a vertex.
 std::optional<std::vector<std::size_t>> corners_of(const topology::Model& model, FaceId face);
 
+/// The edges of a face's sides between corners; none where it has several loops or a corner bends inward.
+std::vector<std::vector<EdgeId>> sides_by_corners(const topology::Model& model, FaceId face);
+
+/// Length of some edges together [model length].
+double length_of(const topology::Model& model, const std::vector<EdgeId>& edges);
+
 /// The uses that start the four sides of a face; nothing when it has not four.
 std::optional<std::vector<std::size_t>> four_corners(const topology::Model& model, FaceId face);
 

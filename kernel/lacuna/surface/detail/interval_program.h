@@ -20,6 +20,9 @@ struct IntervalEquation {
     std::vector<std::size_t> one, other; ///< variables; one that stands twice counts twice
 };
 
+/// The least that is wanted of an edge, so that a sum has no pole. A choice, not a measurement.
+constexpr double kLeastWish = 0.1;
+
 /// A number of sides that is wanted over some variables together.
 struct IntervalWish {
     std::vector<std::size_t> variables;

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/ids.h>
+#include <lacuna/core/types.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <vector>
+
+/// Edges of both ends in one plane. Internal to this folder.
+namespace lacuna::surface {
+
+/// An edge in the plane, cut at nodes.
+struct FlatEdge {
+    EdgeId edge;
+    std::vector<Vec2> line;
+    std::vector<double> at; ///< share of the edge's length of each point of `line`
+    struct Cut {
+        double at;
+        std::size_t node;
+    };
+    std::vector<Cut> cuts; ///< both ends among them; in order after `sort()`
+
+    void sort()
+    {
+        std::stable_sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.at < b.at; });
+    }
+};
+
+/// The place of a polyline closest to a point.
+struct Closest {
+    double distance = std::numeric_limits<double>::infinity();
+    double at = 0; ///< share of the edge's length
+    Vec2 place = Vec2::Zero();
+};
+Closest closest_on(const std::vector<Vec2>& line, const std::vector<double>& at, const Vec2& p);
+
+/// Where two segments cross, as shares of both; none where they are parallel or miss each other.
+std::optional<Vec2> crossing(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
+
+} // namespace lacuna::surface

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/geometry/exact.h>
+
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+/// Curves made on exact surfaces. Internal to this folder.
+namespace lacuna::surface {
+
+/// A polyline on a face, lifted to its exact surface between its points.
+class SurfaceCurve : public geometry::ExactCurve {
+public:
+    SurfaceCurve(std::vector<Vec3> points, std::vector<Vec2> uv,
+                 std::shared_ptr<const geometry::ExactSurface> surface)
+        : points_(std::move(points)), uv_(std::move(uv)), surface_(std::move(surface))
+    {
+    }
+
+    /// A parameter is the number of a point and the share of the way to the next.
+    void evaluate(std::span<const double> params, std::span<Vec3> points,
+                  const RunContext& context) const override;
+
+private:
+    std::vector<Vec3> points_;
+    std::vector<Vec2> uv_;
+    std::shared_ptr<const geometry::ExactSurface> surface_;
+};
+
+} // namespace lacuna::surface
