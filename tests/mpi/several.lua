@@ -215,6 +215,63 @@ while kill -0 %s 2>/dev/null; do sleep 0.05; done]]):format(params.scratch, mpir
   check.equal(killed, 3, "nobody was killed while files were written")
 end
 
+-- A process that is killed, cancelled or runs out of room, whichever and whenever: nobody is left waiting,
+-- nothing of a file, and what went wrong is told once, with the name of the file.
+do
+  local script = path("broken.txt")
+  do
+    local file <close> = assert(io.open(script, "w"))
+    file:write([[
+# usage: sh broken.txt SIGNAL RANK SECONDS COMMAND …: sends one of the processes a signal
+signal=$1 rank=$2 seconds=$3; shift 3
+"$@" & started=$!
+sleep $seconds
+child=$(cat /proc/$started/task/$started/children | cut -d ' ' -f $((rank + 1)))
+test -n "$child" && kill -$signal $child && echo sent
+wait $started; echo "code $?"]])
+  end
+  local start = ("%s --oversubscribe --allow-run-as-root -q -n 3 "):format(params.mpirun)
+  local function broken(signal, rank, seconds)
+    local name = path("broken.vtk")
+    local command = ("timeout -k 5 120 sh %s %s %d %g %s %s %s output=%s layers=150 size=0.02 2> %s"):format(
+      script, signal, rank, seconds, start, params.lacuna, assembly, name, path("err.txt"))
+    local ran = io.popen(command)
+    local said = ran:read "a"
+    ran:close()
+    local what = ("%s to %d after %g s: %s%s"):format(signal, rank, seconds, said, bytes("err.txt"))
+    local code = tonumber(said:match "code (%d+)")
+    if code == 0 then os.remove(name) return false end -- it was done before
+    check.that(code, "it did not end; " .. what)
+    check.that(not bytes("broken.vtk"), what)
+    check.that(times(bytes("err.txt"), "lacuna:") <= 1, what)
+    return said:find "sent" ~= nil
+  end
+  local met = 0
+  for rank = 0, 2 do
+    for _, seconds in ipairs { 0.2, 0.6, 1.2 } do met = met + (broken("KILL", rank, seconds) and 1 or 0) end
+    met = met + (broken("INT", rank, 1) and 1 or 0)
+  end
+  check.that(met > 3, "nobody was met at work")
+
+  -- One of them may write 10 MB to a file, the others more.
+  local limited = path("limited.txt")
+  do
+    local file <close> = assert(io.open(limited, "w"))
+    file:write 'rank=$1; shift\ntest "$OMPI_COMM_WORLD_RANK" = "$rank" && ulimit -f 20480\nexec "$@"\n'
+  end
+  for rank = 0, 2 do
+    local command = ("timeout -k 5 120 %s sh %s %d %s %s output=%s layers=60 size=0.02 2> %s"):format(start,
+      limited, rank, params.lacuna, assembly, path("full.vtk"), path("err.txt"))
+    local _, _, code = os.execute(command)
+    local said = bytes("err.txt")
+    check.equal(code, 1, said)
+    check.equal(times(said, "cannot write '" .. path("full.vtk"):gsub("%p", "%%%0") .. "'"), 1, said)
+    check.equal(times(said, "io.write_failed"), 1, said)
+    check.that(rank == 0 or said:find("process " .. rank + 1 .. " of 3", 1, true), said)
+    check.that(not bytes("full.vtk"), said)
+  end
+end
+
 -- Nothing to share: the first does it, and says so.
 local code, out, err = run(3, recipe, "output=" .. path("mesh.msh"), "whole=true")
 check.equal(code, 0, err)

@@ -30,7 +30,8 @@ public:
                 meeting_.arrive_and_wait();
                 return all;
             };
-            team.open = [this, rank](const std::string& path) -> std::unique_ptr<SharedFile> {
+            team.open = [this, rank](const std::string& path,
+                                     const std::string&) -> std::unique_ptr<SharedFile> {
                 if (rank == broken) throw BackendError("test.broken", "the disk is gone");
                 if (rank == cancelled) throw Cancelled();
                 return std::make_unique<File>(path);

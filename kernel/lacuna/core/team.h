@@ -36,8 +36,9 @@ struct Team {
     bool one_machine = false; ///< all are on one: a file that one has open can be opened by the others
     /// What each has to say, by rank. All call it, and each waits until all have.
     std::function<std::vector<std::string>(std::string own)> exchange;
-    /// Open a file that is there. Each opens it for itself. @throw BackendError
-    std::function<std::unique_ptr<SharedFile>(const std::string& path)> open;
+    /// Open a file that is there. Each opens it for itself.
+    /// @param name  as a person knows it, for messages. @throw BackendError
+    std::function<std::unique_ptr<SharedFile>(const std::string& path, const std::string& name)> open;
 };
 
 /// Others who wait to be called.

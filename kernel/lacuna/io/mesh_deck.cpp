@@ -503,6 +503,29 @@ Deck deck_without_bulk(const mesh::HexMesh& mesh, const MeshDeckOptions& options
 
 namespace {
 
+/// Of each quad of each skin, whether another mesh has it too.
+/// @param rising  `rising(mesh, quad)`: its nodes as those of the whole, rising
+template <class Rising>
+std::vector<std::vector<char>> inner_quads(std::span<const mesh::HexMesh* const> meshes, const Rising& rising)
+{
+    struct Place {
+        Quad nodes;
+        std::size_t mesh, quad;
+    };
+    std::vector<Place> all;
+    std::vector<std::vector<char>> inner;
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        inner.emplace_back(meshes[m]->skin_count(), 0);
+        for (std::size_t i = 0; i < inner[m].size(); ++i) all.push_back({rising(m, i), m, i});
+    }
+    std::ranges::sort(all, {}, &Place::nodes);
+    for (std::size_t k = 1; k < all.size(); ++k) {
+        if (all[k].nodes != all[k - 1].nodes) continue;
+        for (const Place& place : {all[k - 1], all[k]}) inner[place.mesh][place.quad] = 1;
+    }
+    return inner;
+}
+
 /// Put several meshes into one deck.
 /// @param number  of a node of a mesh, from 0: `number(mesh, node)`
 /// @param fill    tells where nodes and cells of a mesh go: `fill(mesh, added)`
@@ -518,19 +541,17 @@ Deck deck_of_meshes(const Meshes& meshes, const Number& number, const Fill& fill
         std::sort(quad.begin(), quad.end());
         return quad;
     };
-    std::map<Quad, int> uses;
     const bool cells = has_skin_cells(options.format);
-    for (std::size_t m = 0; m < meshes.size(); ++m) {
-        for (std::size_t i = 0; cells && i < meshes[m]->skin_count(); ++i) ++uses[rising(m, i)];
-    }
+    std::vector<std::vector<char>> inner(meshes.size());
+    if (cells && !interfaces) inner = inner_quads(std::span(meshes), rising);
     std::map<Quad, DeckTag> skin_tags;
     std::map<std::string, Index> regions; // parts of one name are one region
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const mesh::HexMesh& mesh = *meshes[m];
-        AddedMesh added{.points = {}, .skin_cells = cells, .skin_tags = &skin_tags, .own_sets = 0};
+        AddedMesh added{.points = {}, .skin_cells = cells, .own_sets = 0};
+        if (interfaces) added.skin_tags = &skin_tags;
+        added.inner = std::move(inner[m]);
         fill(m, added);
-        for (std::size_t i = 0; cells && !interfaces && i < mesh.skin_count(); ++i)
-            added.inner.push_back(uses.at(rising(m, i)) > 1 ? 1 : 0);
         const std::string region = mesh.volume_groups.empty() ? "" : mesh.volume_groups.front();
         if (const auto known = regions.find(region); known != regions.end()) added.region = known->second;
         add_mesh(deck, mesh, added, options, context);

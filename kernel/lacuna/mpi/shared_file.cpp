@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <utility>
 
 namespace lacuna::mpi {
 namespace {
@@ -14,7 +15,7 @@ constexpr std::size_t kMostAtOnce = std::size_t(1) << 30;
 
 class File : public SharedFile {
 public:
-    explicit File(const std::string& path) : path_(path)
+    File(const std::string& path, std::string name) : name_(std::move(name))
     {
         // Each opens for itself: where one cannot, the others need not wait for it.
         check(MPI_File_open(MPI_COMM_SELF, path.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file_),
@@ -56,16 +57,19 @@ private:
     [[noreturn]] void fail(const std::string& why) const
     {
         throw BackendError("io.write_failed",
-                           "cannot write '" + path_ + "': " + why + ". Nothing was left behind");
+                           "cannot write '" + name_ + "': " + why + ". Nothing was left behind");
     }
 
-    std::string path_;
+    std::string name_;
     MPI_File file_ = MPI_FILE_NULL;
     std::mutex lock_;
 };
 
 } // namespace
 
-std::unique_ptr<SharedFile> open_shared(const std::string& path) { return std::make_unique<File>(path); }
+std::unique_ptr<SharedFile> open_shared(const std::string& path, const std::string& name)
+{
+    return std::make_unique<File>(path, name);
+}
 
 } // namespace lacuna::mpi
