@@ -85,7 +85,7 @@ ProvedSweep sweep_one_way(const OpenVolume& volume, const SourceSize& size, cons
         for (double& h : heights) h = 1 - h;
     }
     report_progress(context, "linking surfaces");
-    const std::vector<surface::LinkingSurface>& links = known.of(volume, context);
+    const std::vector<surface::LinkingSurface> links = known.of(volume, context);
     return can_turn_together(links) ? better_turning(volume, links, heights, size, options, outline, context)
                                     : sweep_between(volume, links, heights, size, options, outline, context);
 }
@@ -264,7 +264,7 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks
 
 Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {
-    KnownLinks links;
+    KnownLinks links(volume);
     if (asked.fallback != Fallback::wedges || asked.wedges) return sweep_once(volume, asked, links, context);
     std::exception_ptr why;
     std::string words;

@@ -5,28 +5,33 @@
 #include <lacuna/surface/linking_surface.h>
 #include <lacuna/topology/open_volume.h>
 
-#include <array>
 #include <optional>
 #include <vector>
 
 namespace lacuna::sweep {
 
-/// The linking surfaces of one volume, found once for either end it is swept from: whoever plans its layers
-/// asks for the same ones as each try of its sweep.
+/// The linking surfaces of one volume, found once: whoever plans its layers asks for the same ones as each
+/// try of its sweep.
 class KnownLinks {
 public:
-    /// @param volume  always the same one, or that one turned round.
+    /// @param volume  outlives this and stays where and as it is: linking surfaces refer to its model.
+    explicit KnownLinks(const topology::OpenVolume& volume) : volume_(volume) {}
+
+    /// @param volume  any; those of another one, as a copy that was turned round, are found each time.
     /// @throw  as `surface::linking_surfaces()`; nothing is kept then.
-    const std::vector<surface::LinkingSurface>& of(const topology::OpenVolume& volume,
-                                                   const RunContext& context)
+    std::vector<surface::LinkingSurface> of(const topology::OpenVolume& volume, const RunContext& context)
     {
-        std::optional<std::vector<surface::LinkingSurface>>& links = links_[volume.turned_round ? 1 : 0];
-        if (!links) links = surface::linking_surfaces(volume, surface::Turning::each, {}, context);
-        return *links;
+        const auto find = [&] {
+            return surface::linking_surfaces(volume, surface::Turning::each, {}, context);
+        };
+        if (&volume != &volume_) return find();
+        if (!links_) links_ = find();
+        return *links_;
     }
 
 private:
-    std::array<std::optional<std::vector<surface::LinkingSurface>>, 2> links_;
+    const topology::OpenVolume& volume_;
+    std::optional<std::vector<surface::LinkingSurface>> links_;
 };
 
 } // namespace lacuna::sweep
