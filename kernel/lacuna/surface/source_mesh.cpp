@@ -18,6 +18,17 @@ using namespace topology;
 
 namespace {
 
+/// Shares of a piece at its nodes as a use of the edge meets them, from 0, below 1.
+std::vector<double> shares_of(const SeedPiece& piece, bool reversed)
+{
+    std::vector<double> shares = piece.fractions();
+    for (double& f : shares) f = (f - piece.from) / (piece.to - piece.from);
+    if (!reversed) return shares;
+    std::vector<double> back{0};
+    for (std::size_t i = shares.size(); i-- > 1;) back.push_back(1 - shares[i]);
+    return back;
+}
+
 class SourceMesher {
 public:
     SourceMesher(const OpenVolume& volume, std::span<const LinkingSurface> links, const Seeds& seeds,
@@ -97,17 +108,7 @@ private:
 
     void add_link(const LinkingSurface& link)
     {
-        std::vector<std::vector<double>> shares;
-        for (const RimSegment& segment : link.segments) {
-            const EdgeUse use = link.source.uses()[segment.use];
-            const double middle =
-                link.source.position((segment.source_from + segment.source_to) / 2).fraction;
-            const std::vector<SeedPiece>& pieces = seeds_.pieces.at(use.edge);
-            const auto piece = std::upper_bound(pieces.begin(), pieces.end(), middle,
-                                                [](double at, const SeedPiece& p) { return at < p.to; });
-            shares.push_back(shares_of(*piece, use.reversed));
-        }
-        LinkingNodes nodes = linking_nodes(link, shares);
+        LinkingNodes nodes = rim_nodes(link, seeds_);
         const auto first = static_cast<Index>(result_.quads.nodes.size());
         const std::vector<Vec3> points = link.source.points(nodes.source_at);
         for (const Vec3& p : points) add_node(p);
@@ -129,17 +130,6 @@ private:
         }
         result_.links.push_back(std::move(nodes));
         result_.first.push_back(first);
-    }
-
-    /// Shares of a piece at its nodes as a use of the edge meets them, from 0, below 1.
-    static std::vector<double> shares_of(const SeedPiece& piece, bool reversed)
-    {
-        std::vector<double> shares = piece.fractions();
-        for (double& f : shares) f = (f - piece.from) / (piece.to - piece.from);
-        if (!reversed) return shares;
-        std::vector<double> back{0};
-        for (std::size_t i = shares.size(); i-- > 1;) back.push_back(1 - shares[i]);
-        return back;
     }
 
     void add_edge(EdgeId edge)
@@ -362,6 +352,20 @@ private:
 };
 
 } // namespace
+
+LinkingNodes rim_nodes(const LinkingSurface& link, const Seeds& seeds)
+{
+    std::vector<std::vector<double>> shares;
+    for (const RimSegment& segment : link.segments) {
+        const EdgeUse use = link.source.uses()[segment.use];
+        const double middle = link.source.position((segment.source_from + segment.source_to) / 2).fraction;
+        const std::vector<SeedPiece>& pieces = seeds.pieces.at(use.edge);
+        const auto piece = std::upper_bound(pieces.begin(), pieces.end(), middle,
+                                            [](double at, const SeedPiece& p) { return at < p.to; });
+        shares.push_back(shares_of(*piece, use.reversed));
+    }
+    return linking_nodes(link, shares);
+}
 
 SourceMesh mesh_source(const OpenVolume& volume, std::span<const LinkingSurface> links, const Seeds& seeds,
                        const SizeFields& sizes, const quads::PlanarQuadMesher& mesher,

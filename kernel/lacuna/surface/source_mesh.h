@@ -25,6 +25,9 @@ struct SourceMesh {
     std::vector<std::string> notes;               ///< a line a face: how it was meshed
 };
 
+/// Rim nodes of a linking surface, by the seeds of its source's edges: those that `mesh_source()` gives it.
+LinkingNodes rim_nodes(const LinkingSurface& link, const Seeds& seeds);
+
 /// Mesh the source faces with quads by their seeds.
 ///
 /// Kept faces have their own quads, every node bit for bit. Mapped faces are meshed transfinitely in arc
