@@ -30,7 +30,7 @@ struct Chunk {
     std::string_view text;
     std::size_t begin, end;
     std::uint64_t offset; ///< in the file, where sizes are exact
-    /// Where sizes are exact, the bytes of them that are this chunk's: between [skip, skip + bytes) of text and
+    /// Where sizes are exact, the bytes of them that are this chunk's: [skip, skip + bytes) of text and
     /// records together. A record that two chunks meet in is filled for both.
     std::size_t skip = 0, bytes = 0;
 
