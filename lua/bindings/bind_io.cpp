@@ -353,9 +353,17 @@ void add_fields(const mesh::HexMesh& mesh, const Format& format, WriteArguments&
                 const RunContext& context)
 {
     if (format.is_deck || !arguments.with.empty()) return;
-    for (const quality::Metric metric : metrics_of(arguments))
-        arguments.msh.fields.push_back(
-            {quality::metric_name(metric), quality::metric_values(mesh, metric, context)});
+    for (const quality::Metric metric : metrics_of(arguments)) {
+        io::CellField& field = arguments.msh.fields.emplace_back();
+        field.name = quality::metric_name(metric);
+        // What every file has is made while another thread writes, and takes no memory.
+        if (metric == quality::Metric::scaled_jacobian && mesh.order() == 1)
+            field.make = [&mesh](std::span<const std::uint32_t> cells, double* out) {
+                quality::scaled_jacobians(mesh, cells, out);
+            };
+        else
+            field.values = quality::metric_values(mesh, metric, context);
+    }
 }
 
 /// mesh:write(path [, options])

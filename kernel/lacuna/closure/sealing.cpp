@@ -32,7 +32,7 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
     }
     if (made.empty()) return std::nullopt;
     // Of given faces, which may be fine, only facets beside void ones can be crossed by these.
-    const geometry::FacetTree all_made(model.points, made);
+    const geometry::FacetTree all_made(model.points, made, context);
     std::vector<std::vector<Triangle>> facets(model.faces.size());
     std::vector<geometry::FacetTree> trees(model.faces.size());
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
@@ -46,7 +46,7 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
                          box.extend(model.at(t[2]));
                          return !given || all_made.may_meet(box);
                      });
-        trees[f] = geometry::FacetTree(model.points, facets[f]);
+        trees[f] = geometry::FacetTree(model.points, facets[f], context);
     }
     const auto corners = [&](const Triangle& t) {
         return std::array<Vec3, 3>{model.at(t[0]), model.at(t[1]), model.at(t[2])};

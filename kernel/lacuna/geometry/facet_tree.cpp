@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/geometry/facet_tree.h>
 
+#include <lacuna/core/parallel.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,6 +21,8 @@ using Corners = std::array<Vec3, 3>;
 constexpr std::uint32_t kLeaf = 4;
 /// Subtrees of fewer triangles are made without a look at the context. A choice: a few milliseconds.
 constexpr std::uint32_t kPolled = 16384;
+/// Halves of fewer triangles are made on one thread: 1 ms. A choice.
+constexpr std::uint32_t kShared = 4096;
 /// The tree halves its triangles at each level, so 2^31 of them need at most 31 levels, and a walk down
 /// leaves one sibling a level behind.
 constexpr std::size_t kMaxDepth = 64;
@@ -98,6 +102,13 @@ void halve(std::span<Index> ids, std::span<const Vec3> centres)
     std::transform(keyed.begin(), keyed.end(), ids.begin(), [](const Keyed& k) { return k.id; });
 }
 
+/// Nodes over so many triangles.
+std::uint32_t node_count(std::uint32_t triangles)
+{
+    if (triangles <= kLeaf) return 1;
+    return 1 + node_count(triangles / 2) + node_count(triangles - triangles / 2);
+}
+
 FacetTree::Hit closest_on_sides(const Vec3& p, const Corners& c)
 {
     FacetTree::Hit best;
@@ -145,6 +156,17 @@ FacetTree::Hit closest_on_triangle(const Vec3& p, const Corners& c)
     return closest_on_sides(p, c);
 }
 
+/// What a tree is built from.
+struct FacetTree::Parts {
+    std::span<const Vec3> centre;
+    std::span<const Box> box;
+};
+
+FacetTree::FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles)
+    : FacetTree(points, triangles, RunContext{1, nullptr, {}, {}})
+{
+}
+
 FacetTree::FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles,
                      const RunContext& context)
 {
@@ -159,8 +181,8 @@ FacetTree::FacetTree(std::span<const Vec3> points, std::span<const Triangle> tri
     }
     id_.resize(count);
     std::iota(id_.begin(), id_.end(), Index{0});
-    node_.reserve(count);
-    build(0, count, centre, box, context);
+    node_.resize(node_count(count));
+    build({centre, box}, 0, 0, count, thread_count(context), context);
     check_cancelled(context);
     corner_.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -170,28 +192,39 @@ FacetTree::FacetTree(std::span<const Vec3> points, std::span<const Triangle> tri
     bounds_ = node_.front().box;
 }
 
-std::uint32_t FacetTree::build(std::uint32_t begin, std::uint32_t end, std::span<const Vec3> centre,
-                               std::span<const Box> box, const RunContext& context)
+/// The nodes over triangles [begin, end), from node `self` on; those of the lower half come before those of
+/// the upper. @return  the first node behind them.
+std::uint32_t FacetTree::build(const Parts& parts, std::uint32_t self, std::uint32_t begin, std::uint32_t end,
+                               int threads, const RunContext& context)
 {
     if (end - begin > kPolled) check_cancelled(context);
-    const auto self = static_cast<std::uint32_t>(node_.size());
-    Node node;
+    Node& node = node_[self];
     node.begin = begin;
     node.end = end;
     const std::span ids(id_.begin() + begin, end - begin);
     if (end - begin <= kLeaf) {
-        for (const Index id : ids) node.box.extend(box[index(id)]);
-        node_.push_back(node);
-        return self;
+        for (const Index id : ids) node.box.extend(parts.box[index(id)]);
+        return self + 1;
     }
-    node_.push_back(node);
-    halve(ids, centre);
+    halve(ids, parts.centre);
     const std::uint32_t middle = begin + (end - begin) / 2;
-    const std::uint32_t left = build(begin, middle, centre, box, context);
-    const std::uint32_t right = build(middle, end, centre, box, context);
-    node_[self].box = node_[left].box.merged(node_[right].box);
-    node_[self].right = right;
-    return self;
+    std::uint32_t behind = 0;
+    if (threads > 1 && end - begin > kShared) {
+        node.right = self + 1 + node_count(middle - begin);
+        RunContext two = context;
+        two.threads = 2;
+        parallel_for(two, 2, 1, [&](std::size_t half, std::size_t) {
+            if (half == 0)
+                build(parts, self + 1, begin, middle, (threads + 1) / 2, context);
+            else
+                behind = build(parts, node.right, middle, end, threads / 2, context);
+        });
+    } else {
+        node.right = build(parts, self + 1, begin, middle, 1, context);
+        behind = build(parts, node.right, middle, end, 1, context);
+    }
+    node.box = node_[self + 1].box.merged(node_[node.right].box);
+    return behind;
 }
 
 FacetTree::Hit FacetTree::closest(const Vec3& p) const

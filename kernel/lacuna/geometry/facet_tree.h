@@ -22,10 +22,11 @@ namespace lacuna::geometry {
 class FacetTree {
 public:
     FacetTree() = default;
+    /// On one thread.
     /// @pre every corner is an index into `points`. O(triangles log triangles).
-    /// @throw Cancelled
-    FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles,
-              const RunContext& context = {});
+    FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles);
+    /// On the context's threads; the same tree. @throw Cancelled
+    FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles, const RunContext& context);
 
     /// The place of the facets closest to a point.
     struct Hit {
@@ -74,8 +75,9 @@ private:
         std::uint32_t begin = 0, end = 0; ///< its triangles, in tree order
         std::uint32_t right = 0;          ///< its second child; the first is the next node; 0: a leaf
     };
-    std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::span<const Vec3> centre,
-                        std::span<const Eigen::AlignedBox3d> box, const RunContext& context);
+    struct Parts;
+    std::uint32_t build(const Parts& parts, std::uint32_t self, std::uint32_t begin, std::uint32_t end,
+                        int threads, const RunContext& context);
 
     /// Every facet met no further than `farthest`, which `visit` may lessen. @return false if `visit`
     /// stopped it.

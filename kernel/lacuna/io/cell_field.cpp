@@ -54,7 +54,7 @@ void check_fields(const mesh::HexMesh& mesh, const std::vector<CellField>& field
 {
     std::set<std::string> names;
     for (const CellField& field : fields) {
-        if (field.values.size() != mesh.cell_count())
+        if (!field.make && field.values.size() != mesh.cell_count())
             throw InvalidInput("io.field_size", "the cell field '" + field.name + "' has " +
                                                     std::to_string(field.values.size()) + " values for " +
                                                     std::to_string(mesh.cell_count()) + " cells");

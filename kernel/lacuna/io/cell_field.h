@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,9 @@ namespace lacuna::io {
 struct CellField {
     std::string name; ///< no quotes, no line ends
     std::vector<double> values;
+    /// Instead of them: puts the values of some cells, by their numbers, at `out`; the same each time. Called
+    /// while the file is written, by several threads at once.
+    std::function<void(std::span<const std::uint32_t> cells, double* out)> make{};
 };
 
 /// @throw InvalidInput  a field has not a value for every hexahedron, or no name that can be written,

@@ -363,15 +363,16 @@ void add_field(std::vector<Section>& sections, const MshContent& content, const 
     sections.push_back(
         {head(skin + cells), skin, bytes,
          [&content, &skin_cells, &field, put_value](std::size_t begin, std::size_t end, char* out) {
-             for (std::size_t i = begin; i < end; ++i)
-                 out = put_value(out, i + 1, field.behind_skin(content.skin[i], skin_cells[content.skin[i]]));
+             field.each_behind_skin(
+                 begin, end, skin_cells, [&](std::size_t i) { return std::size_t(content.skin[i]); },
+                 [&](std::size_t i, double value) { out = put_value(out, i + 1, value); });
              return out;
          }});
     sections.push_back(
         {{}, cells, bytes, [&field, kinds, skin, put_value](std::size_t begin, std::size_t end, char* out) {
-             FieldReader::Cursor at(field);
-             for (std::size_t i = begin; i < end; ++i)
-                 out = put_value(out, skin + 1 + i, at.cell(kinds.cell(i)));
+             field.each_cell(
+                 begin, end, [&](std::size_t i) { return kinds.cell(i); },
+                 [&](std::size_t i, double value) { out = put_value(out, skin + 1 + i, value); });
              return out;
          }});
     sections.push_back({binary ? "\n$EndElementData\n" : "$EndElementData\n", 0, 0, {}});

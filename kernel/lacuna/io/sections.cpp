@@ -30,8 +30,8 @@ struct Chunk {
     std::string_view text;
     std::size_t begin, end;
     std::uint64_t offset; ///< in the file, where sizes are exact
-    /// Where sizes are exact, the bytes of them that are this chunk's: between [skip, skip + bytes) of text
-    /// and records together. A record that two chunks meet in is filled for both.
+    /// Where sizes are exact, the bytes of them that are this chunk's: [skip, skip + bytes) of text and
+    /// records together. A record that two chunks meet in is filled for both.
     std::size_t skip = 0, bytes = 0;
 
     [[nodiscard]] std::size_t most_bytes() const
@@ -255,7 +255,7 @@ public:
                 [&](std::uint64_t offset, std::string_view bytes) { file.write_at(offset, bytes); }, stage,
                 context, nullptr);
         }
-        const std::unique_ptr<SharedFile> shared = team_->open(names_[f], shown_[f]);
+        const std::unique_ptr<SharedFile> shared = team_->open(names_[f]);
         write_sections(
             sections, sizes,
             [&](std::uint64_t offset, std::string_view bytes) { shared->write_at(offset, bytes); }, stage,
@@ -279,8 +279,6 @@ private:
         const std::string told = gather(team_, std::move(names).take()).front();
         Reader reader(told);
         names_.resize(paths.size());
-        shown_.clear();
-        for (const OutputPath& path : paths) shown_.push_back(path.text());
         for (std::string& name : names_) reader(name);
     }
 
@@ -300,7 +298,7 @@ private:
     }
 
     const Team* team_;
-    std::vector<std::string> names_, shown_; ///< to open files by, and as a person knows them
+    std::vector<std::string> names_;
 };
 
 } // namespace

@@ -126,15 +126,12 @@ struct Fields {
     char* put_values(const Cells& cells, const FieldReader& field, std::size_t begin, std::size_t end,
                      char* out, const PutValue& put_value) const
     {
-        FieldReader::Cursor at(field);
-        for (std::size_t i = begin; i < end; ++i) {
-            if (i < cells.solids()) {
-                out = put_value(out, at.cell(cells.whole_cell(cells.kinds.cell(i))));
-                continue;
-            }
-            const std::size_t quad = cells.whole_skin(cells.skin(i));
-            out = put_value(out, field.behind_skin(quad, skin_cells[quad]));
-        }
+        const auto put_one = [&](std::size_t, double value) { out = put_value(out, value); };
+        const std::size_t solids = std::clamp(cells.solids(), begin, end);
+        field.each_cell(
+            begin, solids, [&](std::size_t i) { return cells.whole_cell(cells.kinds.cell(i)); }, put_one);
+        field.each_behind_skin(
+            solids, end, skin_cells, [&](std::size_t i) { return cells.whole_skin(cells.skin(i)); }, put_one);
         return out;
     }
 };

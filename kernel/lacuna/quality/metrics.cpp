@@ -181,7 +181,22 @@ std::vector<MetricSummary> measure_all(const Cells& cells, std::span<const Metri
     return summaries;
 }
 
-/// Every written mesh carries the scaled Jacobian: a short way to it, without what other metrics need.
+/// Every written mesh carries the scaled Jacobian: a short way to it, without what other metrics need. Of the
+/// columns [begin, end), each cell's at its number.
+template <class Cells>
+void put_scaled_jacobians(const Cells& cells, std::size_t begin, std::size_t end, double* out)
+{
+    double scaled[kLanes];
+    for_each_batch<kLanes>(
+        cells, begin, end, [&](const CellBatch<kLanes>& batch, std::size_t first, int filled) {
+            evaluate_scaled(batch, scaled);
+            for_each_wedge(cells, first, filled, [&](int lane, const WedgeCorners& corners) {
+                scaled[lane] = evaluate_wedge(corners).scaled;
+            });
+            std::copy_n(scaled, filled, out + first);
+        });
+}
+
 template <class Cells>
 std::vector<double> scaled_jacobians(const Cells& cells, const RunContext& context)
 {
@@ -189,19 +204,25 @@ std::vector<double> scaled_jacobians(const Cells& cells, const RunContext& conte
     const std::size_t width = chunk_width(cells, kLanes);
     const std::size_t chunks = (cells.columns() + width - 1) / width;
     parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
-        double scaled[kLanes];
-        for_each_batch<kLanes>(cells, begin * width, std::min(end * width, cells.columns()),
-                               [&](const CellBatch<kLanes>& batch, std::size_t first, int filled) {
-                                   evaluate_scaled(batch, scaled);
-                                   for_each_wedge(cells, first, filled,
-                                                  [&](int lane, const WedgeCorners& corners) {
-                                                      scaled[lane] = evaluate_wedge(corners).scaled;
-                                                  });
-                                   std::copy_n(scaled, filled, result.data() + first);
-                               });
+        put_scaled_jacobians(cells, begin * width, std::min(end * width, cells.columns()), result.data());
     });
     return result;
 }
+
+/// Some cells of a swept mesh as a list.
+struct PickedCells {
+    SweptCells all;
+    std::span<const std::uint32_t> cells;
+    std::uint32_t width = static_cast<std::uint32_t>(all.columns());
+
+    [[nodiscard]] bool is_wedge(std::size_t column) const { return all.is_wedge(cells[column] % width); }
+    [[nodiscard]] std::size_t columns() const { return cells.size(); }
+    [[nodiscard]] std::size_t layers() const { return 1; }
+    [[nodiscard]] LevelCorners corners(std::size_t column, std::size_t layer) const
+    {
+        return all.corners(cells[column] % width, cells[column] / width + layer);
+    }
+};
 
 template <class Cells>
 std::vector<double> values_of(const Cells& cells, Metric metric, const RunContext& context)
@@ -258,6 +279,11 @@ std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, cons
         }
     });
     return values;
+}
+
+void scaled_jacobians(const mesh::HexMesh& mesh, std::span<const std::uint32_t> cells, double* out)
+{
+    put_scaled_jacobians(PickedCells{SweptCells{mesh}, cells}, 0, cells.size(), out);
 }
 
 std::vector<double> metric_values(std::span<const Vec3> nodes, std::span<const Hex> hexes, Metric metric,

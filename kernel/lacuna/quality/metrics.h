@@ -5,6 +5,7 @@
 #include <lacuna/mesh/hex_mesh.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -105,6 +106,10 @@ std::vector<MetricSummary> measure_metrics(std::span<const Vec3> nodes, std::spa
 std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, const RunContext& context = {});
 std::vector<double> metric_values(std::span<const Vec3> nodes, std::span<const Hex> hexes, Metric metric,
                                   const RunContext& context = {});
+
+/// The scaled Jacobian of some cells of a mesh of order 1, by their numbers, as `metric_values()` has it to
+/// the bit. On one thread. @pre  out has room for as many.
+void scaled_jacobians(const mesh::HexMesh& mesh, std::span<const std::uint32_t> cells, double* out);
 
 /// A line a metric: name, least, mean, largest, acceptable range, share of cells outside.
 std::string to_table(std::span<const MetricSummary> summaries);

@@ -127,7 +127,7 @@ public:
           quads_(quads.quads),
           side_(quads.side),
           shape_(std::move(shape)),
-          face_tree_(shape_.points, shape_.triangles),
+          face_tree_(shape_.points, shape_.triangles, context),
           sign_(sign),
           limit_(limit),
           context_(context)

@@ -85,7 +85,7 @@ ProvedSweep sweep_one_way(const OpenVolume& volume, const SourceSize& size, cons
         for (double& h : heights) h = 1 - h;
     }
     report_progress(context, "linking surfaces");
-    const std::vector<surface::LinkingSurface>& links = known.of(volume, context);
+    const std::vector<surface::LinkingSurface> links = known.of(volume, context);
     return can_turn_together(links) ? better_turning(volume, links, heights, size, options, outline, context)
                                     : sweep_between(volume, links, heights, size, options, outline, context);
 }

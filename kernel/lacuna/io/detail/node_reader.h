@@ -14,6 +14,7 @@
 #include <memory>
 #include <mutex>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -102,42 +103,69 @@ private:
 /// A number for every cell, held or made, and those of the cells behind the skin.
 class FieldReader {
 public:
-    explicit FieldReader(const CellField& field) : name_(field.name), values_(&field.values) {}
+    explicit FieldReader(const CellField& field)
+        : name_(field.name), values_(&field.values), make_(field.make)
+    {
+    }
     /// @param team  who shares the making of values for the skin
     FieldReader(const mesh::HexMesh& mesh, const LayeredField& field, const RunContext& context,
                 const Team* team);
 
     [[nodiscard]] const std::string& name() const { return name_; }
 
-    /// Reads cells near each other without asking for their layers each time; of one thread.
-    class Cursor {
-    public:
-        explicit Cursor(const FieldReader& reader) : reader_(reader) {}
-        [[nodiscard]] double cell(std::size_t c)
-        {
-            if (!reader_.cache_) return (*reader_.values_)[c];
-            if (!part_ || c / reader_.step_ != number_) {
-                number_ = c / reader_.step_;
-                part_ = reader_.cache_->part(number_);
-            }
-            return (*part_)[c - number_ * reader_.step_];
-        }
-
-    private:
-        const FieldReader& reader_;
-        LayerCache<double>::Values part_;
-        std::size_t number_ = 0;
-    };
-
-    /// Of the cell behind quad `i` of the skin, whose number is `cell`.
-    [[nodiscard]] double behind_skin(std::size_t i, std::size_t cell) const
+    /// Call `visit(i, value)` for each i of [begin, end), with the value of cell `cell_of(i)`. For any
+    /// thread.
+    template <class CellOf, class Visit>
+    void each_cell(std::size_t begin, std::size_t end, const CellOf& cell_of, const Visit& visit) const
     {
-        return cache_ ? skin_[i] : (*values_)[cell];
+        if (make_) return each_made(begin, end, cell_of, visit);
+        LayerCache<double>::Values part; // cells near each other come without asking for their layers again
+        std::size_t number = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::size_t c = cell_of(i);
+            if (!cache_) {
+                visit(i, (*values_)[c]);
+                continue;
+            }
+            if (!part || c / step_ != number) {
+                number = c / step_;
+                part = cache_->part(number);
+            }
+            visit(i, (*part)[c - number * step_]);
+        }
+    }
+
+    /// The same for the cells behind quads `quad_of(i)` of the skin.
+    /// @param cells  what `cells_of_skin()` says
+    template <class QuadOf, class Visit>
+    void each_behind_skin(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& cells,
+                          const QuadOf& quad_of, const Visit& visit) const
+    {
+        if (!cache_)
+            return each_cell(
+                begin, end, [&](std::size_t i) { return std::size_t(cells[quad_of(i)]); }, visit);
+        for (std::size_t i = begin; i < end; ++i) visit(i, skin_[quad_of(i)]);
     }
 
 private:
+    template <class CellOf, class Visit>
+    void each_made(std::size_t begin, std::size_t end, const CellOf& cell_of, const Visit& visit) const
+    {
+        constexpr std::size_t kBlock = 1024; // stays in the first-level cache: a choice
+        std::array<std::uint32_t, kBlock> cells;
+        std::array<double, kBlock> values;
+        while (begin < end) {
+            const std::size_t count = std::min(kBlock, end - begin);
+            for (std::size_t k = 0; k < count; ++k) cells[k] = static_cast<std::uint32_t>(cell_of(begin + k));
+            make_(std::span<const std::uint32_t>(cells).first(count), values.data());
+            for (std::size_t k = 0; k < count; ++k) visit(begin + k, values[k]);
+            begin += count;
+        }
+    }
+
     std::string name_;
     const std::vector<double>* values_ = nullptr;
+    std::function<void(std::span<const std::uint32_t>, double*)> make_;
     std::shared_ptr<LayerCache<double>> cache_;
     std::size_t step_ = 0;     ///< cells of a part
     std::vector<double> skin_; ///< of each quad of the skin

@@ -6,34 +6,32 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace lacuna::sweep {
 
 /// The linking surfaces of one volume, found once: whoever plans its layers asks for the same ones as each
-/// try of its sweep. Those of the volume turned round are found when they are asked for: they refer to that
-/// volume, which lives no longer than a try.
+/// try of its sweep.
 class KnownLinks {
 public:
-    /// @param volume  outlives this.
+    /// @param volume  outlives this and stays where and as it is: linking surfaces refer to its model.
     explicit KnownLinks(const topology::OpenVolume& volume) : volume_(volume) {}
 
-    /// @return  for as long as `way` lives and until the next call for another one that is not the volume.
+    /// @param volume  any; those of another one, as a copy that was turned round, are found each time.
     /// @throw  as `surface::linking_surfaces()`; nothing is kept then.
-    const std::vector<surface::LinkingSurface>& of(const topology::OpenVolume& way, const RunContext& context)
+    std::vector<surface::LinkingSurface> of(const topology::OpenVolume& volume, const RunContext& context)
     {
-        const bool own = &way == &volume_;
-        if (!own || !own_) {
-            auto found = surface::linking_surfaces(way, surface::Turning::each, {}, context);
-            (own ? own_ : other_) = std::move(found);
-        }
-        return own ? *own_ : *other_;
+        const auto find = [&] {
+            return surface::linking_surfaces(volume, surface::Turning::each, {}, context);
+        };
+        if (&volume != &volume_) return find();
+        if (!links_) links_ = find();
+        return *links_;
     }
 
 private:
     const topology::OpenVolume& volume_;
-    std::optional<std::vector<surface::LinkingSurface>> own_, other_;
+    std::optional<std::vector<surface::LinkingSurface>> links_;
 };
 
 } // namespace lacuna::sweep
