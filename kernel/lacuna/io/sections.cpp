@@ -255,7 +255,7 @@ public:
                 [&](std::uint64_t offset, std::string_view bytes) { file.write_at(offset, bytes); }, stage,
                 context, nullptr);
         }
-        const std::unique_ptr<SharedFile> shared = team_->open(names_[f]);
+        const std::unique_ptr<SharedFile> shared = team_->open(names_[f], shown_[f]);
         write_sections(
             sections, sizes,
             [&](std::uint64_t offset, std::string_view bytes) { shared->write_at(offset, bytes); }, stage,
@@ -279,6 +279,8 @@ private:
         const std::string told = gather(team_, std::move(names).take()).front();
         Reader reader(told);
         names_.resize(paths.size());
+        shown_.clear();
+        for (const OutputPath& path : paths) shown_.push_back(path.text());
         for (std::string& name : names_) reader(name);
     }
 
@@ -298,7 +300,7 @@ private:
     }
 
     const Team* team_;
-    std::vector<std::string> names_;
+    std::vector<std::string> names_, shown_; ///< to open files by, and as a person knows them
 };
 
 } // namespace

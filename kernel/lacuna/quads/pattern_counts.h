@@ -34,9 +34,9 @@ struct BoundarySegment {
 /// is taken at what closes from a few shares of the numbers wanted, and over numbers of rows.
 ///
 /// Of fewer than 200 quads, axes want what the size asked says and not one that changes slowly away from
-/// short sides; parts between other axes are looked at too; holes must find a place in the grid of their part,
-/// with lines between them; and where nothing else does that, segments get what a ring's may. A region with its
-/// middle on several axes gets numbers that all of them keep, rounded where no grid has such.
+/// short sides; parts between other axes are looked at too; holes must find a place in the grid of their
+/// part, with lines between them; and where nothing else does that, segments get what a ring's may. A region
+/// with its middle on several axes gets numbers that all of them keep, rounded where no grid has such.
 ///
 /// The equations of a loop have coefficients of 1 and -1, and no number is in two but of segments that turn.
 /// So the numbers wanted are rounded, and then changed by one, the cheapest first, until all equations hold.
