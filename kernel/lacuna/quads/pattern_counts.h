@@ -22,8 +22,9 @@ struct BoundarySegment {
 /// one way as back; about a hole as many on the outer loop as on that hole's. Fixed segments keep theirs. A
 /// ring is taken where both its loops so get sides 0.6 to 1.6 times as long as asked, those alike that repeat
 /// along a loop where that goes too. Where one side of a ring is narrow, its outer loop has two more for each
-/// row that it steps in there. Otherwise a ring's loops differ by a multiple of four, which rows with two
-/// places to change take up. Where none of that goes the lines are straight, and no segment that wants four
+/// row that it steps in there. A loop of many corners, alike all round, has a side for each of them, and the
+/// other as many, up to four times as many as asked. Otherwise a ring's loops differ by a multiple of four,
+/// which rows with two places to change take up. Where none of that goes the lines are straight, and no segment that wants four
 /// sides or more gets a quarter more or less.
 ///
 /// A symmetric region, whose mirrorings map segments onto segments, gets numbers that they do not change and
@@ -34,9 +35,9 @@ struct BoundarySegment {
 /// is taken at what closes from a few shares of the numbers wanted, and over numbers of rows.
 ///
 /// Of fewer than 200 quads, axes want what the size asked says and not one that changes slowly away from
-/// short sides; parts between other axes are looked at too; holes must find a place in the grid of their part,
-/// with lines between them; and where nothing else does that, segments get what a ring's may. A region with its
-/// middle on several axes gets numbers that all of them keep, rounded where no grid has such.
+/// short sides; parts between other axes are looked at too; holes must find a place in the grid of their
+/// part, with lines between them; and where nothing else does that, segments get what a ring's may. A region
+/// with its middle on several axes gets numbers that all of them keep, rounded where no grid has such.
 ///
 /// The equations of a loop have coefficients of 1 and -1, and no number is in two but of segments that turn.
 /// So the numbers wanted are rounded, and then changed by one, the cheapest first, until all equations hold.
