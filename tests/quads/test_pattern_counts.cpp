@@ -387,3 +387,40 @@ TEST_CASE("few quads of plates and flanges with holes are well shaped and nearly
     CHECK(symmetric >= all - 2);
     CHECK(good >= all - 2);
 }
+
+TEST_CASE("few quads about a bore with many teeth outside are mostly rings alone")
+{
+    std::mt19937 dice(31);
+    const auto roll = [&](double from, double to) {
+        return from + (to - from) * static_cast<double>(dice()) / static_cast<double>(std::mt19937::max());
+    };
+    int plain = 0, all = 0;
+    for (int n = 0; n < 8; ++n) {
+        CAPTURE(n);
+        const int teeth = 8 + 2 * n;
+        const double root = roll(0.75, 0.85), bore = roll(0.3, 0.4), pitch = 2 * kPi / teeth;
+        std::vector<Piece> rim;
+        for (int k = 0; k < teeth; ++k) {
+            const auto at = [&](double r, double part) {
+                const double turn = (k + part) * pitch;
+                return Vec2(r * std::cos(turn), r * std::sin(turn));
+            };
+            rim.push_back(arc({0, 0}, root, k * pitch, (k + 0.4) * pitch));
+            rim.push_back(line(at(root, 0.4), at(1, 0.5)));
+            rim.push_back(arc({0, 0}, 1, (k + 0.5) * pitch, (k + 0.9) * pitch));
+            rim.push_back(line(at(1, 0.9), at(root, 1)));
+        }
+        const std::vector<std::vector<Piece>> loops{rim, round({0, 0}, bore, true)};
+        const double asked = roll(6, 10) * teeth;
+        CAPTURE(asked);
+        const Seeded made = seed_with_counts(loops, std::sqrt(area_of(loops) / asked));
+        const quads::PlanarQuads mesh = quads::pave(made.region).mesh;
+        CAPTURE(mesh.how);
+        CHECK(quads::find_fault(mesh, made.region) == "");
+        const quads::PlaneQuality quality = quads::measure_plane(mesh, made.region);
+        ++all;
+        plain += quality.irregular == 0 && quality.min_scaled_jacobian > 0.8 ? 1 : 0;
+    }
+    MESSAGE(plain << " of " << all << " gears have rings alone");
+    CHECK(plain >= all - 3);
+}

@@ -22,9 +22,10 @@ struct BoundarySegment {
 /// one way as back; about a hole as many on the outer loop as on that hole's. Fixed segments keep theirs. A
 /// ring is taken where both its loops so get sides 0.6 to 1.6 times as long as asked, those alike that repeat
 /// along a loop where that goes too. Where one side of a ring is narrow, its outer loop has two more for each
-/// row that it steps in there. Otherwise a ring's loops differ by a multiple of four, which rows with two
-/// places to change take up. Where none of that goes the lines are straight, and no segment that wants four
-/// sides or more gets a quarter more or less.
+/// row that it steps in there. A loop of many corners, alike all round, has a side for each of them, and the
+/// other as many, up to four times as many as asked. Otherwise a ring's loops differ by a multiple of four,
+/// which rows with two places to change take up. Where none of that goes the lines are straight, and no
+/// segment that wants four sides or more gets a quarter more or less.
 ///
 /// A symmetric region, whose mirrorings map segments onto segments, gets numbers that they do not change and
 /// that leave a node on every axis they are about: those of its part between two axes, or on one side of the
