@@ -6,6 +6,7 @@
 #include <lacuna/io/deck_file.h>
 #include <lacuna/io/msh.h>
 #include <lacuna/io/vtk.h>
+#include <lacuna/quality/metrics.h>
 #include <lacuna/quality/quality.h>
 
 #include <doctest/doctest.h>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 using namespace lacuna;
 
@@ -94,5 +96,33 @@ TEST_CASE("hexahedra and wedges come back from every format, the skin's triangle
             io::write_deck(io::deck_of(mesh, {.format = format}), format, folder.file(name));
             check_deck(io::read_deck(folder.file(name)), mesh, format == io::DeckFormat::unv);
         }
+    }
+}
+
+TEST_CASE("the scaled Jacobian made as a file is written gives the bytes of one that was held")
+{
+    const mesh::HexMesh blocks = test::block({.columns = 31, .rows = 17, .layers = 5, .map = bent});
+    for (const mesh::HexMesh& mesh : {blocks, test::with_wedges(blocks, 3)}) {
+        CAPTURE(mesh.wedge_count());
+        const quality::Metric metric = quality::Metric::scaled_jacobian;
+        const io::CellField held{"scaled_jacobian", quality::metric_values(mesh, metric)};
+        io::CellField made{"scaled_jacobian", {}};
+        made.make = [&mesh](std::span<const std::uint32_t> cells, double* out) {
+            quality::scaled_jacobians(mesh, cells, out);
+        };
+        const test::Folder folder;
+        const auto bytes = [&](const io::CellField& field) {
+            std::vector<std::string> files;
+            for (const bool binary : {true, false}) {
+                io::write_msh(mesh, folder.file("a.msh"), {binary, 4.1, {field}});
+                files.push_back(test::bytes_of(folder.file("a.msh")));
+                io::write_vtk(mesh, folder.file("a.vtk"), {.binary = binary, .fields = {field}});
+                files.push_back(test::bytes_of(folder.file("a.vtk")));
+            }
+            io::write_vtu(mesh, folder.file("a.vtu"), {.fields = {field}});
+            files.push_back(test::bytes_of(folder.file("a.vtu")));
+            return files;
+        };
+        CHECK(bytes(held) == bytes(made));
     }
 }
