@@ -312,7 +312,7 @@ TEST_CASE("an end and a wall beside it may be missing: two flat faces meet in a 
 
 TEST_CASE("a groove without its ends and its mouth is closed by a flat face for each, whatever its section")
 {
-    // Outlines whose last side is the mouth.
+    // Outlines whose first side is the mouth.
     const std::vector<std::vector<Vec2>> sections{
         {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}},
         {{2, 1}, {-2, 1}, {-1, -1}, {1, -1}},
@@ -336,6 +336,32 @@ TEST_CASE("a groove without its ends and its mouth is closed by a flat face for 
             CHECK(closed_volume(reading) == doctest::Approx(groove.facet_volume).epsilon(1e-6));
             if (!reading.closure) continue;
             CHECK(reading.closure->void_faces.size() == 3);
+        }
+    }
+}
+
+TEST_CASE("a bent groove of slanted sides keeps its round mouth, with both ends and without one")
+{
+    // Outlines whose first side is the mouth, outside the bend or inside it.
+    const std::vector<std::vector<Vec2>> sections{
+        {{1, -2}, {1, 2}, {-1, 1}, {-1, -1}},
+        {{-1, 2}, {-1, -2}, {1, -1}, {1, 1}},
+        {{1, -1}, {1, 1}, {-1, 2}, {-1, -2}},
+    };
+    for (const std::vector<Vec2>& outline : sections) {
+        for (const double bend : {120.0, 180.0}) {
+            for (const bool target : {false, true}) {
+                const auto groove = test::prism({.height = 4 * bend * 3.141592653589793 / 180,
+                                                 .outline = outline,
+                                                 .levels = 48,
+                                                 .bend = bend,
+                                                 .drop = without(false, target, false, {0})});
+                CAPTURE(outline.front().transpose());
+                CAPTURE(bend);
+                CAPTURE(target);
+                const auto reading = closure::find_reading(groove.model, all_faces(groove.model));
+                CHECK(closed_volume(reading) == doctest::Approx(groove.facet_volume).epsilon(0.03));
+            }
         }
     }
 }

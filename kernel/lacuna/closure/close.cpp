@@ -354,7 +354,7 @@ public:
                 if (!first) first = error;
             }
         }
-        throw NotClosed(first->code(), first->what() + what_helps(match));
+        throw NotClosed(first->code(), first->what() + (options_.hints ? what_helps(match) : std::string()));
     }
 
     [[nodiscard]] OpenVolume take() { return std::move(sealed_); }

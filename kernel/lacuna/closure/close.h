@@ -38,6 +38,7 @@ struct CloseOptions {
     EdgeShape edge_shape = EdgeShape::automatic;
     std::vector<VoidEdge> void_edges{}; ///< given by hand, with those of the match that are not
     Cap cap = Cap::automatic;
+    bool hints = true; ///< whether a refusal says what would seal, which takes as long as sealing once more
 };
 
 /// What was added to seal the volume, and how.

@@ -17,6 +17,10 @@ namespace {
 
 /// A loop is flat where no point of it is further than this share of its length from its plane.
 constexpr double kFlatLoop = 1e-6;
+/// Sine of the angle up to which what a groove's sides do counts as parallel: facets of a prism are so but for
+/// rounding, those of the side of a bent groove are not. A choice, not a measurement.
+constexpr double kParallel = 0.02;
+
 std::vector<Vec3> points_of(const Model& model, const std::vector<EdgeUse>& uses)
 {
     std::vector<Vec3> points;
@@ -147,6 +151,45 @@ std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vect
     return ends;
 }
 
+/// The way a groove runs: that of the straight edges of its mouth, from end to end.
+/// @return  nothing where one is bent or they are not parallel.
+std::optional<Vec3> way_of(const Model& model, const Rim& rim, const std::vector<Run>& ends)
+{
+    const std::size_t uses = rim.uses.size();
+    std::optional<Vec3> way;
+    for (std::size_t r = 0; r < ends.size(); ++r) {
+        std::vector<EdgeUse> own;
+        const std::size_t next = ends[(r + 1) % ends.size()].first;
+        for (std::size_t at = ends[r].first + ends[r].count; at % uses != next; ++at)
+            own.push_back(rim.uses[at % uses]);
+        if (own.empty()) continue;
+        std::vector<Vec3> chain = points_of(model, own);
+        chain.push_back(model.at(model[use_to(model, own.back())].point));
+        if (turns(chain) > 0) continue; // across the mouth, where an end is given
+        const Vec3 along = (chain.back() - chain.front()).normalized();
+        if (way && way->cross(along).norm() > kParallel) return std::nullopt;
+        way = along;
+    }
+    return way;
+}
+
+/// Whether all faces that are not flat go along `way`. Beside a groove that is bent they do not: there the
+/// rim's long sides lie in planes of their own, and its ends are where the straight edges are.
+bool all_go_along(const Model& model, const Vec3& way)
+{
+    return std::ranges::all_of(all_faces(model), [&](FaceId face) {
+        std::vector<Vec3> normals;
+        for (const Triangle& t : model[face].triangles)
+            normals.push_back(
+                (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])).stableNormalized());
+        const bool along = std::ranges::all_of(
+            normals, [&](const Vec3& n) { return std::abs(n.dot(way)) <= kParallel; });
+        return along || std::ranges::all_of(normals, [&](const Vec3& n) {
+                   return n.cross(normals.front()).norm() <= kParallel;
+               });
+    });
+}
+
 /// A loop that is not flat as flat ones with straight void edges between them: two, or those of a groove's
 /// ends and of its mouth.
 std::optional<std::vector<FlatLoop>> split_flat(Model& model, const Rim& rim)
@@ -156,6 +199,8 @@ std::optional<std::vector<FlatLoop>> split_flat(Model& model, const Rim& rim)
     if (const auto half = half_run(run)) return cut_off(model, rim, {*half});
     const std::vector<Run> ends = groove_ends(model, rim, run);
     if (ends.size() < 2) return std::nullopt;
+    const std::optional<Vec3> way = way_of(model, rim, ends);
+    if (!way || !all_go_along(model, *way)) return std::nullopt;
     for (std::size_t r = 0; r < ends.size(); ++r) {
         const std::size_t next = r + 1 < ends.size() ? ends[r + 1].first : ends[0].first + rim.uses.size();
         if (ends[r].first + ends[r].count > next) return std::nullopt; // they go on past each other

@@ -83,7 +83,7 @@ std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunCont
         sealed.volume = open_volume(model, roles, context);
         if (!roles.source.empty() && !roles.target.empty() && !free_edges(sealed.volume).empty())
             sealed.match = matching::match(sealed.volume, {}, context);
-        sealed.closure = close(sealed.volume, sealed.match, {}, context);
+        sealed.closure = close(sealed.volume, sealed.match, {.hints = false}, context);
         sealed.enclosed = enclosed_volume(sealed.volume);
         return sealed;
     } catch (const InvalidInput&) {
