@@ -17,8 +17,8 @@ namespace {
 
 /// A loop is flat where no point of it is further than this share of its length from its plane.
 constexpr double kFlatLoop = 1e-6;
-/// Sine of the angle up to which what a groove's sides do counts as parallel: facets of a prism are so but for
-/// rounding, those of the side of a bent groove are not. A choice, not a measurement.
+/// Sine of the angle up to which what a groove's sides do counts as parallel: facets of a prism are so but
+/// for rounding, those of the side of a bent groove are not. A choice, not a measurement.
 constexpr double kParallel = 0.02;
 
 std::vector<Vec3> points_of(const Model& model, const std::vector<EdgeUse>& uses)
