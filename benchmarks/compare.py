@@ -225,12 +225,20 @@ def compare(case, peers, options, folder):
     return result
 
 
+def commit_here():
+    """The commit that lies here; empty where git is not installed or this is no clone."""
+    if not shutil.which("git"):
+        return ""
+    told = subprocess.run(["git", "-C", str(HERE), "rev-parse", "--short", "HEAD"], stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL, text=True)
+    return told.stdout.strip()
+
+
 def head_of(lacuna, runs):
     """What was measured, when and on what."""
     version = subprocess.run([lacuna, "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
-    commit = subprocess.run(["git", "-C", str(HERE), "rev-parse", "--short", "HEAD"], stdout=subprocess.PIPE, text=True)
     return {"date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"), "lacuna": version,
-            "commit": commit.stdout.strip(), "machine": platform.machine(), "cores": os.cpu_count(), "runs": runs,
+            "commit": commit_here(), "machine": platform.machine(), "cores": os.cpu_count(), "runs": runs,
             "load": round(os.getloadavg()[0], 1)}
 
 

@@ -15,6 +15,8 @@ import subprocess
 import sys
 import tempfile
 
+import compare
+
 HERE = pathlib.Path(__file__).resolve().parent
 SHAPES = "block,disc,plate,slot,ring,pipe,barrel,frame,twisted"
 
@@ -45,8 +47,7 @@ def main():
     lacuna = str(pathlib.Path(options.lacuna).resolve())
     day = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H%M%SZ")
     output = pathlib.Path(options.output or HERE / "results" / f"grow_{day}.jsonl")
-    commit = subprocess.run(["git", "-C", str(HERE), "rev-parse", "--short", "HEAD"], stdout=subprocess.PIPE,
-                            text=True).stdout.strip()
+    commit = compare.commit_here()
     failed = 0
     with output.open("w") as file:
         for shape in options.shapes.split(","):
