@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/predicates.h>
+#include <lacuna/topology/face_plane.h>
 
 #include <algorithm>
 #include <array>
@@ -186,12 +187,7 @@ std::vector<FaceId> floors_round(const OpenVolume& volume, const std::vector<Loo
                         goes_on = goes_on && uses[use.edge.index()].size() == 2;
                 }
             }
-            const auto in_plane = [&](const Triangle& t) {
-                return std::ranges::all_of(t, [&](Index p) {
-                    return std::abs(geometry::height(plane, model.at(p))) <= model.tolerance;
-                });
-            };
-            if (goes_on && around == loop.uses.size() && std::ranges::all_of(face.triangles, in_plane))
+            if (goes_on && around == loop.uses.size() && lies_in_plane(model, wall, plane))
                 floors.push_back(wall);
         }
     }

@@ -11,6 +11,7 @@
 #include <lacuna/geometry/predicates.h>
 #include <lacuna/geometry/triangulate.h>
 #include <lacuna/matching/match.h>
+#include <lacuna/topology/face_plane.h>
 #include <lacuna/topology/section.h>
 
 #include <algorithm>
@@ -290,19 +291,6 @@ private:
     PartedModel parted_;
     std::vector<SectionWalk> walks_;
 };
-
-/// The plane of a face all of whose points are on it.
-std::optional<geometry::Plane> plane_of(const Model& model, FaceId face)
-{
-    const Vec3 area = face_area_vector(model, face);
-    if (!(area.norm() > 0)) return std::nullopt;
-    const geometry::Plane plane = geometry::plane_across(face_centroid(model, face), area);
-    for (const Triangle& t : model[face].triangles) {
-        for (const Index p : t)
-            if (std::abs(geometry::height(plane, model.at(p))) > model.tolerance) return std::nullopt;
-    }
-    return plane;
-}
 
 /// A face of another model as a partition along edges of the volume.
 class EdgePartition {

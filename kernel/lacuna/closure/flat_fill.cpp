@@ -5,6 +5,7 @@
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
+#include <lacuna/topology/face_plane.h>
 
 #include <algorithm>
 #include <cmath>
@@ -67,20 +68,51 @@ struct Run {
     std::size_t first = 0, count = 0;
 };
 
+std::vector<EdgeUse> uses_of(const Rim& rim, const Run& run)
+{
+    std::vector<EdgeUse> uses;
+    for (std::size_t k = 0; k < run.count; ++k) uses.push_back(rim.uses[(run.first + k) % rim.uses.size()]);
+    return uses;
+}
+
+/// What of a loop lies between the r-th of some runs and the next. @pre they rise and do not overlap
+Run between(const Rim& rim, const std::vector<Run>& runs, std::size_t r)
+{
+    const std::size_t end = runs[r].first + runs[r].count;
+    const std::size_t next = r + 1 < runs.size() ? runs[r + 1].first : runs[0].first + rim.uses.size();
+    return {end, next - end};
+}
+
+/// Whether some rising runs of a loop go on past each other.
+bool overlap(const Rim& rim, const std::vector<Run>& runs)
+{
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        const std::size_t next = r + 1 < runs.size() ? runs[r + 1].first : runs[0].first + rim.uses.size();
+        if (runs[r].first + runs[r].count > next) return true;
+    }
+    return false;
+}
+
+/// The points along some uses that go on from each other, both ends included.
+std::vector<Vec3> chain_of(const Model& model, const std::vector<EdgeUse>& uses)
+{
+    std::vector<Vec3> chain = points_of(model, uses);
+    chain.push_back(model.at(model[use_to(model, uses.back())].point));
+    return chain;
+}
+
 /// Cut runs of uses off a loop by straight void edges. @return  each run's loop, then what is left.
 std::vector<FlatLoop> cut_off(Model& model, const Rim& rim, const std::vector<Run>& runs)
 {
-    const std::size_t uses = rim.uses.size();
     std::vector<FlatLoop> parts(runs.size() + 1);
-    std::size_t at = runs.front().first;
     for (std::size_t r = 0; r < runs.size(); ++r) {
-        for (std::size_t k = 0; k < runs[r].count; ++k, ++at) parts[r].uses.push_back(rim.uses[at % uses]);
+        parts[r].uses = uses_of(rim, runs[r]);
         const VertexId a = use_from(model, parts[r].uses.front()), b = use_to(model, parts[r].uses.back());
         const EdgeId edge = add_void_edge(model, a, b, {model[a].point, model[b].point});
         parts[r].uses.push_back({edge, true});
         parts.back().uses.push_back({edge, false});
-        const std::size_t next = r + 1 < runs.size() ? runs[r + 1].first : runs.front().first;
-        for (; at % uses != next; ++at) parts.back().uses.push_back(rim.uses[at % uses]);
+        const std::vector<EdgeUse> rest = uses_of(rim, between(rim, runs, r));
+        parts.back().uses.insert(parts.back().uses.end(), rest.begin(), rest.end());
     }
     return parts;
 }
@@ -108,15 +140,6 @@ std::vector<FaceId> faces_at_edges(const Model& model)
     return at;
 }
 
-/// Whether all facets of a face lie in a plane.
-bool lies_in(const Model& model, FaceId face, const geometry::Plane& plane)
-{
-    return std::ranges::all_of(model[face].triangles, [&](const Triangle& t) {
-        return std::ranges::all_of(
-            t, [&](Index p) { return std::abs(geometry::height(plane, model.at(p))) <= model.tolerance; });
-    });
-}
-
 /// How often an open chain of points changes its direction.
 std::size_t turns(const std::vector<Vec3>& chain)
 {
@@ -138,14 +161,12 @@ std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vect
     for (std::size_t i = 0; i < uses; ++i) {
         if (run[i] == 0 || run[i] == uses) continue;
         if (run[(i + uses - 1) % uses] > run[i]) continue; // part of a longer one
-        std::vector<EdgeUse> own;
-        for (std::size_t k = 0; k < run[i]; ++k) own.push_back(rim.uses[(i + k) % uses]);
-        std::vector<std::vector<Vec3>> points{points_of(model, own)};
-        points.front().push_back(model.at(model[use_to(model, own.back())].point));
+        const std::vector<EdgeUse> own = uses_of(rim, {i, run[i]});
+        const std::vector<std::vector<Vec3>> points{chain_of(model, own)};
         if (turns(points.front()) < 2) continue;
         const geometry::Plane plane = geometry::newell_plane(points);
         const bool given = std::ranges::all_of(
-            own, [&](const EdgeUse& use) { return lies_in(model, at[use.edge.index()], plane); });
+            own, [&](const EdgeUse& use) { return lies_in_plane(model, at[use.edge.index()], plane); });
         if (!given) ends.push_back({i, run[i]});
     }
     return ends;
@@ -155,16 +176,11 @@ std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vect
 /// @return  nothing where one is bent or they are not parallel.
 std::optional<Vec3> way_of(const Model& model, const Rim& rim, const std::vector<Run>& ends)
 {
-    const std::size_t uses = rim.uses.size();
     std::optional<Vec3> way;
     for (std::size_t r = 0; r < ends.size(); ++r) {
-        std::vector<EdgeUse> own;
-        const std::size_t next = ends[(r + 1) % ends.size()].first;
-        for (std::size_t at = ends[r].first + ends[r].count; at % uses != next; ++at)
-            own.push_back(rim.uses[at % uses]);
+        const std::vector<EdgeUse> own = uses_of(rim, between(rim, ends, r));
         if (own.empty()) continue;
-        std::vector<Vec3> chain = points_of(model, own);
-        chain.push_back(model.at(model[use_to(model, own.back())].point));
+        const std::vector<Vec3> chain = chain_of(model, own);
         if (turns(chain) > 0) continue; // across the mouth, where an end is given
         const Vec3 along = (chain.back() - chain.front()).normalized();
         if (way && way->cross(along).norm() > kParallel) return std::nullopt;
@@ -198,13 +214,9 @@ std::optional<std::vector<FlatLoop>> split_flat(Model& model, const Rim& rim)
     for (std::size_t i = 0; i < rim.uses.size(); ++i) run.push_back(flat_run(model, rim, i));
     if (const auto half = half_run(run)) return cut_off(model, rim, {*half});
     const std::vector<Run> ends = groove_ends(model, rim, run);
-    if (ends.size() < 2) return std::nullopt;
+    if (ends.size() < 2 || overlap(rim, ends)) return std::nullopt;
     const std::optional<Vec3> way = way_of(model, rim, ends);
     if (!way || !all_go_along(model, *way)) return std::nullopt;
-    for (std::size_t r = 0; r < ends.size(); ++r) {
-        const std::size_t next = r + 1 < ends.size() ? ends[r + 1].first : ends[0].first + rim.uses.size();
-        if (ends[r].first + ends[r].count > next) return std::nullopt; // they go on past each other
-    }
     std::vector<FlatLoop> parts = cut_off(model, rim, ends);
     if (!is_flat(model, {parts.back().uses})) return std::nullopt;
     return parts;

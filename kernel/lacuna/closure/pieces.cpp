@@ -7,6 +7,7 @@
 #include <lacuna/geometry/triangulate.h>
 #include <lacuna/geometry/union_find.h>
 #include <lacuna/topology/auto_roles.h>
+#include <lacuna/topology/face_plane.h>
 
 #include <algorithm>
 #include <cmath>
@@ -187,13 +188,9 @@ private:
         return turned(roles);
     }
 
-    [[nodiscard]] bool lies_in_plane(FaceId face) const
+    [[nodiscard]] bool lies_in_cut(FaceId face) const
     {
-        return parted_.plane && std::ranges::all_of(model_[face].triangles, [&](const Triangle& t) {
-                   return std::ranges::all_of(t, [&](Index p) {
-                       return std::abs(geometry::height(*parted_.plane, model_.at(p))) <= model_.tolerance;
-                   });
-               });
+        return parted_.plane && lies_in_plane(model_, face, *parted_.plane);
     }
 
     /// Of a piece with both ends, the one a flat cut across the sweep is part of: that which faces its way.
@@ -213,7 +210,7 @@ private:
     [[nodiscard]] bool goes_on(const std::vector<FaceId>& cut, const std::vector<FaceId>& end) const
     {
         return std::ranges::any_of(end,
-                                   [&](FaceId face) { return lies_in_plane(face) && touches(cut, {face}); });
+                                   [&](FaceId face) { return lies_in_cut(face) && touches(cut, {face}); });
     }
 
     /// Walls in the plane of a cut that is an end, as a shoulder it goes on from, are of that end.
@@ -221,7 +218,7 @@ private:
     {
         std::vector<FaceId> both = cut;
         for (const FaceId wall : walls)
-            if (lies_in_plane(wall)) both.push_back(wall);
+            if (lies_in_cut(wall)) both.push_back(wall);
         if (both.size() == cut.size()) return;
         for (const std::vector<FaceId>& end : connected_parts(model_, both)) {
             if (std::ranges::find(end, cut.front()) == end.end()) continue;

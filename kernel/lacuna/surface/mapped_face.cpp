@@ -7,6 +7,7 @@
 #include <lacuna/geometry/transfinite.h>
 #include <lacuna/quads/measure_plane.h>
 #include <lacuna/surface/edge_nodes.h>
+#include <lacuna/topology/face_plane.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <algorithm>
@@ -22,17 +23,6 @@ namespace {
 constexpr std::size_t kSamples = 24;
 /// Lines between two sides on which sizes are asked for. A choice, not a measurement.
 constexpr std::size_t kLines = 3;
-
-bool is_flat(const Model& model, FaceId face)
-{
-    if (model[face].kind == "plane") return true;
-    const Vec3 normal = face_area_vector(model, face).stableNormalized(), origin = face_centroid(model, face);
-    return std::all_of(model[face].triangles.begin(), model[face].triangles.end(), [&](const Triangle& t) {
-        return std::all_of(t.begin(), t.end(), [&](Index p) {
-            return std::abs((model.at(p) - origin).dot(normal)) <= model.tolerance;
-        });
-    });
-}
 
 /// Points of a side of the face, evenly spread by running length.
 std::vector<Vec3> side_points(const Model& model, const Loop& loop, std::size_t from, std::size_t to)
@@ -60,7 +50,7 @@ MappedFace::MappedFace(const Model& model, FaceId face, const std::vector<std::s
     std::reverse(side[2].begin(), side[2].end());
     std::reverse(side[3].begin(), side[3].end());
     points_ = geometry::transfinite(side[0], side[1], side[2], side[3]);
-    if (is_flat(model, face)) return;
+    if (model[face].kind == "plane" || plane_of(model, face)) return;
     // Facets are near enough for sizes and angles.
     const geometry::FacetTree tree(model.points, model[face].triangles);
     for (std::size_t j = 1; j < kSamples; ++j) {
