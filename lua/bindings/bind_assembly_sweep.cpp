@@ -41,22 +41,22 @@ void push_options_of(lua_State* L, int index, const Box<VolumeState>& volume)
 
 /// Refuse keys that are neither words nor volumes of the assembly, and keys of a volume's options that are no
 /// words.
-void check_volume_keys(lua_State* L, int index, const AssemblyState& assembly)
+void check_volume_keys(lua_State* L, int index, const char* call, const AssemblyState& assembly)
 {
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
         if (lua_type(L, -2) == LUA_TSTRING) continue;
         const Box<VolumeState>* const key = test_box<VolumeState>(L, -2);
         const auto is_key = [key](const AssemblyState::Entry& entry) { return entry.volume == *key; };
         if (key == nullptr || !*key || std::ranges::none_of(assembly.entries, is_key))
-            fail(L, "sweep: the keys of the options are words, or volumes of the assembly");
-        if (lua_type(L, -1) != LUA_TTABLE) fail_value(L, {"sweep", "[volume]"}, "a table of options", -1);
+            fail(L, "%s: the keys of the options are words, or volumes of the assembly", call);
+        if (lua_type(L, -1) != LUA_TTABLE) fail_value(L, {call, "[volume]"}, "a table of options", -1);
         const int own = lua_gettop(L);
         for (lua_pushnil(L); lua_next(L, own) != 0; lua_pop(L, 1)) {
             if (lua_type(L, -2) == LUA_TSTRING) continue;
             fail(L,
-                 "sweep: the keys of one volume's options are words; found a %s: give each volume's options "
+                 "%s: the keys of one volume's options are words; found a %s: give each volume's options "
                  "in the table of the whole",
-                 test_box<VolumeState>(L, -2) != nullptr ? "volume" : luaL_typename(L, -2));
+                 call, test_box<VolumeState>(L, -2) != nullptr ? "volume" : luaL_typename(L, -2));
         }
     }
 }
@@ -86,7 +86,7 @@ RunContext& push_swept(lua_State* L, int index, const char* call, bool layered, 
         lua_replace(L, index);
     }
     if (lua_type(L, index) != LUA_TTABLE) fail_value(L, {call, nullptr}, "a table of options", index);
-    check_volume_keys(L, index, assembly);
+    check_volume_keys(L, index, call, assembly);
     auto& arguments = temporary<std::vector<SweepArguments*>>(L);
     for (const AssemblyState::Entry& entry : assembly.entries) {
         if (!entry.volume) continue;
