@@ -254,19 +254,22 @@ private:
         }
         for (Index& n : result.near) n = number[index(n)];
         std::optional<Quad> triangle;
+        result.mesh.quads.reserve(mesh_.quads.size());
         for (std::size_t q = 0; q < mesh_.quads.size(); ++q) {
             if (std::find(gone.begin(), gone.end(), static_cast<Index>(q)) != gone.end()) continue;
-            std::vector<Index> corners;
+            Quad corners;
+            std::size_t count = 0;
             for (const Index n : mesh_.quads[q]) {
                 const Index own = number[index(to[index(n)])];
-                if (std::find(corners.begin(), corners.end(), own) == corners.end()) corners.push_back(own);
+                const auto end = corners.begin() + static_cast<std::ptrdiff_t>(count);
+                if (std::find(corners.begin(), end, own) == end) corners[count++] = own;
             }
             const bool is_last = static_cast<Index>(q) == last;
-            if (corners.size() != (is_last ? 3 : 4)) return std::nullopt;
+            if (count != (is_last ? 3 : 4)) return std::nullopt;
             if (is_last)
                 triangle = Quad{corners[0], corners[1], corners[2], corners[2]};
             else
-                result.mesh.quads.push_back({corners[0], corners[1], corners[2], corners[3]});
+                result.mesh.quads.push_back(corners);
         }
         result.mesh.quads.push_back(*triangle);
         result.mesh.how = mesh_.how;

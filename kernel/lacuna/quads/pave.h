@@ -53,6 +53,10 @@ struct Paved {
 /// Discs and rings are tried as a whole first. Symmetric quads of a symmetric region are made so to rounding
 /// (`symmetrise()`), up to 20,000.
 ///
+/// More than 20,000 are made of a quarter as many, over every other boundary node, each cut in four. That
+/// takes every loop to have an even number of nodes and to turn by 20° at most at those left out; where half
+/// of all is an odd number, a triangle is cut in three.
+///
 /// Up to 4000 quads are made several times, with and without rows and by several weightings of the cuts, and
 /// the best by measure is kept. Below about 1500 they are made three times without rows, by weightings of
 /// their own, and once with rows. The two that begin with the fewest irregular nodes are cleaned and

@@ -3,6 +3,7 @@
 
 #include <lacuna/quads/detail/marks.h>
 #include <lacuna/quads/detail/mirror_counts.h>
+#include <lacuna/quads/detail/pave_coarse.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/row_heights.h>
 #include <lacuna/quads/face_pattern.h>
@@ -23,6 +24,9 @@ namespace {
 /// Up to this many quads a region is paved in several ways: for 3000 that takes 0.5 s at most, measured on
 /// the named outlines.
 constexpr std::size_t kSmall = 4000;
+/// More quads take long, and nobody looks at them one by one: no symmetry is kept, and those of a region of
+/// half the nodes are cut in four. A choice, not a measurement.
+constexpr double kMostSymmetric = 20'000;
 /// Quads made in all with every row of weights: some eight meshes of a region of kSmall. Where the worst quad
 /// stays poor the outline is the cause more than the cuts, and less is spent. Choices, not measurements.
 constexpr std::size_t kMostMade = 30'000, kMostMadePoor = 6000;
@@ -198,6 +202,17 @@ bool is_good_part(const Attempt& attempt, const PlanarRegion& region,
            (few || quality.size_share() > kSizes) && has_quads_asked(attempt.mesh, asked);
 }
 
+/// Whether quads of a coarser mesh, cut in four, are so good that nothing else need be tried.
+bool is_good_cut(const Attempt& attempt, const PlanarRegion& region)
+{
+    // Choices, not measurements.
+    constexpr double kGood = 0.65, kMean = 0.97, kSizes = 0.95;
+    if (attempt.worst < kGood || !find_fault(attempt.mesh, region).empty()) return false;
+    const PlaneQuality quality = measure_plane(attempt.mesh, region);
+    return quality.min_scaled_jacobian > kGood && quality.mean_scaled_jacobian > kMean &&
+           quality.size_share() > kSizes && has_quads_asked(attempt.mesh, region.size);
+}
+
 } // namespace
 
 std::span<const CutWeights> cut_weight_rows() { return kCutWeights; }
@@ -292,8 +307,6 @@ void AttemptChooser::try_grids()
         consider(std::move(grids[0]));
         return;
     }
-    // More quads take long, and nobody looks at them one by one. A choice, not a measurement.
-    constexpr double kMostSymmetric = 20'000;
     const std::optional<MirrorPart> part = cut_ && quads_within(region_) < kMostSymmetric ? part_of_region()
                                                                                           : std::nullopt;
     // Grids of discs, or about the only hole, in the middle, have more symmetries by themselves.
@@ -331,6 +344,21 @@ void AttemptChooser::try_grids()
     }
     if (is_good_grid_) return;
     for (Attempt& grid : grids) consider(std::move(grid));
+}
+
+bool AttemptChooser::try_coarse()
+{
+    if (!cut_ || !options_.clean || !options_.smooth || quads_within(region_) < kMostSymmetric) return false;
+    std::optional<Paved> paved = pave_in_four(region_, options_, setting_.size, context_);
+    if (!paved) return false;
+    Attempt attempt{std::move(paved->mesh), std::move(paved->report)};
+    judge(attempt);
+    is_good_grid_ = is_good_cut(attempt, judged_);
+    if (is_good_grid_)
+        best_ = std::move(attempt);
+    else
+        consider(std::move(attempt));
+    return is_good_grid_;
 }
 
 bool AttemptChooser::try_part(const MirrorPart& part, bool few, std::vector<Attempt>& grids)
@@ -461,7 +489,7 @@ void AttemptChooser::try_few_weights()
 void AttemptChooser::try_default_weights()
 {
     if (options_.grids) try_grids();
-    if (is_good_grid_) return;
+    if (is_good_grid_ || try_coarse()) return;
     if (is_few_) {
         try_few_weights();
         if (best_.worst > kPoor) return;

@@ -48,6 +48,9 @@ private:
     /// The grid of a region of right angles; unless that is good, images of a part between mirror axes and
     /// the grids of `fill_patterns()`, whichever are likelier to be good first.
     void try_grids();
+    /// Keep quads of a coarser region, each cut in four, where they are good.
+    /// @return whether nothing else need be tried.
+    bool try_coarse();
     /// Keep images of a part about a block in the middle, where they are good and score no less than what is
     /// kept already. @return whether they were kept
     bool try_blocks();

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "support/plane_domains.h"
+
+#include <lacuna/quads/detail/pave_coarse.h>
+#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/odd_region.h>
+#include <lacuna/quads/pave.h>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+using namespace lacuna;
+using namespace lacuna::quads;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// A round loop of so many nodes; clockwise where it is a hole.
+void add_round(PlanarRegion& region, const Vec2& centre, double radius, int nodes)
+{
+    const double way = region.loops.empty() ? 1 : -1;
+    std::vector<Index>& loop = region.loops.emplace_back();
+    for (int i = 0; i < nodes; ++i) {
+        const double angle = way * 2 * kPi * i / nodes;
+        loop.push_back(static_cast<Index>(region.points.size()));
+        region.points.push_back(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
+    }
+}
+
+/// A disc with holes, whose nodes lie `size` apart; the holes have even numbers of nodes.
+PlanarRegion disc_with_holes(int outer, const std::vector<int>& holes)
+{
+    PlanarRegion region;
+    add_round(region, Vec2::Zero(), 1, outer);
+    const double size = 2 * kPi / outer;
+    for (std::size_t h = 0; h < holes.size(); ++h) {
+        const double angle = 2.4 * static_cast<double>(h);
+        add_round(region, 0.5 * Vec2(std::cos(angle), std::sin(angle)), size * holes[h] / (2 * kPi),
+                  holes[h]);
+    }
+    region.size = [size](const Vec2&) { return size; };
+    return region;
+}
+
+std::size_t sides_of(const PlanarRegion& region)
+{
+    std::size_t sides = 0;
+    for (const auto& loop : region.loops) sides += loop.size();
+    return sides;
+}
+
+PlanarQuads paved(const PlanarRegion& region, const RunContext& context = {})
+{
+    return pave(region, {}, context).mesh;
+}
+
+} // namespace
+
+TEST_CASE("a coarse region has every other node of every loop, whatever loops there are")
+{
+    for (const int outer : {200, 202, 260}) {
+        for (const std::vector<int>& holes : {std::vector<int>{}, {40}, {40, 42}, {38, 36, 50}}) {
+            CAPTURE(outer);
+            CAPTURE(holes.size());
+            const PlanarRegion region = disc_with_holes(outer, holes);
+            const auto coarse = paving::coarse_region(region);
+            REQUIRE(coarse);
+            CHECK(2 * sides_of(coarse->region) == sides_of(region));
+            for (std::size_t p = 0; p < coarse->own.size(); ++p) {
+                CHECK(coarse->region.points[p] == region.points[index(coarse->own[p])]);
+                CHECK(coarse->next[p] != coarse->own[p]);
+            }
+            CHECK(coarse->region.size(Vec2::Zero()) == doctest::Approx(2 * region.size(Vec2::Zero())));
+        }
+    }
+}
+
+TEST_CASE("no region is made coarse that would lose a corner or half a side")
+{
+    PlanarRegion odd = disc_with_holes(201, {});
+    CHECK_FALSE(paving::coarse_region(odd));
+    PlanarRegion small = disc_with_holes(200, {12});
+    CHECK_FALSE(paving::coarse_region(small));
+    // A square with an odd number of sides along each edge: corners at even and odd places.
+    PlanarRegion square;
+    square.loops.emplace_back();
+    const Vec2 corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (std::size_t c = 0; c < 4; ++c) {
+        for (int k = 0; k < 25; ++k) {
+            square.loops[0].push_back(static_cast<Index>(square.points.size()));
+            square.points.push_back(corners[c] + (corners[(c + 1) % 4] - corners[c]) * (k / 25.0));
+        }
+    }
+    CHECK_FALSE(paving::coarse_region(square));
+}
+
+TEST_CASE("quads cut in four keep all boundary nodes, and are four for a quad and three for a triangle")
+{
+    for (const int outer : {120, 122, 160}) {
+        for (const std::vector<int>& holes : {std::vector<int>{}, {36}, {38, 36}}) {
+            CAPTURE(outer);
+            CAPTURE(holes.size());
+            const PlanarRegion region = disc_with_holes(outer, holes);
+            const auto coarse = paving::coarse_region(region);
+            REQUIRE(coarse);
+            const bool odd = sides_of(coarse->region) % 2 != 0;
+            const PlanarQuads filled = fill_odd_region(coarse->region, paved);
+            const PlanarQuads fine = paving::cut_in_four(region, *coarse, filled);
+            CHECK(fine.quads.size() == 4 * filled.quads.size() - (odd ? 1 : 0));
+            CHECK(find_fault(fine, region) == "");
+            for (std::size_t p = 0; p < region.points.size(); ++p) CHECK(fine.points[p] == region.points[p]);
+        }
+    }
+}
+
+TEST_CASE("many quads are as good as fewer, with hardly more irregular nodes")
+{
+    for (const std::string name : {"disc", "plate", "flange", "slot"}) {
+        CAPTURE(name);
+        const auto few = test::seed_domain(test::plane_domain(name), 12'000);
+        const auto many = test::seed_domain(test::plane_domain(name), 40'000);
+        const PlanarQuads small = paved(few.region), large = paved(many.region);
+        CHECK(find_fault(large, many.region) == "");
+        const PlaneQuality before = measure_plane(small, few.region),
+                           after = measure_plane(large, many.region);
+        CHECK(after.min_scaled_jacobian > 0.7);
+        CHECK(after.mean_scaled_jacobian > 0.97);
+        CHECK(after.size_share() > 0.95);
+        CHECK(after.irregular < 2 * before.irregular + 40);
+        CHECK(large.how.find("cut in four") != std::string::npos);
+    }
+}
