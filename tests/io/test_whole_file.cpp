@@ -2,6 +2,7 @@
 #include "folder.h"
 #include "support/blocks.h"
 
+#include <lacuna/core/parallel.h>
 #include <lacuna/io/msh.h>
 #include <lacuna/io/whole_file.h>
 
@@ -60,6 +61,35 @@ TEST_CASE("room that was taken before is filled in any order")
         file.commit();
     }
     CHECK(test::bytes_of(path) == "one andtwo");
+}
+
+TEST_CASE("a file that does not stay in the system's memory has the same bytes, by one thread and by two")
+{
+    const test::Folder folder;
+    std::string whole(3'000'000, ' ');
+    for (std::size_t i = 0; i < whole.size(); ++i) whole[i] = static_cast<char>((i * i) >> 3);
+    for (const std::size_t cached : {0, 1'000'000, 5'000'000}) {
+        for (const bool reserved : {true, false}) {
+            for (const int threads : {1, 2}) {
+                CAPTURE(cached);
+                const std::string path = folder.file("a.bin");
+                io::WholeFile file(path);
+                file.cache_up_to(cached);
+                if (reserved) file.reserve(0, whole.size());
+                RunContext context;
+                context.threads = threads;
+                constexpr std::size_t kPiece = 70'001; // pieces meet within pages
+                parallel_for(context, (whole.size() + kPiece - 1) / kPiece, 1,
+                             [&](std::size_t begin, std::size_t end) {
+                                 for (std::size_t p = begin; p < end; ++p)
+                                     file.write_at(p * kPiece,
+                                                   std::string_view(whole).substr(p * kPiece, kPiece));
+                             });
+                file.commit();
+                CHECK(test::bytes_of(path) == whole);
+            }
+        }
+    }
 }
 
 TEST_CASE("places that cannot be written to are told apart")

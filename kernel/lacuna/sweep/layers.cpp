@@ -94,27 +94,42 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
     const double low_size = radius(low);
     const double side_by_radius = low_size > 0 ? shortest_side(source_.quads, source_.nodes) / low_size : 0;
 
-    bool exact = true;
-    for (int l = 1; l < columns_.layers; ++l) {
-        const double height = heights[static_cast<std::size_t>(l)];
-        const std::span<const Vec3> rim = columns_.row(l);
-        const Vec3 area = rim_area(rim, sides);
-        const double size = radius(rim);
-        const double negligible = kNegligible * side_by_radius * size;
-        const geometry::AffineFit up = from_source.fit(rim, area, negligible);
-        const geometry::AffineFit down = from_target.fit(rim, area, negligible);
-        maps_.push_back({(1 - height) * up.linear, height * down.linear,
-                         (1 - height) * (up.to_centre - up.linear * up.from_centre) +
-                             height * (down.to_centre - down.linear * down.from_centre)});
-        for (std::size_t k = 0; k < rim.size(); ++k) {
-            residuals_.push_back(rim[k] - (1 - height) * up(low[k]) - height * down(high[k]));
-            const double residual = residuals_.back().norm();
-            exact = exact && residual <= negligible;
-            if (residual > residual_) {
-                residual_ = residual;
-                size_ = 2 * size;
+    const auto inner = static_cast<std::size_t>(std::max(columns_.layers - 1, 0));
+    maps_.resize(inner);
+    residuals_.resize(inner * low.size());
+    struct Fitted {
+        double residual = 0, size = 0;
+        bool exact = true;
+    };
+    std::vector<Fitted> fitted(inner);
+    parallel_for(context, inner, 4, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const double height = heights[i + 1];
+            const std::span<const Vec3> rim = columns_.row(static_cast<int>(i) + 1);
+            const Vec3 area = rim_area(rim, sides);
+            const double size = radius(rim);
+            const double negligible = kNegligible * side_by_radius * size;
+            const geometry::AffineFit up = from_source.fit(rim, area, negligible);
+            const geometry::AffineFit down = from_target.fit(rim, area, negligible);
+            maps_[i] = {(1 - height) * up.linear, height * down.linear,
+                        (1 - height) * (up.to_centre - up.linear * up.from_centre) +
+                            height * (down.to_centre - down.linear * down.from_centre)};
+            fitted[i].size = size;
+            for (std::size_t k = 0; k < rim.size(); ++k) {
+                Vec3& residual = residuals_[i * rim.size() + k];
+                residual = rim[k] - (1 - height) * up(low[k]) - height * down(high[k]);
+                const double length = residual.norm();
+                fitted[i].exact = fitted[i].exact && length <= negligible;
+                fitted[i].residual = std::max(fitted[i].residual, length);
             }
         }
+    });
+    bool exact = true;
+    for (const Fitted& layer : fitted) {
+        exact = exact && layer.exact;
+        if (layer.residual <= residual_) continue;
+        residual_ = layer.residual;
+        size_ = 2 * layer.size;
     }
     if (!exact) placement_ = Placement::fitted;
     if (exact || !options.spread_residual) {
@@ -132,12 +147,12 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
 void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunContext& context) const
 {
     const std::size_t nodes = source_.nodes.size();
-    const std::size_t rim = columns_.rim.size();
+    const auto at = [&](int l) { return out.data() + static_cast<std::size_t>(l - first) * nodes; };
     // A chunk of both ends is 24 kB, which stays in the nearest cache while all its layers are written.
     constexpr std::size_t kChunk = 512;
-    parallel_for(context, nodes, kChunk, [&](std::size_t begin, std::size_t end) {
-        for (int l = first; l < last; ++l) {
-            Vec3* layer = out.data() + static_cast<std::size_t>(l - first) * nodes;
+    const auto move = [&](int low, int high, std::size_t begin, std::size_t end) {
+        for (int l = low; l < high; ++l) {
+            Vec3* layer = at(l);
             if (l == 0) {
                 std::copy(source_.nodes.begin() + static_cast<std::ptrdiff_t>(begin),
                           source_.nodes.begin() + static_cast<std::ptrdiff_t>(end), layer + begin);
@@ -151,22 +166,42 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
                 }
             }
         }
+    };
+    const auto finish = [&](int low, int high, const RunContext& own) {
+        const std::size_t rim = columns_.rim.size();
+        const int low_inner = std::max(low, 1), high_inner = std::min(high, columns_.layers);
+        if (spread_ && low_inner < high_inner) {
+            const auto count = static_cast<std::size_t>(high_inner - low_inner);
+            const std::span<const Vec3> values{
+                residuals_.data() + static_cast<std::size_t>(low_inner - 1) * rim, count * rim};
+            spread_->add(values, count, at(low_inner), nodes, own);
+        }
+        for (int l = low; l < high; ++l) {
+            const std::span<const Vec3> row = columns_.row(l);
+            Vec3* layer = at(l);
+            for (std::size_t k = 0; k < rim; ++k) layer[columns_.rim[k]] = row[k];
+        }
+    };
+    const int groups = (last - first + HarmonicSpread::kFields - 1) / HarmonicSpread::kFields;
+    if (!spread_ || groups < thread_count(context)) {
+        parallel_for(context, nodes, kChunk,
+                     [&](std::size_t begin, std::size_t end) { move(first, last, begin, end); });
+        finish(first, last, context);
+        return;
+    }
+    // Layers whose residuals are solved for together are moved just before, and are near by then still.
+    RunContext alone;
+    alone.threads = 1;
+    alone.cancel = context.cancel;
+    parallel_for(context, static_cast<std::size_t>(groups), 1, [&](std::size_t begin, std::size_t end) {
+        for (auto group = static_cast<int>(begin); group < static_cast<int>(end); ++group) {
+            const int low = first + group * HarmonicSpread::kFields;
+            const int high = std::min(low + HarmonicSpread::kFields, last);
+            for (std::size_t node = 0; node < nodes; node += kChunk)
+                move(low, high, node, std::min(node + kChunk, nodes));
+            finish(low, high, alone);
+        }
     });
-
-    const int first_inner = std::max(first, 1);
-    const int last_inner = std::min(last, columns_.layers);
-    if (spread_ && first_inner < last_inner) {
-        const auto count = static_cast<std::size_t>(last_inner - first_inner);
-        const std::span<const Vec3> values{
-            residuals_.data() + static_cast<std::size_t>(first_inner - 1) * rim, count * rim};
-        spread_->add(values, count, out.data() + static_cast<std::size_t>(first_inner - first) * nodes, nodes,
-                     context);
-    }
-    for (int l = first; l < last; ++l) {
-        const std::span<const Vec3> row = columns_.row(l);
-        Vec3* layer = out.data() + static_cast<std::size_t>(l - first) * nodes;
-        for (std::size_t k = 0; k < rim; ++k) layer[columns_.rim[k]] = row[k];
-    }
 }
 
 std::string LayerPlacer::report() const
