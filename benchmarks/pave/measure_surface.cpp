@@ -4,10 +4,12 @@
 #include <lacuna/cad_worker/session.h>
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/quads/measure_plane.h>
 
 #include <gmsh.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <unordered_map>
@@ -53,13 +55,21 @@ public:
         std::vector<double> turn(points_.size(), 0);
         std::vector<char> rim(points_.size(), 0);
         double jacobians = 0, ratios = 0;
+        for (const Quad& quad : quads_) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const auto p = static_cast<std::size_t>(quad[k]);
+                ++valence[p];
+                turn[p] += angle(quad, k);
+            }
+        }
+        const auto wanted = [&](Index p) {
+            return quads::row_corner(turn[static_cast<std::size_t>(p)], valence[static_cast<std::size_t>(p)]);
+        };
         for (std::size_t q = 0; q < quads_.size(); ++q) {
             double least = 1;
             for (std::size_t k = 0; k < 4; ++k) {
                 const auto p = static_cast<std::size_t>(quads_[q][k]);
                 least = std::min(least, sine(quads_[q], k));
-                ++valence[p];
-                turn[p] += angle(quads_[q], k);
                 const Index other = opposite_[4 * q + k];
                 if (other >= 0 && static_cast<std::size_t>(other) < 4 * q + k) continue;
                 const double length = side(quads_[q], k).norm();
@@ -69,7 +79,8 @@ public:
                 if (other != mesh::kRimSide) continue;
                 rim[p] = 1;
                 ++result.rows;
-                if (stands_well(quads_[q], k)) ++result.good_rows;
+                if (stands_well(quads_[q], k, wanted(quads_[q][k]), wanted(quads_[q][(k + 1) % 4])))
+                    ++result.good_rows;
             }
             jacobians += least;
             result.min_scaled_jacobian = std::min(result.min_scaled_jacobian, least);
@@ -165,10 +176,12 @@ private:
         const double turn = std::atan2(cross.norm(), a.dot(b));
         return cross.dot(normal(quad[k])) >= 0 ? turn : 2 * std::numbers::pi - turn;
     }
-    [[nodiscard]] bool stands_well(const Quad& quad, std::size_t k) const
+    [[nodiscard]] bool stands_well(const Quad& quad, std::size_t k, double first, double second) const
     {
+        const std::array<double, 4> wanted{first, second, std::numbers::pi - second,
+                                           std::numbers::pi - first};
         for (std::size_t i = 0; i < 4; ++i) {
-            if (std::abs(angle(quad, i) - std::numbers::pi / 2) > kOffRight) return false;
+            if (std::abs(angle(quad, (k + i) % 4) - wanted[i]) > kOffRight) return false;
         }
         const Vec3 across = (normal(quad[k]) + normal(quad[(k + 1) % 4])).cross(side(quad, k)).normalized();
         for (const std::size_t far : {k + 2, k + 3}) {

@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -72,6 +73,38 @@ TEST_CASE("rows and edges are judged by the size asked")
         // The twelve long sides are judged by the height, the four short ones by the width, which is right.
         CHECK(q.good_rows == (height > 0.7 && height < 1.3 ? 16U : 4U));
         CHECK(q.edges_of_size == (height > 0.6 && height < 1.6 ? q.edges : 18U));
+    }
+}
+
+TEST_CASE("rows round a hole of eight sides or more are good: its corners share what it bends")
+{
+    for (const int sides : {6, 7, 8, 9, 12, 24}) {
+        CAPTURE(sides);
+        // Two rings of quads about a hole, as high as they are wide in the middle.
+        quads::PlanarQuads mesh;
+        quads::PlanarRegion region;
+        const double bend = 2 * std::numbers::pi / sides, across = std::cos(bend / 2);
+        const std::array<double, 3> radius{1, 1 + bend, 1 + 2 * bend};
+        for (const std::size_t ring : {2, 0, 1}) {
+            for (int i = 0; i < sides; ++i)
+                mesh.points.emplace_back(Eigen::Rotation2Dd(i * bend) * Vec2(radius[ring], 0));
+        }
+        region.points.assign(mesh.points.begin(), mesh.points.begin() + 2 * sides);
+        region.loops.resize(2);
+        for (int i = 0; i < sides; ++i) {
+            region.loops[0].push_back(i);
+            region.loops[1].push_back(2 * sides - 1 - i);
+            const int next = (i + 1) % sides, low = sides, mid = 2 * sides;
+            mesh.quads.push_back({low + i, mid + i, mid + next, low + next});
+            mesh.quads.push_back({mid + i, i, next, mid + next});
+        }
+        region.size = [&](const Vec2&) { return bend * across; };
+        CHECK(quads::find_fault(mesh, region) == "");
+        const quads::PlaneQuality q = quads::measure_plane(mesh, region);
+        CHECK(q.good_rows == (sides < 8 ? 0U : q.rows));
+        // Half as high again as asked they are not.
+        region.size = [&](const Vec2&) { return bend * across / 1.5; };
+        CHECK(quads::measure_plane(mesh, region).good_rows == 0);
     }
 }
 

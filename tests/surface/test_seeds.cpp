@@ -217,3 +217,61 @@ TEST_CASE("counts of faces of right angles are made to agree, so that their grid
         CHECK(mesh.notes.front().find("submapped") != std::string::npos);
     }
 }
+
+TEST_CASE("edges that mirror each other get as many sides, whatever the size")
+{
+    struct Case {
+        std::vector<Vec2> corners;
+        std::vector<std::size_t> mirror; ///< of each side
+    };
+    const std::vector<Case> cases{
+        {{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, {5, 4, 3, 2, 1, 0}},
+        {{{-0.4, 0}, {0.4, 0}, {0.4, 2}, {1.5, 2}, {1.5, 2.8}, {-1.5, 2.8}, {-1.5, 2}, {-0.4, 2}},
+         {0, 7, 6, 5, 4, 3, 2, 1}},
+        {{{0, 0},
+          {5, 0},
+          {5, 3},
+          {4, 3},
+          {4, 1.3},
+          {3, 1.3},
+          {3, 3},
+          {2, 3},
+          {2, 1.3},
+          {1, 1.3},
+          {1, 3},
+          {0, 3}},
+         {0, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1}},
+        {{{0, 0}, {3, 0}, {2.2, 2.1}, {0.8, 2.1}}, {0, 3, 2, 1}},
+        {{{0, 0}, {2, 0}, {3, 1.1}, {1, 2.3}, {-1, 1.1}}, {0, 4, 3, 2, 1}},
+    };
+    for (const Case& c : cases) {
+        for (const double size : {0.61, 0.43, 0.31, 0.23, 0.171, 0.113}) {
+            CAPTURE(c.corners.size());
+            CAPTURE(size);
+            const topology::OpenVolume volume = test::sealed({.outline = c.corners});
+            const auto links = surface::linking_surfaces(volume);
+            const surface::Seeds seeds = surface::seed_source(volume, links, even(size),
+                                                              surface::QuadStyle::automatic);
+            check_seeds(volume, seeds);
+            const auto count_between = [&](const Vec2& a, const Vec2& b) {
+                for (const auto& [edge, pieces] : seeds.pieces) {
+                    const auto near = [&](VertexId v, const Vec2& p) {
+                        const Vec3& at = volume.model.at(volume.model[v].point);
+                        return (Vec2(at.x(), at.y()) - p).norm() < 1e-9;
+                    };
+                    const Edge& e = volume.model[edge];
+                    if ((near(e.from, a) && near(e.to, b)) || (near(e.from, b) && near(e.to, a)))
+                        return seeds.count(edge);
+                }
+                return 0;
+            };
+            const std::size_t n = c.corners.size();
+            for (std::size_t s = 0; s < n; ++s) {
+                const std::size_t m = c.mirror[s];
+                const int own = count_between(c.corners[s], c.corners[(s + 1) % n]);
+                CHECK(own > 0);
+                CHECK(own == count_between(c.corners[m], c.corners[(m + 1) % n]));
+            }
+        }
+    }
+}

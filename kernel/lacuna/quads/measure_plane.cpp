@@ -5,6 +5,7 @@
 #include <lacuna/quads/detail/corner_sine.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -22,13 +23,17 @@ constexpr double kOffHeight = 0.3;
 
 const Vec2& at(std::span<const Vec2> points, Index p) { return points[index(p)]; }
 
-bool stands_well(std::span<const Vec2> points, const Quad& quad, std::size_t side, double height)
+/// @param first, second  the angles wanted at the ends of the side
+bool stands_well(std::span<const Vec2> points, const Quad& quad, std::size_t side, double height,
+                 double first, double second)
 {
-    for (std::size_t k = 0; k < 4; ++k) {
+    const std::array<double, 4> wanted{first, second, 2 * kRight - second, 2 * kRight - first};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t k = (side + i) % 4;
         const Vec2& here = at(points, quad[k]);
         const double corner = turn_between(at(points, quad[(k + 1) % 4]) - here,
                                            at(points, quad[(k + 3) % 4]) - here);
-        if (std::abs(corner - kRight) > kOffRight) return false;
+        if (std::abs(corner - wanted[i]) > kOffRight) return false;
     }
     const Vec2& from = at(points, quad[side]);
     const Vec2 along = (at(points, quad[(side + 1) % 4]) - from).normalized();
@@ -55,9 +60,9 @@ std::vector<double> boundary_angles(const PlanarRegion& region)
 }
 
 /// Boundary nodes whose number of quads is not that of the right angles in their corner.
-std::size_t boundary_irregular(const PlanarRegion& region, const std::vector<Index>& valence)
+std::size_t boundary_irregular(const PlanarRegion& region, const std::vector<double>& angles,
+                               const std::vector<Index>& valence)
 {
-    const std::vector<double> angles = boundary_angles(region);
     std::size_t count = 0, i = 0;
     for (const std::vector<Index>& loop : region.loops) {
         for (const Index p : loop) {
@@ -125,15 +130,30 @@ double scaled_jacobian(std::span<const Vec2> points, const Quad& quad)
         1.0, least_sine(at(points, quad[0]), at(points, quad[1]), at(points, quad[2]), at(points, quad[3])));
 }
 
+double row_corner(double angle, Index quads)
+{
+    constexpr double kMostBend = kRight / 2 * (1 + 1e-6); // eight sides for a full turn bend by 45° each
+    return quads == 2 && std::abs(angle - 2 * kRight) <= kMostBend ? angle / 2 : kRight;
+}
+
 PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
 {
     PlaneQuality result;
     result.quads = mesh.quads.size();
     result.points = mesh.points.size();
     std::vector<Index> valence(mesh.points.size(), 0);
+    for (const Quad& quad : mesh.quads) {
+        for (const Index p : quad) ++valence[index(p)];
+    }
     std::vector<char> on_boundary(mesh.points.size(), 0);
+    std::vector<double> wanted(mesh.points.size(), kRight);
+    const std::vector<double> angles = boundary_angles(region);
+    std::size_t node = 0;
     for (const std::vector<Index>& loop : region.loops) {
-        for (const Index p : loop) on_boundary[index(p)] = 1;
+        for (const Index p : loop) {
+            on_boundary[index(p)] = 1;
+            wanted[index(p)] = row_corner(angles[node++], valence[index(p)]);
+        }
     }
     const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads,
                                                              static_cast<Index>(mesh.points.size()));
@@ -144,7 +164,6 @@ PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
         result.min_scaled_jacobian = std::min(result.min_scaled_jacobian, jacobian);
         jacobians += jacobian;
         for (std::size_t k = 0; k < 4; ++k) {
-            ++valence[index(quad[k])];
             const Index other = opposite[4 * q + k];
             if (other >= 0 && static_cast<std::size_t>(other) < 4 * q + k) continue;
             const Vec2& a = at(mesh.points, quad[k]);
@@ -156,7 +175,9 @@ PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
             if (length >= kShortestOfSize * asked && length <= kLongestOfSize * asked) ++result.edges_of_size;
             if (other != mesh::kRimSide) continue;
             ++result.rows;
-            if (stands_well(mesh.points, quad, k, asked)) ++result.good_rows;
+            if (stands_well(mesh.points, quad, k, asked, wanted[index(quad[k])],
+                            wanted[index(quad[(k + 1) % 4])]))
+                ++result.good_rows;
         }
     }
     for (std::size_t p = 0; p < valence.size(); ++p) {
@@ -164,7 +185,7 @@ PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
         ++result.interior;
         if (valence[p] != 4) ++result.irregular;
     }
-    result.boundary_irregular = boundary_irregular(region, valence);
+    result.boundary_irregular = boundary_irregular(region, angles, valence);
     if (result.quads > 0) result.mean_scaled_jacobian = jacobians / static_cast<double>(result.quads);
     if (result.edges > 0) result.mean_edge_ratio = ratios / static_cast<double>(result.edges);
     return result;

@@ -42,11 +42,19 @@ private:
     }
 };
 
+/// The angle wanted of a row quad's corner at a boundary node [radian]: half of the node's where a side bends
+/// there by 45° at most and two quads share it, for both halves of a round hole's corner cannot be right;
+/// else a right one. The corner across the row is wanted to be as much on the other side of a right angle.
+/// @param angle  inside the region [radian].
+/// @param quads  at the node.
+double row_corner(double angle, Index quads);
+
 /// Measure quads over a region.
 ///
-/// A row quad is good when its four corners are within 20° of right, and both ends of the side opposite the
-/// boundary lie at the row's height above it, 30 % more or less. The row's height is the size asked at the
-/// middle of the side; without a size, the side's own length.
+/// A row quad is good when its four corners are within 20° of what is wanted, right ones where the boundary
+/// is straight (`row_corner()`), and both ends of the side opposite the boundary lie at the row's height
+/// above it, 30 % more or less. The row's height is the size asked at the middle of the side; without a size,
+/// the side's own length.
 /// @pre  `find_fault()` finds none but folded corners.
 PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region);
 

@@ -4,6 +4,8 @@
 #include <lacuna/quads/region.h>
 
 #include <cstddef>
+#include <span>
+#include <vector>
 
 namespace lacuna::quads {
 
@@ -17,5 +19,12 @@ namespace lacuna::quads {
 /// @pre   `find_fault()` finds none.
 /// @note  Deterministic. O(boundary nodes · quads) at worst; most symmetries that fail do so at once.
 std::size_t symmetrise(PlanarQuads& mesh, const PlanarRegion& region);
+
+/// Which segments of a region's boundary its symmetries map onto each other.
+///
+/// @param segment  of the side from each node to the next, 0, 1, …; nodes stand alike on segments that are.
+/// @return  of each segment the least of those that it is mapped onto, itself among them.
+/// @note    Symmetries that map the end of a segment onto the inside of another are none.
+std::vector<std::size_t> segments_alike(const PlanarRegion& region, std::span<const int> segment);
 
 } // namespace lacuna::quads

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/alike_edges.h>
+
+#include <lacuna/geometry/newell.h>
+#include <lacuna/quads/symmetry.h>
+#include <lacuna/surface/detail/plane_loops.h>
+#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// Nodes a face's edges are compared by: an arc and its chord differ in the middle. A choice.
+constexpr std::size_t kPerEdge = 4;
+/// Faces of more edges are left alone, for the time: comparing takes the square of that. A choice.
+constexpr std::size_t kMostEdges = 512;
+
+} // namespace
+
+std::vector<std::vector<EdgeId>> alike_edges(const Model& model, FaceId face)
+{
+    const Vec3 normal = face_area_vector(model, face).stableNormalized();
+    const geometry::Plane plane = geometry::plane_across(face_centroid(model, face), normal);
+    std::vector<double> shares;
+    for (std::size_t i = 0; i <= kPerEdge; ++i)
+        shares.push_back(static_cast<double>(i) / static_cast<double>(kPerEdge));
+    std::vector<EdgeId> edges;
+    std::vector<int> segment;
+    quads::PlanarRegion region;
+    for (const Loop& loop : border_loops(model, face)) {
+        std::vector<Index>& cycle = region.loops.emplace_back();
+        for (const EdgeUse& use : loop.uses) {
+            if (edges.size() == kMostEdges) return {};
+            const std::vector<Vec3> points = edge_points(model, use.edge, shares);
+            for (std::size_t i = 0; i < kPerEdge; ++i) {
+                cycle.push_back(static_cast<Index>(region.points.size()));
+                region.points.push_back(geometry::to_plane(plane, points[use.reversed ? kPerEdge - i : i]));
+                segment.push_back(static_cast<int>(edges.size()));
+            }
+            edges.push_back(use.edge);
+        }
+    }
+    // A seam has the face on both sides, and no mirror image of one.
+    if (region.loops.empty() || std::set<EdgeId>(edges.begin(), edges.end()).size() < edges.size()) return {};
+    sort_outer_first(region.points, region.loops);
+    const std::vector<std::size_t> least = quads::segments_alike(region, segment);
+    std::map<std::size_t, std::vector<EdgeId>> sets;
+    for (std::size_t e = 0; e < edges.size(); ++e) sets[least[e]].push_back(edges[e]);
+    std::vector<std::vector<EdgeId>> alike;
+    if (sets.size() == edges.size()) return alike;
+    for (auto& [first, own] : sets) alike.push_back(std::move(own));
+    return alike;
+}
+
+} // namespace lacuna::surface
