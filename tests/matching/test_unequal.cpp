@@ -204,6 +204,33 @@ TEST_CASE("two closed circles are joined straight up, wherever their seams are")
     MESSAGE("least share of the volume: " << least);
 }
 
+TEST_CASE("a round loop that narrows round a bore that does not is joined straight up")
+{
+    for (const double narrowed : {0.4, 0.5, 0.8, 1.3}) {
+        CAPTURE(narrowed);
+        const test::Prism ring = test::prism(
+            {.sides = 0,
+             .radius = 3,
+             .height = 3,
+             .hole_list = {{Vec2(0, 0), 1.0}},
+             .cuts = 6,
+             .levels = 4,
+             .drop = [](const test::Part& part) { return part.role == Role::wall && part.loop == 0; }});
+        const Model model = test::moved(ring.model, [&](const Vec3& p) {
+            const double r = std::hypot(p.x(), p.y()), grown = 1 + (r - 1) * (1 + (narrowed - 1) * p.z() / 3);
+            return Vec3(p.x() * grown / r, p.y() * grown / r, p.z());
+        });
+        OpenVolume volume = open_volume(model, ring.roles);
+        Match found = matching::match(volume);
+        matching::apply_splits(volume, found);
+        REQUIRE(!found.vertices.empty());
+        for (const auto& pair : found.vertices) CHECK(std::abs(twist(volume, pair)) <= kMostTwist + 1e-3);
+        closure::close(volume, found);
+        const double high = 1 + 2 * narrowed, whole = kPi * (9 + 3 * high + high * high) - 3 * kPi;
+        CHECK(closure::enclosed_volume(volume) == doctest::Approx(whole).epsilon(0.015));
+    }
+}
+
 TEST_CASE("every corner meets a corner or a vertex made for it, on both ends, and it sweeps")
 {
     std::mt19937 dice(32);

@@ -25,8 +25,10 @@ double misfit(const Problem& problem, std::size_t s, std::size_t t, const geomet
 }
 
 /// What it costs to send loop s to loop t once the source has been moved by `fit`.
+/// @param scale  by which loops are taken to grow: that of the anchor's length, and not of the fit, which is
+///               smaller the worse it fits. Another loop's size would choose how the anchor lies.
 double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geometry::RigidFit& fit,
-                 double reach)
+                 double scale, double reach)
 {
     if (problem.forced[s] >= 0 && problem.forced[s] != static_cast<int>(t))
         return std::numeric_limits<double>::infinity();
@@ -36,14 +38,15 @@ double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geo
     const LoopShape& b = problem.target[t];
     const double counts = relative(static_cast<double>(a.vertices.size()),
                                    static_cast<double>(b.vertices.size()));
-    return place + relative(a.length * fit.scale, b.length) +
-           relative(a.area.norm() * fit.scale * fit.scale, b.area.norm()) + counts;
+    return place + relative(a.length * scale, b.length) +
+           relative(a.area.norm() * scale * scale, b.area.norm()) + counts;
 }
 
 /// The arrangement that an alignment of the anchor leads to; nothing where no complete one is cheaper than
 /// `limit`.
 std::optional<Arrangement> arrangement_of(const Problem& problem, std::size_t anchor, std::size_t t,
-                                          const Alignment& alignment, double reach, double limit)
+                                          const Alignment& alignment, double scale, double reach,
+                                          double limit)
 {
     const std::size_t n = problem.source.size();
     const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
@@ -52,7 +55,7 @@ std::optional<Arrangement> arrangement_of(const Problem& problem, std::size_t an
         for (std::size_t j = 0; j < n; ++j) {
             const bool fixed = (i == anchor) != (j == t);
             cost(at(i), at(j)) = fixed ? std::numeric_limits<double>::infinity()
-                                       : loop_cost(problem, i, j, alignment.fit, reach);
+                                       : loop_cost(problem, i, j, alignment.fit, scale, reach);
         }
     }
     // However the loops are paired, each costs its least: most alignments are out before they are assigned.
@@ -111,12 +114,14 @@ std::vector<Arrangement> arrange(const Problem& problem)
     for (std::size_t t = 0; t < n; ++t) {
         if (problem.forced[anchor] >= 0 && problem.forced[anchor] != static_cast<int>(t)) continue;
         for (const bool with_scale : {false, true}) {
+            const double low = problem.source[anchor].length, high = problem.target[t].length;
+            const double scale = with_scale && low > 0 ? high / low : 1;
             for (const Alignment& alignment : alignments_of(problem, anchor, t, with_scale)) {
                 check_cancelled(problem.context);
                 // With loops to spare for a second arrangement nothing worse than it matters.
                 const double limit = n > 2 && best.size() > 1 ? best.back().score
                                                               : std::numeric_limits<double>::infinity();
-                auto found = arrangement_of(problem, anchor, t, alignment, reach, limit);
+                auto found = arrangement_of(problem, anchor, t, alignment, scale, reach, limit);
                 if (found) keep(problem, std::move(*found), best);
             }
         }
