@@ -61,7 +61,9 @@ public:
         if (restless_.empty()) restless_.assign(points_.size(), 1);
         std::vector<char> poor(points_.size(), 0);
         for (const Quad& quad : quads_) {
-            if (scaled_jacobian(points_, quad) >= floor) continue;
+            const bool still = std::none_of(quad.begin(), quad.end(),
+                                            [&](Index p) { return restless_[index(p)] != 0; });
+            if (still || scaled_jacobian(points_, quad) >= floor) continue;
             for (const Index p : quad) poor[index(p)] = 1;
         }
         bool moved = false;

@@ -3,6 +3,7 @@
 
 #include <lacuna/geometry/minimise.h>
 #include <lacuna/quads/detail/corner_sine.h>
+#include <lacuna/quads/detail/plane_energy.h>
 
 #include <Eigen/Dense>
 
@@ -104,21 +105,14 @@ public:
 
     double epsilon = 1;
 
+    /// With the widest vectors the machine has; they change no bit.
     double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const
     {
-        gradient.setZero(x.size());
-        double sum = 0;
-        for (const ReferenceQuad& cell : part_.cells) {
-            std::array<Vec2, 4> corner, slope;
-            for (std::size_t k = 0; k < 4; ++k) corner[k] = place(x, cell.corners[k]);
-            slope.fill(Vec2::Zero());
-            for (std::size_t k = 0; k < 4; ++k) sum += corner_energy(corner, k, cell.inverse, slope);
-            for (std::size_t k = 0; k < 4; ++k) {
-                const Index v = part_.variable[static_cast<std::size_t>(cell.corners[k])];
-                if (v >= 0) gradient.segment<2>(2 * v) += slope[k];
-            }
-        }
-        return sum;
+#if defined(__GNUC__) && defined(__x86_64__)
+        static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
+        if (avx2) return sum_avx2(x, gradient);
+#endif
+        return sum_up(x, gradient);
     }
 
     /// Least determinant over all corners that move, in units of the references.
@@ -147,27 +141,57 @@ private:
         return v >= 0 ? Vec2(x.segment<2>(2 * v)) : points_[index(p)];
     }
 
-    double corner_energy(const std::array<Vec2, 4>& corner, std::size_t k, double inverse,
-                         std::array<Vec2, 4>& slope) const
+    /// The corners of a cell are worked out side by side.
+    LACUNA_LANES_INLINE double sum_up(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const
     {
-        const std::size_t n = (k + 1) % 4, r = (k + 3) % 4;
-        const Vec2 a = (corner[n] - corner[k]) * inverse, b = (corner[r] - corner[k]) * inverse;
-        const double d = cross(a, b);
-        const double root = std::sqrt(epsilon * epsilon + d * d);
-        const double chi = (d + root) / 2;
-        const double chi_slope = (1 + d / root) / 2;
-        const double shape = (a.squaredNorm() + b.squaredNorm()) / chi;
-        const double area = (1 + d * d) / chi;
-        const double by_d = (1 - kAreaShare) * -shape / chi * chi_slope +
-                            kAreaShare * (2 * d / chi - area / chi * chi_slope);
-        const double by_length = (1 - kAreaShare) * 2 / chi;
-        const Vec2 by_a = inverse * (by_length * a + by_d * Vec2(b.y(), -b.x()));
-        const Vec2 by_b = inverse * (by_length * b + by_d * Vec2(-a.y(), a.x()));
-        slope[n] += by_a;
-        slope[r] += by_b;
-        slope[k] -= by_a + by_b;
-        return (1 - kAreaShare) * shape + kAreaShare * area;
+        gradient.setZero(x.size());
+        const double least = epsilon * epsilon;
+        double sum = 0;
+        for (const ReferenceQuad& cell : part_.cells) {
+            std::array<Index, 4> at;
+            std::array<double, 4> px, py;
+            for (std::size_t k = 0; k < 4; ++k) {
+                at[k] = part_.variable[index(cell.corners[k])];
+                const double* from = at[k] >= 0 ? x.data() + 2 * at[k]
+                                                : points_[index(cell.corners[k])].data();
+                px[k] = from[0] * cell.inverse;
+                py[k] = from[1] * cell.inverse;
+            }
+            const Lanes here_x{px[0], px[1], px[2], px[3]}, here_y{py[0], py[1], py[2], py[3]};
+            const Lanes ax = Lanes{px[1], px[2], px[3], px[0]} - here_x,
+                        ay = Lanes{py[1], py[2], py[3], py[0]} - here_y,
+                        bx = Lanes{px[3], px[0], px[1], px[2]} - here_x,
+                        by = Lanes{py[3], py[0], py[1], py[2]} - here_y;
+            const Lanes d = ax * by - ay * bx, squared = least + d * d;
+            const Lanes root{std::sqrt(squared[0]), std::sqrt(squared[1]), std::sqrt(squared[2]),
+                             std::sqrt(squared[3])};
+            // The barrier χ, and its slope over itself: χ' = χ / root.
+            const Lanes over = 2 / (d + root), steep = 1 / root;
+            const Lanes shape = (ax * ax + ay * ay + bx * bx + by * by) * over, area = (1 + d * d) * over;
+            sum += sum_of((1 - kAreaShare) * shape + kAreaShare * area);
+            const Lanes by_d = kAreaShare * (2 * d * over - area * steep) - (1 - kAreaShare) * shape * steep;
+            const Lanes by_length = (1 - kAreaShare) * 2 * over;
+            const Lanes gax = cell.inverse * (by_length * ax + by_d * by),
+                        gay = cell.inverse * (by_length * ay - by_d * bx),
+                        gbx = cell.inverse * (by_length * bx - by_d * ay),
+                        gby = cell.inverse * (by_length * by + by_d * ax);
+            const Lanes own_x = gax + gbx, own_y = gay + gby;
+            for (std::size_t k = 0; k < 4; ++k) {
+                if (at[k] < 0) continue;
+                const std::size_t next = (k + 1) % 4, before = (k + 3) % 4;
+                gradient[2 * at[k]] += gax[before] + gbx[next] - own_x[k];
+                gradient[2 * at[k] + 1] += gay[before] + gby[next] - own_y[k];
+            }
+        }
+        return sum;
     }
+
+#if defined(__GNUC__) && defined(__x86_64__)
+    [[gnu::target("avx2")]] double sum_avx2(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const
+    {
+        return sum_up(x, gradient);
+    }
+#endif
 
     std::span<const Vec2> points_;
     const FoldedPart& part_;
