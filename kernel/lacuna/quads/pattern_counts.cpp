@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/pattern_counts.h>
 
+#include <lacuna/quads/detail/count_trial.h>
 #include <lacuna/quads/detail/mirror_counts.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/pattern_loop.h>
@@ -31,6 +32,10 @@ constexpr double kRounding = 1.03;
 constexpr Range kRingSegment{kRing.least / kRounding, kRing.most* kRounding};
 /// Rows with holes between them bend, so that less is left. A choice, not a measurement.
 constexpr Range kRingWithHoles{1 / 1.55, 1.55};
+
+/// Where there are fewer quads than this, a grid is made with several numbers and the best are taken. For the
+/// time.
+constexpr double kFewForTrial = 200;
 
 /// The sides of a segment that run one way.
 struct Run {
@@ -120,28 +125,59 @@ public:
 private:
     /// Counts for straight lines, where ends of 135° may be soft or hard: those of the lower cost. As many
     /// quads as asked count too, for the rows before soft ends add some. Soft ends have quads so much better
-    /// shaped that they may cost more.
+    /// shaped that they may cost more. Of few quads of a whole region those that a grid fills best.
     [[nodiscard]] std::optional<Counts> straight_counts() const
     {
         // What those are worth; chosen on 40 of the held family (benchmarks/pave/).
         constexpr double kSoft = 2;
-        std::optional<std::vector<CountedLoop>> best;
-        double least = std::numeric_limits<double>::infinity();
+        std::optional<Counts> best;
+        std::vector<Counts> all;
         const bool either = has_half_ends(region_);
         for (const HalfEnds half : {HalfEnds::soft, HalfEnds::hard}) {
             if (half == HalfEnds::hard && !either) break;
-            StraightCounts counts = straight_counts(half);
-            if (!(counts.cost < least)) continue;
-            least = half == HalfEnds::soft ? counts.cost / kSoft : counts.cost;
-            best = std::move(counts.loops);
+            StraightCounts found = straight_counts(half);
+            const double worth = half == HalfEnds::soft ? 1 / kSoft : 1;
+            if (found.best && (!best || worth * found.best->cost < best->cost)) {
+                best = found.best;
+                best->cost *= worth;
+            }
+            for (Counts& counts : found.all) {
+                counts.cost *= worth;
+                all.push_back(std::move(counts));
+            }
         }
-        if (!best) return std::nullopt;
-        return Counts{*counts_of(*best), least};
+        if (!is_part_ && quads_asked() < kFewForTrial) {
+            if (auto filled = best_filled(std::move(all))) return filled;
+        }
+        return best;
+    }
+
+    /// Of several counts those that a grid fills best by measure, the cheapest first, until one is good.
+    /// Nothing where none is filled, or there is no choice.
+    [[nodiscard]] std::optional<Counts> best_filled(std::vector<Counts> all) const
+    {
+        // A score of quads as they should be, and grids made at most: for the time. Choices.
+        constexpr double kGood = 3.1;
+        constexpr std::size_t kMost = 4;
+        std::stable_sort(all.begin(), all.end(),
+                         [](const Counts& a, const Counts& b) { return a.cost < b.cost; });
+        const auto alike = [](const Counts& a, const Counts& b) { return a.sides == b.sides; };
+        all.erase(std::unique(all.begin(), all.end(), alike), all.end());
+        if (all.size() < 2) return std::nullopt;
+        std::optional<Counts> best;
+        double most = -std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < std::min(kMost, all.size()) && most < kGood; ++i) {
+            const auto score = score_of_counts(region_, segment_, all[i].sides, quads_asked());
+            if (!score || *score <= most) continue;
+            most = *score;
+            best = all[i];
+        }
+        return best;
     }
 
     struct StraightCounts {
-        std::vector<CountedLoop> loops;
-        double cost = std::numeric_limits<double>::infinity(); ///< infinite where nothing fits
+        std::optional<Counts> best;
+        std::vector<Counts> all; ///< of a whole region: those looked at
     };
 
     /// The same for one kind of ends: the best over the rows before soft turns, and over numbers of sides
@@ -152,7 +188,7 @@ private:
         constexpr double kQuads = 0.25, kRows = 1;
         constexpr double kUnlike = 10; // of segments that mirror each other: hardly ever; a choice
         // As many quads as asked, a quarter more or less, is what is promised. Choices.
-        constexpr double kMostOff = 0.25, kOff = 2;
+        constexpr double kMostOff = 0.25, kOff = 2, kNearAsked = 0.1, kMany = 2000;
         constexpr std::array<double, 7> kShares{1, 0.9, 0.8, 1.1, 0.65, 1.25, 1.5}; // choices
         constexpr std::size_t kNear = 4; // of those, for the range that is promised
         const double angle = main_angle(region_), asked = quads_asked();
@@ -168,15 +204,14 @@ private:
         const std::vector<std::array<std::size_t, 2>> pairs = mirrored_segments();
         if (few_ && are_close()) return {};
         StraightCounts best;
-        // What is no part has no axes that take up the difference: one row, and the numbers wanted.
+        // What is no part has no axes that take up the difference of more rows.
         const std::vector<int> all_rows = is_part_ ? rows_to_try(fitting) : std::vector<int>{1};
         const bool wide = range_.most > kSegment.most;
-        const std::span<const double> shares = std::span(kShares).first(!is_part_ ? 1
-                                                                        : wide    ? kShares.size()
-                                                                                  : kNear);
+        const std::span<const double> shares = std::span(kShares).first(wide ? kShares.size() : kNear);
         for (const int rows : all_rows) {
             for (const double share : shares) {
-                StraightCounts made{{}, 0};
+                std::vector<CountedLoop> loops;
+                double cost = 0;
                 std::vector<LoopGrid> grids;
                 double quads = 0;
                 int soft = 0;
@@ -186,28 +221,36 @@ private:
                     auto counts = counted(std::move(loop), share);
                     if (!counts || !close(*counts, range_)) break;
                     for (Run& run : counts->runs) run.wanted /= share;
-                    made.cost += sum_of_costs(*counts);
+                    cost += sum_of_costs(*counts);
                     soft += counts->soft;
                     if (auto grid = loop_grid(l, *counts, angle, half, rows)) {
                         quads += grid->quads();
                         grids.push_back(std::move(*grid));
                     }
-                    made.loops.push_back(std::move(*counts));
+                    loops.push_back(std::move(*counts));
                 }
-                if (made.loops.size() < region_.loops.size()) continue;
-                if (grids.size() < made.loops.size()) quads = asked; // not known
-                made.cost += kQuads * (quads - asked) * (quads - asked) / asked;
+                if (loops.size() < region_.loops.size()) continue;
+                if (grids.size() < loops.size()) quads = asked; // not known
+                cost += kQuads * (quads - asked) * (quads - asked) / asked;
                 if (is_part_) {
                     const double off = std::log(static_cast<double>(rows) / fitting);
-                    made.cost += kRows * soft * std::max(1.0, fitting / 2.0) * off * off +
-                                 kUnlike * unlike(*counts_of(made.loops), pairs);
-                    if (std::abs(quads - asked) > kMostOff * asked) made.cost += kOff;
+                    cost += kRows * soft * std::max(1.0, fitting / 2.0) * off * off +
+                            kUnlike * unlike(*counts_of(loops), pairs);
                 }
-                if (made.cost < best.cost && (!few_ || have_place(grids))) {
-                    if (made.loops.size() > 1 && !grids.empty()) centre_holes(made.loops, grids.front());
-                    best = std::move(made);
+                const bool fits = std::abs(quads - asked) <= kNearAsked * asked;
+                if (std::abs(quads - asked) > kMostOff * asked) cost += kOff;
+                // Few lines leave holes no place, and for many looking takes long.
+                const bool looks = is_part_ ? few_ : asked < kMany;
+                const bool has_place = !looks || have_place(grids);
+                if (!has_place) cost += kOff;
+                if (!few_ || has_place) {
+                    if (loops.size() > 1 && !grids.empty()) centre_holes(loops, grids.front());
+                    const Counts counts{*counts_of(loops), cost};
+                    if (!best.best || cost < best.best->cost) best.best = counts;
+                    if (!is_part_) best.all.push_back(counts);
                 }
                 if (soft == 0 && share == shares.back()) return best;
+                if (!is_part_ && fits && has_place) return best;
             }
         }
         return best;

@@ -39,6 +39,10 @@ struct BoundarySegment {
 /// part, with lines between them; and where nothing else does that, segments get what a ring's may. A region
 /// with its middle on several axes gets numbers that all of them keep, rounded where no grid has such.
 ///
+/// Where straight lines of a region without axes are too many or too few quads, other shares of the numbers
+/// wanted are rounded. Of fewer than 200 quads a grid is then made with each of the cheapest four numbers,
+/// and the best by measure is taken.
+///
 /// The equations of a loop have coefficients of 1 and -1, and no number is in two but of segments that turn.
 /// So the numbers wanted are rounded, and then changed by one, the cheapest first, until all equations hold.
 /// Holes then get one column more or less where that puts their middle where it lies in the outer loop's

@@ -18,9 +18,9 @@ using paving::turn_between;
 
 /// A turn is soft where the boundary's own differs from it by more than this [right angles]. At an end one
 /// quad has the whole angle, so half way to a side is the most, 135° or a sine of 0.7. Three quads share a
-/// corner, so there the limit is the bar's of `least_irregular()`: each has 0.8 right angles. Choices, not
-/// measurements.
-constexpr double kSoftEnd = 0.5 + 1e-9, kSoftHalf = 0.49, kSoftCorner = 0.65;
+/// corner and four a reversal: the limit is the bar's of `least_irregular()`, for each of them. Each has 0.8
+/// right angles. Choices, not measurements.
+constexpr double kSoftEnd = 0.5 + 1e-9, kSoftHalf = 0.49, kSoftCorner = 0.65 / 3;
 
 double square(double x) { return x * x; }
 
@@ -181,8 +181,8 @@ public:
         const std::size_t left = n - end; // sides beyond the part
         if (loop_.turn(0) > 1 || loop_.turn(end) > 1) return false;
         if (left < 1 + (ends_at_start ? 1U : 0U) + (ends_at_end ? 1U : 0U)) return false;
-        if (ends_at_start && loop_.movable[n - 1]) return false;
-        if (ends_at_end && loop_.movable[end + 1]) return false;
+        if (ends_at_start && loop_.movable[n - 1] && loop_.turn(n - 1) > 0) return false;
+        if (ends_at_end && loop_.movable[end + 1] && loop_.turn(end + 1) > 0) return false;
         std::vector<Index> inner(end + 1);
         inner[0] = ends_at_start ? loop_.nodes[n - 1] : add_square(0, 0);
         for (std::size_t i = 1; i < end; ++i) inner[i] = add_inner(i);
@@ -209,9 +209,11 @@ public:
             const int down = loop_.heading[end - 1] - 1;
             push(inner[end], down, down, 0, 0);
         }
-        for (std::size_t i = end + (ends_at_end ? 1 : 0); i < n - (ends_at_start ? 1 : 0); ++i)
-            push(loop_.nodes[i], loop_.heading[i], loop_.direction[i], i == end ? 0 : loop_.soft[i],
-                 i == end ? 0 : loop_.movable[i]);
+        // Where the row ends at a soft turn, the turn is made there.
+        const std::size_t first = end + (ends_at_end ? 1 : 0);
+        for (std::size_t i = first; i < n - (ends_at_start ? 1 : 0); ++i)
+            push(loop_.nodes[i], loop_.heading[i], loop_.direction[i], i == first ? 0 : loop_.soft[i],
+                 i == first ? 0 : loop_.movable[i]);
         loop_ = std::move(next);
         return true;
     }
@@ -341,7 +343,9 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
     if (headed.heading.empty()) return std::nullopt;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const int turn = headed.turn(i);
-        const double limit = turn < 0 ? kSoftCorner : half == HalfEnds::hard ? kSoftEnd : kSoftHalf;
+        const double limit = turn < 0                 ? kSoftCorner * (2 - turn)
+                             : half == HalfEnds::hard ? kSoftEnd
+                                                      : kSoftHalf;
         const bool soft = turn != 0 && std::abs(angles.turn[i] - turn) > limit;
         headed.soft.push_back(soft ? rows : 0);
         headed.movable.push_back(soft ? 1 : 0);

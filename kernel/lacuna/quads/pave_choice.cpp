@@ -61,24 +61,6 @@ constexpr std::array<CutWeights, 3> kFewWeights{{
      .most_patch = 0.7},
 }};
 
-/// How good quads are, to choose between two attempts; higher is better, 3.325 at most.
-///
-/// The sum of the mean and the least scaled Jacobian, the shares of right sizes and of right row heights,
-/// less the share of irregular nodes, those on the boundary among them. The least one counts double up to
-/// kGood, for a sweep repeats the worst quad and makes it worse, and half up to kBest, above which smoothing
-/// gets it anyway. The outline, not the number of quads, says how many irregular nodes there must be: below
-/// kFewNodes their share is taken of that many. The weights are choices.
-double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
-{
-    constexpr double kGood = 0.6, kBest = 0.85, kFewNodes = 300;
-    const PlaneQuality quality = measure_plane(mesh, region);
-    const double least = quality.min_scaled_jacobian;
-    const double irregular = static_cast<double>(quality.irregular + quality.boundary_irregular) /
-                             std::max(static_cast<double>(quality.interior), kFewNodes);
-    return quality.mean_scaled_jacobian + 2 * std::min(least, kGood) +
-           (std::clamp(least, kGood, kBest) - kGood) / 2 + quality.size_share() / 2 +
-           quality.row_share() / 2 - 2 * irregular;
-}
 /// A score from which no further weights are tried: all but perfect. A choice, not a measurement.
 constexpr double kGoodEnough = 3.3;
 /// What is kept without another trial: a worst quad, right sizes and right rows as these, and hardly more
@@ -214,6 +196,18 @@ bool is_good_cut(const Attempt& attempt, const PlanarRegion& region)
 }
 
 } // namespace
+
+double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
+{
+    constexpr double kGood = 0.6, kBest = 0.85, kFewNodes = 300;
+    const PlaneQuality quality = measure_plane(mesh, region);
+    const double least = quality.min_scaled_jacobian;
+    const double irregular = static_cast<double>(quality.irregular + quality.boundary_irregular) /
+                             std::max(static_cast<double>(quality.interior), kFewNodes);
+    return quality.mean_scaled_jacobian + 2 * std::min(least, kGood) +
+           (std::clamp(least, kGood, kBest) - kGood) / 2 + quality.size_share() / 2 +
+           quality.row_share() / 2 - 2 * irregular;
+}
 
 std::span<const CutWeights> cut_weight_rows() { return kCutWeights; }
 

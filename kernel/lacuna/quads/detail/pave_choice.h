@@ -12,6 +12,15 @@
 
 namespace lacuna::quads::paving {
 
+/// How good quads are, to choose between two attempts; higher is better, 3.325 at most.
+///
+/// The sum of the mean and the least scaled Jacobian, the shares of right sizes and of right row heights,
+/// less the share of irregular nodes, those on the boundary among them. The least one counts double up to
+/// kGood, for a sweep repeats the worst quad and makes it worse, and half up to kBest, above which smoothing
+/// gets it anyway. The outline, not the number of quads, says how many irregular nodes there must be: below
+/// kFewNodes their share is taken of that many. The weights are choices.
+double score_of(const PlanarQuads& mesh, const PlanarRegion& region);
+
 /// Paves a region in several ways and keeps the best attempt by measure.
 class AttemptChooser {
 public:
@@ -36,7 +45,7 @@ public:
 
     [[nodiscard]] const Attempt& best() const { return best_; }
     [[nodiscard]] Attempt take_best() { return std::move(best_); }
-    /// Of the best attempt: see `score_of()` in the source; -2 before there is one.
+    /// Of the best attempt: see `score_of()`; -2 before there is one.
     [[nodiscard]] double score() const { return best_score_; }
     /// Quads with a smaller sine count as folded.
     [[nodiscard]] double flat() const { return setting_.flat; }
