@@ -150,7 +150,7 @@ private:
     double move(Index p)
     {
         // Steps of the mean side; choices, not measurements.
-        constexpr double kFirst = 0.08, kLast = 0.015;
+        constexpr double kFirst = 0.08, kLast = 0.009;
         const auto star = stars_[index(p)];
         double side = 0;
         for (const Spoke& spoke : star)
@@ -201,7 +201,7 @@ std::size_t square_rows(PlanarQuads& mesh, const PlanarRegion& region)
     // What quads may lose in the mean, and rounds, for neighbours make room for each other. Choices, not
     // measurements.
     constexpr double kLess = 0.004, kLessOfSize = 0.02;
-    constexpr int kRounds = 8;
+    constexpr int kRounds = 12;
     constexpr double kStill = 1e-3; // of a side: no more is gained
     const PlaneQuality before = measure_plane(mesh, region);
     if (before.good_rows == before.rows) return 0;
