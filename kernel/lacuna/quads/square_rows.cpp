@@ -201,20 +201,21 @@ std::size_t square_rows(PlanarQuads& mesh, const PlanarRegion& region)
     // What quads may lose in the mean, and rounds, for neighbours make room for each other. Choices, not
     // measurements.
     constexpr double kLess = 0.004, kLessOfSize = 0.02;
-    constexpr int kRounds = 12;
-    constexpr double kStill = 1e-3; // of a side: no more is gained
+    constexpr int kRounds = 12, kIdle = 3; // idle ones bring no row more
+    constexpr double kStill = 1e-3;        // of a side: no more is gained
     const PlaneQuality before = measure_plane(mesh, region);
     if (before.good_rows == before.rows) return 0;
     PlanarQuads made = mesh;
     RowSquarer squarer(made, region);
     std::size_t best = before.good_rows;
-    for (int round = 0; round < kRounds && best < before.rows; ++round) {
+    for (int round = 0, idle = 0; round < kRounds && idle < kIdle && best < before.rows; ++round, ++idle) {
         const double most = squarer.round();
         const PlaneQuality after = measure_plane(made, region);
         if (after.good_rows > best && after.mean_scaled_jacobian >= before.mean_scaled_jacobian - kLess &&
             after.min_scaled_jacobian >= before.min_scaled_jacobian &&
             after.size_share() >= before.size_share() - kLessOfSize) {
             best = after.good_rows;
+            idle = -1;
             mesh.points = made.points;
         }
         if (most < kStill) break;
