@@ -8,6 +8,7 @@
 #include <lacuna/quads/detail/pave_choice.h>
 #include <lacuna/quads/detail/pave_rows.h>
 #include <lacuna/quads/detail/pave_size.h>
+#include <lacuna/quads/detail/square_rows.h>
 #include <lacuna/quads/symmetry.h>
 
 #include <sstream>
@@ -165,7 +166,10 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
     }
     // More take long, and nobody looks at them one by one. A choice, not a measurement.
     constexpr std::size_t kMostSymmetric = 20'000;
-    if (options.smooth && best.mesh.quads.size() <= kMostSymmetric) symmetrise(best.mesh, region);
+    if (options.smooth && best.mesh.quads.size() <= kMostSymmetric) {
+        square_rows(best.mesh, region);
+        symmetrise(best.mesh, region);
+    }
     best.mesh.how = best.report.used;
     if (best.report.refilled > 0)
         best.mesh.how += ", " + std::to_string(best.report.refilled) + " places by split triangles";

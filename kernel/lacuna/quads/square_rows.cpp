@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/square_rows.h>
+
+#include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/quads/detail/pattern_search.h>
+#include <lacuna/quads/detail/plane_stars.h>
+#include <lacuna/quads/measure_plane.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace lacuna::quads::paving {
+namespace {
+
+/// A boundary side, the two nodes above it, and what is wanted of its quad.
+///
+///     d ---- c
+///     |      |
+///     a ---- b    on the boundary
+struct RowSide {
+    Index a, b, c, d;
+    Vec2 along;                 ///< unit length, from a to b
+    std::array<Vec2, 4> corner; ///< cosine and sine of the angle wanted at each
+    double height;              ///< wanted [length]
+};
+
+class RowSquarer {
+public:
+    RowSquarer(PlanarQuads& mesh, const PlanarRegion& region)
+        : mesh_(mesh), fixed_(region.points.size()), stars_(mesh.points.size(), mesh.quads)
+    {
+        collect(region);
+        double least = 1;
+        for (const Quad& quad : mesh.quads) least = std::min(least, scaled_jacobian(mesh.points, quad));
+        floor_ = std::max(kGood, least);
+    }
+
+    /// Move nodes once each. @return how far one went at most, of the mean length of its sides
+    double round()
+    {
+        double most = 0;
+        for (const Index p : nodes_to_move()) most = std::max(most, move(p));
+        return most;
+    }
+
+private:
+    // All are choices, not measurements: what a row may cost its neighbours, what is kept of the limits of
+    // `measure_plane()`, 20° and 0.3, and what quads in general weigh beside rows.
+    static constexpr double kGood = 0.8;
+    static constexpr double kOffRight = 0.31, kOffHeight = 0.26, kShape = 0.005;
+
+    [[nodiscard]] const Vec2& at(Index p) const { return mesh_.points[index(p)]; }
+
+    void collect(const PlanarRegion& region)
+    {
+        std::vector<double> wanted(fixed_, 0);
+        for (const auto& loop : region.loops) {
+            for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
+                const Vec2& p = at(loop[i]);
+                wanted[index(loop[i])] = row_corner(
+                    turn_between(at(loop[(i + 1) % n]) - p, at(loop[(i + n - 1) % n]) - p),
+                    static_cast<Index>(stars_[index(loop[i])].size()));
+            }
+        }
+        const std::vector<Index> opposite = mesh::opposite_sides(mesh_.quads,
+                                                                 static_cast<Index>(mesh_.points.size()));
+        of_node_.resize(mesh_.points.size());
+        for (std::size_t side = 0; side < opposite.size(); ++side) {
+            if (opposite[side] != mesh::kRimSide) continue;
+            const Quad& quad = mesh_.quads[side / 4];
+            const std::size_t k = side % 4;
+            RowSide row{quad[k], quad[(k + 1) % 4], quad[(k + 2) % 4], quad[(k + 3) % 4], {}, {}, 0};
+            const double length = (at(row.b) - at(row.a)).norm();
+            row.along = (at(row.b) - at(row.a)) / length;
+            row.height = length;
+            if (region.size) {
+                // Given sides of another size decide how high their quads may be.
+                const double asked = region.size((at(row.a) + at(row.b)) / 2);
+                row.height = std::clamp(asked, length / kLongestOfSize, length / kShortestOfSize);
+            }
+            const double first = wanted[index(row.a)], second = wanted[index(row.b)];
+            row.corner = {Vec2(std::cos(first), std::sin(first)), Vec2(std::cos(second), std::sin(second)),
+                          Vec2(-std::cos(second), std::sin(second)), Vec2(-std::cos(first), std::sin(first))};
+            for (const Index p : {row.c, row.d}) {
+                if (index(p) >= fixed_) of_node_[index(p)].push_back(static_cast<Index>(rows_.size()));
+            }
+            rows_.push_back(row);
+        }
+    }
+
+    /// How far each corner is off what is wanted, as a sine; 1 where it is off by more than a right angle.
+    [[nodiscard]] std::array<double, 4> off_right(const RowSide& row) const
+    {
+        const std::array<Vec2, 4> p{at(row.a), at(row.b), at(row.c), at(row.d)};
+        std::array<double, 4> off{};
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Vec2 out = p[(k + 1) % 4] - p[k], back = p[(k + 3) % 4] - p[k];
+            const double lengths = std::sqrt(out.squaredNorm() * back.squaredNorm());
+            const double cosine = out.dot(back) / lengths, sine = cross(out, back) / lengths;
+            const Vec2& wanted = row.corner[k];
+            off[k] = sine * wanted.y() + cosine * wanted.x() > 0
+                         ? std::abs(sine * wanted.x() - cosine * wanted.y())
+                         : 1;
+        }
+        return off;
+    }
+
+    /// How far the ends of the side above are off its height, of that.
+    [[nodiscard]] std::array<double, 2> off_height(const RowSide& row) const
+    {
+        const auto off = [&](Index p) {
+            return std::abs(cross(row.along, at(p) - at(row.a)) / row.height - 1);
+        };
+        return {off(row.c), off(row.d)};
+    }
+
+    [[nodiscard]] double cost_of(const RowSide& row) const
+    {
+        double cost = 0;
+        const auto beyond = [&](double x, double limit) {
+            if (x > limit) cost += (x - limit) * (x - limit);
+        };
+        for (const double x : off_right(row)) beyond(x, kOffRight);
+        for (const double x : off_height(row)) beyond(x, kOffHeight);
+        return cost;
+    }
+
+    /// The nodes of row quads beyond their limits, and of all quads around those.
+    [[nodiscard]] std::vector<Index> nodes_to_move() const
+    {
+        std::vector<char> moves(mesh_.points.size(), 0);
+        for (const RowSide& row : rows_) {
+            if (!(cost_of(row) > 0)) continue;
+            for (const Index p : {row.c, row.d}) {
+                moves[index(p)] = 1;
+                for (const Spoke& spoke : stars_[index(p)])
+                    moves[index(spoke.next)] = moves[index(spoke.across)] = 1;
+            }
+        }
+        std::vector<Index> nodes;
+        for (std::size_t p = fixed_; p < moves.size(); ++p) {
+            if (moves[p] != 0) nodes.push_back(static_cast<Index>(p));
+        }
+        return nodes;
+    }
+
+    /// @return how far it went, of the mean length of its sides.
+    double move(Index p)
+    {
+        // Steps of the mean side; choices, not measurements.
+        constexpr double kFirst = 0.08, kLast = 0.009;
+        const auto star = stars_[index(p)];
+        double side = 0;
+        for (const Spoke& spoke : star)
+            side += (at(spoke.next) - at(p)).norm() / static_cast<double>(star.size());
+        const Vec2 start = at(p);
+        const double floor = std::min(floor_, least_sine(mesh_.points, star, start));
+        Vec2& here = mesh_.points[index(p)];
+        const auto value = [&](const Vec2& to, double /*floor*/) {
+            if (least_sine(mesh_.points, star, to) < floor) return -std::numeric_limits<double>::infinity();
+            const Vec2 kept = here;
+            here = to;
+            double cost = 0;
+            for (const Index row : of_node_[index(p)]) cost += cost_of(rows_[index(row)]);
+            for (const Spoke& spoke : star) cost += kShape * shape_of(p, spoke);
+            here = kept;
+            return -cost;
+        };
+        Vec2 x = start;
+        pattern_search(x, value(start, 0), {side, kFirst, kLast, 0}, value);
+        here = x;
+        return (x - start).norm() / side;
+    }
+
+    /// Sum over a quad's corners of (|a|² + |b|²) / 2 (a × b) - 1: none for a square.
+    [[nodiscard]] double shape_of(Index p, const Spoke& spoke) const
+    {
+        const std::array<Vec2, 4> q{at(p), at(spoke.next), at(spoke.across), at(spoke.before)};
+        double sum = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Vec2 a = q[(k + 1) % 4] - q[k], b = q[(k + 3) % 4] - q[k];
+            sum += (a.squaredNorm() + b.squaredNorm()) / (2 * cross(a, b)) - 1;
+        }
+        return sum;
+    }
+
+    PlanarQuads& mesh_;
+    std::size_t fixed_;
+    Stars stars_;
+    std::vector<RowSide> rows_;
+    std::vector<std::vector<Index>> of_node_; ///< the rows of each node above the boundary
+    double floor_ = kGood;
+};
+
+} // namespace
+
+std::size_t square_rows(PlanarQuads& mesh, const PlanarRegion& region)
+{
+    // What quads may lose in the mean, and rounds, for neighbours make room for each other. Choices, not
+    // measurements.
+    constexpr double kLess = 0.004, kLessOfSize = 0.02;
+    constexpr int kRounds = 12, kIdle = 3; // idle ones bring no row more
+    constexpr double kStill = 1e-3;        // of a side: no more is gained
+    const PlaneQuality before = measure_plane(mesh, region);
+    if (before.good_rows == before.rows) return 0;
+    PlanarQuads made = mesh;
+    RowSquarer squarer(made, region);
+    std::size_t best = before.good_rows;
+    for (int round = 0, idle = 0; round < kRounds && idle < kIdle && best < before.rows; ++round, ++idle) {
+        const double most = squarer.round();
+        const PlaneQuality after = measure_plane(made, region);
+        if (after.good_rows > best && after.mean_scaled_jacobian >= before.mean_scaled_jacobian - kLess &&
+            after.min_scaled_jacobian >= before.min_scaled_jacobian &&
+            after.size_share() >= before.size_share() - kLessOfSize) {
+            best = after.good_rows;
+            idle = -1;
+            mesh.points = made.points;
+        }
+        if (most < kStill) break;
+    }
+    return best - before.good_rows;
+}
+
+} // namespace lacuna::quads::paving

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "plane_grids.h"
+
+#include <lacuna/quads/detail/square_rows.h>
+#include <lacuna/quads/measure_plane.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+using namespace lacuna;
+
+TEST_CASE("rows are squared where nodes stand badly, and no quad gets worse than the worst")
+{
+    std::size_t gained = 0;
+    for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+        for (test::PlaneGrid grid :
+             {test::plane_grid(9, 7), test::plane_corner(4), test::plane_polygon(5, 4)}) {
+            CAPTURE(seed);
+            double side = (grid.region.points[1] - grid.region.points[0]).norm();
+            grid.region.size = [side](const Vec2&) { return side; };
+            test::shake(grid, 0.25 * side, seed);
+            if (!quads::find_fault(grid.mesh, grid.region).empty()) continue;
+            const quads::PlaneQuality before = quads::measure_plane(grid.mesh, grid.region);
+            const std::size_t more = quads::paving::square_rows(grid.mesh, grid.region);
+            const quads::PlaneQuality after = quads::measure_plane(grid.mesh, grid.region);
+            CHECK(quads::find_fault(grid.mesh, grid.region) == "");
+            CHECK(after.good_rows == before.good_rows + more);
+            CHECK(after.min_scaled_jacobian >= before.min_scaled_jacobian);
+            gained += more;
+        }
+    }
+    CHECK(gained > 100);
+}
+
+TEST_CASE("a mesh whose rows are good stays as it is")
+{
+    test::PlaneGrid grid = test::plane_grid(6, 5);
+    test::shake(grid, 0.02, 3);
+    const std::vector<Vec2> before = grid.mesh.points;
+    CHECK(quads::paving::square_rows(grid.mesh, grid.region) == 0);
+    CHECK(grid.mesh.points == before);
+}
