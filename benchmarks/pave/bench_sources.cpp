@@ -2,16 +2,20 @@
 /// Sources of several faces and curved ones, meshed as a sweep meshes them and measured as one mesh in space:
 /// a JSON line a case. sources.py beside this makes tables of them and compares two.
 ///
-/// usage: bench_sources QUADS [NAME|case:FILE|SOURCE|TARGET|WALLS [PICTURE]]
+/// usage: bench_sources QUADS [NAME|case:FILE|SOURCE|TARGET|WALLS|raised:FILE|SOURCE|groups:FILE [PICTURE]]
 ///   QUADS    asked for over all source faces together
 ///   NAME     a member of `test::source_family()`; without one, all of them
 ///   case:…   the source faces of a real case, by tags with commas
+///   raised:… faces of a CAD file, exact, with walls to the same faces moved along their mean normal
+///   groups:… all groups of neighbouring faces of a CAD file, each as such a source
 ///   PICTURE  file for nodes and quads as text, `face` after each quad
 
 #include "support/measure_sources.h"
 #include "support/source_family.h"
 #ifdef LACUNA_WITH_CAD
 #include "source_face.h"
+
+#include <lacuna/cad/load.h>
 #endif
 
 #include <lacuna/core/error.h>
@@ -90,12 +94,37 @@ void measure(const std::string& name, const topology::OpenVolume& volume, double
     if (picture != nullptr) write_picture(mesh, picture);
 }
 
+void tell_failed(const std::string& name, double quads, const std::exception& error)
+{
+    std::string words = error.what();
+    std::replace(words.begin(), words.end(), '"', '\'');
+    std::printf("{\"case\": \"%s\", \"asked\": %.0f, \"failed\": \"%s\"}\n", name.c_str(), quads,
+                words.c_str());
+    std::fflush(stdout);
+}
+
+#ifdef LACUNA_WITH_CAD
+void measure_groups(const std::string& file, double quads)
+{
+    const topology::Model model = cad::load({file});
+    for (const std::string& tags : bench::groups_of(model)) {
+        const std::string name = "raised:" + file + "|" + tags;
+        try {
+            measure(name, bench::raised_over(model, tags), quads, -1, nullptr);
+        } catch (const Error& error) {
+            tell_failed(name, quads, error);
+        }
+    }
+}
+#endif
+
 } // namespace
 
 int main(int argc, char** argv)
 try {
     if (argc < 2) {
-        std::fprintf(stderr, "usage: bench_sources QUADS [NAME|case:FILE|SOURCE|TARGET|WALLS [PICTURE]]\n");
+        std::fprintf(stderr,
+                     "usage: bench_sources QUADS [NAME|case:…|raised:FILE|SOURCE|groups:FILE [PICTURE]]\n");
         return 2;
     }
     const double quads = std::stod(argv[1]);
@@ -106,6 +135,16 @@ try {
         measure(wanted, bench::real_case(wanted.substr(5)), quads, -1, picture);
         return 0;
     }
+    if (wanted.starts_with("raised:")) {
+        const std::size_t bar = wanted.find('|');
+        measure(wanted, bench::raised_over(cad::load({wanted.substr(7, bar - 7)}), wanted.substr(bar + 1)),
+                quads, -1, picture);
+        return 0;
+    }
+    if (wanted.starts_with("groups:")) {
+        measure_groups(wanted.substr(7), quads);
+        return 0;
+    }
 #endif
     bool found = false;
     for (const test::FamilySource& own : test::source_family()) {
@@ -114,8 +153,7 @@ try {
         try {
             measure(own.name, own.volume, quads, own.least_irregular, picture);
         } catch (const Error& error) {
-            std::printf("{\"case\": \"%s\", \"asked\": %.0f, \"failed\": \"%s\"}\n", own.name.c_str(), quads,
-                        error.what());
+            tell_failed(own.name, quads, error);
         }
     }
     if (!found) throw std::runtime_error("no source is called " + wanted);

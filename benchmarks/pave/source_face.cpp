@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <map>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <unordered_map>
@@ -81,7 +83,172 @@ std::vector<FaceId> faces_of(const topology::Model& model, const std::string& ta
     return faces;
 }
 
+/// A facet of `faces` leans by no more than this from their mean normal: 72°. Steeper ones would stand on the
+/// walls. A choice.
+constexpr double kLeans = 0.3;
+
+Vec3 mean_normal(const topology::Model& model, const std::vector<FaceId>& faces)
+{
+    Vec3 sum = Vec3::Zero();
+    for (const FaceId face : faces) sum += topology::face_area_vector(model, face);
+    return sum.stableNormalized();
+}
+
+bool look_one_way(const topology::Model& model, const std::vector<FaceId>& faces)
+{
+    const Vec3 normal = mean_normal(model, faces);
+    return std::ranges::all_of(faces, [&](FaceId face) {
+        return std::ranges::all_of(model[face].triangles, [&](const Triangle& t) {
+            const Vec3 area = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+            return area.dot(normal) > kLeans * area.norm();
+        });
+    });
+}
+
+/// What `raised_over()` adds to the model of the file.
+class Raiser {
+public:
+    Raiser(const topology::Model& model, const std::vector<FaceId>& source) : model_(model)
+    {
+        double area = 0;
+        for (const FaceId face : source) area += topology::face_area(model, face);
+        by_ = -0.6 * std::sqrt(area) * mean_normal(model, source);
+        std::map<EdgeId, int> uses;
+        for (const FaceId face : source) {
+            for (const topology::Loop& loop : model[face].loops) {
+                for (const topology::EdgeUse& use : loop.uses) ++uses[use.edge];
+            }
+        }
+        roles_.source = source;
+        topology::Face target;
+        for (const FaceId face : source) {
+            for (const Triangle& t : model_[face].triangles)
+                target.triangles.push_back({moved(t[0]), moved(t[2]), moved(t[1])});
+        }
+        for (const auto& [edge, count] : uses) {
+            if (count == 1) add_wall(edge);
+        }
+        add_face(std::move(target), roles_.target);
+        std::vector<topology::Face> faces;
+        topology::Roles renumbered;
+        for (auto list : {&topology::Roles::source, &topology::Roles::target, &topology::Roles::walls}) {
+            for (const FaceId face : roles_.*list) {
+                (renumbered.*list).emplace_back(faces.size());
+                faces.push_back(model_[face]);
+            }
+        }
+        model_.faces = std::move(faces);
+        roles_ = std::move(renumbered);
+        topology::build_loops(model_);
+        topology::orient_consistently(model_);
+    }
+
+    [[nodiscard]] topology::OpenVolume volume() const { return topology::open_volume(model_, roles_); }
+
+private:
+    Index moved(Index p)
+    {
+        const auto [found, fresh] = moved_.try_emplace(p, static_cast<Index>(model_.points.size()));
+        if (fresh) model_.points.emplace_back(model_.at(p) + by_);
+        return found->second;
+    }
+
+    VertexId moved_vertex(VertexId v)
+    {
+        const auto [found, fresh] = moved_vertex_.try_emplace(v, VertexId(model_.vertices.size()));
+        if (!fresh) return found->second;
+        topology::Vertex vertex = model_[v];
+        vertex.point = moved(vertex.point);
+        vertex.tag = static_cast<int>(model_.vertices.size()) + 1;
+        model_.vertices.push_back(vertex);
+        const VertexId to = found->second;
+        topology::Edge upright;
+        upright.from = v;
+        upright.to = to;
+        upright.points = {model_[v].point, vertex.point};
+        add_edge(std::move(upright));
+        return to;
+    }
+
+    void add_edge(topology::Edge edge)
+    {
+        edge.tag = static_cast<int>(model_.edges.size()) + 1;
+        model_.edges.push_back(std::move(edge));
+    }
+
+    void add_face(topology::Face face, std::vector<FaceId>& role)
+    {
+        face.tag = 100000 + static_cast<int>(model_.faces.size());
+        role.emplace_back(model_.faces.size());
+        model_.faces.push_back(std::move(face));
+    }
+
+    void add_wall(EdgeId edge)
+    {
+        topology::Edge above;
+        above.from = moved_vertex(model_[edge].from);
+        above.to = moved_vertex(model_[edge].to);
+        const std::vector<Index> below = model_[edge].points;
+        for (const Index p : below) above.points.push_back(moved(p));
+        topology::Face wall;
+        for (std::size_t i = 0; i + 1 < below.size(); ++i) {
+            wall.triangles.push_back({below[i], below[i + 1], above.points[i + 1]});
+            wall.triangles.push_back({below[i], above.points[i + 1], above.points[i]});
+        }
+        add_edge(std::move(above));
+        add_face(std::move(wall), roles_.walls);
+    }
+
+    topology::Model model_;
+    topology::Roles roles_;
+    Vec3 by_;
+    std::map<Index, Index> moved_;
+    std::map<VertexId, VertexId> moved_vertex_;
+};
+
 } // namespace
+
+std::vector<std::string> groups_of(const topology::Model& model)
+{
+    std::map<EdgeId, std::vector<FaceId>> users;
+    for (const FaceId face : topology::all_faces(model)) {
+        for (const topology::Loop& loop : model[face].loops) {
+            for (const topology::EdgeUse& use : loop.uses) users[use.edge].push_back(face);
+        }
+    }
+    std::set<std::set<FaceId>> groups;
+    for (const FaceId seed : topology::all_faces(model)) {
+        std::vector<FaceId> group{seed};
+        if (!look_one_way(model, group)) continue;
+        for (std::size_t next = 0; next < group.size(); ++next) {
+            for (const topology::Loop& loop : model[group[next]].loops) {
+                for (const topology::EdgeUse& use : loop.uses) {
+                    for (const FaceId other : users[use.edge]) {
+                        if (group.size() >= 12 || std::ranges::find(group, other) != group.end()) continue;
+                        group.push_back(other);
+                        if (!look_one_way(model, group)) group.pop_back();
+                    }
+                }
+            }
+        }
+        for (const std::size_t size : {1, 2, 4, 7, 12}) {
+            if (size <= group.size())
+                groups.insert(std::set<FaceId>(group.begin(), group.begin() + static_cast<long>(size)));
+        }
+    }
+    std::vector<std::string> tags;
+    for (const std::set<FaceId>& group : groups) {
+        std::string words;
+        for (const FaceId face : group) words += (words.empty() ? "" : ",") + std::to_string(model[face].tag);
+        tags.push_back(words);
+    }
+    return tags;
+}
+
+topology::OpenVolume raised_over(const topology::Model& model, const std::string& tags)
+{
+    return Raiser(model, faces_of(model, tags)).volume();
+}
 
 topology::OpenVolume prism_over(const test::PlaneDomain& domain, const std::string& file)
 {

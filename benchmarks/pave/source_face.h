@@ -18,6 +18,16 @@ topology::OpenVolume prism_over(const test::PlaneDomain& domain, const std::stri
 /// @param spec  FILE|SOURCE|TARGET|WALLS, each of the last three tags of faces with commas, or nothing
 topology::OpenVolume real_case(const std::string& spec);
 
+/// Neighbouring faces of a CAD file that look one way, as sources for `raised_over()`: for each face those of
+/// 1, 2, 4, 7 and 12 next to it by breadth, each set once.
+/// @return  tags with commas.
+std::vector<std::string> groups_of(const topology::Model& model);
+
+/// The volume between faces of a CAD file, exact as they are, and the same faces moved along their mean
+/// normal by 0.6 of the root of their area: the former are its source, each edge of their rim has a wall.
+/// @param tags  of the faces, with commas
+topology::OpenVolume raised_over(const topology::Model& model, const std::string& tags);
+
 /// The source faces of a volume, meshed as a sweep meshes them: the numbers of sides on their edges are the
 /// kernel's choice.
 struct SourceQuads {

@@ -22,14 +22,17 @@ struct SourceMesh {
     std::vector<LinkingNodes> links;
     std::vector<Index> first;                     ///< first quad node of each linking surface
     std::map<EdgeId, std::vector<Index>> on_edge; ///< quad nodes of each source edge, as it runs
-    std::vector<std::string> notes;               ///< a line a face: how it was meshed
+    /// Where nodes of `on_edge` stand, as fractions of the edge's length, if not where the seeds put them.
+    std::map<EdgeId, std::vector<double>> moved_on_edge;
+    std::vector<std::string> notes; ///< a line a face: how it was meshed
 };
 
 /// Mesh the source faces with quads by their seeds.
 ///
 /// Kept faces have their own quads, every node bit for bit. Mapped faces are meshed transfinitely in arc
 /// length and projected onto the face. Free faces are laid flat, filled by `mesher` and lifted back onto the
-/// exact surface. Nodes of edges and vertices are shared between faces.
+/// exact surface. Nodes of edges and vertices are shared between faces. Then poor quads are made better as
+/// one mesh in space; nodes on edges between source faces may slide there, but for given ones.
 /// @throw NotSweepable  a face that needs `mesher` and there is none, or that cannot be laid flat; names it.
 SourceMesh mesh_source(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                        const Seeds& seeds, const SizeFields& sizes, const quads::PlanarQuadMesher& mesher,

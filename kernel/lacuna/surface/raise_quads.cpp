@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/raise_quads.h>
+
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/mesh/incidence.h>
+#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/surface/projector.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// Quads with a smaller scaled Jacobian are raised: what a source of few quads is to have at least where its
+/// corners allow.
+constexpr double kGoodEnough = 0.6;
+/// Rounds over the nodes: a bound on the work alone, for a round without gain is the last.
+constexpr int kRounds = 20;
+/// Steps of the search, of the shortest side around a node, and what a step has to gain: those of the search
+/// in the plane (quads/smooth_plane.cpp); choices.
+constexpr double kFirst = 1.0 / 4, kLast = 1.0 / 300, kLeastGain = 1e-3;
+/// A node that gains less in all stays: beside a sharp corner each could give a little, and the quads around
+/// paid for it (a mean of .943 fell to .927 for a least that rose by .0001). A choice.
+constexpr double kWorthIt = 0.02;
+/// A node stays this share of the way from its neighbours on an edge. A choice.
+constexpr double kApart = 0.1;
+
+class Raiser {
+public:
+    Raiser(mesh::QuadMesh& mesh, const Model& model, const NodeFreedom& freedom, const RunContext& context)
+        : mesh_(mesh), nodes_(mesh.nodes), model_(model), freedom_(freedom), context_(context)
+    {
+    }
+
+    std::map<EdgeId, std::vector<double>> run()
+    {
+        if (!any_poor()) return {};
+        home_.resize(nodes_.size());
+        for (std::size_t e = 0; e < freedom_.edges.size(); ++e) {
+            const NodeFreedom::OnEdge& own = freedom_.edges[e];
+            at_.push_back(own.at);
+            for (std::size_t i = 1; i + 1 < own.nodes.size(); ++i)
+                home_[index(own.nodes[i])] = {Home::Kind::edge, e, i};
+        }
+        for (std::size_t f = 0; f < freedom_.faces.size(); ++f) {
+            for (Index p = freedom_.faces[f].first; p < freedom_.faces[f].last; ++p)
+                home_[index(p)] = {Home::Kind::face, f, 0};
+        }
+        lines_.resize(freedom_.edges.size());
+        grounds_.resize(freedom_.faces.size());
+        quads_at_ = mesh::quads_at_nodes(mesh_.quads, nodes_.size());
+        restless_.assign(nodes_.size(), 1);
+        const std::vector<Vec3> before = nodes_;
+        for (int round = 0; round < kRounds; ++round) {
+            check_cancelled(context_);
+            if (!raise_round()) break;
+        }
+        return settle(before);
+    }
+
+private:
+    struct Home {
+        enum class Kind { fixed, edge, face } kind = Kind::fixed;
+        std::size_t number = 0; ///< in the freedom's edges or faces
+        std::size_t place = 0;  ///< on the edge
+    };
+    struct Line {
+        std::vector<Vec3> points;
+        std::vector<double> arc;
+    };
+    /// What a node of a face moves on: its plane, or its facets.
+    struct Ground {
+        bool flat = false;
+        std::optional<geometry::FacetTree> tree;
+    };
+
+    [[nodiscard]] Vec3 area_of(std::size_t q) const
+    {
+        const Quad& quad = mesh_.quads[q];
+        return (nodes_[index(quad[2])] - nodes_[index(quad[0])])
+            .cross(nodes_[index(quad[3])] - nodes_[index(quad[1])]);
+    }
+
+    /// The sine of a corner, its sign by the side it is seen from.
+    [[nodiscard]] double sine(const Quad& quad, std::size_t k, const Vec3& normal) const
+    {
+        const Vec3& p = nodes_[index(quad[k])];
+        const Vec3 a = nodes_[index(quad[(k + 1) % 4])] - p, b = nodes_[index(quad[(k + 3) % 4])] - p;
+        const Vec3 cross = a.cross(b);
+        const double both = std::sqrt(a.squaredNorm() * b.squaredNorm());
+        return both > 0 ? std::copysign(cross.norm() / both, cross.dot(normal)) : -1;
+    }
+
+    [[nodiscard]] double least_sine(std::size_t q, const Vec3& normal) const
+    {
+        double least = 1;
+        for (std::size_t k = 0; k < 4; ++k) least = std::min(least, sine(mesh_.quads[q], k, normal));
+        return least;
+    }
+
+    [[nodiscard]] bool is_poor(std::size_t q) const
+    {
+        return !mesh::is_triangle(mesh_.quads[q]) && least_sine(q, area_of(q)) < kGoodEnough;
+    }
+
+    [[nodiscard]] bool any_poor() const
+    {
+        for (std::size_t q = 0; q < mesh_.quads.size(); ++q) {
+            if (is_poor(q)) return true;
+        }
+        return false;
+    }
+
+    /// The quads at a node, each with the way its face looks there.
+    struct Star {
+        std::vector<std::size_t> quads;
+        std::vector<Vec3> normals;
+        double shortest = 0; ///< side
+    };
+
+    [[nodiscard]] std::optional<Star> star_of(std::size_t p) const
+    {
+        Star star;
+        star.shortest = std::numeric_limits<double>::infinity();
+        std::map<Index, Vec3> of_face;
+        for (const Index q : quads_at_.of(p)) {
+            const Quad& quad = mesh_.quads[index(q)];
+            if (mesh::is_triangle(quad)) return {};
+            star.quads.push_back(index(q));
+            of_face.try_emplace(mesh_.face[index(q)], Vec3::Zero()).first->second += area_of(index(q));
+            const auto k = static_cast<std::size_t>(std::ranges::find(quad, static_cast<Index>(p)) -
+                                                    quad.begin());
+            for (const std::size_t next : {(k + 1) % 4, (k + 3) % 4})
+                star.shortest = std::min(star.shortest, (nodes_[index(quad[next])] - nodes_[p]).norm());
+        }
+        for (const std::size_t q : star.quads) star.normals.push_back(of_face.at(mesh_.face[q]));
+        return star;
+    }
+
+    [[nodiscard]] double worst_of(const Star& star) const
+    {
+        double worst = 1;
+        for (std::size_t i = 0; i < star.quads.size(); ++i)
+            worst = std::min(worst, least_sine(star.quads[i], star.normals[i]));
+        return worst;
+    }
+
+    bool raise_round()
+    {
+        std::set<std::size_t> poor;
+        for (std::size_t q = 0; q < mesh_.quads.size(); ++q) {
+            if (!is_poor(q)) continue;
+            for (const Index p : mesh_.quads[q]) {
+                if (home_[index(p)].kind != Home::Kind::fixed && restless_[index(p)] != 0)
+                    poor.insert(index(p));
+            }
+        }
+        bool moved = false;
+        for (const std::size_t p : poor) {
+            restless_[p] = 0;
+            const std::optional<Star> star = star_of(p);
+            if (!star || !(star->shortest > 0)) continue;
+            const bool better = home_[p].kind == Home::Kind::edge ? slide(p, *star) : move(p, *star);
+            if (!better) continue;
+            moved = true;
+            for (const std::size_t q : star->quads) {
+                for (const Index n : mesh_.quads[q]) restless_[index(n)] = 1;
+            }
+        }
+        return moved;
+    }
+
+    [[nodiscard]] const Line& line_of(std::size_t e)
+    {
+        if (lines_[e].points.empty()) {
+            lines_[e].points = edge_line(model_, freedom_.edges[e].edge);
+            lines_[e].arc = geometry::arc_lengths(lines_[e].points);
+        }
+        return lines_[e];
+    }
+
+    /// Along its edge. @return whether it went anywhere
+    bool slide(std::size_t p, const Star& star)
+    {
+        const Line& line = line_of(home_[p].number);
+        std::vector<double>& at = at_[home_[p].number];
+        const std::size_t i = home_[p].place;
+        const double low = at[i - 1] + kApart * (at[i] - at[i - 1]),
+                     high = at[i + 1] - kApart * (at[i + 1] - at[i]);
+        const double length = line.arc.back(), before = worst_of(star);
+        const Vec3 start = nodes_[p];
+        const double start_at = at[i];
+        double best = before;
+        for (double step = kFirst * star.shortest; step > kLast * star.shortest; step /= 2) {
+            for (bool better = true; better;) {
+                better = false;
+                for (const double way : {-step, step}) {
+                    const double to = at[i] + way / length;
+                    if (to < low || to > high) continue;
+                    const Vec3 old = nodes_[p];
+                    nodes_[p] = geometry::point_at(line.points, line.arc, to * length);
+                    const double found = worst_of(star);
+                    if (found > best + kLeastGain * step / star.shortest) {
+                        best = found;
+                        at[i] = to;
+                        better = true;
+                    } else {
+                        nodes_[p] = old;
+                    }
+                }
+            }
+        }
+        if (best > before + kWorthIt) return true;
+        nodes_[p] = start;
+        at[i] = start_at;
+        return false;
+    }
+
+    [[nodiscard]] const Ground& ground_of(std::size_t f)
+    {
+        Ground& ground = grounds_[f];
+        const Face& face = model_[freedom_.faces[f].face];
+        if (face.kind == "plane")
+            ground.flat = true;
+        else if (!ground.tree)
+            ground.tree.emplace(model_.points, face.triangles);
+        return ground;
+    }
+
+    /// On its face. @return whether it went anywhere
+    bool move(std::size_t p, const Star& star)
+    {
+        const Ground& ground = ground_of(home_[p].number);
+        const Vec3 normal = star.normals.front().stableNormalized();
+        if (!(normal.squaredNorm() > 0)) return false;
+        const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u), start = nodes_[p];
+        const double before = worst_of(star);
+        double best = before;
+        for (double step = kFirst * star.shortest; step > kLast * star.shortest; step /= 2) {
+            for (bool better = true; better;) {
+                better = false;
+                const Vec3 from = nodes_[p];
+                for (int way = 0; way < 8; ++way) {
+                    const double angle = way * std::atan(1.0);
+                    const Vec3 old = nodes_[p];
+                    nodes_[p] = from + step * (std::cos(angle) * u + std::sin(angle) * v);
+                    if (!ground.flat) nodes_[p] = ground.tree->closest(nodes_[p]).point;
+                    const double found = worst_of(star);
+                    if (found > best + kLeastGain * step / star.shortest) {
+                        best = found;
+                        better = true;
+                    } else {
+                        nodes_[p] = old;
+                    }
+                }
+            }
+        }
+        if (best > before + kWorthIt) return true;
+        nodes_[p] = start;
+        return false;
+    }
+
+    /// Nodes that moved go to the exact edges and faces; where the worst quad around them is worse there than
+    /// before all, everything stays as it was.
+    std::map<EdgeId, std::vector<double>> settle(const std::vector<Vec3>& before)
+    {
+        std::map<EdgeId, std::vector<double>> moved;
+        for (std::size_t e = 0; e < freedom_.edges.size(); ++e) {
+            const NodeFreedom::OnEdge& own = freedom_.edges[e];
+            if (at_[e] == own.at) continue;
+            const std::vector<Vec3> points = edge_points(model_, own.edge, at_[e]);
+            for (std::size_t i = 1; i + 1 < own.nodes.size(); ++i) {
+                if (at_[e][i] != own.at[i]) nodes_[index(own.nodes[i])] = points[i];
+            }
+            moved[own.edge] = at_[e];
+        }
+        for (const NodeFreedom::OnFace& own : freedom_.faces) {
+            if (model_[own.face].surface == nullptr || model_[own.face].kind == "plane") continue;
+            std::vector<Index> which;
+            std::vector<Vec3> points;
+            for (Index p = own.first; p < own.last; ++p) {
+                if (nodes_[index(p)] == before[index(p)]) continue;
+                which.push_back(p);
+                points.push_back(nodes_[index(p)]);
+            }
+            if (points.empty()) continue;
+            Projector(model_, {own.face}).project(points, context_);
+            for (std::size_t i = 0; i < which.size(); ++i) nodes_[index(which[i])] = points[i];
+        }
+        const std::vector<Vec3> after = nodes_;
+        const double now = worst_moved(before, after);
+        nodes_ = before;
+        const double was = worst_moved(before, after);
+        if (now < was) return {};
+        nodes_ = after;
+        return moved;
+    }
+
+    /// The least sine of quads with a node that moved, as they are now.
+    [[nodiscard]] double worst_moved(const std::vector<Vec3>& before, const std::vector<Vec3>& after) const
+    {
+        double worst = 1;
+        for (std::size_t q = 0; q < mesh_.quads.size(); ++q) {
+            const Quad& quad = mesh_.quads[q];
+            if (mesh::is_triangle(quad) ||
+                std::ranges::none_of(quad, [&](Index p) { return before[index(p)] != after[index(p)]; }))
+                continue;
+            worst = std::min(worst, least_sine(q, area_of(q)));
+        }
+        return worst;
+    }
+
+    mesh::QuadMesh& mesh_;
+    std::vector<Vec3>& nodes_;
+    const Model& model_;
+    const NodeFreedom& freedom_;
+    const RunContext& context_;
+    std::vector<Home> home_;
+    std::vector<std::vector<double>> at_; ///< of the nodes of each edge, as fractions
+    std::vector<Line> lines_;
+    std::vector<Ground> grounds_;
+    mesh::Incidence quads_at_;
+    std::vector<char> restless_; ///< worth another look
+};
+
+} // namespace
+
+std::map<EdgeId, std::vector<double>> raise_poor_quads(mesh::QuadMesh& mesh, const Model& model,
+                                                       const NodeFreedom& freedom, const RunContext& context)
+{
+    return Raiser(mesh, model, freedom, context).run();
+}
+
+} // namespace lacuna::surface
