@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <set>
 
 using namespace lacuna;
@@ -181,6 +182,34 @@ double stack_volume(const std::vector<double>& halves)
     double volume = 0;
     for (const double half : halves) volume += 4 * half * half;
     return volume;
+}
+
+/// A convex section that is carried along by a map from (x, y, share of the way): its two ends, labelled 0
+/// and 1, and a wall for each label of its sides.
+healing::FacetSoup carried(const std::vector<Vec2>& section, const std::vector<int>& wall, int steps,
+                           const std::function<Vec3(const Vec2&, double)>& way, int drop)
+{
+    healing::FacetSoup soup;
+    const auto n = static_cast<Index>(section.size());
+    const auto add = [&](const Triangle& t, int label) {
+        if (label == drop) return;
+        soup.triangles.push_back(t);
+        soup.triangle_label.push_back(label);
+    };
+    for (int k = 0; k <= steps; ++k)
+        for (const Vec2& p : section) soup.points.push_back(way(p, static_cast<double>(k) / steps));
+    for (Index i = 1; i + 1 < n; ++i) {
+        add({0, i + 1, i}, 0);
+        add({steps * n, steps * n + i, steps * n + i + 1}, 1);
+    }
+    for (Index k = 0; k < steps; ++k) {
+        for (Index i = 0; i < n; ++i) {
+            const Index a = k * n + i, b = k * n + (i + 1) % n;
+            add({a, b, b + n}, wall[static_cast<std::size_t>(i)]);
+            add({a, b + n, a + n}, wall[static_cast<std::size_t>(i)]);
+        }
+    }
+    return soup;
 }
 
 } // namespace
@@ -558,6 +587,53 @@ TEST_CASE("a ring without its inner wall stays a ring, though both its ends are 
             const auto readings = closure::find_readings(prism.model, all_faces(prism.model));
             REQUIRE(!readings.empty());
             CHECK(closed_volume(readings.front()) == doctest::Approx(whole.facet_volume).epsilon(0.02));
+        }
+    }
+}
+
+TEST_CASE("a missing wall between four sides is what its sides lead to, whichever roles are found")
+{
+    constexpr double kPi = 3.14159265358979323846;
+    const auto volume_of = [](const healing::FacetSoup& soup) {
+        const Model model = healing::split_facets(soup, {.whole_labels = true});
+        return closed_volume(closure::find_reading(model, all_faces(model)));
+    };
+    // Channels with a round bottom, straight ones.
+    std::vector<Vec2> channel{{1, 1}, {-1, 1}, {-1, 0}};
+    std::vector<int> wall{2, 3};
+    for (int k = 1; k <= 16; ++k) {
+        const double t = kPi + k * kPi / 16;
+        channel.emplace_back(std::cos(t), std::sin(t));
+        wall.push_back(4);
+    }
+    wall.push_back(5);
+    for (const double depth : {0.5, 1.5}) {
+        for (const double length : {2.0, 5.0}) {
+            const auto way = [&](const Vec2& p, double t) {
+                return Vec3(length * t, p.x(), p.y() > 0 ? depth * p.y() : p.y());
+            };
+            const double whole = volume_of(carried(channel, wall, 8, way, -1));
+            for (const int drop : {2, 3, 4, 5}) {
+                CAPTURE(depth);
+                CAPTURE(length);
+                CAPTURE(drop);
+                CHECK(volume_of(carried(channel, wall, 8, way, drop)) ==
+                      doctest::Approx(whole).epsilon(0.01));
+            }
+        }
+    }
+    // Bars of a square section, bent.
+    const std::vector<Vec2> square{{2, 0}, {3, 0}, {3, 1}, {2, 1}};
+    for (const double angle : {0.8, 1.6, 2.4}) {
+        const auto way = [&](const Vec2& p, double t) {
+            return Vec3(p.x() * std::cos(angle * t), p.x() * std::sin(angle * t), p.y());
+        };
+        const double whole = volume_of(carried(square, {2, 3, 4, 5}, 32, way, -1));
+        for (const int drop : {2, 3, 4, 5}) {
+            CAPTURE(angle);
+            CAPTURE(drop);
+            CHECK(volume_of(carried(square, {2, 3, 4, 5}, 32, way, drop)) ==
+                  doctest::Approx(whole).epsilon(0.01));
         }
     }
 }

@@ -2,6 +2,7 @@
 #include <lacuna/closure/close.h>
 
 #include <lacuna/closure/detail/class_five.h>
+#include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/stubs.h>
 #include <lacuna/closure/detail/void_edges.h>
@@ -349,6 +350,7 @@ public:
             try {
                 Closure closure = seal_as(way, match);
                 say_what_else(way, closure);
+                say_what_is_open(closure);
                 return closure;
             } catch (const NotClosed& error) {
                 if (!first) first = error;
@@ -405,6 +407,17 @@ private:
                                               : "curves that leave both ends square; close{ edge_shape = "
                                                 "\"straight\" } makes them straight"));
         log_line(context_, closure.notes.back());
+    }
+
+    /// Void faces whose inside the rim does not tell.
+    void say_what_is_open(Closure& closure) const
+    {
+        for (const FaceId face : membranes(sealed_.model, closure.void_faces)) {
+            closure.notes.push_back(name_of(sealed_.model, face) +
+                                    " spans a rim that lies in no plane, as a membrane does: the rim leaves "
+                                    "open how the inside bends; give the face where it bulges");
+            log_line(context_, closure.notes.back());
+        }
     }
 
     Closure seal_as(const Way& way, const matching::Match& match)

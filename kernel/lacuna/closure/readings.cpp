@@ -4,6 +4,7 @@
 #include <lacuna/closure/detail/bowl.h>
 #include <lacuna/closure/detail/class_five.h>
 #include <lacuna/closure/detail/flat_fill.h>
+#include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/steps.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/number_text.h>
@@ -93,6 +94,11 @@ std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunCont
     }
 }
 
+bool has_membranes(const Sealed& sealed)
+{
+    return !membranes(sealed.volume.model, sealed.closure.void_faces).empty();
+}
+
 /// The void faces of a volume.
 geometry::FacetTree void_facets(const Sealed& sealed)
 {
@@ -165,7 +171,8 @@ void keep_likely(std::vector<Void>& found)
 }
 
 /// Readings of the given faces, sealed and sorted by what they enclose.
-std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& candidates,
+/// @param settled  leave out those that close with a membrane
+std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& candidates, bool settled,
                         const RunContext& context)
 {
     std::vector<Void> found;
@@ -181,7 +188,7 @@ std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& ca
         }
         if (sealed == kMostSealed) break;
         std::optional<Sealed> now = seal(model, candidate.roles, context);
-        if (!now) continue;
+        if (!now || (settled && has_membranes(*now))) continue;
         ++sealed;
         auto same = std::find_if(found.begin(), found.end(),
                                  [&](const Void& v) { return enclose_the_same(v.sealed, *now); });
@@ -530,19 +537,24 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
 {
     if (auto floor = read_floor(model, faces, context)) return {std::move(*floor)};
     const RoleOptions near;
-    std::vector<Void> found = voids(model, role_candidates(model, faces, near, context), context);
+    std::vector<Void> found = voids(model, role_candidates(model, faces, near, context), false, context);
+    RoleOptions far;
+    far.margin = std::numeric_limits<double>::infinity();
+    far.most = kMostTried;
     if (found.empty()) { // the likeliest do not seal; what comes after them may
-        RoleOptions far;
-        far.margin = std::numeric_limits<double>::infinity();
-        far.most = kMostTried;
-        std::vector<RoleCandidate> all = role_candidates(model, faces, far, context);
+        const std::vector<RoleCandidate> all = role_candidates(model, faces, far, context);
         const auto seals = std::find_if(all.begin(), all.end(), [&](const RoleCandidate& candidate) {
             return seal(model, candidate.roles, context).has_value();
         });
         const auto end = std::find_if(seals, all.end(), [&](const RoleCandidate& candidate) {
             return candidate.cost > seals->cost + near.margin;
         });
-        found = voids(model, {seals, end}, context);
+        found = voids(model, {seals, end}, false, context);
+    }
+    if (!found.empty() && has_membranes(found.front().sealed)) {
+        // What it encloses is a guess; a reading whose rims say how void faces go is not.
+        auto settled = voids(model, role_candidates(model, faces, far, context), true, context);
+        if (!settled.empty()) found = std::move(settled);
     }
     if (auto filled = fill_flat(model, faces, context)) add_filled(found, std::move(*filled));
     std::vector<Reading> readings;

@@ -62,6 +62,9 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// A tube with a flat floor round a narrower bore at one of its two ends, as a counterbore's wall and ledge
 /// are, is read from that floor and the bore's mouth in it.
 ///
+/// Where the likeliest void is closed by a membrane, a void face over a rim that lies in no plane and leaves
+/// open how its inside bends, unlikely readings are tried too, and those without membranes are taken instead.
+///
 /// Free loops that flat faces close, though not one each (one has a hole, or a loop lies in two planes), are
 /// one more void.
 /// @return  empty where no reading passes.

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/topology/model.h>
+
+#include <vector>
+
+namespace lacuna::closure {
+
+/// Those of some void faces that span a rim which lies in no plane as a membrane does: the rim leaves open
+/// how their inside bends. Not those between four sides, which lead from side to side, and not those that lie
+/// on one quadratic height over their plane, as the mouth of a keyway does on its shaft.
+std::vector<FaceId> membranes(const topology::Model& model, const std::vector<FaceId>& void_faces);
+
+} // namespace lacuna::closure
